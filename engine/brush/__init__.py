@@ -1,0 +1,1 @@
+"""Pen samples to spaced dabs to the (A, B) form in which every brush changes the canvas."""

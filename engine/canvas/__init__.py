@@ -1,0 +1,1 @@
+"""The sparse pyramid: store, commit rules, lazy evaluation; layers and their compositing."""

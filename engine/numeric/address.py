@@ -1,0 +1,95 @@
+"""Places on the canvas: rectangles and tiles with unbounded integer addresses.
+
+Level L has 2^L pixels per level-0 pixel, along each axis.  All coordinates are Python integers of any size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+TILE = 128  # pixels along a side
+
+
+class TileKey(NamedTuple):
+    """Tile (x, y) of a level covers pixels [x*TILE, (x+1)*TILE) x [y*TILE, (y+1)*TILE)."""
+
+    level: int
+    x: int
+    y: int
+
+    @property
+    def rect(self) -> Rect:
+        return Rect(self.x * TILE, self.y * TILE, (self.x + 1) * TILE, (self.y + 1) * TILE)
+
+
+class Rect(NamedTuple):
+    """Pixels [x0, x1) x [y0, y1) of some level."""
+
+    x0: int
+    y0: int
+    x1: int
+    y1: int
+
+    @classmethod
+    def at(cls, x: int, y: int, width: int, height: int) -> Rect:
+        return cls(x, y, x + width, y + height)
+
+    @property
+    def width(self) -> int:
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> int:
+        return self.y1 - self.y0
+
+    @property
+    def empty(self) -> bool:
+        return self.x1 <= self.x0 or self.y1 <= self.y0
+
+    @property
+    def area(self) -> int:
+        return 0 if self.empty else self.width * self.height
+
+    def intersect(self, other: Rect) -> Rect:
+        return Rect(max(self.x0, other.x0), max(self.y0, other.y0), min(self.x1, other.x1), min(self.y1, other.y1))
+
+    def meets(self, other: Rect) -> bool:
+        return self.x0 < other.x1 and other.x0 < self.x1 and self.y0 < other.y1 and other.y0 < self.y1
+
+    def union(self, other: Rect) -> Rect:
+        """The smallest rectangle that holds both; an empty one counts for nothing."""
+        if self.empty:
+            return other
+        if other.empty:
+            return self
+        return Rect(min(self.x0, other.x0), min(self.y0, other.y0), max(self.x1, other.x1), max(self.y1, other.y1))
+
+    def grown(self, by: int) -> Rect:
+        return Rect(self.x0 - by, self.y0 - by, self.x1 + by, self.y1 + by)
+
+    def evened(self) -> Rect:
+        """The smallest rectangle around this one whose corners have even coordinates."""
+        return Rect(self.x0 & ~1, self.y0 & ~1, (self.x1 + 1) & ~1, (self.y1 + 1) & ~1)
+
+    def zoomed(self, levels: int) -> Rect:
+        """The pixels `levels` finer (or coarser, if negative) that meet this rectangle's area."""
+        if levels >= 0:
+            return Rect(self.x0 << levels, self.y0 << levels, self.x1 << levels, self.y1 << levels)
+        n = -levels
+        return Rect(self.x0 >> n, self.y0 >> n, -(-self.x1 >> n), -(-self.y1 >> n))
+
+    def slices(self, inside: Rect) -> tuple[slice, slice]:
+        """Row and column slices of this rectangle in an array that covers `inside`."""
+        return (
+            slice(self.y0 - inside.y0, self.y1 - inside.y0),
+            slice(self.x0 - inside.x0, self.x1 - inside.x0),
+        )
+
+    def tiles(self, level: int) -> Iterator[TileKey]:
+        """The tiles of `level` that meet this rectangle, row by row."""
+        if self.empty:
+            return
+        for y in range(self.y0 // TILE, (self.y1 - 1) // TILE + 1):
+            for x in range(self.x0 // TILE, (self.x1 - 1) // TILE + 1):
+                yield TileKey(level, x, y)

@@ -1,0 +1,1 @@
+"""The makers of texture, one module each, and the record they share."""

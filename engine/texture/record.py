@@ -1,0 +1,40 @@
+"""The record that every maker of texture fills: what it looks like at a level, and what each finer level adds.
+
+Perlin & Velho 1995, sections 3.3 and 5.1.  An *instance* is one texture bound to a base level; it is what a plane
+triple (red, green, blue amplitude) of ink refers to.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from engine.numeric.address import Rect
+
+
+class Instance(Protocol):
+    """One texture at one base level: hashable, immutable, the same values for the same place for ever.
+
+    `key`: a JSON-ready tuple of strings and numbers that tells this instance from every other; instances are equal
+    when their keys are, and sort by it.
+    `base`: the level at which it was first painted; `bandpass` is zero at that level and above (coarser).
+    """
+
+    @property
+    def key(self) -> tuple: ...
+
+    @property
+    def base(self) -> int: ...
+
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """S at `level` over `rect`: float32 (1 or 3 or 4, h, w).  Nominal range -1..1 for procedural textures;
+        0..1 premultiplied RGBA (4 planes) for images."""
+        ...
+
+    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """S_level - E S_(level-1) over `rect`: float32 (1 or 3, h, w); None where it is known to be zero all over.
+
+        A function of level and pixel alone: any rectangle cut from a larger one holds bit-identical values.
+        """
+        ...
