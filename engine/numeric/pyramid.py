@@ -1,0 +1,87 @@
+"""Expand and reduce: the two filters of the pyramid, exact on the grid.
+
+Expand is the quadratic B-spline (Chaikin's (1, 3, 3, 1)/4 along each axis); reduce is the mean of 2 x 2 pixels.
+With values on the grid and |v| <= 16 every partial sum is exact in float32, so the one rounding at the end is the
+only one, whatever the order of the sums.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.grid import snap
+
+_THREE = np.float32(3.0)
+_SIXTEENTH = np.float32(1.0 / 16.0)
+_QUARTER = np.float32(0.25)
+
+
+@njit(cache=True, nogil=True)
+def _blend_rows(near, far, out):
+    for i in range(out.size):
+        out[i] = _THREE * near[i] + far[i]
+
+
+@njit(cache=True, nogil=True)
+def _expand_row(t, out):
+    """`t` (n + 2,) to `out` (2n,): along a row, and the division by 16 of both axes."""
+    n = out.size // 2
+    left, mid, right = t[0:n], t[1 : n + 1], t[2 : n + 2]
+    for i in range(n):
+        out[2 * i] = snap((_THREE * mid[i] + left[i]) * _SIXTEENTH)
+        out[2 * i + 1] = snap((_THREE * mid[i] + right[i]) * _SIXTEENTH)
+
+
+@njit(cache=True, nogil=True)
+def expand_into(coarse, top, left, planes, out, first, last):
+    """Rows [first, last) of `out` (C, 2h, 2w) from `coarse` (D, H, W), both C-contiguous.
+
+    `out[0, 0]` is the first child of `coarse[top + 1, left + 1]`; `planes[c]` says which plane of `coarse` feeds
+    plane c, -1 for none (zeros).  `first` and `last` are even.
+    """
+    n = out.shape[2] // 2
+    t = np.empty(n + 2, np.float32)
+    for c in range(out.shape[0]):
+        source = planes[c]
+        if source < 0:
+            for y in range(first, last):
+                out[c, y][:] = np.float32(0.0)
+            continue
+        for y in range(first, last):
+            row = top + 1 + y // 2
+            near = coarse[source, row][left : left + n + 2]
+            far = coarse[source, row + 2 * (y & 1) - 1][left : left + n + 2]
+            _blend_rows(near, far, t)
+            _expand_row(t, out[c, y])
+
+
+def expand(coarse: np.ndarray) -> np.ndarray:
+    """E: float32 (C, h + 2, w + 2) to the children of its inner h x w pixels, (C, 2h, 2w)."""
+    coarse = np.ascontiguousarray(coarse, np.float32)
+    channels, height, width = coarse.shape
+    out = np.empty((channels, 2 * height - 4, 2 * width - 4), np.float32)
+    expand_into(coarse, 0, 0, np.arange(channels), out, 0, out.shape[1])
+    return out
+
+
+@njit(cache=True, nogil=True)
+def _reduce_row(upper, lower, out):
+    for i in range(out.size):
+        out[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * _QUARTER)
+
+
+@njit(cache=True, nogil=True)
+def _reduce_into(fine, out):
+    for c in range(out.shape[0]):
+        for y in range(out.shape[1]):
+            _reduce_row(fine[c, 2 * y], fine[c, 2 * y + 1], out[c, y])
+
+
+def reduce(fine: np.ndarray) -> np.ndarray:
+    """R: float32 (C, 2h, 2w) to the means of 2 x 2 pixels, (C, h, w)."""
+    fine = np.ascontiguousarray(fine, np.float32)
+    channels, height, width = fine.shape
+    out = np.empty((channels, height // 2, width // 2), np.float32)
+    _reduce_into(fine, out)
+    return out

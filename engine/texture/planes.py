@@ -1,0 +1,57 @@
+"""The values of a rectangle of pixels: premultiplied colour, alpha, and the amplitudes of the ink lying there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.texture.record import Instance
+
+COLOURS = 4  # red, green, blue, alpha
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Planes:
+    """`data`: float32 (4 + 3n, h, w) on the grid: R, G, B, A premultiplied, then for each of the n `inks`, which are
+    sorted by key, its red, green and blue amplitude (Perlin & Velho 1995, section 3.4)."""
+
+    data: np.ndarray
+    inks: tuple[Instance, ...] = ()
+
+    @classmethod
+    def empty(cls, height: int, width: int) -> Planes:
+        return cls(np.zeros((COLOURS, height, width), np.float32))
+
+    @property
+    def rgba(self) -> np.ndarray:
+        return self.data[:COLOURS]
+
+    def cut(self, rows: slice, columns: slice) -> Planes:
+        return Planes(self.data[:, rows, columns], self.inks)
+
+
+def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
+    """The union of several sets of ink instances, sorted by key."""
+    first, *rest = (tuple(s) for s in sets)
+    if all(s == first or not s for s in rest):
+        return first
+    return tuple(sorted({ink for s in (first, *rest) for ink in s}, key=lambda ink: sort_key(ink.key)))
+
+
+def sort_key(key: object) -> tuple:
+    """Orders keys that mix strings, numbers and tuples."""
+    if isinstance(key, tuple):
+        return (2, *(sort_key(part) for part in key))
+    return (1, key) if isinstance(key, str) else (0, key)
+
+
+def plane_map(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndarray:
+    """For each plane of a stack with the inks `into`, its index in a stack with `inks`, or -1: int64 (4 + 3n,)."""
+    places = {ink: COLOURS + 3 * i for i, ink in enumerate(inks)}
+    planes = list(range(COLOURS))
+    for ink in into:
+        at = places.get(ink)
+        planes.extend((-1, -1, -1) if at is None else (at, at + 1, at + 2))
+    return np.array(planes, np.int64)
