@@ -1,0 +1,31 @@
+"""What goes wrong with files, in one line each: the file, the place in it, what was found, what was expected."""
+
+from __future__ import annotations
+
+import os
+
+
+class FileError(Exception):
+    """A file that cannot be used: `str()` is one line that starts with the file's name."""
+
+    def __init__(self, path: str | os.PathLike[str], message: str) -> None:
+        self.path = os.fspath(path)
+        self.message = " ".join(message.split())
+        super().__init__(f"{self.path}: {self.message}")
+
+    def __reduce__(self) -> tuple:
+        return type(self), (self.path, self.message)
+
+
+class WriteError(FileError):
+    """The work failed while writing; what was there before is untouched and nothing half-written is left."""
+
+
+class Cancelled(Exception):
+    """The one who asked no longer wants the result; nothing was written."""
+
+
+def shown(text: object, limit: int = 60) -> str:
+    """Text found in a file, fit for one line of a message: printable ASCII in quotes, cut at `limit`."""
+    plain = ascii(str(text)[: limit + 1])
+    return plain if len(plain) <= limit + 2 else plain[:limit] + "..."
