@@ -27,5 +27,5 @@ class Cancelled(Exception):
 
 def shown(text: object, limit: int = 60) -> str:
     """Text found in a file, fit for one line of a message: printable ASCII in quotes, cut at `limit`."""
-    plain = ascii(str(text)[: limit + 1])
+    plain = ascii(text[: limit + 1] if isinstance(text, bytes) else str(text)[: limit + 1])
     return plain if len(plain) <= limit + 2 else plain[:limit] + "..."
