@@ -1,0 +1,66 @@
+"""The command line: `inkfall [FILE]` opens the window, `inkfall COMMAND ...` works without one.
+
+Nothing is imported here before it is known what is wanted: the window's first frame waits for it.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+# Command, what it does.  The module app.cli.<command> has declare(parser) and run(options) -> int.
+COMMANDS = {
+    "demo": "play the bundled demo recording, in the window or into pictures",
+    "play": "replay a recording without a window",
+    "export": "write a painting, or a rectangle of it at any level, as a picture",
+    "info": "tell what a painting holds",
+    "bench": "measure against the stated bounds",
+    "doctor": "tell what Inkfall finds on this machine",
+}
+# Promised by the contract, not in this version.
+LATER = ("texture", "analyse")
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Does what the arguments say; gives the exit status: 0 done, 1 failed, 2 wrong arguments or input."""
+    words = sys.argv[1:] if argv is None else argv
+    try:
+        status = _dispatch(words)
+        sys.stdout.flush()
+        return status
+    except BaseException as error:
+        from app.cli.outcome import reported
+
+        return reported(error)
+
+
+def _dispatch(words: list[str]) -> int:
+    if words and words[0] in COMMANDS:
+        from app.cli.arguments import run_command
+
+        return run_command(words[0], words[1:])
+    if words and words[0].startswith("-"):
+        from app.cli.arguments import run_option
+
+        return run_option(words, COMMANDS)
+    if words and words[0] in LATER and not os.path.exists(words[0]):
+        from app.cli.outcome import Refused
+
+        raise Refused(f"{words[0]}: not in this version, it comes in a later release")
+    return _open_window(words)
+
+
+def _open_window(words: list[str]) -> int:
+    if len(words) > 1 or (words and not os.path.exists(words[0])):
+        from app.cli.outcome import Refused
+
+        if len(words) > 1:
+            raise Refused(f"found {len(words)} arguments, expected one FILE or a command: {', '.join(COMMANDS)}")
+        raise Refused(f"{words[0]}: no such file, and no command: {', '.join(COMMANDS)}")
+    from app.loop import run
+
+    return run(words[0] if words else None) or 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,94 @@
+"""Reading arguments: one line for what is wrong, rectangles of integers of any size."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import re
+from collections.abc import Mapping
+from typing import NamedTuple, NoReturn
+
+from app.cli.outcome import Refused
+
+_RECTANGLE = re.compile(r"-?\d+(,-?\d+)*")
+
+
+class Rectangle(NamedTuple):
+    """`--rect L,X,Y,W,H`: the level, and the rectangle in pixels of it."""
+
+    level: int
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+class Parser(argparse.ArgumentParser):
+    """As the standard one, but an error is raised, in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise Refused(f"{message} (see {self.prog} --help)")
+
+
+def run_command(name: str, words: list[str]) -> int:
+    module = importlib.import_module(f"app.cli.{name}")
+    parser = Parser(prog=f"inkfall {name}", description=module.__doc__, allow_abbrev=False)
+    module.declare(parser)
+    return module.run(parser.parse_args(joined(words)))
+
+
+def run_option(words: list[str], commands: Mapping[str, str]) -> int:
+    """`inkfall --help` and `inkfall --version`."""
+    lines = [f"  {name:<10} {about}" for name, about in commands.items()]
+    parser = Parser(
+        prog="inkfall",
+        usage="inkfall [FILE] | inkfall COMMAND ...",
+        description="Paint that keeps revealing detail as you zoom in.  With a FILE (.ora, image, recording) or "
+        "with nothing, the window opens.",
+        epilog="\n".join(["commands:", *lines, "", "inkfall COMMAND --help tells more."]),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="store_true", help="tell the version")
+    if parser.parse_args(words).version:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print(f"inkfall {version('inkfall')}")
+        except PackageNotFoundError:
+            print("inkfall, run from its sources")
+    return 0
+
+
+def joined(words: list[str]) -> list[str]:
+    """`--rect -4,0,0,8,8` as `--rect=-4,0,0,8,8`: argparse would take the value for an option."""
+    out: list[str] = []
+    for word in words:
+        if out and out[-1] in ("--rect", "--origin") and _RECTANGLE.fullmatch(word):
+            out[-1] += f"={word}"
+        else:
+            out.append(word)
+    return out
+
+
+def rectangle(text: str) -> Rectangle:
+    """`L,X,Y,W,H`: integers of any size, W and H at least 1."""
+    parts = text.split(",")
+    expected = "expected L,X,Y,W,H: five integers, W and H at least 1"
+    if len(parts) != 5 or not all(re.fullmatch(r"\s*[+-]?[0-9]{1,4000}\s*", part) for part in parts):
+        raise argparse.ArgumentTypeError(f"found {text[:80]!r}, {expected}")
+    found = Rectangle(*(int(part) for part in parts))
+    if found.width < 1 or found.height < 1 or abs(found.level) > 4096:
+        raise argparse.ArgumentTypeError(f"found {text[:80]!r}, {expected}, L from -4096 to 4096")
+    return found
+
+
+def count(text: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,18}", text):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number from 0")
+    return int(text)
+
+
+def seed(text: str) -> int:
+    if not re.fullmatch(r"[+-]?[0-9]{1,18}", text):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number")
+    return int(text)

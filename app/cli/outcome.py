@@ -1,0 +1,85 @@
+"""How a command ends: exit status and the one line on standard error that says why."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from contextlib import suppress
+
+DONE, FAILED, WRONG = 0, 1, 2
+# Set by those who look for a fault in the program: then the whole trace is shown.
+TRACE = "INKFALL_TRACEBACK"
+
+
+class Refused(Exception):
+    """Arguments or an input file are wrong: `str()` names which, what was found and what was expected."""
+
+
+class Failed(Exception):
+    """The work could not be done: `str()` says what and which file."""
+
+
+def reported(error: BaseException) -> int:
+    """Writes the line for `error`; gives the exit status."""
+    if isinstance(error, SystemExit):
+        return _status_of(error)
+    if os.environ.get(TRACE):
+        traceback.print_exception(error)
+    status, line = _judged(error)
+    if isinstance(error, BrokenPipeError):
+        _close_standard_output()
+    with suppress(OSError, ValueError):
+        print(f"inkfall: {' '.join(line.split())}", file=sys.stderr, flush=True)
+    return status
+
+
+def _status_of(error: SystemExit) -> int:
+    try:
+        sys.stdout.flush()
+    except OSError as failure:
+        return reported(failure)
+    return error.code if isinstance(error.code, int) else DONE if error.code is None else FAILED
+
+
+def _judged(error: BaseException) -> tuple[int, str]:
+    match error:
+        case Refused():
+            return WRONG, str(error)
+        case Failed():
+            return FAILED, str(error)
+        case KeyboardInterrupt():
+            return FAILED, "interrupted; nothing half-written is left"
+        case MemoryError():
+            return FAILED, "not enough memory for this"
+        case BrokenPipeError():
+            return FAILED, "whoever read standard output has gone"
+        case OSError():
+            return FAILED, _of_system(error)
+    return _judged_by_engine(error)
+
+
+def _of_system(error: OSError) -> str:
+    reason = error.strerror or str(error) or type(error).__name__
+    return f"{error.filename}: {reason}" if error.filename else reason
+
+
+def _judged_by_engine(error: BaseException) -> tuple[int, str]:
+    from engine.painting.fault import FileError, WriteError
+
+    match error:
+        case WriteError():
+            return FAILED, str(error)
+        case FileError():
+            return WRONG, str(error)
+    where = traceback.extract_tb(error.__traceback__)
+    place = f" ({os.path.basename(where[-1].filename)}, line {where[-1].lineno})" if where else ""
+    return FAILED, f"a fault in Inkfall: {type(error).__name__}: {error}{place}; {TRACE}=1 shows more"
+
+
+def _close_standard_output() -> None:
+    """So that the interpreter does not fail a second time when it flushes on the way out."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)

@@ -1,0 +1,150 @@
+"""Recordings: the commands of a painting as a text file, one JSON object a line (feature L10).
+
+The first line is the header {"inkfall": 1, "frame": [X, Y, W, H], "seed": S}; every other line is one command.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from immutables import Map
+
+from engine.numeric.address import Rect
+from engine.painting.atomic import replacing
+from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, Redo, Undo, parse, to_json
+from engine.painting.fault import FileError
+from engine.painting.strictjson import BYTES_CAP, Fields, FormatError, dumps, loads
+
+VERSION = 1
+TOTAL_CAP = 2 << 30  # bytes of a recording
+COMMANDS_CAP = 4_000_000
+SIDE_LIMIT = 1 << 40
+DEFAULT_FRAME = Rect(0, 0, 1024, 768)
+_BOM = b"\xef\xbb\xbf"
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """`frame`: level-0 pixels; `seed`: of every texture that is not given its own."""
+
+    frame: Rect = DEFAULT_FRAME
+    seed: int = 0
+    extra: Map = field(default_factory=Map)
+
+    def to_json(self) -> dict[str, Any]:
+        frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
+        return {"inkfall": VERSION, "frame": frame, "seed": self.seed, **self.extra}
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """Header and commands.  `places`: the line of each command in the file it came from, if it came from one;
+    `folder`: what paths in it are relative to."""
+
+    header: Header = field(default_factory=Header)
+    commands: tuple[Command, ...] = ()
+    places: tuple[int, ...] = ()
+    folder: Path | None = None
+    name: str = "recording"
+
+    def fault(self, index: int, message: str) -> FileError:
+        """An error of command `index`, with the file and the line."""
+        line = self.places[index] if index < len(self.places) else index + 2
+        return FileError(self.name, f"line {line}: {message}")
+
+    def until(self, count: int) -> Recording:
+        """The first `count` commands."""
+        return replace(self, commands=self.commands[:count], places=self.places[:count])
+
+    def lines(self) -> Iterator[str]:
+        """The file's lines, without their ends."""
+        yield dumps(self.header.to_json())
+        for command in self.commands:
+            yield dumps(to_json(command))
+
+
+def read(path: str | os.PathLike[str]) -> Recording:
+    """The recording in a file; FileError names the line, the member, what was found and what was expected."""
+    try:
+        with open(path, "rb") as file:
+            return read_from(file, os.fspath(path), Path(path).parent)
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+
+
+def read_from(file: BinaryIO, name: str, folder: Path | None = None) -> Recording:
+    """As `read`, from an open binary file.  Lines end with a newline; blank ones and a byte order mark are ignored."""
+    header: Header | None = None
+    commands: list[Command] = []
+    places: list[int] = []
+    for number, line in _lines(file, name):
+        try:
+            value = loads(line)
+            if header is None:
+                header = parse_header(value)
+            else:
+                commands.append(parse(value))
+                places.append(number)
+        except FormatError as error:
+            raise FileError(name, f"line {number}: {error}") from None
+        if len(commands) > COMMANDS_CAP:
+            raise FileError(name, f"line {number}: found more than {COMMANDS_CAP} commands, expected fewer")
+    if header is None:
+        raise FileError(name, 'found no line, expected the header {"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')
+    return Recording(header, tuple(commands), tuple(places), folder, name)
+
+
+def _lines(file: BinaryIO, name: str) -> Iterator[tuple[int, bytes]]:
+    total = number = 0
+    while line := file.readline(BYTES_CAP + 1):
+        number += 1
+        total += len(line)
+        if len(line) > BYTES_CAP:
+            raise FileError(name, f"line {number}: found more than {BYTES_CAP >> 20} MiB, expected shorter lines")
+        if total > TOTAL_CAP:
+            raise FileError(name, f"line {number}: found more than {TOTAL_CAP >> 30} GiB, expected a smaller file")
+        if number == 1:
+            line = line.removeprefix(_BOM)
+        if line.strip():
+            yield number, line
+
+
+def parse_header(value: Any) -> Header:
+    members = Fields(value, "header")
+    if "inkfall" not in members:
+        raise FormatError("header", "no member inkfall", '{"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')
+    version = members.integer("inkfall", lo=1, hi=COMMANDS_CAP)
+    if version > VERSION:
+        raise FormatError("header.inkfall", f"{version} (a newer Inkfall wrote this)", f"version {VERSION}")
+    x, y, width, height = members.integers("frame", 4, (0, 0, 1024, 768), limit=PLACE_LIMIT)
+    if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
+        raise members.fault("frame", "a width and height from 1 to 2^40")
+    seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
+    return Header(Rect.at(x, y, width, height), seed, members.rest())
+
+
+def write(recording: Recording, path: str | os.PathLike[str]) -> None:
+    """The recording as a file, put in place whole or not at all."""
+    with replacing(path) as file:
+        for line in recording.lines():
+            file.write(line.encode() + b"\n")
+
+
+def undo_reach(commands: Iterable[Command], is_step: frozenset[type]) -> int:
+    """How many steps back undo ever goes in these commands: what a replay has to remember."""
+    behind = ahead = reach = 0
+    for command in commands:
+        if isinstance(command, Undo):
+            back = min(command.count, behind)
+            behind, ahead = behind - back, ahead + back
+            reach = max(reach, ahead)
+        elif isinstance(command, Redo):
+            forth = min(command.count, ahead)
+            behind, ahead = behind + forth, ahead - forth
+        elif type(command) in is_step:
+            behind, ahead = behind + 1, 0
+    return reach
