@@ -72,6 +72,10 @@ class Rect(NamedTuple):
         """The smallest rectangle around this one whose corners have even coordinates."""
         return Rect(self.x0 & ~1, self.y0 & ~1, (self.x1 + 1) & ~1, (self.y1 + 1) & ~1)
 
+    def parents(self) -> Rect:
+        """The coarser pixels that expand reads for an even rectangle: those above it and one more all around."""
+        return Rect((self.x0 >> 1) - 1, (self.y0 >> 1) - 1, (self.x1 >> 1) + 1, (self.y1 >> 1) + 1)
+
     def zoomed(self, levels: int) -> Rect:
         """The pixels `levels` finer (or coarser, if negative) that meet this rectangle's area."""
         if levels >= 0:

@@ -14,8 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from immutables import Map
 
+from engine.brush import record
+from engine.brush.checks import BrushError
 from engine.brush.record import Brush
-from engine.painting.points import plain, points_array, points_json, short
+from engine.painting.points import plain, points_array, points_json
 from engine.painting.strictjson import Fields, FormatError
 
 LEVEL_LIMIT = 4096  # a level beyond this has more digits than a painting needs
@@ -190,20 +192,10 @@ def _read_stroke(members: Fields) -> Stroke:
 
 
 def _read_brush(members: Fields) -> Brush:
-    value = members.take("brush", {})
     try:
-        return Brush.from_json(value)
-    except FormatError:
-        raise
-    except ValueError as error:
-        raise _placed(error, members.at("brush"), value) from None
-
-
-def _placed(error: ValueError, place: str, value: Any) -> FormatError:
-    """An error of the brush's own reader, with the place of the brush before the name of its field."""
-    name = getattr(error, "field", "")
-    found, expected = getattr(error, "found", short(value)), getattr(error, "expected", str(error))
-    return FormatError(f"{place}.{name}" if name else place, str(found), str(expected))
+        return record.from_json(members.take("brush", {}), members.at("brush"))
+    except BrushError as error:
+        raise FormatError(error.place, error.found, error.expected) from None
 
 
 def _write_stroke(stroke: Stroke) -> dict[str, Any]:
@@ -212,7 +204,7 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         out["layer"] = stroke.layer
     if stroke.seed is not None:
         out["seed"] = stroke.seed
-    return {**out, "brush": stroke.brush.to_json(), "points": points_json(stroke.points), **stroke.extra}
+    return {**out, "brush": record.to_json(stroke.brush), "points": points_json(stroke.points), **stroke.extra}
 
 
 class LayerForm(NamedTuple):
@@ -298,8 +290,8 @@ def _write_layer(command: LayerCommand) -> dict[str, Any]:
     return {**out, **command.extra}
 
 
-def _reads_count(record: type) -> Callable[[Fields], Any]:
-    return lambda members: record(members.integer("count", 1, lo=1, hi=COUNT_LIMIT), members.rest())
+def _reads_count(form: type) -> Callable[[Fields], Any]:
+    return lambda members: form(members.integer("count", 1, lo=1, hi=COUNT_LIMIT), members.rest())
 
 
 def _write_count(command: Undo | Redo) -> dict[str, Any]:

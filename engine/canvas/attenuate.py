@@ -1,0 +1,77 @@
+"""Attenuation that still waits: strokes at coarser levels weaken the detail stored below them (rule of the pyramid).
+
+A finer record keeps the part 1 - alpha of itself for every later stroke above it.  The stroke's A is carried to the
+record's level by expand, and applied in the order of the commits when the record is next read.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.canvas import kernels
+from engine.canvas.store import Change, Pyramid, Record
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.pyramid import expand
+
+
+def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
+    """The record as it is now: every attenuation since it was stored applied, oldest first."""
+    pending = []
+    change = _attenuating(pyramid.last)
+    while change is not None and change.depth > record.depth:
+        if change.level < key.level:
+            pending.append(change)
+        change = change.attenuating
+    if not pending:
+        return record
+    data = record.data
+    at = placed(key, record.rect)
+    for change in reversed(pending):
+        keep = attenuation(change, key.level, at)
+        if keep is not None:
+            out = np.empty(data.shape, np.int32)
+            kernels.attenuate(data, keep, out)
+            data = out
+    return record if data is record.data else Record(record.rect, data, record.inks, pyramid.depth)
+
+
+def placed(key: TileKey, inner: Rect) -> Rect:
+    """A rectangle given from a tile's corner, in pixels of the tile's level."""
+    x, y = key.x * TILE, key.y * TILE
+    return Rect(x + inner.x0, y + inner.y0, x + inner.x1, y + inner.y1)
+
+
+def _attenuating(change: Change | None) -> Change | None:
+    if change is None or change.keep is not None:
+        return change
+    return change.attenuating
+
+
+def attenuation(change: Change, level: int, rect: Rect) -> np.ndarray | None:
+    """A of a stroke carried down to a finer `level`: float32 (h, w) over `rect`, None where it is 1 all over."""
+    if not change.reach(level).meets(rect):
+        return None
+    rects = [rect.evened()]
+    for _ in range(level - change.level):
+        rects.append(rects[-1].parents().evened())
+    keep = _base(change, rects[-1])
+    for outer, inner in zip(reversed(rects), reversed(rects[:-1]), strict=False):
+        first = keep[0, 0]
+        if (keep == first).all():
+            return None if first == 1.0 else np.full((rect.height, rect.width), first, np.float32)
+        parents = inner.parents()
+        keep = expand(keep[None, *parents.slices(outer)])[0]
+    keep = keep[rect.slices(rects[0])]
+    return None if (keep == 1.0).all() else np.ascontiguousarray(keep)
+
+
+def _base(change: Change, rect: Rect) -> np.ndarray:
+    """A at the stroke's own level: 1 outside its tiles."""
+    keep = np.ones((rect.height, rect.width), np.float32)
+    assert change.keep is not None
+    for key in rect.tiles(change.level):
+        tile = change.keep.get((key.x, key.y))
+        if tile is not None:
+            part = key.rect.intersect(rect)
+            keep[part.slices(rect)] = tile[part.slices(key.rect)]
+    return keep

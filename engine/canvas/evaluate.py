@@ -1,0 +1,228 @@
+"""Evaluation: the value of any rectangle at any level, from what is stored (features P1, P3).
+
+The work goes down a cascade: the rectangle's ancestors, each half as large plus a pixel around, from the coarsest
+stored level, or from the nearest level whose tiles are cached, to the level asked for.  It is a pure function of the
+pyramid and the place; the cache only shortens it.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+
+import numpy as np
+
+from engine.canvas import kernels
+from engine.canvas.attenuate import effective
+from engine.canvas.store import Change, Pyramid, changes_between
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.pyramid import expand_into
+from engine.texture.planes import COLOURS, Planes, merged, plane_map
+from engine.texture.record import Instance
+
+_BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
+
+
+class TileCache:
+    """Evaluated tiles, the least recently used evicted first; bounded by bytes.  Safe for several threads."""
+
+    def __init__(self, budget: int) -> None:
+        self.budget = budget
+        self._held = 0
+        self._tiles: OrderedDict[tuple[int, TileKey], tuple[Change | None, Planes | None]] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, pyramid: Pyramid, key: TileKey) -> tuple[bool, Planes | None]:
+        """(known, value) of a tile; a value of None is an empty tile."""
+        place = (pyramid.uid, key)
+        with self._lock:
+            entry = self._tiles.get(place)
+            if entry is None:
+                return False, None
+            since, value = entry
+            if since is not pyramid.last:
+                rect = key.rect
+                if any(c.reach(key.level).meets(rect) for c in changes_between(since, pyramid.last)):
+                    return False, None
+                self._tiles[place] = (pyramid.last, value)
+            self._tiles.move_to_end(place)
+            return True, value
+
+    def keep(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
+        """Keep a copy of a tile's value; None is an empty tile."""
+        if value is not None:
+            value = without_empty_inks(Planes(value.data.copy(), value.inks))
+        if value is not None:
+            value.data.flags.writeable = False
+        place = (pyramid.uid, key)
+        with self._lock:
+            old = self._tiles.pop(place, None)
+            if old is not None:
+                self._held -= _held_bytes(old[1])
+            self._tiles[place] = (pyramid.last, value)
+            self._held += _held_bytes(value)
+            while self._held > self.budget and self._tiles:
+                _, (_, evicted) = self._tiles.popitem(last=False)
+                self._held -= _held_bytes(evicted)
+
+    def clear(self) -> None:
+        with self._lock:
+            self._tiles.clear()
+            self._held = 0
+
+    @property
+    def held(self) -> int:
+        """Bytes held now."""
+        return self._held
+
+
+def _held_bytes(value: Planes | None) -> int:
+    return 300 + (value.data.nbytes if value is not None else 0)
+
+
+def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:
+    """The value of `rect` at `level`: colour clamped in alpha only, ink as it lies there."""
+    found = evaluate_sparse(pyramid, level, rect, cache)
+    return Planes.empty(rect.height, rect.width) if found is None else found
+
+
+def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Planes | None:
+    """As `evaluate`, but None where nothing lies."""
+    known, value = _from_cache(pyramid, level, rect, cache)
+    if known:
+        return value
+    rects = [rect.evened()]
+    start = level
+    value = None
+    coarsest = pyramid.coarsest
+    while coarsest is not None and start > coarsest:
+        start -= 1
+        rects.append(rects[-1].parents().evened() if start != level else rects[-1])
+        known, value = _from_cache(pyramid, start, rects[-1], cache)
+        if known:
+            rects.pop()
+            break
+    if coarsest is None or level < coarsest:
+        return None
+    inner = None
+    above = rects[-1] if not known else rects[-1].parents().evened()
+    for k in range(level - len(rects) + 1, level + 1):
+        inner = rects[level - k]
+        value = step(pyramid, value, above, k, inner)
+        above = inner
+    assert inner is not None
+    if cache is not None:
+        _keep_tiles(pyramid, level, inner, value, cache)
+    return None if value is None else value.cut(*rect.slices(inner))
+
+
+def step(pyramid: Pyramid, parent: Planes | None, parent_at: Rect, level: int, rect: Rect) -> Planes | None:
+    """One level down: v of the even `rect` from its parents, which lie at `parent_at`."""
+    records = [(key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect)]
+    if parent is None and not records:
+        return None
+    inks = merged(() if parent is None else parent.inks, *(record.inks for _, record in records))
+    out = np.empty((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32)
+    if parent is None:
+        out[:] = 0.0
+    sources = plane_map(parent.inks, inks) if parent is not None else None
+    top = (rect.y0 >> 1) - 1 - parent_at.y0
+    left = (rect.x0 >> 1) - 1 - parent_at.x0
+    for first in range(0, rect.height, _BAND):
+        last = min(first + _BAND, rect.height)
+        if parent is not None:
+            expand_into(parent.data, top, left, sources, out, first, last)
+        band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
+        for key, record in records:
+            _add_record(out, rect, band, key, record, inks)
+        _add_texture_band(out, inks, level, rect, band)
+        kernels.clamp_alpha(out, first, last)
+    return without_empty_inks(Planes(out, inks))
+
+
+def _add_record(out: np.ndarray, rect: Rect, band: Rect, key: TileKey, record, inks: tuple[Instance, ...]) -> None:
+    x, y = key.x * TILE, key.y * TILE
+    at = Rect(x + record.rect.x0, y + record.rect.y0, x + record.rect.x1, y + record.rect.y1)
+    part = at.intersect(band)
+    if part.empty:
+        return
+    kernels.add_residual(
+        out, part.y0 - rect.y0, part.x0 - rect.x0,
+        record.data, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width,
+        plane_map(record.inks, inks),
+    )  # fmt: skip
+
+
+def add_texture(out: np.ndarray, ink: Planes, level: int, rect: Rect) -> None:
+    """Add to the colour planes of `out` what the ink lying on `rect` adds at this level."""
+    for first in range(0, rect.height, _BAND):
+        last = min(first + _BAND, rect.height)
+        band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
+        _add_texture_band(out, ink.inks, level, rect, band, ink.data)
+
+
+def _add_texture_band(
+    out: np.ndarray,
+    inks: tuple[Instance, ...],
+    level: int,
+    rect: Rect,
+    band: Rect,
+    ink_planes: np.ndarray | None = None,
+) -> None:
+    """colour += snap(ink amplitude * bandpass) for every instance (Perlin & Velho 1995, section 5.2)."""
+    amplitudes = out if ink_planes is None else ink_planes
+    first, last = band.y0 - rect.y0, band.y1 - rect.y0
+    for i, ink in enumerate(inks):
+        plane = COLOURS + 3 * i
+        if level <= ink.base or not kernels.any_nonzero(amplitudes, plane, plane + 3, first, last):
+            continue
+        detail = ink.bandpass(level, band)
+        if detail is not None:
+            kernels.add_texture(out, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first)
+
+
+def without_empty_inks(planes: Planes) -> Planes | None:
+    """Planes of ink that are zero all over are dropped; a stack that is zero all over is None."""
+    data, inks = planes.data, planes.inks
+    height = data.shape[1]
+    kept = [i for i in range(len(inks)) if kernels.any_nonzero(data, COLOURS + 3 * i, COLOURS + 3 * i + 3, 0, height)]
+    if not kept and not kernels.any_nonzero(data, 0, COLOURS, 0, height):
+        return None
+    if len(kept) == len(inks):
+        return planes
+    wanted = [*range(COLOURS), *(COLOURS + 3 * i + c for i in kept for c in range(3))]
+    return Planes(data[wanted], tuple(inks[i] for i in kept))
+
+
+def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:
+    if cache is None:
+        return False, None
+    tiles = []
+    for key in rect.tiles(level):
+        known, value = cache.get(pyramid, key)
+        if not known:
+            return False, None
+        if value is not None:
+            tiles.append((key, value))
+    if not tiles:
+        return True, None
+    inks = merged(*(value.inks for _, value in tiles))
+    out = np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32)
+    for key, value in tiles:
+        part = key.rect.intersect(rect)
+        source = value.data[:, *part.slices(key.rect)]
+        target = out[:, *part.slices(rect)]
+        if value.inks == inks:
+            target[:] = source
+        else:
+            for c, s in enumerate(plane_map(value.inks, inks)):
+                if s >= 0:
+                    target[c] = source[s]
+    return True, Planes(out, inks)
+
+
+def _keep_tiles(pyramid: Pyramid, level: int, rect: Rect, value: Planes | None, cache: TileCache) -> None:
+    for key in rect.tiles(level):
+        at = key.rect
+        if rect.intersect(at) == at:
+            cache.keep(pyramid, key, None if value is None else value.cut(*at.slices(rect)))

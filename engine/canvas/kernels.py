@@ -1,0 +1,233 @@
+"""Compiled loops of the canvas: plain functions over planar float32 arrays on the grid."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.grid import snap
+
+_UNIT = np.float32(2.0**-16)
+_COUNT = np.float32(2.0**16)
+_ZERO = np.float32(0.0)
+_ONE = np.float32(1.0)
+_QUARTER = np.float32(0.25)
+# A coarse pixel that differs from the mean of its children by no more than this is taken to equal it: the rounding
+# lag of many strokes, each below the grid at the coarse level, heals instead of adding up.
+_LAG = np.float32(2.0 * 2.0**-16)
+
+
+@njit(cache=True, nogil=True)
+def any_nonzero(data, first_plane, last_plane, first, last):
+    """Whether any value of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) is not zero."""
+    for c in range(first_plane, last_plane):
+        for y in range(first, last):
+            row = data[c, y]
+            total = _ZERO
+            for i in range(row.size):
+                total += abs(row[i])
+            if total != _ZERO:
+                return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def clamp_alpha(out, first, last):
+    """Alpha of rows [first, last) of `out` (C, h, w) into [0, 1], in place."""
+    for y in range(first, last):
+        row = out[3, y]
+        for i in range(row.size):
+            row[i] = min(max(row[i], _ZERO), _ONE)
+
+
+@njit(cache=True, nogil=True)
+def add_residual(out, top, left, data, row, column, height, width, planes):
+    """out[:, top:, left:] += data * 2^-16 over height x width; `planes[c]` is the plane of `data` for plane c, or -1."""
+    for c in range(out.shape[0]):
+        source = planes[c]
+        if source < 0:
+            continue
+        for y in range(height):
+            a = out[c, top + y][left : left + width]
+            b = data[source, row + y][column : column + width]
+            for i in range(width):
+                a[i] += np.float32(b[i]) * _UNIT
+
+
+@njit(cache=True, nogil=True)
+def add_texture(out, amplitudes, plane, detail, first):
+    """Colour rows of `out` (C, h, w) from row `first` += snap(ink * detail); `detail` float32 (1 or 3, rows, w), the
+    ink's planes are those of `amplitudes` from `plane` (it may be `out` itself)."""
+    for c in range(3):
+        source = c if detail.shape[0] == 3 else 0
+        for y in range(detail.shape[1]):
+            a = out[c, first + y]
+            ink = amplitudes[plane + c, first + y]
+            d = detail[source, y]
+            for i in range(a.size):
+                a[i] += snap(ink[i] * d[i])
+
+
+@njit(cache=True, nogil=True)
+def attenuate(data, keep, out):
+    """out = snap(data * keep) in units of 2^-16: `data` int (C, h, w), `keep` float32 (h, w), `out` int32 (C, h, w)."""
+    for c in range(data.shape[0]):
+        for y in range(data.shape[1]):
+            for x in range(data.shape[2]):
+                value = snap(np.float32(data[c, y, x]) * _UNIT * keep[y, x])
+                out[c, y, x] = np.int32(value * _COUNT)
+
+
+@njit(cache=True, nogil=True)
+def apply_stamp(old, top, left, keep, add, planes, new, attenuation, changed):
+    """v' = snap(A v) + B over one tile: writes `new` (C, h, w), `attenuation` (h, w), `changed` (h, w) uint8.
+
+    `keep` is A (n, n), `add` is B (D, n, n), both of the tile whose corner is (top, left) of the larger arrays;
+    `planes[c]` is the plane of B for plane c, or -1 for zero.  Alpha is clamped to [0, 1].
+    """
+    height, width = keep.shape
+    for y in range(height):
+        a = keep[y]
+        s = changed[top + y][left : left + width]
+        attenuation[top + y][left : left + width] = a
+        for i in range(width):
+            s[i] = a[i] != _ONE
+        for c in range(old.shape[0]):
+            before = old[c, top + y][left : left + width]
+            after = new[c, top + y][left : left + width]
+            source = planes[c]
+            if source < 0:
+                for i in range(width):
+                    after[i] = snap(a[i] * before[i])
+            else:
+                b = add[source, y]
+                for i in range(width):
+                    after[i] = snap(a[i] * before[i]) + b[i]
+            if c == 3:
+                for i in range(width):
+                    after[i] = min(max(after[i], _ZERO), _ONE)
+            for i in range(width):
+                s[i] |= before[i] != after[i]
+
+
+@njit(cache=True, nogil=True)
+def _mean(fine, row, out):
+    """One row of the means of 2 x 2 pixels of `fine` (2h, 2w)."""
+    upper, lower = fine[2 * row], fine[2 * row + 1]
+    for i in range(out.size):
+        out[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * _QUARTER)
+
+
+@njit(cache=True, nogil=True)
+def climb(old_fine, new_fine, keep_fine, changed_fine, old, new, keep, changed):
+    """Rule U, one level up: what a change of the finer level does to the coarser one.
+
+    r = v - R v_fine (zero where it is only lag);  v' = R v'_fine + snap(A r) on parents of changed pixels, v elsewhere.
+    Arrays of the finer level are (C, 2h, 2w) or (2h, 2w), of this one (C, h, w) or (h, w); `old` is read, the rest
+    written.  Returns whether anything of this level changed.
+    """
+    height, width = keep.shape
+    before, after = np.empty(width, np.float32), np.empty(width, np.float32)
+    parents = np.empty(width, np.uint8)
+    any_changed = False
+    for y in range(height):
+        _mean(keep_fine, y, keep[y])
+        upper, lower = changed_fine[2 * y], changed_fine[2 * y + 1]
+        a, s = keep[y], changed[y]
+        for i in range(width):
+            parents[i] = upper[2 * i] | upper[2 * i + 1] | lower[2 * i] | lower[2 * i + 1]
+            if parents[i] == 0:
+                a[i] = _ONE
+            s[i] = a[i] != _ONE
+        for c in range(old.shape[0]):
+            _mean(old_fine[c], y, before)
+            _mean(new_fine[c], y, after)
+            v, w = old[c, y], new[c, y]
+            for i in range(width):
+                r = v[i] - before[i]
+                r = _ZERO if abs(r) <= _LAG else r
+                value = after[i] + snap(a[i] * r)
+                if c == 3:
+                    value = min(max(value, _ZERO), _ONE)
+                value = value if parents[i] else v[i]
+                w[i] = value
+                s[i] |= value != v[i]
+        for i in range(width):
+            any_changed |= s[i] != 0
+    return any_changed
+
+
+@njit(cache=True, nogil=True)
+def differs(old, new, out):
+    """out (h, w) uint8 = 1 where any plane of `old` and `new` (C, h, w) differs."""
+    for y in range(out.shape[0]):
+        s = out[y]
+        s[:] = 0
+        for c in range(old.shape[0]):
+            a, b = old[c, y], new[c, y]
+            for i in range(s.size):
+                s[i] |= a[i] != b[i]
+
+
+@njit(cache=True, nogil=True)
+def spread(parents, top, left, out):
+    """out (2h, 2w) |= 1 where any of the four parents that expand reads is marked; out[0, 0] is the first child of
+    parents[top + 1, left + 1]."""
+    for y in range(out.shape[0]):
+        row = top + 1 + y // 2
+        other = row + 2 * (y & 1) - 1
+        near, far, s = parents[row], parents[other], out[y]
+        for x in range(out.shape[1]):
+            column = left + 1 + x // 2
+            beside = column + 2 * (x & 1) - 1
+            s[x] |= near[column] | near[beside] | far[column] | far[beside]
+
+
+@njit(cache=True, nogil=True)
+def residual(value, predicted, touched, row, column, top, left, height, width, out):
+    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched, over height x width pixels that
+    start at (row, column) of `value`, `predicted` (C, h, w) and `touched` (h, w)."""
+    for c in range(value.shape[0]):
+        for y in range(height):
+            v = value[c, row + y][column : column + width]
+            p = predicted[c, row + y][column : column + width]
+            t = touched[row + y][column : column + width]
+            o = out[c, top + y][left : left + width]
+            for i in range(width):
+                o[i] = np.int32((v[i] - p[i]) * _COUNT) if t[i] else o[i]
+
+
+@njit(cache=True, nogil=True)
+def extent(data):
+    """Of int32 (C, h, w): the largest absolute value, and the rows and columns [y0, y1) x [x0, x1) that are not zero."""
+    largest = np.int32(0)
+    y0, y1, x0, x1 = data.shape[1], 0, data.shape[2], 0
+    columns = np.zeros(data.shape[2], np.int32)
+    for y in range(data.shape[1]):
+        row_largest = np.int32(0)
+        for c in range(data.shape[0]):
+            row = data[c, y]
+            for i in range(row.size):
+                size = abs(row[i])
+                columns[i] |= size
+                row_largest = max(row_largest, size)
+        if row_largest > 0:
+            y0, y1 = min(y0, y), y + 1
+            largest = max(largest, row_largest)
+    for x in range(columns.size):
+        if columns[x]:
+            x0, x1 = min(x0, x), x + 1
+    return largest, y0, y1, x0, x1
+
+
+@njit(cache=True, nogil=True)
+def any_set(mask, top, left, height, width):
+    """Whether any of height x width entries of the uint8 `mask` from (top, left) is set."""
+    for y in range(height):
+        row = mask[top + y][left : left + width]
+        found = np.uint8(0)
+        for i in range(width):
+            found |= row[i]
+        if found:
+            return True
+    return False

@@ -1,0 +1,148 @@
+"""What is stored of a pyramid: residuals of painted tiles, and what later strokes take away from them.
+
+Everything is immutable.  A `Pyramid` is one state of one layer; an undo step is a reference to an older one.
+The shown value of a level k is (Perlin & Velho 1995, section 4.2)
+
+    v_k = clamp( expand(v_(k-1)) + texture_k(ink of v_k) + residual_k )
+
+where the residual of a tile is its newest record, times the attenuation of every later stroke at a coarser level.
+Above the coarsest stored level v = 0.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import immutables
+import numpy as np
+
+from engine.numeric.address import Rect, TileKey
+from engine.texture.record import Instance
+
+RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
+_serials = itertools.count(1)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Record:
+    """The residual of one tile.
+
+    `rect`: the part of the tile it covers, in pixels from the tile's corner; zero elsewhere.
+    `data`: int16 or int32 (4 + 3n, h, w) in units of 2^-16, read-only; `inks`: the n instances of its ink planes.
+    `depth`: how many commits the pyramid had when it was stored: later attenuations are still to be applied.
+    """
+
+    rect: Rect
+    data: np.ndarray
+    inks: tuple[Instance, ...]
+    depth: int
+
+    @property
+    def nbytes(self) -> int:
+        return self.data.nbytes + RECORD_OVERHEAD
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Change:
+    """One commit, linked to the one before.
+
+    `level`, `rect`: where pixels changed.  `keep`: A = 1 - alpha at that level by tile, float32 (128, 128), 1 elsewhere;
+    None when no finer tile was stored under the stroke, so that nothing waits for it.
+    """
+
+    level: int
+    rect: Rect
+    keep: Mapping[tuple[int, int], np.ndarray] | None
+    before: Change | None
+    serial: int = field(default_factory=lambda: next(_serials))
+    depth: int = 1
+    attenuating: Change | None = None  # the newest change before this one that has a `keep`
+
+    def reach(self, level: int) -> Rect:
+        """The pixels of `level` whose value this change can alter (notes of the pyramid: locality)."""
+        if level <= self.level:
+            return self.rect.zoomed(level - self.level)
+        return self.rect.grown(2).zoomed(level - self.level)
+
+    @property
+    def nbytes(self) -> int:
+        return RECORD_OVERHEAD + (sum(a.nbytes for a in self.keep.values()) if self.keep else 0)
+
+
+Level = immutables.Map[tuple[int, int], Record]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pyramid:
+    """One state of a layer's canvas.  `uid` names the layer's line of history, for caches."""
+
+    levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
+    last: Change | None = None
+    uid: int = field(default_factory=lambda: next(_serials))
+
+    @property
+    def depth(self) -> int:
+        return self.last.depth if self.last else 0
+
+    @property
+    def coarsest(self) -> int | None:
+        return min(self.levels, default=None)
+
+    @property
+    def finest(self) -> int | None:
+        return max(self.levels, default=None)
+
+    def records(self, level: int, rect: Rect) -> Iterator[tuple[TileKey, Record]]:
+        """The stored tiles of a level that meet a rectangle."""
+        stored = self.levels.get(level)
+        if not stored or rect.empty:
+            return
+        keys = rect.tiles(level)
+        first = next(keys)
+        across = (rect.x1 - 1) // 128 - first.x + 1
+        down = (rect.y1 - 1) // 128 - first.y + 1
+        if across * down <= len(stored):
+            candidates = ((key, stored.get((key.x, key.y))) for key in itertools.chain((first,), keys))
+        else:
+            candidates = ((TileKey(level, *place), record) for place, record in sorted(stored.items()))
+        for key, record in candidates:
+            if record is not None and key.rect.meets(rect):
+                yield key, record
+
+    def all_records(self) -> Iterator[tuple[TileKey, Record]]:
+        for level in sorted(self.levels):
+            for place, record in sorted(self.levels[level].items()):
+                yield TileKey(level, *place), record
+
+    def bounds(self, level: int) -> Rect:
+        """The smallest rectangle of `level` that holds every stored residual; empty if there is none."""
+        whole = Rect(0, 0, 0, 0)
+        for key, record in self.all_records():
+            r = record.rect
+            x, y = key.rect.x0, key.rect.y0
+            placed = Rect(x + r.x0, y + r.y0, x + r.x1, y + r.y1)
+            whole = whole.union(placed.zoomed(level - key.level))
+        return whole
+
+    @property
+    def nbytes(self) -> int:
+        return sum(record.nbytes for _, record in self.all_records())
+
+
+def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:
+    """The commits that one of two states has and the other has not, newest first."""
+    while a is not b:
+        if b is None or (a is not None and a.depth >= b.depth):
+            assert a is not None
+            yield a
+            a = a.before
+        else:
+            yield b
+            b = b.before
+
+
+def changed_rects(old: Pyramid, new: Pyramid, level: int) -> list[Rect]:
+    """The rectangles of `level` in which two states of one line of history may differ."""
+    return [change.reach(level) for change in changes_between(old.last, new.last)]

@@ -1,0 +1,152 @@
+"""An eager dense reference of the pyramid: every level a whole array, every rule written out plainly in float64.
+
+It shares no code with the canvas but the rounding of a product, which is defined on float32.
+"""
+
+import numpy as np
+
+COUNT = 65536.0
+
+
+def snap(values):
+    return np.rint(values * COUNT) / COUNT
+
+
+def product(a, b):
+    """snap(a * b) with the product rounded to float32 first."""
+    return snap((np.asarray(a, np.float32) * np.asarray(b, np.float32)).astype(np.float64))
+
+
+def expand(p):
+    """(C, h + 2, w + 2) to (C, 2h, 2w)."""
+    mid = p[:, 1:-1, 1:-1]
+    out = np.empty((p.shape[0], 2 * mid.shape[1], 2 * mid.shape[2]))
+    for dy in (0, 1):
+        for dx in (0, 1):
+            rows = slice(0, -2) if dy == 0 else slice(2, None)
+            columns = slice(0, -2) if dx == 0 else slice(2, None)
+            mixed = 9 * mid + 3 * p[:, rows, 1:-1] + 3 * p[:, 1:-1, columns] + p[:, rows, columns]
+            out[:, dy::2, dx::2] = snap(mixed / 16)
+    return out
+
+
+def reduce(f):
+    return snap((f[:, 0::2, 0::2] + f[:, 0::2, 1::2] + f[:, 1::2, 0::2] + f[:, 1::2, 1::2]) / 4)
+
+
+def cell(mask):
+    """(2h, 2w) of bool to (h, w): any of the four."""
+    return mask[0::2, 0::2] | mask[0::2, 1::2] | mask[1::2, 0::2] | mask[1::2, 1::2]
+
+
+def children_of(marks):
+    """The pixels any of whose four expand parents is marked: (h + 2, w + 2) to (2h, 2w)."""
+    out = np.zeros((2 * marks.shape[0] - 4, 2 * marks.shape[1] - 4), bool)
+    mid = marks[1:-1, 1:-1]
+    for dy in (0, 1):
+        for dx in (0, 1):
+            rows = slice(0, -2) if dy == 0 else slice(2, None)
+            columns = slice(0, -2) if dx == 0 else slice(2, None)
+            out[dy::2, dx::2] = mid | marks[rows, 1:-1] | marks[1:-1, columns] | marks[rows, columns]
+    return out
+
+
+class Dense:
+    """All levels of a square canvas centred on the origin; arrays cover [-H, H) with H = half(level)."""
+
+    def __init__(self, coarsest, finest, half0, inks):
+        self.coarsest, self.finest, self.inks = coarsest, finest, list(inks)
+        self.planes = 4 + 3 * len(self.inks)
+        self.half = {
+            k: half0 << k if k >= 0 else max(4, 2 * -(-half0 // (2 << -k))) for k in range(coarsest, finest + 1)
+        }
+        self.v = {k: np.zeros((self.planes, 2 * h, 2 * h)) for k, h in self.half.items()}
+        self.d = {k: a.copy() for k, a in self.v.items()}
+
+    def snapshot(self):
+        return {k: a.copy() for k, a in self.v.items()}, {k: a.copy() for k, a in self.d.items()}
+
+    def restore(self, state):
+        self.v = {k: a.copy() for k, a in state[0].items()}
+        self.d = {k: a.copy() for k, a in state[1].items()}
+
+    def up(self, a, k, fill=0.0):
+        """expand from level k - 1 to level k, `fill` outside."""
+        e = expand(np.pad(a, [(0, 0), (1, 1), (1, 1)], constant_values=fill))
+        spare = e.shape[1] // 2 - self.half[k]
+        assert spare >= 0
+        return e[:, spare : e.shape[1] - spare, spare : e.shape[2] - spare] if spare else e
+
+    def down(self, a, j, fill=0.0):
+        """Pad a level j + 1 array so that it covers the children of level j."""
+        spare = 2 * self.half[j] - a.shape[-1] // 2
+        pad = [(0, 0)] * (a.ndim - 2) + [(spare, spare)] * 2
+        return np.pad(a, pad, constant_values=fill)
+
+    def texture(self, k, ink_planes):
+        h = self.half[k]
+        total = np.zeros((3, 2 * h, 2 * h))
+        for i, ink in enumerate(self.inks):
+            if k > ink.base:
+                detail = ink.whole(k, -h, -h, 2 * h, 2 * h)
+                total += product(ink_planes[3 * i : 3 * i + 3], detail)
+        return total
+
+    def settle(self, k):
+        """v of a level from its parents, its ink and its residual."""
+        v = self.up(self.v[k - 1], k) + self.d[k]
+        v[:3] += self.texture(k, v[4:])
+        v[3] = np.clip(v[3], 0, 1)
+        self.v[k] = v
+
+    def paint(self, m, x0, y0, keep, add):
+        """v' = snap(A v) + B at level m; keep (h, w), add (planes, h, w) on the grid."""
+        h, (rows, columns) = self.half[m], keep.shape
+        a = np.ones((2 * h, 2 * h))
+        b = np.zeros((self.planes, 2 * h, 2 * h))
+        a[y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = keep
+        b[:, y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = add
+        old = {k: v.copy() for k, v in self.v.items()}
+        new = product(np.broadcast_to(a, self.v[m].shape), self.v[m]) + b
+        new[3] = np.clip(new[3], 0, 1)
+        self.v[m] = new
+        marks = {m: (a != 1) | (new != old[m]).any(0)}
+        aj = a
+        for j in range(m - 1, self.coarsest - 1, -1):
+            if not marks[j + 1].any():
+                break
+            aj = self.climb(j, old, aj, marks)
+        else:
+            assert not marks[self.coarsest].any(), "the reference needs more coarse levels"
+        for k in range(self.coarsest, m + 1):
+            self.new_residual(k, old, marks)
+        ak = a[None]
+        for k in range(m + 1, self.finest + 1):
+            ak = self.up(ak, k, 1.0)
+            self.d[k] = product(np.broadcast_to(ak, self.d[k].shape), self.d[k])
+            self.settle(k)
+
+    def climb(self, j, old, keep, marks):
+        above = reduce(self.down(keep[None], j, 1.0))[0]
+        parents = cell(self.down(marks[j + 1], j, False))
+        above = np.where(parents, above, 1.0)
+        r = old[j] - reduce(self.down(old[j + 1], j))
+        r = np.where(np.abs(r) <= 2 / COUNT, 0, r)
+        new = reduce(self.down(self.v[j + 1], j)) + product(np.broadcast_to(above, r.shape), r)
+        new[3] = np.clip(new[3], 0, 1)
+        self.v[j] = np.where(parents, new, old[j])
+        marks[j] = (above != 1) | (self.v[j] != old[j]).any(0)
+        return above
+
+    def new_residual(self, k, old, marks):
+        touched = marks.get(k, np.zeros(self.v[k].shape[1:], bool)).copy()
+        predicted = np.zeros_like(self.v[k])
+        if k > self.coarsest:
+            predicted = self.up(self.v[k - 1], k)
+            changed = np.pad((self.v[k - 1] != old[k - 1]).any(0), 1)
+            spread = children_of(changed)
+            spare = spread.shape[0] // 2 - self.half[k]
+            touched |= spread[spare : spread.shape[0] - spare, spare : spread.shape[1] - spare]
+        residual = self.v[k] - predicted
+        residual[:3] -= self.texture(k, self.v[k][4:])
+        self.d[k][:, touched] = residual[:, touched]

@@ -1,0 +1,61 @@
+"""Invariant 1: whatever was visited, evicted, undone or redone on the way, every level equals the dense reference."""
+
+import numpy as np
+import pytest
+from dense import Dense
+from strokes import ArrayEdit, Grain, random_stroke, spread_planes
+
+from engine.canvas.commit import commit, preview
+from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.fold import fold
+from engine.canvas.store import Pyramid
+from engine.numeric.address import Rect
+
+INKS = (Grain(0, 1), Grain(1, 2), Grain(2, 3))
+COARSEST, FINEST, HALF = -16, 4, 12
+
+
+def compare(pyramid, dense, cache):
+    for k, h in dense.half.items():
+        got = spread_planes(evaluate(pyramid, k, Rect(-h, -h, h, h), cache), INKS)
+        np.testing.assert_array_equal(got, dense.v[k], err_msg=f"level {k}")
+
+
+def visit(pyramid, rng, cache):
+    for _ in range(int(rng.integers(0, 12))):
+        k = int(rng.integers(-6, FINEST + 3))
+        reach = HALF << max(k, 0)
+        x, y = (int(rng.integers(-reach, reach)) for _ in "xy")
+        evaluate(pyramid, k, Rect.at(x, y, int(rng.integers(1, 300)), int(rng.integers(1, 200))), cache)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_every_level_equals_the_dense_reference(seed):
+    rng = np.random.default_rng(seed)
+    cache = TileCache(int(rng.choice([0, 3 << 20, 64 << 20])))
+    dense = Dense(COARSEST, FINEST, HALF, INKS)
+    states, references = [Pyramid()], [dense.snapshot()]
+    unvisited = [states[0]]
+    for n in range(40):
+        if rng.random() < 0.15 and len(states) > 1:
+            back = int(rng.integers(1, min(4, len(states))))
+            states, references, unvisited = states[:-back], references[:-back], unvisited[:-back]
+            dense.restore(references[-1])
+        m, x, y, keep, add = random_stroke(rng, FINEST, HALF, INKS)
+        edit = ArrayEdit(m, x, y, keep, add, INKS)
+        shown = preview(states[-1], edit, edit.rect, cache)
+        states.append(commit(states[-1], edit, cache))
+        unvisited.append(commit(unvisited[-1], edit))
+        dense.paint(m, x, y, keep, add)
+        references.append(dense.snapshot())
+        committed = evaluate(states[-1], m, edit.rect, cache)
+        np.testing.assert_array_equal(spread_planes(shown, INKS), spread_planes(committed, INKS))
+        visit(states[-1], rng, cache)
+        if rng.random() < 0.3:
+            states[-1] = fold(states[-1])
+        if rng.random() < 0.2:
+            cache.clear()
+        if n % 8 == 7:
+            compare(states[-1], dense, cache)
+    compare(states[-1], dense, cache)
+    compare(unvisited[-1], dense, None)
