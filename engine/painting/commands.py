@@ -15,7 +15,7 @@ import numpy as np
 from immutables import Map
 
 from engine.brush import record
-from engine.brush.checks import BrushError
+from engine.brush.checks import BrushError, thawed
 from engine.brush.record import Brush
 from engine.painting.points import plain, points_array, points_json
 from engine.painting.strictjson import Fields, FormatError
@@ -204,7 +204,7 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         out["layer"] = stroke.layer
     if stroke.seed is not None:
         out["seed"] = stroke.seed
-    return {**out, "brush": record.to_json(stroke.brush), "points": points_json(stroke.points), **stroke.extra}
+    return {**out, "brush": record.to_json(stroke.brush), "points": points_json(stroke.points), **thawed(stroke.extra)}
 
 
 class LayerForm(NamedTuple):
@@ -287,7 +287,7 @@ def _write_layer(command: LayerCommand) -> dict[str, Any]:
         value = getattr(command, f.name)
         if f.name not in ("name", "extra") and value != f.default:
             out[f.name] = value
-    return {**out, **command.extra}
+    return {**out, **thawed(command.extra)}
 
 
 def _reads_count(form: type) -> Callable[[Fields], Any]:
@@ -295,7 +295,7 @@ def _reads_count(form: type) -> Callable[[Fields], Any]:
 
 
 def _write_count(command: Undo | Redo) -> dict[str, Any]:
-    return {**({"count": command.count} if command.count != 1 else {}), **command.extra}
+    return {**({"count": command.count} if command.count != 1 else {}), **thawed(command.extra)}
 
 
 def _pair(members: Fields, name: str, lowest: float) -> tuple[float, float]:
@@ -313,7 +313,7 @@ def _read_view(members: Fields) -> View:
 
 
 def _write_view(view: View) -> dict[str, Any]:
-    return {"level": plain(view.level), "origin": list(view.origin), "size": list(view.size), **view.extra}
+    return {"level": plain(view.level), "origin": list(view.origin), "size": list(view.size), **thawed(view.extra)}
 
 
 def _read_texture(members: Fields) -> DefineTexture:
@@ -321,7 +321,7 @@ def _read_texture(members: Fields) -> DefineTexture:
 
 
 def _write_texture(command: DefineTexture) -> dict[str, Any]:
-    return {"name": command.name, "maker": command.maker, **command.arguments}
+    return {"name": command.name, "maker": command.maker, **thawed(command.arguments)}
 
 
 class Form(NamedTuple):

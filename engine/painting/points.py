@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from engine.brush import samples
+from engine.brush.checks import BrushError
 from engine.painting.strictjson import FormatError
 
 POINTS_CAP = 1_000_000  # of one stroke
@@ -27,19 +29,12 @@ _HIGHEST = np.array([column[3] for column in POINT_COLUMNS])
 
 def points_array(rows: Any, place: str) -> np.ndarray:
     """A list of lists of 2 to 6 numbers as float64 (n, 6), read-only; what is left out has its default."""
-    if not isinstance(rows, list) or not 1 <= len(rows) <= POINTS_CAP:
-        found = f"{len(rows)} points" if isinstance(rows, list) else "no list"
-        raise FormatError(place, found, f"a list of 1 to {POINTS_CAP} points")
-    table = np.tile(_DEFAULTS, (len(rows), 1))
-    for i, row in enumerate(rows):
-        if not (isinstance(row, list) and 2 <= len(row) <= 6 and all(type(v) in (int, float) for v in row)):
-            names = ", ".join(column[0] for column in POINT_COLUMNS)
-            raise FormatError(f"{place}[{i}]", short(row), f"2 to 6 numbers [{names}]")
-        try:
-            table[i, : len(row)] = row
-        except OverflowError:
-            raise FormatError(f"{place}[{i}]", "a number of hundreds of digits", "numbers near the origin") from None
-    return checked_points(table, place)
+    if isinstance(rows, list) and len(rows) > POINTS_CAP:
+        raise FormatError(place, f"{len(rows)} points", f"at most {POINTS_CAP}")
+    try:
+        return checked_points(samples.from_json(rows, place), place)
+    except BrushError as error:
+        raise FormatError(error.place, error.found, error.expected) from None
 
 
 def checked_points(table: np.ndarray, place: str) -> np.ndarray:
@@ -52,11 +47,6 @@ def checked_points(table: np.ndarray, place: str) -> np.ndarray:
     table += 0.0  # no negative zeros
     table.flags.writeable = False
     return table
-
-
-def short(row: Any) -> str:
-    text = str(row)
-    return text if len(text) <= 60 else text[:60] + "..."
 
 
 def points_json(points: np.ndarray) -> list[list[float]]:

@@ -13,6 +13,7 @@ from typing import Any, BinaryIO
 
 from immutables import Map
 
+from engine.brush.checks import thawed
 from engine.numeric.address import Rect
 from engine.painting.atomic import replacing
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, Redo, Undo, parse, to_json
@@ -37,7 +38,7 @@ class Header:
 
     def to_json(self) -> dict[str, Any]:
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
-        return {"inkfall": VERSION, "frame": frame, "seed": self.seed, **self.extra}
+        return {"inkfall": VERSION, "frame": frame, "seed": self.seed, **thawed(self.extra)}
 
 
 @dataclass(frozen=True, slots=True)

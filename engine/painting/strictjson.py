@@ -14,6 +14,7 @@ from typing import Any
 
 from immutables import Map
 
+from engine.brush.checks import frozen
 from engine.painting.fault import shown
 
 BYTES_CAP = 8 << 20  # of one line or document
@@ -195,8 +196,8 @@ class Fields:
         return tuple(value)
 
     def rest(self) -> Map:
-        """The members that were not read: kept, so that what a newer version wrote survives."""
-        return Map({name: value for name, value in self._members.items() if name not in self._asked})
+        """The members that were not read, frozen: kept, so that what a newer version wrote survives."""
+        return frozen({name: value for name, value in self._members.items() if name not in self._asked})
 
 
 def is_integer(value: Any) -> bool:

@@ -120,4 +120,4 @@ def test_fields_keep_what_nobody_asked_for():
     assert members.integer("a", lo=0, hi=5) == 1
     assert members.number("b", lo=0, hi=5) == 2.5
     assert members.number("missing", 4.0, lo=0, hi=5) == 4.0
-    assert dict(members.rest()) == {"later": [1, 2]}
+    assert dict(members.rest()) == {"later": (1, 2)}
