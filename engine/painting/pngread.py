@@ -27,6 +27,7 @@ ADAM7 = (
     (0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2),
 )  # fmt: skip
 STRIP = 1 << 20
+FOREIGN_PROFILE = "its colour profile is not applied"
 
 
 @dataclass(frozen=True)
@@ -164,7 +165,8 @@ class PngReader:
         palette, transparency = found_before.get(b"PLTE", b""), found_before.get(b"tRNS", b"")
         if colour == 3 and not palette:
             raise self._fail("image data before the palette; expected chunk PLTE")
-        notes = ("its colour profile is not applied",) if b"iCCP" in found_before else ()
+        title = found_before.get(b"iCCP", b"sRGB").split(b"\0")[0]
+        notes = () if b"sRGB" in title else (FOREIGN_PROFILE,)
         return Header(width, height, depth, colour, interlace == 1, palette, transparency, notes)
 
     def _check_size(self, width: int, height: int) -> None:
@@ -191,9 +193,10 @@ class PngReader:
             elif not kind[0] & 0x20:
                 raise self._fail(f"chunk {kind.decode()}: a kind that must be understood, and is not known")
             else:
-                self._skip(kind, length)
                 if kind == b"iCCP":
-                    kept[kind] = b""
+                    kept[kind] = self._exactly(min(length, 80), "chunk iCCP")
+                    length -= len(kept[kind])
+                self._skip(kind, length)
 
     def _check_body(self, kind: bytes, data: bytes, colour: int) -> None:
         if kind == b"PLTE":
