@@ -22,7 +22,7 @@ from engine.canvas.front import (
     store,
     tile_bounds,
 )
-from engine.canvas.store import Change, Pyramid
+from engine.canvas.store import Change, Level, Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import Planes
 
@@ -73,15 +73,12 @@ def _reader(pyramid: Pyramid, level: int, cache: TileCache | None) -> Callable[[
 
 def _climb_to_the_top(pyramid: Pyramid, front: Front, records: NewRecords, cache: TileCache | None) -> None:
     """Store this level's residuals and all coarser ones', up to where nothing changes any more."""
-    olds = climbs(pyramid, front, cache)
-    here, around = next(olds)
-    while True:
-        above, around_above = next(olds)
-        parent = climbed(front, above, around_above)
-        store(pyramid, front, parent, (here, around), (above, around_above), None, records)
+    for above in climbs(pyramid, front, cache):
+        parent = climbed(front, above)
+        store(pyramid, front, parent, above, None, records)
         if parent is None:
             return
-        front, here, around = parent, above, around_above
+        front = parent
 
 
 def _by_slabs(pyramid, edit, keys, records, keeps, cache) -> Rect:
@@ -105,15 +102,12 @@ def _by_slabs(pyramid, edit, keys, records, keeps, cache) -> Rect:
 
 def _climb_slab(pyramid, front: Front, slab: Rect, records: NewRecords, cache) -> Front | None:
     """Three levels up within one square; residuals only of its own tiles.  Returns what is left for all together."""
-    olds = climbs(pyramid, front, cache)
-    here, around = next(olds)
-    for j in range(_SLAB_LEVELS):
-        above, around_above = next(olds)
-        parent = climbed(front, above, around_above)
-        store(pyramid, front, parent, (here, around), (above, around_above), slab.zoomed(-j), records)
+    for j, above in zip(range(_SLAB_LEVELS), climbs(pyramid, front, cache), strict=False):
+        parent = climbed(front, above)
+        store(pyramid, front, parent, above, slab.zoomed(-j), records)
         if parent is None:
             return None
-        front, here, around = parent, above, around_above
+        front = parent
     return cut_front(front, slab.zoomed(-_SLAB_LEVELS))
 
 
@@ -155,7 +149,7 @@ def _with_records(pyramid: Pyramid, level: int, rect: Rect, keeps: Keeps | None,
     levels = pyramid.levels
     for k, keys in by_level.items():
         stored = levels.get(k)
-        editable = stored.mutate() if stored is not None else type(levels)().mutate()
+        editable = (Level() if stored is None else stored).mutate()
         _write(editable, keys, records)
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)

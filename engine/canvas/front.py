@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ class Front:
     @property
     def bounds(self) -> Rect:
         """The smallest rectangle of the level that holds every marked pixel."""
-        rows, columns = self.changed.any(1).nonzero()[0], self.changed.any(0).nonzero()[0]
+        rows, columns = np.flatnonzero(self.changed.any(1)), np.flatnonzero(self.changed.any(0))
         if not rows.size:
             return Rect(0, 0, 0, 0)
         x, y = self.rect.x0, self.rect.y0
@@ -111,12 +112,20 @@ def halved(rect: Rect) -> Rect:
     return rect.zoomed(-1).evened()
 
 
-def climbs(pyramid: Pyramid, front: Front, cache: TileCache | None) -> Iterator[tuple[Rect, Planes | None]]:
-    """The old values around a change, level after level upwards from its own: rectangles two pixels wider than it.
+@dataclass(frozen=True, eq=False, slots=True)
+class Surroundings:
+    """Old values of a level around a change: `planes` over `rect`, None where nothing lies."""
+
+    rect: Rect
+    planes: Planes | None
+
+
+def climbs(pyramid: Pyramid, front: Front, cache: TileCache | None) -> Iterator[Surroundings]:
+    """What lies around a change at the levels above its own, upwards: rectangles two pixels wider than it.
 
     They are computed downwards in one cascade, a dozen levels at a time.
     """
-    at, level = front.rect, front.level
+    at, level = halved(front.rect), front.level - 1
     while True:
         rects = []
         for _ in range(_CLIMBS):
@@ -127,12 +136,13 @@ def climbs(pyramid: Pyramid, front: Front, cache: TileCache | None) -> Iterator[
         for j in range(_CLIMBS - 2, -1, -1):
             value = step(pyramid, value, rects[j + 1], level - j, rects[j])
             values.append(value)
-        yield from zip(rects, reversed(values), strict=True)
+        yield from map(Surroundings, rects, reversed(values))
         level -= _CLIMBS
 
 
-def climbed(front: Front, around: Rect, old: Planes | None) -> Front | None:
-    """Rule U: the front one level up, None when nothing changes there.  `old` covers `around`."""
+def climbed(front: Front, above: Surroundings) -> Front | None:
+    """Rule U: the front one level up, None when nothing changes there."""
+    around, old = above.rect, above.planes
     children = front.rect.zoomed(-1)
     at = children.evened()
     whole = old if old is not None else Planes.empty(around.height, around.width)
@@ -164,10 +174,10 @@ def cut_front(front: Front, rect: Rect) -> Front | None:
     if at.empty:
         return None
     window = at.slices(front.rect)
-    return Front(
-        front.level, at, widened(front.old.cut(*window), front.old.inks), widened(front.new.cut(*window), front.new.inks),
-        np.ascontiguousarray(front.keep[window]), np.ascontiguousarray(front.changed[window]),
-    )  # fmt: skip
+    old = widened(front.old.cut(*window), front.old.inks)
+    new = widened(front.new.cut(*window), front.new.inks)
+    keep, changed = np.ascontiguousarray(front.keep[window]), np.ascontiguousarray(front.changed[window])
+    return Front(front.level, at, old, new, keep, changed)
 
 
 def joined(pyramid: Pyramid, fronts: Sequence[Front], cache: TileCache | None) -> Front:
@@ -193,88 +203,91 @@ def joined(pyramid: Pyramid, fronts: Sequence[Front], cache: TileCache | None) -
 
 
 def store(
-    pyramid: Pyramid,
-    front: Front,
-    parent: Front | None,
-    here: tuple[Rect, Planes | None],
-    above: tuple[Rect, Planes | None],
-    inside: Rect | None,
-    records: NewRecords,
+    pyramid: Pyramid, front: Front, parent: Front | None, above: Surroundings, inside: Rect | None, records: NewRecords
 ) -> None:
     """New residuals of the front's level: v' - expand(v' of the parents) - texture(ink'), on touched pixels.
 
-    Touched is what the front marks, and the children of every parent that changed.  `here` and `above` are the old
-    values of both levels around it; only tiles that meet `inside` are written (None: all).
+    Touched is what the front marks, and the children of every parent that changed.  `above` holds the old values of
+    the parents around it; only tiles that meet `inside` are written (None: all).
     """
-    rect, old = here
-    parent_rect, parent_old = above
-    value = _pasted(old, rect, front)
-    parents = _pasted(parent_old, parent_rect, parent)
-    inks = merged(value.inks, parents.inks)
-    value, parents = widened(value, inks), widened(parents, inks)
-    touched = np.zeros((rect.height, rect.width), np.uint8)
-    touched[front.rect.slices(rect)] = front.changed
-    corner = rect.parents()
-    top, left = corner.y0 - parent_rect.y0, corner.x0 - parent_rect.x0
+    parents = _pasted(above, parent)
+    marks = np.zeros((above.rect.height, above.rect.width), np.uint8)
     if parent is not None:
-        marks = np.zeros((parent_rect.height, parent_rect.width), np.uint8)
         part = np.zeros_like(parent.changed)
         kernels.differs(parent.old.data, parent.new.data, part)
-        marks[parent.rect.slices(parent_rect)] = part
-        kernels.spread(marks, top, left, touched)
-    predicted = np.empty_like(value.data)
-    expand_into(parents.data, top, left, np.arange(value.data.shape[0]), predicted, 0, rect.height)
-    add_texture(predicted, value, front.level, rect)
-    for key in rect.tiles(front.level):
+        marks[parent.rect.slices(above.rect)] = part
+    around = front.rect.grown(2)
+    for key in around.tiles(front.level):
         if inside is None or key.rect.meets(inside):
-            _store_tile(pyramid, key, rect, value, predicted, touched, records)
+            part_at = key.rect.intersect(around)
+            touched = _touched(front, part_at, marks, above.rect)
+            if touched is not None:
+                value = _value(pyramid, front, part_at, above)
+                record = _residual(pyramid, key, part_at, value, touched, Surroundings(above.rect, parents))
+                if record is not _SAME:
+                    records[key] = record
 
 
-def _pasted(old: Planes | None, rect: Rect, front: Front | None) -> Planes:
-    """The new values around a front: its own inside, the old ones elsewhere."""
-    whole = old if old is not None else Planes.empty(rect.height, rect.width)
-    if front is None:
+_SAME: Any = object()
+
+
+def _touched(front: Front, part: Rect, marks: np.ndarray, marks_at: Rect) -> np.ndarray | None:
+    """The touched pixels of `part`, uint8 (h, w); None if there are none."""
+    touched = np.zeros((part.height, part.width), np.uint8)
+    common = part.intersect(front.rect)
+    if not common.empty:
+        touched[common.slices(part)] = front.changed[common.slices(front.rect)]
+    corner = part.parents()
+    kernels.spread(marks, corner.y0 - marks_at.y0, corner.x0 - marks_at.x0, touched)
+    return touched if kernels.any_set(touched) else None
+
+
+def _value(pyramid: Pyramid, front: Front, part: Rect, above: Surroundings) -> Planes:
+    """The new values of `part`: the front's inside its rectangle, the old ones elsewhere."""
+    if part.intersect(front.rect) == part:
+        return widened(front.new.cut(*part.slices(front.rect)), front.new.inks)
+    return _pasted(Surroundings(part, step(pyramid, above.planes, above.rect, front.level, part)), front)
+
+
+def _pasted(around: Surroundings, front: Front | None) -> Planes:
+    rect = around.rect
+    whole = around.planes if around.planes is not None else Planes.empty(rect.height, rect.width)
+    common = Rect(0, 0, 0, 0) if front is None else front.rect.intersect(rect)
+    if front is None or common.empty:
         return whole
     inks = merged(whole.inks, front.new.inks)
     out = widened(whole, inks).data.copy()
-    rows, columns = front.rect.slices(rect)
-    out[:, rows, columns] = widened(front.new, inks).data
+    rows, columns = common.slices(rect)
+    out[:, rows, columns] = widened(front.new.cut(*common.slices(front.rect)), inks).data
     return Planes(out, inks)
 
 
-def _store_tile(pyramid, key, rect: Rect, value: Planes, predicted, touched, records: NewRecords) -> None:
-    part = key.rect.intersect(rect)
-    top, left = part.y0 - rect.y0, part.x0 - rect.x0
-    if not kernels.any_set(touched, top, left, part.height, part.width):
-        return
+def _residual(
+    pyramid: Pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Surroundings
+) -> Record | None:
+    """The new record of a tile whose values of `part` became `value`; `_SAME` if the one it has still holds."""
+    assert parents.planes is not None
     stored = pyramid.levels.get(key.level)
     old = stored.get((key.x, key.y)) if stored is not None else None
-    at, inks = part, value.inks
+    at, inks = part, merged(value.inks, parents.planes.inks)
     if old is not None:
         old = effective(pyramid, key, old)
-        at, inks = part.union(placed(key, old.rect)), merged(value.inks, old.inks)
-    before = np.zeros((COLOURS + 3 * len(inks), at.height, at.width), np.int32)
+        at, inks = part.union(placed(key, old.rect)), merged(inks, old.inks)
+    value = widened(value, inks)
+    corner = part.parents()
+    predicted = np.empty_like(value.data)
+    expand_into(
+        parents.planes.data, corner.y0 - parents.rect.y0, corner.x0 - parents.rect.x0,
+        plane_map(parents.planes.inks, inks), predicted, 0, part.height,
+    )  # fmt: skip
+    add_texture(predicted, value, key.level, part)
+    data = np.zeros((COLOURS + 3 * len(inks), at.height, at.width), np.int32)
     if old is not None:
         rows, columns = placed(key, old.rect).slices(at)
         for c, source in enumerate(plane_map(old.inks, inks)):
             if source >= 0:
-                before[c, rows, columns] = old.data[source]
-    after = before.copy()
-    if inks == value.inks:
-        kernels.residual(
-            value.data, predicted, touched, top, left, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width, after
-        )
-    else:
-        window = part.slices(rect)
-        wide, wide_predicted = (
-            widened(value.cut(*window), inks),
-            widened(Planes(predicted, value.inks).cut(*window), inks),
-        )
-        mask = np.ascontiguousarray(touched[window])
-        kernels.residual(
-            wide.data, wide_predicted.data, mask, 0, 0, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width, after
-        )
-    if not np.array_equal(before, after):
-        x, y = key.x * TILE, key.y * TILE
-        local = Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y)
-        records[key] = compact(local, after, inks, pyramid.depth + 1)
+                data[c, rows, columns] = old.data[source]
+    if not kernels.residual(value.data, predicted, touched, part.y0 - at.y0, part.x0 - at.x0, data):
+        return _SAME
+    x, y = key.x * TILE, key.y * TILE
+    return compact(Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y), data, inks, pyramid.depth + 1)

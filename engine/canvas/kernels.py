@@ -42,7 +42,7 @@ def clamp_alpha(out, first, last):
 
 @njit(cache=True, nogil=True)
 def add_residual(out, top, left, data, row, column, height, width, planes):
-    """out[:, top:, left:] += data * 2^-16 over height x width; `planes[c]` is the plane of `data` for plane c, or -1."""
+    """out[:, top:, left:] += data * 2^-16 over height x width; plane c comes from `data[planes[c]]`, -1 for none."""
     for c in range(out.shape[0]):
         source = planes[c]
         if source < 0:
@@ -184,22 +184,25 @@ def spread(parents, top, left, out):
 
 
 @njit(cache=True, nogil=True)
-def residual(value, predicted, touched, row, column, top, left, height, width, out):
-    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched, over height x width pixels that
-    start at (row, column) of `value`, `predicted` (C, h, w) and `touched` (h, w)."""
+def residual(value, predicted, touched, top, left, out):
+    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched: `value`, `predicted` float32
+    (C, h, w), `touched` uint8 (h, w).  Returns whether that changed `out`."""
+    width = touched.shape[1]
+    changed = np.int32(0)
     for c in range(value.shape[0]):
-        for y in range(height):
-            v = value[c, row + y][column : column + width]
-            p = predicted[c, row + y][column : column + width]
-            t = touched[row + y][column : column + width]
+        for y in range(touched.shape[0]):
+            v, p, t = value[c, y], predicted[c, y], touched[y]
             o = out[c, top + y][left : left + width]
             for i in range(width):
-                o[i] = np.int32((v[i] - p[i]) * _COUNT) if t[i] else o[i]
+                new = np.int32((v[i] - p[i]) * _COUNT) if t[i] else o[i]
+                changed |= new ^ o[i]
+                o[i] = new
+    return changed != 0
 
 
 @njit(cache=True, nogil=True)
 def extent(data):
-    """Of int32 (C, h, w): the largest absolute value, and the rows and columns [y0, y1) x [x0, x1) that are not zero."""
+    """Of int32 (C, h, w): the largest absolute value, and the extent y0, y1, x0, x1 of what is not zero."""
     largest = np.int32(0)
     y0, y1, x0, x1 = data.shape[1], 0, data.shape[2], 0
     columns = np.zeros(data.shape[2], np.int32)
@@ -221,12 +224,12 @@ def extent(data):
 
 
 @njit(cache=True, nogil=True)
-def any_set(mask, top, left, height, width):
-    """Whether any of height x width entries of the uint8 `mask` from (top, left) is set."""
-    for y in range(height):
-        row = mask[top + y][left : left + width]
+def any_set(mask):
+    """Whether any entry of the uint8 `mask` (h, w) is set."""
+    for y in range(mask.shape[0]):
+        row = mask[y]
         found = np.uint8(0)
-        for i in range(width):
+        for i in range(row.size):
             found |= row[i]
         if found:
             return True

@@ -48,8 +48,8 @@ class Record:
 class Change:
     """One commit, linked to the one before.
 
-    `level`, `rect`: where pixels changed.  `keep`: A = 1 - alpha at that level by tile, float32 (128, 128), 1 elsewhere;
-    None when no finer tile was stored under the stroke, so that nothing waits for it.
+    `level`, `rect`: where pixels changed.  `keep`: A = 1 - alpha at that level by tile, float32 (128, 128), 1
+    elsewhere; None when no finer tile was stored under the stroke, so that nothing waits for it.
     """
 
     level: int

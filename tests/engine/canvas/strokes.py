@@ -24,8 +24,8 @@ class Grain:
         return ("grain", self.base, self.seed)
 
     def whole(self, level, x, y, width, height):
-        xs = ((np.arange(width) + x) % 65521).astype(np.uint64)[None, :]
-        ys = ((np.arange(height) + y) % 65521).astype(np.uint64)[:, None]
+        xs = ((np.arange(width) + x % 65521) % 65521).astype(np.uint64)[None, :]
+        ys = ((np.arange(height) + y % 65521) % 65521).astype(np.uint64)[:, None]
         h = (xs * np.uint64(2654435761) ^ ys * np.uint64(40503) ^ np.uint64(self.seed * 7919 + level + 64)) * np.uint64(
             0x9E3779B97F4A7C15
         )

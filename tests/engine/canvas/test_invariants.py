@@ -1,0 +1,241 @@
+"""The invariants of the pyramid that a dense reference does not show: depth, locality, ghosts, range, width."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strokes import ArrayEdit, Grain, random_stroke, solid, spread_planes
+
+from engine.canvas.commit import commit
+from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.fold import fold
+from engine.canvas.kernels import attenuate
+from engine.canvas.store import Pyramid
+from engine.numeric.address import Rect
+from engine.numeric.pyramid import reduce
+
+INKS = (Grain(0, 1), Grain(1, 2))
+COUNT = 65536.0
+
+
+def painted(seed, count=25, finest=4, half=12, inks=INKS):
+    rng = np.random.default_rng(seed)
+    pyramid = Pyramid()
+    for _ in range(count):
+        m, x, y, keep, add = random_stroke(rng, finest, half, inks)
+        pyramid = commit(pyramid, ArrayEdit(m, x, y, keep, add, inks))
+    return pyramid
+
+
+def around(pyramid, level, half=12, cache=None):
+    h = half << max(level, 0)
+    return spread_planes(evaluate(pyramid, level, Rect(-h, -h, h, h), cache), INKS)
+
+
+def fill(level, x, y, width, height, colour=(0.6, 0.2, 0.4), alpha=1.0):
+    return ArrayEdit(level, x, y, *solid(width, height, colour, alpha))
+
+
+def test_a_thousand_visits_with_evictions_change_nothing_and_store_nothing():
+    pyramid = painted(1)
+    wanted = {k: around(pyramid, k) for k in range(-3, 6)}
+    rng, cache = np.random.default_rng(2), TileCache(8 << 20)
+    before = [record for _, record in pyramid.all_records()]
+    for n in range(1000):
+        k = int(rng.integers(-4, 6))
+        reach = 14 << max(k, 0)
+        evaluate(pyramid, k, Rect.at(*(int(v) for v in rng.integers(-reach, reach, 2)), 9, 7), cache)
+        if n % 100 == 0:
+            cache.clear()
+    assert all((around(pyramid, k, cache=cache) == v).all() for k, v in wanted.items())
+    assert [record for _, record in pyramid.all_records()] == before
+
+
+@pytest.mark.parametrize("level", [0, 2, 4])
+def test_an_opaque_fill_leaves_no_ghost_at_any_level(level):
+    pyramid = painted(5 + level)
+    half = 10 << level
+    after = commit(pyramid, fill(level, -half, -half, 2 * half, 2 * half))
+    colour = (np.rint(np.array([0.6, 0.2, 0.4, 1.0]) * COUNT) / COUNT)[:, None, None]
+    for k in range(-3, level + 3):
+        h = half >> (level - k) if k <= level else (half - 2) << (k - level)
+        if h:
+            got = evaluate(after, k, Rect(-h, -h, h, h))
+            assert (got.rgba == colour).all(), k
+            assert not got.data[4:].any(), k
+
+
+def test_a_stroke_without_alpha_is_no_stroke():
+    pyramid = painted(3)
+    nothing = ArrayEdit(3, 5, 5, np.ones((9, 9), np.float32), np.zeros((4, 9, 9), np.float32))
+    assert commit(pyramid, nothing) is pyramid
+
+
+@settings(deadline=None, max_examples=12)
+@given(
+    seed=st.integers(0, 99), level=st.integers(0, 4), x=st.integers(-40, 40), y=st.integers(-40, 40),
+    width=st.integers(1, 30), height=st.integers(1, 30), alpha=st.sampled_from([0.02, 0.5, 0.9, 1.0]),
+)  # fmt: skip
+def test_only_the_stated_rectangles_change_and_undo_restores_them(seed, level, x, y, width, height, alpha):
+    pyramid = painted(seed % 4)
+    after = commit(pyramid, fill(level, x, y, width, height, alpha=alpha))
+    for k in range(-2, 7):
+        before, now = around(pyramid, k), around(after, k)
+        ys, xs = (before != now).any(0).nonzero()
+        h = 12 << max(k, 0)
+        rect = Rect.at(x, y, width, height)
+        allowed = rect.zoomed(k - level) if k <= level else rect.grown(2).zoomed(k - level)
+        if ys.size:
+            assert Rect(xs.min() - h, ys.min() - h, xs.max() + 1 - h, ys.max() + 1 - h).union(allowed) == allowed, k
+        if k == level:
+            outside = np.ones(before.shape[1:], bool)
+            inside = rect.intersect(Rect(-h, -h, h, h))
+            if not inside.empty:
+                outside[inside.slices(Rect(-h, -h, h, h))] = False
+            assert (before[:, outside] == now[:, outside]).all()
+
+
+def test_neighbours_of_two_hundred_fine_strokes_do_not_drift():
+    pyramid = commit(Pyramid(), fill(0, -32, -32, 64, 64))
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        x, y, w, h = (int(rng.integers(*r)) for r in ((0, 40), (0, 40), (1, 6), (1, 6)))
+        pyramid = commit(pyramid, fill(3, x, y, w, h, tuple(rng.random(3)), float(rng.choice([1.0, 0.3]))))
+    got = evaluate(pyramid, 3, Rect(-100, -100, 200, 200)).data
+    outside = np.ones((300, 300), bool)
+    outside[100:146, 100:146] = False
+    first = got[:, 0, 0][:, None]
+    assert (got[:, outside] == first).all()
+
+
+def test_a_faint_fine_dab_over_a_hard_coarse_edge_does_not_make_it_pop():
+    pyramid = commit(commit(Pyramid(), fill(0, 0, 0, 64, 64, (1, 1, 1))), fill(0, 0, 0, 31, 64, (0, 0, 0)))
+    before = evaluate(pyramid, 0, Rect(0, 0, 64, 64)).data
+    after = commit(pyramid, fill(2, 96, 96, 64, 64, (0.5, 0.5, 0.5), 0.01))
+    change = np.abs(evaluate(after, 0, Rect(0, 0, 64, 64)).data - before).max()
+    assert 0 < change < 0.0052
+
+
+def test_popping_is_bounded_by_the_change_below_and_the_part_that_stays():
+    pyramid = painted(11, inks=())
+    m, h = 3, 12 << 3
+    rng = np.random.default_rng(1)
+    for _ in range(8):
+        x, y, w, t = (int(v) for v in (*rng.integers(-60, 20, 2), *rng.integers(5, 40, 2)))
+        alpha = float(rng.choice([0.05, 0.4, 1.0]))
+        after = commit(pyramid, fill(m, x, y, w, t, tuple(rng.random(3)), alpha))
+        views = {k: Rect(-h, -h, h, h).zoomed(k - m) for k in range(m + 1)}
+        values = {k: [evaluate(p, k, view).data for p in (pyramid, after)] for k, view in views.items()}
+        keep = np.ones((1, 2 * h, 2 * h), np.float32)
+        keep[0, y + h : y + h + t, x + h : x + h + w] = 1 - np.rint(alpha * COUNT) / COUNT
+        for k in range(m - 1, -1, -1):
+            keep = reduce(keep)
+            (fine_before, fine_after), (before, now) = values[k + 1], values[k]
+            # A_j weighs what the coarse level knows and the fine one does not: that part alone may be lost.
+            bound = reduce(np.abs(fine_after - fine_before)) + (1 - keep) * np.abs(before - reduce(fine_before))
+            assert (np.abs(now - before) - bound).max() <= 4 / COUNT
+        pyramid = after
+
+
+def test_many_strokes_each_below_the_grid_add_up():
+    pyramid = Pyramid()
+    for i in range(32):
+        for j in range(32):
+            pyramid = commit(pyramid, fill(12, 64 * i, 64 * j, 1, 1, (1.0, 1.0, 1.0)))
+    assert evaluate(pyramid, 1, Rect(0, 0, 1, 1)).data[0, 0, 0] * COUNT == 16
+
+
+def test_alpha_stays_within_0_and_1():
+    for seed in range(4):
+        pyramid = painted(20 + seed)
+        for k in range(-3, 7):
+            alpha = around(pyramid, k)[3]
+            assert alpha.min() >= 0
+            assert alpha.max() <= 1
+
+
+@pytest.mark.parametrize("level", [60, 200])
+def test_painting_at_great_depth_works_as_at_level_0(level):
+    pyramid = painted(2)
+    x, y = (1 << (level - 1)) * 5 // 3, (1 << (level - 1)) * 7 // 5
+    view = Rect.at(x, y, 32, 32)
+    before = evaluate(pyramid, level, view).data
+    at_0 = around(pyramid, 0)
+    after = commit(pyramid, fill(level, x + 5, y + 5, 20, 20))
+    levels = [k for k, records in after.levels.items() if records is not pyramid.levels.get(k)]
+    assert len(levels) <= 15
+    now = spread_planes(evaluate(after, level, view), INKS)
+    inside = np.zeros((32, 32), bool)
+    inside[5:25, 5:25] = True
+    assert (now[:3, inside] == (np.rint(np.array([0.6, 0.2, 0.4]) * COUNT) / COUNT)[:, None]).all()
+    wide = spread_planes(evaluate(pyramid, level, view), INKS)
+    assert (now[:, ~inside] == wide[:, ~inside]).all()
+    assert (around(after, 0) == at_0).all()
+    deeper = evaluate(after, level + 60, Rect.at((x + 15) << 60, (y + 15) << 60, 40, 40)).rgba
+    assert (deeper == deeper[:, :1, :1]).all()
+    assert (evaluate(pyramid, level, view).data == before).all()
+
+
+def test_a_canvas_two_to_the_forty_pixels_wide():
+    pyramid = Pyramid()
+    for place in (0, 1 << 40, -(1 << 40)):
+        pyramid = commit(pyramid, fill(0, place - 5, place - 7, 10, 14))
+    for place in (0, 1 << 40, -(1 << 40)):
+        got = evaluate(pyramid, 0, Rect.at(place - 6, place - 8, 12, 16)).data
+        assert got[3, 1:-1, 1:-1].min() == 1
+        assert got[3].sum() == 140
+    assert pyramid.nbytes < 1 << 20
+
+
+def test_translation_by_the_coarsest_pixel_translates_the_result():
+    shift = 1 << 20
+    rng = np.random.default_rng(4)
+    plain, moved = Pyramid(), Pyramid()
+    for _ in range(10):
+        m, x, y, keep, add = random_stroke(rng, 3, 12, ())
+        plain = commit(plain, ArrayEdit(m, x, y, keep, add))
+        moved = commit(moved, ArrayEdit(m, x + (shift << m), y - (shift << m), keep, add))
+    for k in range(-8, 5):
+        h = 12 << max(k, 0)
+        by = shift << k if k >= 0 else shift >> -k
+        a = evaluate(plain, k, Rect(-h, -h, h, h)).data
+        b = evaluate(moved, k, Rect(by - h, -by - h, by + h, -by + h)).data
+        assert (a == b).all()
+
+
+def test_materialised_and_folded_records_change_nothing():
+    pyramid = painted(7)
+    wanted = {k: around(pyramid, k) for k in range(-3, 6)}
+    folded = fold(pyramid)
+    assert all((around(folded, k) == v).all() for k, v in wanted.items())
+
+
+def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts():
+    """Large edits are worked on in squares; the pixels are those of one edit done at once."""
+    rng = np.random.default_rng(8)
+    height, width = 2300, 2700
+    alpha = np.zeros((height, width), np.float32)
+    for _ in range(60):
+        x, y, w, h = (int(rng.integers(*r)) for r in ((0, 2500), (0, 2100), (4, 300), (4, 300)))
+        alpha[y : y + h, x : x + w] = np.rint(rng.random() * COUNT) / COUNT
+    add = np.rint(alpha * np.array([0.3, 0.9, 0.5, 1.0], np.float32)[:, None, None] * COUNT).astype(np.float32) / COUNT
+    base = painted(9, inks=())
+    edit = ArrayEdit(2, -1111, -903, 1 - alpha, add)
+    import engine.canvas.commit as module
+
+    by_slabs = commit(base, edit)
+    limit, module._AT_ONCE = module._AT_ONCE, 1 << 40
+    try:
+        at_once = commit(base, edit)
+    finally:
+        module._AT_ONCE = limit
+    assert [(k, r.rect) for k, r in by_slabs.all_records()] == [(k, r.rect) for k, r in at_once.all_records()]
+    pairs = zip(by_slabs.all_records(), at_once.all_records(), strict=True)
+    assert all((a.data == b.data).all() for (_, a), (_, b) in pairs)
+
+
+def test_attenuation_rounds_to_the_grid():
+    data = np.array([[[3, -3, 1000, -70000]]], np.int32)
+    out = np.empty_like(data)
+    attenuate(data, np.full((1, 4), 0.5, np.float32), out)
+    assert out.tolist() == [[[2, -2, 500, -35000]]]
