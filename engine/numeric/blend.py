@@ -313,6 +313,30 @@ def place(target, source, opacity):
 
 
 @njit(cache=True, nogil=True)
+def place_pair(target, lower, upper, lower_opacity, upper_opacity):
+    """`place` of one source, then `src-over` of another, with the same bits, in one pass over memory."""
+    for i in range(target.shape[1]):
+        la, ua = _clamp(lower[3, i], ONE), _clamp(upper[3, i], ONE)
+        keep = ONE - upper_opacity * ua
+        for c in range(3):
+            below = lower_opacity * _clamp(lower[c, i], la)
+            target[c, i] = upper_opacity * _clamp(upper[c, i], ua) + keep * below
+        target[3, i] = upper_opacity * ua + keep * (lower_opacity * la)
+
+
+@njit(cache=True, nogil=True)
+def over_pair(backdrop, lower, upper, lower_opacity, upper_opacity):
+    """`src-over` of two sources, one after the other, with the same bits, in one pass over memory."""
+    for i in range(backdrop.shape[1]):
+        la, ua = _clamp(lower[3, i], ONE), _clamp(upper[3, i], ONE)
+        bare, keep = ONE - lower_opacity * la, ONE - upper_opacity * ua
+        for c in range(3):
+            below = lower_opacity * _clamp(lower[c, i], la) + bare * backdrop[c, i]
+            backdrop[c, i] = upper_opacity * _clamp(upper[c, i], ua) + keep * below
+        backdrop[3, i] = upper_opacity * ua + keep * (lower_opacity * la + bare * backdrop[3, i])
+
+
+@njit(cache=True, nogil=True)
 def opaque(source):
     """Whether alpha is at least 1 everywhere in (4, n); stops in the first run of 1024 pixels where it is not."""
     n = source.shape[1]
@@ -332,8 +356,10 @@ def flat(planes: np.ndarray) -> np.ndarray:
 
     Always read-only, so that each kernel is compiled for one type.
     """
-    rows = np.ascontiguousarray(planes, np.float32).reshape(4, -1).view()
-    rows.flags.writeable = False
+    rows = planes.reshape(4, -1)
+    if not rows.flags.c_contiguous or rows.dtype != np.float32:
+        rows = np.ascontiguousarray(rows, np.float32)
+    rows.setflags(write=False)
     return rows
 
 

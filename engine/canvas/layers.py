@@ -1,0 +1,334 @@
+"""The tree of layers: frozen records and the functions that make a changed tree from one.
+
+A painting's layers hang under one root `Group`, which is never shown by name.  `children[0]` is the bottom-most.  Names
+are unique in the whole tree, because commands refer to layers by name.  Every function returns a new root that shares
+all untouched parts with the old one; errors are `LayerError`, one line with what was found and what was expected.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from engine.canvas.store import Pyramid
+from engine.numeric.blend import BLENDS
+
+MAX_DEPTH = 32  # groups inside one another, the root not counted
+MAX_NAME = 200  # characters
+
+
+class LayerError(ValueError):
+    """A layer command that cannot be done; the message is one line for the artist or the script's author."""
+
+
+def _check(name: str, what: str, found: object, right: bool, expected: str) -> None:
+    if not right:
+        raise LayerError(f"layer {name!r}: {what}: found {found!r}, expected {expected}")
+
+
+def _check_name(name: object) -> None:
+    shown = isinstance(name, str) and 0 < len(name) <= MAX_NAME and name.isprintable() and name.strip() == name
+    if not shown:
+        text = repr(name)
+        text = text if len(text) <= 60 else text[:57] + "..."
+        raise LayerError(
+            f"layer name: found {text}, expected 1 to {MAX_NAME} printable characters, no blanks around them"
+        )
+
+
+def _check_common(node: Layer | Group) -> None:
+    _check_name(node.name)
+    opacity = node.opacity
+    number = isinstance(opacity, int | float) and not isinstance(opacity, bool) and math.isfinite(opacity)
+    _check(node.name, "opacity", opacity, number and 0 <= opacity <= 1, "a number from 0 to 1")
+    _check(node.name, "blend", node.blend, node.blend in BLENDS, "one of " + ", ".join(BLENDS))
+
+
+def _check_flags(node: Layer | Group, names: Sequence[str]) -> None:
+    for name in names:
+        value = getattr(node, name)
+        _check(node.name, name, value, isinstance(value, bool), "true or false")
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One sheet of paint.
+
+    `id`: a number that stays when the layer is renamed, unique in its painting, used in files.  `opacity`: 0..1.
+    `blend`: a row of `BLENDS`.  `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
+    """
+
+    id: int
+    name: str
+    opacity: float = 1.0
+    visible: bool = True
+    blend: str = "src-over"
+    locked: bool = False
+    alpha_locked: bool = False
+    pyramid: Pyramid = field(default_factory=Pyramid)
+
+    def __post_init__(self) -> None:
+        _check_common(self)
+        _check_flags(self, ("visible", "locked", "alpha_locked"))
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Layers and groups composited as one.  `isolated`: see `passes_through`.  `locked` locks all that is inside."""
+
+    id: int
+    name: str
+    opacity: float = 1.0
+    visible: bool = True
+    blend: str = "src-over"
+    locked: bool = False
+    isolated: bool = True
+    children: tuple[Node, ...] = ()
+
+    def __post_init__(self) -> None:
+        _check_common(self)
+        _check_flags(self, ("visible", "locked", "isolated"))
+
+
+Node = Layer | Group
+Trail = tuple[int, ...]  # positions from the root down to a node
+EMPTY = Group(0, "root")
+_SETTABLE = {
+    Layer: ("opacity", "visible", "blend", "locked", "alpha_locked"),
+    Group: ("opacity", "visible", "blend", "locked", "isolated"),
+}
+
+
+def passes_through(group: Group) -> bool:
+    """Whether the group's layers are composited directly onto what lies below the group.
+
+    OpenRaster's `isolation="auto"`: a group is isolated as soon as its opacity or operator need it as one picture.
+    """
+    return not group.isolated and group.opacity == 1 and group.blend == "src-over"
+
+
+def isolation(group: Group) -> str:
+    """The attribute `isolation` to write for the group: 'isolate' or 'auto'.
+
+    MyPaint 2 reads 'auto' by the rule of `passes_through`.  Krita 5 makes every group but `isolation="isolate"` a
+    pass-through one, whatever its opacity and operator, so 'auto' may be written only where the group passes through.
+    """
+    return "auto" if passes_through(group) else "isolate"
+
+
+# --- looking ---------------------------------------------------------------------------------------------------------
+
+
+def _trails(root: Group) -> Iterator[tuple[Trail, Node]]:
+    stack: list[tuple[Trail, Node]] = [((i,), child) for i, child in reversed(list(enumerate(root.children)))]
+    while stack:
+        trail, node = stack.pop()
+        yield trail, node
+        if isinstance(node, Group):
+            stack.extend(((*trail, i), child) for i, child in reversed(list(enumerate(node.children))))
+
+
+def walk(root: Group) -> Iterator[Node]:
+    """Every layer and group but the root, bottom first, a group before what it holds."""
+    return (node for _, node in _trails(root))
+
+
+def layers(root: Group) -> Iterator[Layer]:
+    """Every layer, bottom first."""
+    return (node for node in walk(root) if isinstance(node, Layer))
+
+
+def _locate(root: Group, name: str) -> tuple[Trail, Node]:
+    for trail, node in _trails(root):
+        if node.name == name:
+            return trail, node
+    known = [repr(node.name) for node in walk(root)]
+    listed = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "")
+    raise LayerError(
+        f"layer: found {name!r}, expected " + (f"one of {listed}" if known else "no name: there are no layers")
+    )
+
+
+def _at(root: Group, trail: Trail) -> Group:
+    """The group at a trail that is known to lead to one."""
+    node: Node = root
+    for i in trail:
+        assert isinstance(node, Group)
+        node = node.children[i]
+    assert isinstance(node, Group)
+    return node
+
+
+def find(root: Group, name: str) -> Node:
+    """The layer or group of that name."""
+    return _locate(root, name)[1]
+
+
+def has(root: Group, name: str) -> bool:
+    return any(node.name == name for node in walk(root))
+
+
+def place(root: Group, name: str) -> tuple[str | None, int]:
+    """(name of the group that holds it, None for the root; its position there, 0 = bottom)."""
+    trail, _ = _locate(root, name)
+    return (_at(root, trail[:-1]).name if len(trail) > 1 else None), trail[-1]
+
+
+def ancestors(root: Group, name: str) -> tuple[Group, ...]:
+    """The groups around a node, outermost first, without the root."""
+    trail, _ = _locate(root, name)
+    return tuple(_at(root, trail[:depth]) for depth in range(1, len(trail)))
+
+
+def is_locked(root: Group, name: str) -> bool:
+    """Whether the node or a group around it is locked."""
+    return find(root, name).locked or any(group.locked for group in ancestors(root, name))
+
+
+def is_shown(root: Group, name: str) -> bool:
+    """Whether the node and all groups around it are visible."""
+    return find(root, name).visible and all(group.visible for group in ancestors(root, name))
+
+
+def next_id(root: Group) -> int:
+    return 1 + max((node.id for node in walk(root)), default=0)
+
+
+def unique_name(root: Group, stem: str = "Layer") -> str:
+    """'Layer 1', 'Layer 2', ...: the first that is free."""
+    taken = {node.name for node in walk(root)}
+    return next(name for i in range(1, len(taken) + 2) if (name := f"{stem[: MAX_NAME - 12]} {i}") not in taken)
+
+
+def alone(node: Node) -> Group:
+    """A root that shows just this layer or group, as if it were visible, opaque and normal: thumbnails, exports."""
+    return replace(EMPTY, children=(replace(node, visible=True, opacity=1.0, blend="src-over"),))
+
+
+# --- changing --------------------------------------------------------------------------------------------------------
+
+Siblings = tuple[Node, ...]
+
+
+def _edited(group: Group, trail: Trail, edit: Callable[[Siblings], Siblings]) -> Group:
+    """The tree with the children of the group at `trail` replaced by `edit` of them."""
+    if not trail:
+        return replace(group, children=edit(group.children))
+    i = trail[0]
+    child = group.children[i]
+    assert isinstance(child, Group)
+    return replace(group, children=(*group.children[:i], _edited(child, trail[1:], edit), *group.children[i + 1 :]))
+
+
+def _group_trail(root: Group, group: str | None) -> Trail:
+    if group is None:
+        return ()
+    trail, node = _locate(root, group)
+    if not isinstance(node, Group):
+        raise LayerError(f"group: found {group!r}, which is a layer, expected a group")
+    return trail
+
+
+def _put(root: Group, node: Node, group: str | None, to: int | None) -> Group:
+    trail = _group_trail(root, group)
+    count = len(_at(root, trail).children)
+    to = count if to is None else to
+    right = isinstance(to, int) and not isinstance(to, bool) and 0 <= to <= count
+    _check(node.name, "position", to, right, f"an integer from 0 (bottom) to {count}")
+    return checked(_edited(root, trail, lambda siblings: (*siblings[:to], node, *siblings[to:])))
+
+
+def insert(root: Group, node: Node, group: str | None = None, to: int | None = None) -> Group:
+    """With `node` added to a group (None: the root) at position `to` among its children (0 = bottom; None: on top)."""
+    return _put(root, node, group, to)
+
+
+def remove(root: Group, name: str) -> Group:
+    """Without the node and all that it holds."""
+    trail, _ = _locate(root, name)
+    return _edited(root, trail[:-1], lambda siblings: (*siblings[: trail[-1]], *siblings[trail[-1] + 1 :]))
+
+
+def substitute(root: Group, name: str, node: Node) -> Group:
+    """With `node` in the place of the node of that name."""
+    trail, _ = _locate(root, name)
+    i = trail[-1]
+    return checked(_edited(root, trail[:-1], lambda siblings: (*siblings[:i], node, *siblings[i + 1 :])))
+
+
+def set_fields(root: Group, name: str, /, **fields: Any) -> Group:
+    """With properties changed: opacity, visible, blend, locked; alpha_locked of a layer, isolated of a group."""
+    node = find(root, name)
+    settable = _SETTABLE[type(node)]
+    for key in fields:
+        _check(name, "property", key, key in settable, "one of " + ", ".join(settable))
+    return substitute(root, name, replace(node, **fields))
+
+
+def rename(root: Group, name: str, to: str) -> Group:
+    return substitute(root, name, replace(find(root, name), name=to))
+
+
+def with_pyramid(root: Group, name: str, pyramid: Pyramid) -> Group:
+    """With a layer's paint replaced: what a stroke does.  Only the path down to the layer is rebuilt."""
+    trail, node = _locate(root, name)
+    if not isinstance(node, Layer):
+        raise LayerError(f"layer: found {name!r}, which is a group, expected a layer")
+    i = trail[-1]
+    painted = replace(node, pyramid=pyramid)
+    return _edited(root, trail[:-1], lambda siblings: (*siblings[:i], painted, *siblings[i + 1 :]))
+
+
+def move(root: Group, name: str, group: str | None, to: int) -> Group:
+    """With the node at position `to` (0 = bottom, counted without the node itself) of a group (None: the root)."""
+    node = find(root, name)
+    if group is not None and isinstance(node, Group) and (group == name or has(node, group)):
+        raise LayerError(
+            f"group {name!r}: found itself or a part of it ({group!r}) as the target, expected another group"
+        )
+    return _put(remove(root, name), node, group, to)
+
+
+def duplicate(root: Group, name: str, to: str) -> Group:
+    """With a copy named `to` right above the original; inside a copied group names become "NAME copy", ...
+
+    The copies share all paint with the originals.
+    """
+    group, position = place(root, name)
+    _check_name(to)
+    taken = {node.name for node in walk(root)} | {to}
+    ids = iter(range(next_id(root), 1 << 62))
+
+    def free(stem: str) -> str:
+        names = (f"{stem[: MAX_NAME - 12]} copy" + (f" {i}" if i > 1 else "") for i in range(1, len(taken) + 2))
+        found = next(name for name in names if name not in taken)
+        taken.add(found)
+        return found
+
+    def copy(node: Node, called: str) -> Node:
+        number = next(ids)
+        if isinstance(node, Layer):
+            # Its own line of history from here on, so that caches keep both.
+            return replace(node, id=number, name=called, pyramid=Pyramid(node.pyramid.levels, node.pyramid.last))
+        inside = tuple(copy(child, free(child.name)) for child in node.children)
+        return replace(node, id=number, name=called, children=inside)
+
+    return insert(root, copy(find(root, name), to), group, position + 1)
+
+
+def checked(root: Group) -> Group:
+    """The root itself, if names and ids are unique and groups not nested too deeply; else LayerError."""
+    names: set[str] = set()
+    ids: set[int] = set()
+    for trail, node in _trails(root):
+        if node.name in names:
+            raise LayerError(f"layer name: found {node.name!r} twice, expected a name not in use")
+        _check(node.name, "id", node.id, node.id not in ids and node.id > 0, "a positive number not in use")
+        _check(
+            node.name, "nesting", len(trail), len(trail) <= MAX_DEPTH + 1, f"at most {MAX_DEPTH} groups in one another"
+        )
+        names.add(node.name)
+        ids.add(node.id)
+    return root
