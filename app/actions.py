@@ -1,0 +1,213 @@
+"""The table of actions: name, menu, keys, when allowed, what it does.  Menus, keys, tooltips and help are made from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from app.desk import Desk
+from app.panels import dialogs, files
+from engine.painting import commands as c
+from engine.painting.requests import Do
+
+Check = Callable[[Desk], bool]
+
+
+class Action(NamedTuple):
+    """One thing the artist can do.  `keys`: such as `Ctrl+Shift+Z`, the first is shown in menus."""
+
+    title: str
+    menu: str
+    keys: tuple[str, ...]
+    hint: str
+    do: Callable[[Desk], None]
+    when: Check = lambda desk: True
+    checked: Check | None = None
+
+
+def _always(_desk: Desk) -> bool:
+    return True
+
+
+def _ready(desk: Desk) -> bool:
+    return desk.ready and not desk.painting
+
+
+def _layer(desk: Desk) -> bool:
+    return _ready(desk) and desk.scene is not None and desk.scene.active is not None
+
+
+def _can_undo(desk: Desk) -> bool:
+    return _ready(desk) and desk.scene is not None and desk.scene.can_undo
+
+
+def _can_redo(desk: Desk) -> bool:
+    return _ready(desk) and desk.scene is not None and desk.scene.can_redo
+
+
+def _posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
+    return lambda desk: desk.post(Do(make()))
+
+
+def _tool(name: str) -> Callable[[Desk], None]:
+    def choose(desk: Desk) -> None:
+        desk.tool, desk.erasing = name, False
+
+    return choose
+
+
+def _toggle_eraser(desk: Desk) -> None:
+    desk.tool, desk.erasing = "brush", not (desk.erasing and desk.tool == "brush")
+
+
+def _swap(desk: Desk) -> None:
+    desk.colour, desk.other_colour = desk.other_colour, desk.colour
+
+
+def _default_colours(desk: Desk) -> None:
+    desk.colour, desk.other_colour = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+
+
+def _zooms(levels: float) -> Callable[[Desk], None]:
+    def do(desk: Desk) -> None:
+        desk.glide.zoom(desk.view, levels, *desk.middle())
+
+    return do
+
+
+def _one_to_one(desk: Desk) -> None:
+    desk.glide.to(desk.view, 0, 0.0, *desk.middle())
+
+
+def _turns(degrees: float) -> Callable[[Desk], None]:
+    def do(desk: Desk) -> None:
+        desk.view = desk.view.turned(desk.view.angle + math.radians(degrees), *desk.middle())
+        desk.glide.stop()
+
+    return do
+
+
+def _upright(desk: Desk) -> None:
+    desk.view = desk.view.turned(0.0, *desk.middle())
+    desk.glide.stop()
+
+
+def _mirror(desk: Desk) -> None:
+    place = desk.view.to_canvas(*desk.middle())
+    desk.view = desk.view.flipped().held(place, *desk.middle())
+    desk.glide.stop()
+
+
+def _panels(desk: Desk) -> None:
+    desk.panels = not desk.panels
+
+
+def _escape(desk: Desk) -> None:
+    desk.erasing = False
+    desk.tool = "brush"
+
+
+def free_name(desk: Desk, stem: str) -> str:
+    """`stem` with the first number that no layer has yet."""
+    taken = {row.name for row in desk.scene.layers} if desk.scene else set()
+    n = 1
+    while f"{stem} {n}" in taken:
+        n += 1
+    return f"{stem} {n}"
+
+
+def _add(kind: str, stem: str) -> Callable[[Desk], None]:
+    return lambda desk: desk.post(Do(c.AddLayer(free_name(desk, stem), kind=kind)))
+
+
+def _active(desk: Desk) -> str:
+    assert desk.scene is not None
+    assert desk.scene.active is not None
+    return desk.scene.active
+
+
+def _duplicate(desk: Desk) -> None:
+    name = _active(desk)
+    desk.post(Do(c.DuplicateLayer(name, free_name(desk, f"{name} copy"))))
+
+
+def _remove(desk: Desk) -> None:
+    desk.post(Do(c.RemoveLayer(_active(desk))))
+
+
+def _moves(by: int) -> Callable[[Desk], None]:
+    def do(desk: Desk) -> None:
+        row = next((r for r in desk.scene.layers if r.name == _active(desk)), None) if desk.scene else None
+        if row is not None and row.position + by >= 0:
+            desk.post(Do(c.MoveLayer(row.name, row.position + by)))
+
+    return do
+
+
+def _quit(desk: Desk) -> None:
+    desk.closing = True
+
+
+A = Action
+ACTIONS: dict[str, Action] = {
+    "new": A("New…", "File", ("Ctrl+N",), "Start a new painting", dialogs.ask_new, _ready),
+    "open": A("Open…", "File", ("Ctrl+O",), "Open a painting, a picture or a recording", files.ask_open, _ready),
+    "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", files.save, _ready),
+    "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", files.ask_save, _ready),
+    "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF at any depth", files.ask_export, _ready),
+    "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", _quit),
+    "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
+    "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),
+    "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
+    "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
+    "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), _always, lambda d: d.tool == "brush" and not d.erasing),
+    "eraser": A("Eraser", "Tools", ("E",), "Erase with the chosen brush; again to paint", _toggle_eraser, _always, lambda d: d.erasing),
+    "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), _always, lambda d: d.tool == "pick"),
+    "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), _always, lambda d: d.tool == "pan"),
+    "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), _always, lambda d: d.tool == "zoom"),
+    "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), _always, lambda d: d.tool == "turn"),
+    "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.resize_brush(1 / 1.15)),
+    "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.resize_brush(1.15)),
+    "escape": A("Back to the brush", "Tools", ("Escape",), "Stop what is going on; back to the brush", _escape),
+    "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), _ready),
+    "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), _ready),
+    "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer", _duplicate, _layer),
+    "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), _layer),
+    "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), _layer),
+    "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, _layer),
+    "fit": A("Fit the frame", "View", ("F", "2"), "Show the whole frame", Desk.fit),
+    "one": A("One to one", "View", ("1",), "One pixel of level 0 on one of the screen", _one_to_one),
+    "in": A("Zoom in", "View", ("+", "=", "PageUp"), "One level deeper", _zooms(1.0)),
+    "out": A("Zoom out", "View", ("-", "PageDown"), "One level back", _zooms(-1.0)),
+    "turn_left": A("Turn left", "View", ("4",), "Turn the view by 15° to the left", _turns(-15)),
+    "turn_right": A("Turn right", "View", ("6",), "Turn the view by 15° to the right", _turns(15)),
+    "upright": A("Upright", "View", ("5",), "Turn the view upright", _upright),
+    "mirror": A("Mirror", "View", ("M",), "Mirror the view to see mistakes", _mirror, _always, lambda d: d.view.mirrored),
+    "panels": A("Panels", "View", ("Tab",), "Show or hide the panels", _panels, _always, lambda d: d.panels),
+    "keys": A("Keys…", "Help", ("F1",), "All keys in one list", dialogs.show_keys),
+    "about": A("About Inkfall…", "Help", (), "What this program is", dialogs.show_about),
+}  # fmt: skip
+MENUS = ("File", "Edit", "Tools", "Layer", "View", "Help")
+
+
+def by_key(keys: str) -> Action | None:
+    """The action that a key press such as `Ctrl+S` means."""
+    return _BY_KEY.get(keys)
+
+
+_BY_KEY = {key: action for action in ACTIONS.values() for key in action.keys}
+
+
+def perform(desk: Desk, action: Action) -> bool:
+    """Does it if it is allowed now."""
+    if not action.when(desk):
+        return False
+    action.do(desk)
+    return True
+
+
+def tip(name: str) -> str:
+    """An action's hint with its keys, for tooltips."""
+    action = ACTIONS[name]
+    return f"{action.hint}  ({action.keys[0]})" if action.keys else action.hint

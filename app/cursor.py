@@ -1,0 +1,31 @@
+"""The pointer over the canvas: the brush's circle at its true size, drawn light and dark to show on any colour."""
+
+from __future__ import annotations
+
+import glfw
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.desk import Desk
+from app.tools import TOOLS
+
+_SHAPES = {"pan": glfw.RESIZE_ALL_CURSOR, "turn": glfw.RESIZE_ALL_CURSOR, "zoom": glfw.CROSSHAIR_CURSOR}
+
+
+def shape(desk: Desk, panning: bool) -> int:
+    """GLFW's cursor for where the pointer is."""
+    if not desk.pointer.over_canvas:
+        return int(glfw.ARROW_CURSOR)
+    if panning:
+        return int(glfw.RESIZE_ALL_CURSOR)
+    return int(_SHAPES.get(desk.tool, glfw.CROSSHAIR_CURSOR))
+
+
+def draw_outline(desk: Desk) -> None:
+    """The brush's circle, above the canvas and below the panels."""
+    if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.tool].outline:
+        return
+    painter = imgui.get_background_draw_list()
+    at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, desk.brush.radius)
+    painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
+    painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)

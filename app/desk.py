@@ -1,0 +1,125 @@
+"""What lies on the artist's desk: view, brush, colours, tool, and what is known of the painting.
+
+Panels and actions read and change this record; everything that changes pixels goes through `post`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from app.colours import RGB, to_hex
+from app.glide import Glide
+from app.view import Place, View, fitted
+from engine.brush.record import Brush
+from engine.numeric.address import Rect
+from engine.painting.requests import Note, Request, Scene
+
+HISTORY = 24  # colours remembered
+SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
+MESSAGE_SECONDS = 6.0
+
+
+@dataclass(slots=True)
+class Pointer:
+    """Where the pointer is, and what it is over."""
+
+    x: float = 0.0
+    y: float = 0.0
+    over_canvas: bool = False
+    pen: bool = False
+
+
+@dataclass(slots=True)
+class Desk:
+    """The window's own state.  Lengths on the screen are framebuffer pixels."""
+
+    view: View
+    post: Callable[[Request], None]
+    scale: float = 1.0
+    tool: str = "brush"
+    brush: Brush = field(default_factory=Brush)
+    preset: str = ""
+    erasing: bool = False
+    colour: RGB = (0.11, 0.16, 0.24)
+    other_colour: RGB = (1.0, 1.0, 1.0)
+    colours: list[RGB] = field(default_factory=list)
+    blends: tuple[tuple[str, str, str], ...] = ()  # name, title, hint; from the engine
+    kinds: tuple[Any, ...] = ()  # rows of engine.texture.table
+    presets: tuple[Any, ...] = ()  # app.presets.Preset
+    scene: Scene | None = None
+    ready: bool = False
+    painting: bool = False
+    panels: bool = True
+    insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
+    pointer: Pointer = field(default_factory=Pointer)
+    glide: Glide = field(default_factory=Glide)
+    message: tuple[str, bool, float] = ("", False, 0.0)
+    pending: int = 0
+    files: int = 0
+    dialog: Any = None  # what app.panels.dialogs shows
+    closing: bool = False
+    quit: bool = False
+    after_save: Callable[[], None] | None = None
+    pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
+
+    @property
+    def frame(self) -> Rect:
+        return self.scene.frame if self.scene else Rect(0, 0, 1024, 768)
+
+    @property
+    def modified(self) -> bool:
+        return self.scene is not None and self.scene.modified
+
+    @property
+    def path(self) -> Path | None:
+        return self.scene.path if self.scene else None
+
+    def say(self, text: str, bad: bool = False) -> None:
+        """Shows a line in the status line for some seconds."""
+        self.message = text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
+
+    def told(self, note: Note) -> None:
+        self.say(note.text, note.bad)
+
+    def free_area(self) -> tuple[float, float, float, float]:
+        """The part of the screen that no panel covers."""
+        left, top, right, bottom = self.insets
+        return left, top, self.view.width - right, self.view.height - bottom
+
+    def middle(self) -> tuple[float, float]:
+        x0, y0, x1, y1 = self.free_area()
+        return (x0 + x1) / 2, (y0 + y1) / 2
+
+    def fit(self) -> None:
+        """Shows the whole frame."""
+        self.glide.stop()
+        self.view = fitted(self.frame, self.free_area(), self.view.width, self.view.height)
+
+    def look_at(self, place: Place, zoom: float) -> None:
+        """Puts a place into the middle at a real zoom level."""
+        level = int(zoom // 1)
+        self.glide.stop()
+        self.view = replace(self.view, level=level, fraction=zoom - level).held(place, *self.middle())
+
+    def resize_brush(self, factor: float) -> None:
+        radius = max(SMALLEST, min(LARGEST, self.brush.radius * factor))
+        self.brush = replace(self.brush, radius=round(radius, 2))
+
+    def use_colour(self) -> None:
+        """Remembers the colour: it was painted with."""
+        if self.colour in self.colours:
+            self.colours.remove(self.colour)
+        self.colours.insert(0, self.colour)
+        del self.colours[HISTORY:]
+
+    def stroke_brush(self, eraser: bool) -> tuple[int, Brush]:
+        """The level of a stroke begun now, and the brush with its radius in pixels of that level."""
+        level = self.view.shown_level
+        erase = self.erasing or eraser
+        mode = "erase" if erase and self.brush.mode != "smooth" else self.brush.mode
+        radius = self.brush.radius / self.view.scale(level)
+        return level, replace(self.brush, radius=radius, colour=to_hex(self.colour), mode=mode)

@@ -1,0 +1,43 @@
+"""One record for every pointing device, and the interface of what delivers them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+LEFT, MIDDLE, RIGHT = 1, 2, 3
+
+
+@dataclass(frozen=True, slots=True)
+class PenEvent:
+    """One report of a pen or a mouse.
+
+    kind: `move`, `down`, `up` or `wheel`.  x, y: framebuffer pixels with fractions.  pressure 0..1 (a mouse: 1 while
+    its button is down).  Tilt in degrees, -90..90.  time: seconds of a steady clock.  button: 1 left or tip, 2 middle,
+    3 right.  eraser: the pen is held the other way round.  dx, dy: notches of the wheel, up and left positive.
+    """
+
+    kind: str
+    x: float
+    y: float
+    pressure: float = 1.0
+    tilt_x: float = 0.0
+    tilt_y: float = 0.0
+    time: float = 0.0
+    button: int = 0
+    eraser: bool = False
+    pen: bool = False
+    dx: float = 0.0
+    dy: float = 0.0
+
+
+class PointerSource(Protocol):
+    """Delivers pointer events in the order in which they happened."""
+
+    name: str
+
+    def events(self) -> list[PenEvent]:
+        """What came since the last call."""
+        ...
+
+    def close(self) -> None: ...

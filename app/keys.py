@@ -1,0 +1,47 @@
+"""Key presses as the action table writes them: `Ctrl+Shift+Z`, `[`, `PageUp`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import glfw
+
+_NAMED = {
+    glfw.KEY_ESCAPE: "Escape",
+    glfw.KEY_TAB: "Tab",
+    glfw.KEY_DELETE: "Delete",
+    glfw.KEY_BACKSPACE: "Backspace",
+    glfw.KEY_ENTER: "Enter",
+    glfw.KEY_SPACE: "Space",
+    glfw.KEY_PAGE_UP: "PageUp",
+    glfw.KEY_PAGE_DOWN: "PageDown",
+    glfw.KEY_HOME: "Home",
+    glfw.KEY_END: "End",
+    glfw.KEY_UP: "Up",
+    glfw.KEY_DOWN: "Down",
+    glfw.KEY_LEFT: "Left",
+    glfw.KEY_RIGHT: "Right",
+    glfw.KEY_KP_ADD: "+",
+    glfw.KEY_KP_SUBTRACT: "-",
+    **{glfw.KEY_F1 + i: f"F{i + 1}" for i in range(12)},
+    **{glfw.KEY_KP_0 + i: str(i) for i in range(10)},
+}
+_MODIFIERS = ((glfw.MOD_CONTROL | glfw.MOD_SUPER, "Ctrl"), (glfw.MOD_ALT, "Alt"), (glfw.MOD_SHIFT, "Shift"))
+
+
+def key_name(key: int, scancode: int) -> str:
+    """The key as its label reads on the artist's keyboard; empty for one that means nothing."""
+    if key in _NAMED:
+        return _NAMED[key]
+    label: Any = glfw.get_key_name(key, scancode)
+    if not label and 32 < key < 127:
+        label = chr(key)
+    return str(label).upper() if label else ""
+
+
+def chord(key: int, scancode: int, mods: int) -> str:
+    """The press with its modifiers, as in the action table."""
+    name = key_name(key, scancode)
+    if not name:
+        return ""
+    return "+".join([word for mask, word in _MODIFIERS if mods & mask] + [name])

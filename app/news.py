@@ -1,0 +1,172 @@
+"""What the worker sends goes onto the desk and the screen; what the screen lacks is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+
+from app import presets
+from app.colours import to_hex
+from app.desk import Desk
+from app.panels.brush import THUMB
+from app.panels.ink import DEEPER, SWATCH_HEIGHT
+from app.screen import Screen, ScreenTile, cells, near_first
+from app.view import Place
+from engine.painting import requests as q
+from engine.painting.worker import Worker
+
+COARSER = 3  # levels: a coarse layer of tiles around the view is kept for when it moves
+PAPER = 244  # grey of the paper under swatches
+SETTLE = 0.12  # seconds without change before a swatch is painted anew
+
+
+class News:
+    """The window's side of the post."""
+
+    def __init__(self, desk: Desk, screen: Screen, ctx: moderngl.Context) -> None:
+        self.desk, self.screen, self.ctx = desk, screen, ctx
+        self.worker: Worker | None = None
+        self._asked: tuple[Any, ...] = ()
+        self._textures: dict[str, moderngl.Texture] = {}
+        self._ink: Any = None
+        self._ink_since = 0.0
+        self._serial: int | None = None
+        self._laid_out = False
+        self._handlers: dict[type, Callable[[Any, float], None]] = {
+            q.Ready: self._ready,
+            q.Patch: self._patch,
+            q.Same: self._same,
+            q.Scene: self._scene,
+            q.Note: lambda r, now: self.desk.told(r),
+            q.Saved: self._saved,
+            q.Picture: self._picture,
+            q.Picked: self._picked,
+            q.Looked: self._looked,
+            q.Pending: self._pending,
+        }
+
+    def take(self, now: float) -> bool:
+        """Takes in all results; True if there were any."""
+        results = self.worker.results() if self.worker else []
+        for result in results:
+            self._handlers[type(result)](result, now)
+        return bool(results)
+
+    def first_layout(self) -> bool:
+        """True once: after the first frame's panels are laid out, the free area is known."""
+        first, self._laid_out = not self._laid_out, True
+        return first
+
+    def ask(self, now: float) -> None:
+        """Posts which tiles the screen wants, when that has changed, and new swatches."""
+        if not self.desk.ready or self.worker is None:
+            return
+        view, level = self.desk.view, self.desk.view.shown_level
+        seen = cells(view, level)
+        key = (level, seen[0], seen[-1], self._serial, *self.desk.middle())
+        if key != self._asked:
+            self._asked = key
+            at = self.desk.pointer if self.desk.pointer.over_canvas else None
+            x, y = (at.x, at.y) if at else self.desk.middle()
+            wanted = near_first(view, seen, x, y)
+            wanted += [t for t in cells(view, level - COARSER) if t not in wanted]
+            wanted += _ring(seen)
+            self.worker.post(q.Look(tuple((*t, self.screen.revision(t)) for t in wanted)))
+        self._ask_swatches(now)
+
+    def _ask_swatches(self, now: float) -> None:
+        """The ink mixer's picture follows the brush, once it rests."""
+        brush = replace(self.desk.brush, colour=to_hex(self.desk.colour), radius=16.0, stabiliser=0.0)
+        if brush != self._ink:
+            self._ink, self._ink_since = brush, now
+        if self._ink_since and now - self._ink_since >= SETTLE and self.worker:
+            self._ink_since = 0.0
+            size = (int(135 * self.desk.scale), int(SWATCH_HEIGHT * self.desk.scale))
+            plain = replace(brush, mode="paint")
+            self.worker.post(q.Swatch("ink", plain, size, "fill"))
+            self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER))
+
+    def waiting(self) -> bool:
+        """Whether a swatch is about to be asked for."""
+        return self._ink_since > 0
+
+    def _ready(self, result: q.Ready, _now: float) -> None:
+        desk = self.desk
+        desk.ready, desk.blends, desk.kinds = True, result.blends, result.kinds
+        found, faults = presets.load(presets.bundled_folder())
+        own, more = presets.load(presets.own_folder())
+        desk.presets = (*found, *own) or (presets.DEFAULT,)
+        for fault in faults + more:
+            desk.say(fault, bad=True)
+        if not desk.preset:
+            desk.preset, desk.brush = desk.presets[0].name, desk.presets[0].brush
+        size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
+        for preset in desk.presets:
+            desk.post(q.Swatch(f"preset {preset.name}", preset.brush, size))
+
+    def _patch(self, r: q.Patch, now: float) -> None:
+        self.screen.upload(ScreenTile(*r.tile), r.area, r.pixels, r.revision, self.desk.view, now)
+
+    def _same(self, r: q.Same, _now: float) -> None:
+        for tile in r.tiles:
+            self.screen.confirm(ScreenTile(*tile), r.revision)
+
+    def _scene(self, scene: q.Scene, _now: float) -> None:
+        self.desk.scene = scene
+        if scene.serial != self._serial:
+            self.screen.forget()
+            if self._serial is not None or scene.path is not None:
+                self.desk.fit()
+            self._serial = scene.serial
+
+    def _saved(self, r: q.Saved, _now: float) -> None:
+        self.desk.say(f"Saved {Path(r.path).name}")
+        then, self.desk.after_save = self.desk.after_save, None
+        if then is not None:
+            then()
+
+    def _picture(self, r: q.Picture, _now: float) -> None:
+        """A swatch over paper, as a texture for imgui."""
+        alpha = r.pixels[..., 3:].astype(np.uint16)
+        flat = (r.pixels[..., :3] + (255 - alpha) * PAPER // 255).clip(0, 255).astype(np.uint8)
+        size = (r.pixels.shape[1], r.pixels.shape[0])
+        old = self._textures.get(r.ident)
+        if old is None or old.size != size:
+            if old is not None:
+                old.release()
+            old = self._textures[r.ident] = self.ctx.texture(size, 3, alignment=1)
+            self.desk.pictures[r.ident] = imgui.ImTextureRef(old.glo)
+        old.write(np.ascontiguousarray(flat), alignment=1)
+
+    def _picked(self, r: q.Picked, _now: float) -> None:
+        if r.alpha > 0.01:
+            self.desk.colour = r.rgb
+
+    def _looked(self, r: q.Looked, _now: float) -> None:
+        """A recording that plays shows where its artist looked."""
+        bits = 16
+        scale = 2.0 ** (bits - r.level % 1)
+        x, y = (round((o + s / 2) * scale) for o, s in zip(r.origin, r.size, strict=True))
+        x0, y0, x1, y1 = self.desk.free_area()
+        zoom = r.level
+        if r.size[0] > 0 and r.size[1] > 0:
+            zoom += float(np.log2(min((x1 - x0) / r.size[0], (y1 - y0) / r.size[1])))
+        place = Place(x, y, int(r.level // 1) + bits)
+        self.desk.look_at(place, zoom)
+
+    def _pending(self, r: q.Pending, _now: float) -> None:
+        self.desk.pending, self.desk.files = r.tiles, r.files
+
+
+def _ring(seen: list[ScreenTile]) -> list[ScreenTile]:
+    """The tiles just outside the visible ones."""
+    level = seen[0].level
+    x0, y0, x1, y1 = seen[0].x - 1, seen[0].y - 1, seen[-1].x + 1, seen[-1].y + 1
+    edge = [(x, y) for x in range(x0, x1 + 1) for y in (y0, y1)] + [(x, y) for y in range(y0 + 1, y1) for x in (x0, x1)]
+    return [ScreenTile(level, x, y) for x, y in edge]

@@ -1,0 +1,154 @@
+"""The brush panel: tools, presets painted by the brushes themselves, and the settings of the one chosen."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+
+from app import actions, icons, theme
+from app.desk import LARGEST, SMALLEST, Desk
+from app.panels import widgets as w
+from app.presets import Preset
+from app.tools import TOOLS
+from engine.brush.record import SETTINGS
+
+_MODES = (
+    ("paint", icons.BRUSH, "Paint"),
+    ("erase", icons.ERASER, "Erase: takes paint away, at all depths"),
+    ("smooth", icons.SMOOTH, "Smooth: softens the paint and takes away the detail that zooming would show"),
+)
+_CURVES: tuple[tuple[str, str, Any], ...] = (
+    ("none", "Even", None),
+    ("pressure", "Pressure", "pressure"),
+    ("soft", "Soft pen", ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0))),
+    ("firm", "Firm pen", ((0.0, 0.0), (0.6, 0.25), (1.0, 1.0))),
+)
+THUMB = (104, 44)
+
+
+class BrushPanel:
+    """Draws the left column."""
+
+    def draw(self, desk: Desk) -> None:
+        self._tools(desk)
+        if w.section("Brushes", "Presets: click to paint with one"):
+            self._presets(desk)
+        if w.section("Brush settings"):
+            self._modes(desk)
+            self._settings(desk)
+        if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
+            self._dynamics(desk)
+
+    def _tools(self, desk: Desk) -> None:
+        side = imgui.get_font_size() * 2.1
+        names: list[tuple[str, str, bool]] = [
+            ("brush", icons.BRUSH, desk.tool == "brush" and not desk.erasing),
+            ("eraser", icons.ERASER, desk.tool == "brush" and desk.erasing),
+        ]
+        names += [(name, TOOLS[name].icon, desk.tool == name) for name in ("pick", "pan", "zoom", "turn")]
+        gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
+        for i, (name, icon, on) in enumerate(names):
+            if i:
+                imgui.same_line(0, gap)
+            if w.icon_button(name, icon, actions.tip(name), on=on, size=side):
+                actions.perform(desk, actions.ACTIONS[name])
+
+    def _presets(self, desk: Desk) -> None:
+        gap = 5 * desk.scale
+        room = imgui.get_content_region_avail().x
+        across = 2
+        wide = (room - 12 * desk.scale - gap * (across - 1)) / across
+        tall = wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 5 * desk.scale
+        lines = -(-len(desk.presets) // across)
+        imgui.begin_child("presets", ImVec2(0, min(3.5, lines) * (tall + gap)))
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
+        for i, preset in enumerate(desk.presets):
+            if i % across:
+                imgui.same_line()
+            self._preset(desk, preset, wide, tall)
+        imgui.pop_style_var()
+        imgui.end_child()
+
+    def _preset(self, desk: Desk, preset: Preset, wide: float, tall: float) -> None:
+        corner = imgui.get_cursor_screen_pos()
+        if imgui.invisible_button(preset.name, ImVec2(wide, tall)):
+            radius = desk.brush.radius
+            desk.brush, desk.preset = preset.brush, preset.name
+            desk.tool, desk.erasing = "brush", False
+            if imgui.get_io().key_shift:
+                desk.brush = replace(desk.brush, radius=radius)
+        hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
+        w.tooltip(f"{preset.name}\nShift keeps the present size")
+        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
+        grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
+        painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
+        picture = desk.pictures.get(f"preset {preset.name}")
+        bottom = corner.y + wide * THUMB[1] / THUMB[0]
+        if picture is not None:
+            inset = 2 * desk.scale
+            painter.add_image_rounded(
+                picture,
+                ImVec2(corner.x + inset, corner.y + inset),
+                ImVec2(end.x - inset, bottom),
+                ImVec2(0, 0),
+                ImVec2(1, 1),
+                theme.packed((1.0, 1.0, 1.0)),
+                3 * desk.scale,
+            )
+        painter.push_clip_rect(corner, end, True)
+        at = ImVec2(corner.x + 6 * desk.scale, bottom + 1.5 * desk.scale)
+        painter.add_text(at, theme.packed(theme.TEXT if chosen else (0.72,) * 3), preset.name)
+        painter.pop_clip_rect()
+
+    def _modes(self, desk: Desk) -> None:
+        wide = (imgui.get_content_region_avail().x - 2 * imgui.get_style().item_spacing.x) / 3
+        for i, (mode, icon, hint) in enumerate(_MODES):
+            if i:
+                imgui.same_line()
+            on = desk.brush.mode == mode
+            imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
+            if w.text_button(f"{icon} {mode.capitalize()}", hint, width=wide):
+                desk.brush = replace(desk.brush, mode=mode)
+                desk.tool, desk.erasing = "brush", False
+            imgui.pop_style_color()
+
+    def _settings(self, desk: Desk) -> None:
+        for name, row in SETTINGS.items():
+            lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
+            form = "%.1f px" if row.unit == "px" else "%.2f"
+            hint = f"{row.tooltip}  ([ and ])" if name == "radius" else row.tooltip
+            shown, form, lo, hi = _percent(getattr(desk.brush, name), form, lo, hi, row.unit)
+            changed, value = w.slider(row.label, shown, (lo, hi), hint, form=form, curved=row.logarithmic)
+            if changed:
+                value = value / 100 if form.endswith("%%") else value
+                desk.brush = replace(desk.brush, **{name: row.clamped(round(value, 4))})
+
+    def _dynamics(self, desk: Desk) -> None:
+        for name, row in SETTINGS.items():
+            if not row.dynamic:
+                continue
+            curve = desk.brush.dynamics.get(name)
+            current = next((key for key, _, value in _CURVES if value == curve), "own")
+            options = [(key, f"{row.label}: {text.lower()}") for key, text, _ in _CURVES]
+            if current == "own":
+                options.append(("own", f"{row.label}: own curve"))
+            hint = f"How the pen's pressure changes the {row.label.lower()}"
+            picked = w.choice(f"curve {name}", current, options, hint, imgui.get_content_region_avail().x)
+            if picked and picked != "own":
+                value = next(v for key, _, v in _CURVES if key == picked)
+                dynamics = desk.brush.dynamics
+                dynamics = dynamics.set(name, value) if value is not None else _without(dynamics, name)
+                desk.brush = replace(desk.brush, dynamics=dynamics)
+
+
+def _without(curves: Any, name: str) -> Any:
+    return curves.delete(name) if name in curves else curves
+
+
+def _percent(value: float, form: str, lo: float, hi: float, unit: str) -> tuple[float, str, float, float]:
+    """Parts of one as per cent, which people read more easily."""
+    if unit == "" and (lo, hi) == (0.0, 1.0):
+        return value * 100, "%.0f%%", 0.0, 100.0
+    return value, form, lo, hi

@@ -1,0 +1,145 @@
+"""The ink mixer: textures stirred into the brush's colour, with a picture of what comes out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.colours import from_hex, to_hex
+from app.desk import Desk
+from app.panels import widgets as w
+from engine.brush.record import COMPONENTS_CAP, Component
+
+DEEPER = 4  # levels: how far the second half of the picture is zoomed in
+SWATCH_HEIGHT = 56
+_COLOURS = {"white": "#ffffff", "rock": "#7a6f63", "stripes": "#20242c", "sawtooth": "#f0e2c0", "squares": "#f2f2f2"}
+
+
+class InkPanel:
+    """Ink is the brush's colour plus textures, each with an amount and a colour of its own."""
+
+    def draw(self, desk: Desk) -> None:
+        if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):
+            return
+        self._picture(desk)
+        removed = None
+        for i, component in enumerate(desk.brush.ink):
+            imgui.push_id(i)
+            changed, keep = self._component(desk, component)
+            imgui.pop_id()
+            if not keep:
+                removed = i
+            elif changed is not component:
+                desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:i], changed, *desk.brush.ink[i + 1 :]))
+        if removed is not None:
+            desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:removed], *desk.brush.ink[removed + 1 :]))
+        self._adder(desk)
+
+    def _picture(self, desk: Desk) -> None:
+        """The ink as painted, and beside it 16 times nearer."""
+        width = imgui.get_content_region_avail().x
+        height = SWATCH_HEIGHT * desk.scale
+        corner = imgui.get_cursor_screen_pos()
+        imgui.dummy(ImVec2(width, height))
+        w.tooltip(f"The ink as painted, and {1 << DEEPER} times nearer")
+        painter = imgui.get_window_draw_list()
+        for i, name in enumerate(("ink", "ink near")):
+            left = corner.x + i * (width / 2 + desk.scale)
+            end = ImVec2(left + width / 2 - desk.scale, corner.y + height)
+            painter.add_rect_filled(ImVec2(left, corner.y), end, theme.packed(theme.FIELD), 4 * desk.scale)
+            if name in desk.pictures:
+                painter.add_image_rounded(
+                    desk.pictures[name],
+                    ImVec2(left, corner.y),
+                    end,
+                    ImVec2(0, 0),
+                    ImVec2(1, 1),
+                    -1 & 0xFFFFFFFF,
+                    4 * desk.scale,
+                )
+
+    def _component(self, desk: Desk, component: Component) -> tuple[Component, bool]:
+        """Draws one row; (the component as it is now, whether it stays)."""
+        side, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
+        if w.swatch("colour", component.rgb, "The colour this texture leads to", (side, side)):
+            imgui.open_popup("tint")
+        rgb = w.colour_popup("tint", component.rgb)
+        if rgb is not None:
+            component = replace(component, colour=to_hex(rgb))
+        imgui.same_line()
+        name = component.texture.capitalize()
+        room = imgui.get_content_region_avail().x - 2 * side - 2 * gap
+        imgui.push_style_var(imgui.StyleVar_.cell_padding, ImVec2(0, 0))
+        imgui.begin_child("amount", ImVec2(room, side))
+        changed, amount = w.slider(name, component.amount * 100, (0.0, 100.0), "How much of it", form="%.0f%%")
+        imgui.end_child()
+        imgui.pop_style_var()
+        if changed:
+            component = replace(component, amount=round(amount / 100, 4))
+        imgui.same_line()
+        if w.icon_button("more", icons.SLIDERS, "Its own settings"):
+            imgui.open_popup("settings")
+        component = self._parameters(desk, component)
+        imgui.same_line()
+        return component, not w.icon_button("drop", icons.CLOSE, "Take it out of the ink")
+
+    def _parameters(self, desk: Desk, component: Component) -> Component:
+        imgui.set_next_window_size(ImVec2(imgui.get_font_size() * 17, 0))
+        if not imgui.begin_popup("settings"):
+            return component
+        imgui.text_disabled(component.texture.capitalize())
+        for row in _parameters_of(desk, component.texture):
+            component = _parameter(component, row)
+        if w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
+            seed = int(component.parameters.get("seed", 0) or 0)
+            component = replace(component, parameters=component.parameters.set("seed", (seed * 31 + 17) % 99991))
+        imgui.end_popup()
+        return component
+
+    def _adder(self, desk: Desk) -> None:
+        full = len(desk.brush.ink) >= COMPONENTS_CAP
+        if w.text_button(
+            f"{icons.ADD}  Add texture",
+            "Stir a texture into the paint",
+            enabled=bool(desk.kinds) and not full,
+            width=-1,
+        ):
+            imgui.open_popup("add texture")
+        if not imgui.begin_popup("add texture"):
+            return
+        for name, hint in _textures(desk):
+            if imgui.selectable(name.capitalize(), False)[0]:
+                part = Component(name, 0.6, _COLOURS.get(name, to_hex(desk.other_colour)))
+                desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
+            w.tooltip(hint)
+        imgui.end_popup()
+
+
+def _textures(desk: Desk) -> list[tuple[str, str]]:
+    """Names and hints: those built in, then those that the painting defines."""
+    own = [(row.name, getattr(row, "tooltip", "")) for row in desk.kinds if row.name not in ("image", "canvas")]
+    return own + [(name, "A texture of this painting") for name in (desk.scene.textures if desk.scene else ())]
+
+
+def _parameters_of(desk: Desk, texture: str) -> tuple[Any, ...]:
+    return next((tuple(row.parameters) for row in desk.kinds if row.name == texture), ())
+
+
+def _parameter(component: Component, row: Any) -> Component:
+    if row.name == "seed":
+        return component
+    value = float(component.parameters.get(row.name, row.default))
+    lo, hi = float(row.lo), min(float(row.hi), _SLIDER_MOST.get(row.name, float(row.hi)))
+    form = "%.0f°" if row.unit in ("degrees", "°") else "%.1f px" if row.name == "period" else "%.2f"
+    label = row.name.capitalize()
+    changed, value = w.slider(label, value, (lo, hi), row.tooltip, form=form, curved=row.name == "period")
+    if changed:
+        value = min(max(round(value, 3), float(row.lo)), float(row.hi))
+        component = replace(component, parameters=component.parameters.set(row.name, value))
+    return component
+
+
+_SLIDER_MOST = {"period": 512.0, "angle": 180.0}

@@ -1,0 +1,105 @@
+"""Where the panels lie: menu above, brush on the left, colour, ink and layers on the right, status line below."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.actions import ACTIONS, MENUS, Action, perform
+from app.desk import Desk
+from app.panels import dialogs, status
+from app.panels import widgets as w
+from app.panels.brush import BrushPanel
+from app.panels.colour import ColourPanel
+from app.panels.ink import InkPanel
+from app.panels.layers import LayersPanel
+
+LEFT, RIGHT = 248.0, 286.0  # widths in points
+_FIXED = (
+    imgui.WindowFlags_.no_title_bar
+    | imgui.WindowFlags_.no_resize
+    | imgui.WindowFlags_.no_move
+    | imgui.WindowFlags_.no_saved_settings
+    | imgui.WindowFlags_.no_bring_to_front_on_focus
+)
+
+
+class Layout:
+    """Draws all panels and tells which points of the screen they cover."""
+
+    def __init__(self) -> None:
+        self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
+        self._covered: list[tuple[float, float, float, float]] = []
+        self._popup = False
+
+    def covers(self, x: float, y: float) -> bool:
+        """Whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
+        return self._popup or any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self._covered)
+
+    def draw(self, desk: Desk, pointer_name: str) -> None:
+        self._covered = []
+        top = self._menu(desk)
+        bottom = self._status(desk, pointer_name) if desk.panels else 0.0
+        left = right = 0.0
+        if desk.panels:
+            height = desk.view.height - top - bottom
+            left, right = LEFT * desk.scale, RIGHT * desk.scale
+            if self._begin("left", (0, top, left, height)):
+                self.brush.draw(desk)
+            imgui.end()
+            if self._begin("right", (desk.view.width - right, top, right, height)):
+                self.colour.draw(desk)
+                self.ink.draw(desk)
+                self.layers.draw(desk)
+            imgui.end()
+        desk.insets = left, top, right, bottom
+        dialogs.draw(desk)
+        any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
+        self._popup = imgui.is_popup_open("", any_popup)
+
+    def _begin(self, name: str, box: tuple[float, float, float, float]) -> bool:
+        x, y, width, height = box
+        self._covered.append((x, y, x + width, y + height))
+        imgui.set_next_window_pos(ImVec2(x, y))
+        imgui.set_next_window_size(ImVec2(width, height))
+        return imgui.begin(name, None, _FIXED)[0]
+
+    def _menu(self, desk: Desk) -> float:
+        if not desk.panels or not imgui.begin_main_menu_bar():
+            return 0.0
+        for menu in MENUS:
+            if imgui.begin_menu(menu):
+                for action in ACTIONS.values():
+                    if action.menu == menu:
+                        self._item(desk, action)
+                imgui.end_menu()
+        self._title(desk)
+        height = imgui.get_window_height()
+        self._covered.append((0, 0, desk.view.width, height))
+        imgui.end_main_menu_bar()
+        return height
+
+    def _item(self, desk: Desk, action: Action) -> None:
+        keys = action.keys[0] if action.keys else ""
+        on = bool(action.checked and action.checked(desk))
+        if imgui.menu_item(action.title, keys, on, action.when(desk))[0]:
+            perform(desk, action)
+        w.tooltip(action.hint)
+
+    def _title(self, desk: Desk) -> None:
+        name = desk.path.name if desk.path else "Untitled"
+        text = f"{name}{' *' if desk.modified else ''}"
+        imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
+        imgui.text_disabled(text)
+
+    def _status(self, desk: Desk, pointer_name: str) -> float:
+        height = imgui.get_font_size() + 11 * desk.scale
+        imgui.push_style_color(imgui.Col_.window_bg, theme.vec(theme.SHADE))
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(10 * desk.scale, 5 * desk.scale))
+        imgui.push_style_var(imgui.StyleVar_.window_min_size, ImVec2(1, 1))
+        if self._begin("status", (0, desk.view.height - height, desk.view.width, height)):
+            status.draw(desk, pointer_name)
+        imgui.end()
+        imgui.pop_style_var(2)
+        imgui.pop_style_color()
+        return height

@@ -1,0 +1,59 @@
+"""The status line: what happens, where in depth the view is, what is still being computed."""
+
+from __future__ import annotations
+
+import time
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk import Desk
+from app.panels import widgets as w
+from app.tools import TOOLS
+from app.view import zoom_text
+
+
+def draw(desk: Desk, pointer_name: str) -> None:
+    """Fills the present window, one line high."""
+    text, bad, until = desk.message
+    now = time.monotonic()
+    if text and now < until:
+        sign = f"{icons.WARNING}  " if bad else ""
+        imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
+    elif not desk.ready:
+        imgui.text_disabled("Loading the paint engine…")
+    else:
+        imgui.text_disabled("Erase with the chosen brush" if desk.erasing else TOOLS[desk.tool].hint)
+    right = imgui.get_window_width() - imgui.get_style().window_padding.x
+    for label, hint, fixed in reversed(_fields(desk, pointer_name)):
+        width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())
+        right -= width
+        imgui.same_line(right)
+        imgui.text_unformatted(label)
+        w.tooltip(hint)
+        right -= 1.4 * imgui.get_font_size()
+    imgui.dummy(ImVec2(0, 0))
+
+
+def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
+    """(text, hint, least width in ems), left to right."""
+    view = desk.view
+    work = f"{desk.pending} tiles to do" if desk.pending else f"{icons.DISK} writing" if desk.files else ""
+    out = [
+        (work, "Detail that is still being computed, or a file being written", 6.0),
+        (pointer_name, "The device that last moved the pointer", 0.0),
+    ]
+    if view.angle or view.mirrored:
+        turned = f"{-_degrees(view.angle):.0f}°" if view.angle else ""
+        out.append(
+            (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0)
+        )
+    out += [
+        (f"Level {view.shown_level}", "The level of detail shown and painted on; each level is twice as fine", 4.2),
+        (zoom_text(view.level, view.fraction), "How much the painting is magnified (F: fit, 1: one to one)", 6.5),
+    ]
+    return out
+
+
+def _degrees(angle: float) -> float:
+    return angle * 57.29577951308232

@@ -1,0 +1,198 @@
+"""The controls that all panels share: filled sliders, icon buttons, section headers.  Every one takes its tooltip."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+
+Col = imgui.Col_
+
+
+def tooltip(text: str) -> None:
+    """The hint of the item just drawn, after a short rest of the pointer."""
+    if text and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip | imgui.HoveredFlags_.allow_when_disabled):
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 5) * imgui.get_style().font_scale_dpi)
+        if imgui.begin_tooltip():
+            imgui.push_text_wrap_pos(imgui.get_font_size() * 22)
+            imgui.text_unformatted(text)
+            imgui.pop_text_wrap_pos()
+            imgui.end_tooltip()
+        imgui.pop_style_var()
+
+
+def icon_button(
+    name: str, icon: str, hint: str, *, on: bool = False, enabled: bool = True, size: float | None = None
+) -> bool:
+    """A square button with a sign; lit while `on`."""
+    side = size or imgui.get_frame_height()
+    imgui.begin_disabled(not enabled)
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(0, 0))
+    colour = theme.vec(theme.ACCENT_SOFT) if on else ImVec2(0, 0)
+    imgui.push_style_color(Col.button, colour if on else theme.vec(theme.RAISED, 0.0))
+    imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on or enabled else theme.QUIET))
+    pressed = imgui.button(f"{icon}##{name}", ImVec2(side, side))
+    imgui.pop_style_color(2)
+    imgui.pop_style_var()
+    imgui.end_disabled()
+    tooltip(hint)
+    return pressed
+
+
+def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
+    imgui.begin_disabled(not enabled)
+    pressed = imgui.button(label, ImVec2(width, 0))
+    imgui.end_disabled()
+    tooltip(hint)
+    return pressed
+
+
+def section(title: str, hint: str = "", *, opened: bool = True) -> bool:
+    """A panel's header; a click folds it."""
+    imgui.dummy(ImVec2(0, 1))
+    flags = imgui.TreeNodeFlags_.default_open if opened else 0
+    flags |= imgui.TreeNodeFlags_.no_tree_push_on_open | imgui.TreeNodeFlags_.span_avail_width
+    imgui.push_style_color(Col.header, theme.vec(theme.PANEL, 0.0))
+    imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
+    imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))
+    imgui.push_style_color(Col.text, theme.vec((0.70,) * 3))
+    shown = imgui.tree_node_ex(f"{title}##section", flags)
+    imgui.pop_style_color(4)
+    tooltip(hint)
+    return shown
+
+
+def slider(
+    label: str, value: float, bounds: tuple[float, float], hint: str, *, form: str = "%.2f", curved: bool = False
+) -> tuple[bool, float]:
+    """A bar filled up to its value, name on the left, number on the right; Ctrl+click to type.  (changed, value)"""
+    width, height = imgui.get_content_region_avail().x, imgui.get_frame_height()
+    corner, lo, hi = imgui.get_cursor_screen_pos(), *bounds
+    end = ImVec2(corner.x + width, corner.y + height)
+    part = _part(value, lo, hi, curved)
+    painter, rounding = imgui.get_window_draw_list(), imgui.get_style().frame_rounding
+    hovered = imgui.is_mouse_hovering_rect(corner, end) and imgui.is_window_hovered()
+    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+    if part > 0.004:
+        fill = ImVec2(corner.x + max(rounding, width * part), end.y)
+        painter.add_rect_filled(corner, fill, theme.packed((0.36,) * 3 if hovered else (0.305,) * 3), rounding)
+    _hidden_frame(True)
+    imgui.set_next_item_width(width)
+    flags = imgui.SliderFlags_.logarithmic if curved and lo > 0 else 0
+    changed, value = imgui.slider_float(f"##{label}", value, lo, hi, form if _typing() else "", flags)
+    _hidden_frame(False)
+    if not (imgui.is_item_active() and imgui.get_io().want_text_input):
+        pad = imgui.get_style().frame_padding
+        text = _number(form, value)
+        painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.split("##")[0])
+        at = ImVec2(end.x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
+        painter.add_text(at, theme.packed(theme.TEXT), text)
+    tooltip(hint)
+    return changed, max(lo, min(hi, value)) if changed else value
+
+
+def _typing() -> bool:
+    """Ctrl is down: the next click turns the slider into a field, which then needs its number format."""
+    io = imgui.get_io()
+    return bool(io.key_ctrl or io.want_text_input)
+
+
+def _number(form: str, value: float) -> str:
+    return (form % value).replace("%%", "%")
+
+
+def _hidden_frame(on: bool) -> None:
+    names = (Col.frame_bg, Col.frame_bg_hovered, Col.frame_bg_active, Col.slider_grab, Col.slider_grab_active)
+    if not on:
+        imgui.pop_style_color(len(names) + 1)
+        return
+    for name in names:
+        imgui.push_style_color(name, theme.vec(theme.FIELD, 0.0))
+    imgui.push_style_color(Col.text, theme.vec(theme.TEXT, 1.0 if imgui.get_io().want_text_input else 0.0))
+
+
+def _part(value: float, lo: float, hi: float, curved: bool) -> float:
+    value = max(lo, min(hi, value))
+    if hi <= lo:
+        return 0.0
+    if curved and lo > 0:
+        return math.log(value / lo) / math.log(hi / lo)
+    return (value - lo) / (hi - lo)
+
+
+def gradient_slider(
+    label: str, value: float, stops: Sequence[tuple[float, float, float]], hint: str
+) -> tuple[bool, float]:
+    """A bar of colours with a marker; value 0..1.  (changed, value)"""
+    width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 0.72
+    corner = imgui.get_cursor_screen_pos()
+    imgui.invisible_button(label, ImVec2(width, height))
+    changed = imgui.is_item_active()
+    if changed:
+        value = max(0.0, min(1.0, (imgui.get_io().mouse_pos.x - corner.x) / width))
+    tooltip(hint)
+    painter, n = imgui.get_window_draw_list(), len(stops) - 1
+    for i in range(n):
+        a, b = theme.packed(stops[i]), theme.packed(stops[i + 1])
+        left, right = corner.x + width * i / n, corner.x + width * (i + 1) / n
+        painter.add_rect_filled_multi_color(ImVec2(left, corner.y), ImVec2(right, corner.y + height), a, b, b, a)
+    x = corner.x + 3 + (width - 6) * value
+    for grow, grey in ((3.0, 0.0), (1.5, 1.0)):
+        painter.add_rect(
+            ImVec2(x - grow - 1, corner.y - grow + 1),
+            ImVec2(x + grow + 1, corner.y + height + grow - 1),
+            theme.packed((grey,) * 3, 0.9),
+            2.0,
+            thickness=1.5,
+        )
+    return changed, value
+
+
+def choice(label: str, current: str, options: Sequence[tuple[str, str]], hint: str, width: float = 0.0) -> str | None:
+    """A drop-down of (value, shown text); the value chosen now, or None."""
+    shown = dict(options).get(current, current)
+    picked = None
+    if width:
+        imgui.set_next_item_width(width)
+    opened = imgui.begin_combo(f"##{label}", shown, imgui.ComboFlags_.height_large)
+    if not opened:
+        tooltip(hint)
+        return None
+    for value, text in options:
+        if imgui.selectable(text, value == current)[0]:
+            picked = value
+    imgui.end_combo()
+    return picked
+
+
+def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[float, float]) -> bool:
+    """A patch of colour that can be pressed."""
+    flags = imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop | imgui.ColorEditFlags_.no_alpha
+    pressed = imgui.color_button(f"##{name}", theme.vec(rgb), flags, ImVec2(*size))
+    tooltip(hint)
+    return pressed
+
+
+def colour_popup(name: str, rgb: tuple[float, float, float]) -> tuple[float, float, float] | None:
+    """A picker in a pop-up `name`; the colour while it changes, else None."""
+    if not imgui.begin_popup(name):
+        return None
+    imgui.set_next_item_width(imgui.get_font_size() * 13)
+    changed, value = imgui.color_picker3(f"##{name}", list(rgb), PICKER_FLAGS)
+    imgui.end_popup()
+    return (value[0], value[1], value[2]) if changed else None
+
+
+PICKER_FLAGS: Any = (
+    imgui.ColorEditFlags_.picker_hue_wheel
+    | imgui.ColorEditFlags_.no_inputs
+    | imgui.ColorEditFlags_.no_side_preview
+    | imgui.ColorEditFlags_.no_small_preview
+    | imgui.ColorEditFlags_.no_label
+    | imgui.ColorEditFlags_.no_alpha
+    | imgui.ColorEditFlags_.no_tooltip
+)

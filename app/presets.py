@@ -1,0 +1,66 @@
+"""Brush presets: files of palettes/brushes and of the user's own folder, one JSON object each (feature A5)."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import platformdirs
+
+from engine.brush import record
+from engine.brush.record import Brush
+
+BYTES_CAP = 1 << 20
+
+
+@dataclass(frozen=True, slots=True)
+class Preset:
+    name: str
+    brush: Brush
+    path: Path | None = None
+
+
+DEFAULT = Preset("Round", Brush(radius=12.0))
+
+
+def bundled_folder() -> Path:
+    """The presets that come with the program; the folder lies beside the packages."""
+    return Path(__file__).resolve().parent.parent / "palettes" / "brushes"
+
+
+def own_folder() -> Path:
+    """Where the artist's own presets are kept."""
+    return platformdirs.user_config_path("inkfall") / "brushes"
+
+
+def load(folder: Path) -> tuple[list[Preset], list[str]]:
+    """The presets of a folder by file name, and a line for each file that is none."""
+    presets, faults = [], []
+    for path in sorted(folder.glob("*.json")) if folder.is_dir() else []:
+        try:
+            presets.append(_read(path))
+        except (OSError, ValueError) as error:
+            faults.append(f"{path.name}: {error}")
+    return presets, faults
+
+
+def _read(path: Path) -> Preset:
+    if path.stat().st_size > BYTES_CAP:
+        raise ValueError(f"found {path.stat().st_size} bytes, expected a brush of at most {BYTES_CAP}")
+    data = json.loads(path.read_text("utf-8"))
+    if not isinstance(data, dict):
+        raise ValueError("found no object, expected a brush")
+    name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
+    brush = record.from_json(data.pop("brush", data))
+    return Preset(str(name), brush, path)
+
+
+def save(preset: Preset, folder: Path) -> Path:
+    """Writes a preset as a file of the user's folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    stem = "".join(ch if ch.isalnum() else "-" for ch in preset.name.lower()).strip("-") or "brush"
+    path = folder / f"{stem}.json"
+    text = json.dumps({"name": preset.name, "brush": record.to_json(replace(preset.brush))}, indent=1)
+    path.write_text(text + "\n", "utf-8")
+    return path

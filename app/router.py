@@ -1,0 +1,119 @@
+"""Whose event is it: the panels', or the canvas's?  Decided once, at the press; then gestures get the rest."""
+
+from __future__ import annotations
+
+import glfw
+from imgui_bundle import imgui
+
+from app.actions import by_key, perform
+from app.desk import Desk
+from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
+from app.keys import chord
+from app.panels.layout import Layout
+from app.tools import TOOLS, Gesture, pan, pick, turn, zoom
+
+NOTCH = 0.25  # levels a notch of the wheel zooms
+_IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
+_AWAY = -3.4e38  # where imgui looks for a pointer that is not there
+_TYPED_ANYWHERE = ("Ctrl+S", "Ctrl+Q", "F1")
+
+
+class Router:
+    """Feeds imgui and the gesture in progress."""
+
+    def __init__(self, desk: Desk, layout: Layout) -> None:
+        self.desk, self.layout = desk, layout
+        self.gesture: Gesture | None = None
+        self._button = 0
+        self._panel_buttons: set[int] = set()
+        self._keys: set[int] = set()
+
+    def pointer(self, event: PenEvent) -> None:
+        """One pointer event."""
+        desk = self.desk
+        desk.pointer.x, desk.pointer.y, desk.pointer.pen = event.x, event.y, event.pen
+        if self.gesture is not None:
+            if event.kind in ("move", "wheel") or event.button == self._button:
+                self._send(event)
+            return
+        covered = bool(self._panel_buttons) or self.layout.covers(event.x, event.y)
+        desk.pointer.over_canvas = not covered
+        io = imgui.get_io()
+        io.add_mouse_pos_event(event.x, event.y)
+        if event.kind == "wheel":
+            self._wheel(event, covered)
+        elif event.kind == "down":
+            self._press(event, covered)
+        elif event.kind == "up" and event.button in self._panel_buttons:
+            self._panel_buttons.discard(event.button)
+            io.add_mouse_button_event(_IMGUI_BUTTON[event.button], False)
+
+    def _wheel(self, event: PenEvent, covered: bool) -> None:
+        if covered:
+            imgui.get_io().add_mouse_wheel_event(event.dx, event.dy)
+        elif event.dy:
+            self.desk.glide.zoom(self.desk.view, event.dy * NOTCH, event.x, event.y)
+
+    def _press(self, event: PenEvent, covered: bool) -> None:
+        if covered:
+            self._panel_buttons.add(event.button)
+            imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
+            return
+        imgui.set_window_focus(None)  # type: ignore[arg-type]
+        self._button = event.button
+        self.gesture = self._chosen(event)
+        imgui.get_io().add_mouse_pos_event(_AWAY, _AWAY)
+        self._send(None)
+
+    def _chosen(self, event: PenEvent) -> Gesture:
+        """The gesture that this press begins."""
+        held = self._keys
+        ctrl = bool({glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL} & held)
+        shift = bool({glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT} & held)
+        if glfw.KEY_SPACE in held or event.button == MIDDLE:
+            begin = zoom if ctrl else turn if shift else pan
+        elif event.button == RIGHT or ctrl:
+            begin = pick
+        else:
+            begin = TOOLS[self.desk.tool].gesture
+        return begin(self.desk, event)
+
+    def _send(self, event: PenEvent | None) -> None:
+        assert self.gesture is not None
+        try:
+            if event is None:
+                next(self.gesture)
+            else:
+                self.gesture.send(event)
+        except StopIteration:
+            self.gesture = None
+
+    def cancel(self) -> None:
+        """Ends the gesture in progress as if it had not been."""
+        if self.gesture is not None:
+            self.gesture.close()
+            self.gesture = None
+
+    def key(self, key: int, scancode: int, action: int, mods: int) -> None:
+        """One key event; those that a text field or a dialog wants are left to it."""
+        if action == glfw.RELEASE:
+            self._keys.discard(key)
+            return
+        self._keys.add(key)
+        keys = chord(key, scancode, mods)
+        if keys == "Escape" and self.gesture is not None:
+            self.cancel()
+            return
+        busy = self.desk.dialog is not None or imgui.get_io().want_text_input
+        found = by_key(keys)
+        if found is not None and (not busy or (keys in _TYPED_ANYWHERE and self.desk.dialog is None)):
+            perform(self.desk, found)
+
+    def lost_focus(self) -> None:
+        """Another window is in front: keys are no longer known to be down."""
+        self._keys.clear()
+        self.cancel()
+
+    @property
+    def panning_key(self) -> bool:
+        return glfw.KEY_SPACE in self._keys

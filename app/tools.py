@@ -1,0 +1,147 @@
+"""The tools: each gesture is a generator that gets pen events from touch-down to lift-off.
+
+A gesture may be closed early (Esc, another window in front): it then leaves nothing half done.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator
+from typing import NamedTuple
+
+import numpy as np
+
+from app import icons
+from app.desk import Desk
+from app.input.events import PenEvent
+from app.view import Place, View
+from engine.brush.smoothing import Smoother
+from engine.painting.requests import Abandon, Begin, Finish, Pick, Points
+
+Gesture = Generator[None, PenEvent, None]
+
+
+def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, start: float) -> list[float]:
+    """A pen event as a row of stroke points."""
+    x, y = view.to_canvas(event.x, event.y).offset(level, *origin)
+    pressure = event.pressure if event.pen else 1.0
+    return [x, y, pressure, event.tilt_x, event.tilt_y, event.time - start]
+
+
+def paint(desk: Desk, first: PenEvent) -> Gesture:
+    """A stroke, at the level that is shown."""
+    if not desk.ready:
+        desk.say("The paint engine is still loading")
+        return
+    layer = _locked_layer(desk)
+    if layer:
+        desk.say(f"Layer “{layer}” is locked", bad=True)
+        return
+    level, brush = desk.stroke_brush(first.eraser)
+    origin = desk.view.to_canvas(first.x, first.y).pixel(level)
+    smoother = Smoother(desk.stabiliser)
+    desk.post(Begin(level, origin, brush))
+    desk.painting = True
+    done = False
+    try:
+        event = first
+        while True:
+            ends = event.kind == "up"
+            if event.kind in ("down", "move"):
+                _post(desk, smoother.add(np.array([_point(desk.view, level, origin, event, first.time)])))
+            if ends:
+                break
+            event = yield
+        _post(desk, smoother.finish())
+        done = True
+    finally:
+        desk.painting = False
+        desk.post(Finish() if done else Abandon())
+    if brush.mode == "paint":
+        desk.use_colour()
+
+
+def _post(desk: Desk, points: np.ndarray) -> None:
+    if len(points):
+        points.flags.writeable = False
+        desk.post(Points(points))
+
+
+def _locked_layer(desk: Desk) -> str | None:
+    rows = desk.scene.layers if desk.scene else ()
+    return next((row.name for row in rows if desk.scene and row.name == desk.scene.active and row.locked), None)
+
+
+def pan(desk: Desk, first: PenEvent) -> Gesture:
+    """The picture follows the pointer: the place that was touched stays under it."""
+    desk.glide.stop()
+    held = desk.view.to_canvas(first.x, first.y)
+    while True:
+        event = yield
+        desk.view = desk.view.held(held, event.x, event.y)
+        if event.kind == "up":
+            return
+
+
+def zoom(desk: Desk, first: PenEvent) -> Gesture:
+    """Drag up or right to zoom in about the place touched; a click zooms in by one level."""
+    desk.glide.stop()
+    start = desk.view
+    held = start.to_canvas(first.x, first.y)
+    moved = 0.0
+    while True:
+        event = yield
+        moved = max(moved, math.hypot(event.x - first.x, event.y - first.y))
+        if event.kind == "up":
+            break
+        way = (event.x - first.x) - (event.y - first.y)
+        desk.view = start.zoomed(way / (120 * desk.scale)).held(held, first.x, first.y)
+    if moved < 4 * desk.scale:
+        desk.view = start
+        desk.glide.zoom(start, 1.0, first.x, first.y)
+
+
+def turn(desk: Desk, first: PenEvent) -> Gesture:
+    """Turns the picture about the middle of the free area."""
+    desk.glide.stop()
+    x, y = desk.middle()
+    start, place = desk.view, desk.view.to_canvas(x, y)
+    begin = math.atan2(first.y - y, first.x - x)
+    while True:
+        event = yield
+        angle = start.angle + math.atan2(event.y - y, event.x - x) - begin
+        quarter = round(angle / (math.pi / 2)) * (math.pi / 2)
+        desk.view = desk.view.turned(quarter if abs(angle - quarter) < 0.04 else angle, x, y).held(place, x, y)
+        if event.kind == "up":
+            return
+
+
+def pick(desk: Desk, first: PenEvent) -> Gesture:
+    """Takes the colour under the pointer."""
+    event = first
+    while True:
+        place: Place = desk.view.to_canvas(event.x, event.y)
+        level = desk.view.shown_level
+        desk.post(Pick(level, *place.pixel(level)))
+        if event.kind == "up":
+            return
+        event = yield
+
+
+class Tool(NamedTuple):
+    title: str
+    icon: str
+    gesture: Callable[[Desk, PenEvent], Gesture]
+    hint: str
+    outline: bool = False  # shows the brush's circle
+
+
+TOOLS: dict[str, Tool] = {
+    "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
+    "pan": Tool("Pan", icons.HAND, pan, "Drag the picture (Space or the middle button with any tool)"),
+    "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),
+    "turn": Tool("Turn", icons.ROTATE, turn, "Drag to turn the view; the painting itself stays as it is"),
+    "pick": Tool(
+        "Pick colour", icons.PICK, pick, "Take a colour from the picture (Ctrl or the right button with any tool)"
+    ),
+}

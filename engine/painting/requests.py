@@ -1,0 +1,236 @@
+"""What the window and the background worker say to one another: frozen requests, read-only results.
+
+Light on purpose: importing it loads neither numba nor scipy, so a window can be on the screen before the engine is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from engine.numeric.address import Rect
+
+if TYPE_CHECKING:
+    from engine.brush.record import Brush
+    from engine.painting.commands import Command
+
+SIDE = 256  # pixels along a side of a screen tile
+
+
+# Requests ------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class New:
+    """A new painting with a frame in level-0 pixels."""
+
+    frame: Rect
+    seed: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """A painting, a picture or a recording from a file; `live`: the recording is seen as it grows."""
+
+    path: Path
+    live: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Save:
+    """The painting as it is now, as .ora."""
+
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """The frame at `level` (or the rectangle `area` of that level), as .png or .tif."""
+
+    path: Path
+    level: int = 0
+    area: Rect | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Do:
+    """A command, carried out in the order of posting."""
+
+    command: Command
+
+
+@dataclass(frozen=True, slots=True)
+class Begin:
+    """The pen touches down.  `radius` of the brush is in pixels of `level`; points come relative to `origin`."""
+
+    level: int
+    origin: tuple[int, int]
+    brush: Brush
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """More of the stroke: float64 (n, 6) x, y, pressure, tilt_x, tilt_y, t."""
+
+    points: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Finish:
+    """The pen lifts: the stroke is committed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Abandon:
+    """The stroke in progress is dropped as if it had not been."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """The screen tiles wanted, most urgent first: (level, x, y, revision already held or -1).  The newest counts."""
+
+    tiles: tuple[tuple[int, int, int, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Swatch:
+    """A small picture painted with a brush, `size` (width, height) pixels; `zoom` levels nearer than painted."""
+
+    ident: str
+    brush: Brush
+    size: tuple[int, int]
+    kind: str = "stroke"
+    zoom: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """The colour of a pixel."""
+
+    level: int
+    x: int
+    y: int
+
+
+Request = New | Open | Save | Export | Do | Begin | Points | Finish | Abandon | Look | Swatch | Pick
+
+
+# Results -------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """The engine is loaded.  `blends`: name, title and hint of each blend mode; `kinds`: the rows of the texture table."""
+
+    blends: tuple[tuple[str, str, str], ...] = ()
+    kinds: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """Pixels of the rectangle `area` (within 0..256) of screen tile `tile` (level, x, y): uint8 (h, w, 4), premultiplied,
+    read-only.  `revision` counts what has happened to the painting."""
+
+    tile: tuple[int, int, int]
+    area: Rect
+    pixels: np.ndarray
+    revision: int
+
+
+@dataclass(frozen=True, slots=True)
+class Same:
+    """These tiles still show what they showed, at `revision`."""
+
+    tiles: tuple[tuple[int, int, int], ...]
+    revision: int
+
+
+@dataclass(frozen=True, slots=True)
+class LayerRow:
+    """A layer or group as the panel lists it, top-most first; `depth` counts the groups around it."""
+
+    name: str
+    group: bool
+    depth: int
+    parent: str | None
+    position: int
+    opacity: float
+    visible: bool
+    blend: str
+    locked: bool
+    alpha_locked: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What the panels show of a painting."""
+
+    frame: Rect
+    layers: tuple[LayerRow, ...]
+    active: str | None
+    can_undo: bool
+    can_redo: bool
+    modified: bool
+    path: Path | None
+    textures: tuple[str, ...] = ()
+    serial: int = 0  # another number: another painting
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A line for the artist; `bad` when something did not work."""
+
+    text: str
+    bad: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """A file was written; `serial` of the painting that it holds."""
+
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """The swatch `ident`: uint8 (h, w, 4), premultiplied, read-only."""
+
+    ident: str
+    pixels: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Picked:
+    """The colour under a Pick, straight sRGB and alpha 0..1."""
+
+    rgb: tuple[float, float, float]
+    alpha: float
+
+
+@dataclass(frozen=True, slots=True)
+class Looked:
+    """Where a recording that plays looked: level, origin, size of its view command."""
+
+    level: float
+    origin: tuple[float, float]
+    size: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Pending:
+    """How much work waits: tiles, and whether files are being read or written."""
+
+    tiles: int
+    files: int = 0
+
+
+Result = Ready | Patch | Same | Scene | Note | Saved | Picture | Picked | Looked | Pending
+
+
+def frozen(array: np.ndarray) -> np.ndarray:
+    """The array itself, made read-only."""
+    array.flags.writeable = False
+    return array

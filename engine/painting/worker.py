@@ -1,0 +1,136 @@
+"""The background worker: one thread on which the engine lives.
+
+The window posts frozen requests and drains read-only results; it never waits.  Commands and strokes are carried out in
+the order of posting; between them the thread works off the newest view request, tile by tile, most urgent first,
+so that anything newer is seen after at most one tile.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Protocol
+
+from engine.painting.requests import Look, Note, Pending, Request, Result, Swatch
+
+
+class Bench(Protocol):
+    """What the thread works at: an `Easel`, or a stand-in for tests."""
+
+    def do(self, request: Request) -> None:
+        """Carries out a request that changes something; sends its results."""
+        ...
+
+    def look(self, request: Look) -> None:
+        """Takes over what is wanted on the screen."""
+        ...
+
+    def step(self) -> bool:
+        """The most urgent piece of open work; False when there is none."""
+        ...
+
+    @property
+    def pending(self) -> int: ...
+
+    def close(self) -> None: ...
+
+
+Maker = Callable[[Callable[[Result], None]], Bench]
+
+
+def _easel(send: Callable[[Result], None]) -> Bench:
+    from engine.painting.easel import Easel  # here, on the thread: it loads numba
+
+    return Easel(send)
+
+
+class Worker:
+    """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread."""
+
+    def __init__(self, wake: Callable[[], None], make: Maker = _easel) -> None:
+        self._wake, self._make = wake, make
+        self._posted: deque[Request] = deque()
+        self._look: Look | None = None
+        self._swatches: dict[str, Swatch] = {}
+        self._results: deque[Result] = deque()
+        self._signal = threading.Condition()
+        self._closing = False
+        self._told = -1
+        self._thread = threading.Thread(target=self._run, name="inkfall engine", daemon=True)
+        self._thread.start()
+
+    def post(self, request: Request) -> None:
+        """Leaves a request; returns at once."""
+        with self._signal:
+            if isinstance(request, Look):
+                self._look = request
+            elif isinstance(request, Swatch):
+                self._swatches[request.ident] = request
+            else:
+                self._posted.append(request)
+            self._signal.notify()
+
+    def results(self) -> list[Result]:
+        """What came since the last call, in order."""
+        out: list[Result] = []
+        while self._results:
+            out.append(self._results.popleft())
+        return out
+
+    def close(self, timeout: float = 10.0) -> None:
+        """Ends the thread after what was posted before is done."""
+        with self._signal:
+            self._closing = True
+            self._signal.notify()
+        self._thread.join(timeout)
+
+    def _send(self, result: Result) -> None:
+        self._results.append(result)
+        self._wake()
+
+    def _next(self, bench: Bench) -> Callable[[], None] | None:
+        """The next piece of work: commands first, then the newest look, then its tiles, then swatches; None to end."""
+        with self._signal:
+            while True:
+                if self._posted:
+                    request = self._posted.popleft()
+                    return lambda: bench.do(request)
+                if self._closing:
+                    return None
+                if self._look is not None:
+                    look, self._look = self._look, None
+                    return lambda: bench.look(look)
+                if bench.pending:
+                    return lambda: (bench.step(), None)[1]
+                if self._swatches:
+                    swatch = self._swatches.pop(next(iter(self._swatches)))
+                    return lambda: bench.do(swatch)
+                self._signal.wait()
+
+    def _run(self) -> None:
+        try:
+            bench = self._make(self._send)
+        except Exception as error:
+            self._send(Note(f"The paint engine did not load: {error}", bad=True))
+            raise
+        while (work := self._next(bench)) is not None:
+            try:
+                work()
+            except Exception as error:  # the painting is a value: whatever failed left it as it was
+                self._send(Note(_line(error), bad=True))
+            self._tell(bench)
+        bench.close()
+
+    def _tell(self, bench: Bench) -> None:
+        """Sends how much waits, when that has changed and the work is done or long."""
+        pending = bench.pending
+        if pending != self._told and (pending == 0 or pending % 8 == 0):
+            self._told = pending
+            self._send(Pending(pending))
+
+
+def _line(error: Exception) -> str:
+    """An error as one line for people."""
+    text = str(error).strip().splitlines()
+    return text[0] if text else type(error).__name__
