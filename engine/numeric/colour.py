@@ -1,0 +1,252 @@
+"""Colours: hex names, OkLCH, and the way between our planes and 8- or 16-bit pixels.
+
+Planes are float32 (4, h, w), premultiplied and sRGB-encoded.  Files hold straight alpha; screens want it premultiplied.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+
+import numpy as np
+from numba import njit
+from numba.extending import register_jitable
+
+from engine.numeric.blend import flat
+from engine.numeric.grid import snap
+
+_HEX = re.compile(r"#[0-9a-fA-F]{6}", re.ASCII)
+
+# --- names -----------------------------------------------------------------------------------------------------------
+
+
+def parse_hex(text: object) -> tuple[float, float, float]:
+    """(red, green, blue) in 0..1, sRGB-encoded, of "#rrggbb"; ValueError for anything else."""
+    if not isinstance(text, str) or not _HEX.fullmatch(text):
+        found = repr(text)
+        raise ValueError(f'colour: found {found if len(found) <= 40 else found[:37] + "..."}, expected "#rrggbb"')
+    return int(text[1:3], 16) / 255, int(text[3:5], 16) / 255, int(text[5:7], 16) / 255
+
+
+def to_hex(rgb: tuple[float, float, float]) -> str:
+    """ "#rrggbb" of a colour in 0..1, rounded to nearest and clipped."""
+    return "#" + "".join(f"{min(255, max(0, int(255 * value + 0.5))):02x}" for value in rgb)
+
+
+# --- OkLCH (Björn Ottosson, "A perceptual color space for image processing", 2020; matrices of his 2021 revision) ----
+
+_LMS_FROM_LINEAR = np.array(
+    [
+        [0.4122214708, 0.5363325363, 0.0514459929],
+        [0.2119034982, 0.6806995451, 0.1073969566],
+        [0.0883024619, 0.2817188376, 0.6299787005],
+    ]
+)
+_LAB_FROM_LMS = np.array(
+    [
+        [0.2104542553, 0.7936177850, -0.0040720468],
+        [1.9779984951, -2.4285922050, 0.4505937099],
+        [0.0259040371, 0.7827717662, -0.8086757660],
+    ]
+)
+_LINEAR_FROM_LMS = np.linalg.inv(_LMS_FROM_LINEAR)  # computed, so that there and back is exact to rounding
+_LMS_FROM_LAB = np.linalg.inv(_LAB_FROM_LMS)
+
+
+def linear_from_srgb(encoded: np.ndarray) -> np.ndarray:
+    """Linear light of sRGB-encoded values (IEC 61966-2-1), float64; odd in its argument, so it takes any value."""
+    x = np.asarray(encoded, np.float64)
+    a = np.abs(x)
+    return np.copysign(np.where(a <= 0.04045, a / 12.92, ((a + 0.055) / 1.055) ** 2.4), x)
+
+
+def srgb_from_linear(linear: np.ndarray) -> np.ndarray:
+    """Inverse of `linear_from_srgb`."""
+    x = np.asarray(linear, np.float64)
+    a = np.abs(x)
+    return np.copysign(np.where(a <= 0.0031308, a * 12.92, 1.055 * a ** (1 / 2.4) - 0.055), x)
+
+
+def oklch_from_srgb(rgb: np.ndarray) -> np.ndarray:
+    """Lightness 0..1, chroma (0 to about 0.32 within sRGB) and hue in degrees 0..360 of sRGB-encoded (..., 3)."""
+    lms = np.cbrt(linear_from_srgb(rgb) @ _LMS_FROM_LINEAR.T)
+    lightness, a, b = np.moveaxis(lms @ _LAB_FROM_LMS.T, -1, 0)
+    return np.stack([lightness, np.hypot(a, b), np.degrees(np.arctan2(b, a)) % 360.0], axis=-1)
+
+
+def srgb_from_oklch(lch: np.ndarray) -> np.ndarray:
+    """sRGB-encoded (..., 3) of lightness, chroma, hue in degrees; outside 0..1 where sRGB has no such colour."""
+    lightness, chroma, hue = np.moveaxis(np.asarray(lch, np.float64), -1, 0)
+    angle = np.radians(hue)
+    lab = np.stack([lightness, chroma * np.cos(angle), chroma * np.sin(angle)], axis=-1)
+    return srgb_from_linear((lab @ _LMS_FROM_LAB.T) ** 3 @ _LINEAR_FROM_LMS.T)
+
+
+def displayable(rgb: np.ndarray, slack: float = 1e-4) -> np.ndarray:
+    """Whether sRGB-encoded (..., 3) lies within 0..1, up to `slack` (less than half a step of 8 bits)."""
+    rgb = np.asarray(rgb)
+    return np.asarray(((rgb >= -slack) & (rgb <= 1 + slack)).all(axis=-1))
+
+
+def fitted_srgb_from_oklch(lch: np.ndarray) -> np.ndarray:
+    """sRGB-encoded (..., 3) in 0..1: the colour itself or, outside sRGB, the one with as much chroma as fits.
+
+    Lightness and hue are kept (CSS Color 4, section 13.2, reduced to its bisection).
+    """
+    lch = np.array(lch, np.float64)
+    lch[..., 0] = np.clip(lch[..., 0], 0, 1)
+    slack = 1e-9  # rounding; near black a larger one would let visible chroma through
+    fits, low, high = displayable(srgb_from_oklch(lch), slack), np.zeros(lch.shape[:-1]), lch[..., 1]
+    for _ in range(16):
+        middle = (low + high) / 2
+        inside = displayable(srgb_from_oklch(np.stack([lch[..., 0], middle, lch[..., 2]], axis=-1)), slack)
+        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+    lch[..., 1] = np.where(fits, lch[..., 1], low)
+    return np.clip(srgb_from_oklch(lch), 0, 1)
+
+
+# --- planes and pixels -----------------------------------------------------------------------------------------------
+# A pixel is packed into one integer, so that loads and stores vectorise.
+
+_LITTLE = sys.byteorder == "little"
+_R8, _G8, _B8, _A8 = (np.uint32(8 * i if _LITTLE else 24 - 8 * i) for i in range(4))
+_R16, _G16, _B16, _A16 = (np.uint64(16 * i if _LITTLE else 48 - 16 * i) for i in range(4))
+_BYTE, _WORD = np.uint32(0xFF), np.uint64(0xFFFF)
+_ZERO, _HALF, _ONE, _TOP8, _TINY = (np.float32(v) for v in (0, 0.5, 1, 255, 1e-30))
+_PER_BYTE = np.float32(1 / 255)
+_STEPS, _STEP = 65536.0, np.float32(2.0**-16)
+
+_inlined = register_jitable(forceinline=True)
+
+
+@_inlined
+def _clamp(value, top):
+    value = value if value > _ZERO else _ZERO  # in this order NaN becomes 0
+    return value if value < top else top
+
+
+@_inlined
+def _byte(value):
+    """Nearest integer of 0..255, ties up; NaN gives 0."""
+    return np.uint32(np.int32(_clamp(value, _TOP8) + _HALF))
+
+
+@_inlined
+def _word(value):
+    """Nearest integer of 0..65535, ties up; NaN gives 0."""
+    value = value if value > 0.0 else 0.0
+    value = value if value < 65535.0 else 65535.0
+    return np.uint64(np.int64(value + 0.5))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _straight8(planes, out):
+    for i in range(out.size):
+        a = _clamp(planes[3, i], _ONE)
+        alpha = _byte(_TOP8 * a)
+        scale = _TOP8 / (a if a > _TINY else _ONE)
+        scale = scale if alpha > 0 else _ZERO
+        r, g, b = _byte(planes[0, i] * scale), _byte(planes[1, i] * scale), _byte(planes[2, i] * scale)
+        out[i] = (r << _R8) | (g << _G8) | (b << _B8) | (alpha << _A8)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _straight16(planes, out):
+    for i in range(out.size):
+        a = np.float64(_clamp(planes[3, i], _ONE))
+        alpha = _word(65535.0 * a)
+        scale = 65535.0 / (a if a > 1e-30 else 1.0)
+        scale = scale if alpha > 0 else 0.0
+        r, g, b = _word(planes[0, i] * scale), _word(planes[1, i] * scale), _word(planes[2, i] * scale)
+        out[i] = (r << _R16) | (g << _G16) | (b << _B16) | (alpha << _A16)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _premultiplied8(planes, out):
+    for i in range(out.size):
+        a = _clamp(planes[3, i], _ONE)
+        r, g, b = _clamp(planes[0, i], a), _clamp(planes[1, i], a), _clamp(planes[2, i], a)
+        out[i] = (
+            (_byte(_TOP8 * r) << _R8)
+            | (_byte(_TOP8 * g) << _G8)
+            | (_byte(_TOP8 * b) << _B8)
+            | (_byte(_TOP8 * a) << _A8)
+        )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _planes8(pixels, out):
+    for i in range(pixels.size):
+        p = pixels[i]
+        a = snap(np.float32((p >> _A8) & _BYTE) * _PER_BYTE)
+        scale = a * _PER_BYTE
+        out[0, i] = snap(np.float32((p >> _R8) & _BYTE) * scale)
+        out[1, i] = snap(np.float32((p >> _G8) & _BYTE) * scale)
+        out[2, i] = snap(np.float32((p >> _B8) & _BYTE) * scale)
+        out[3, i] = a
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _planes16(pixels, out):
+    for i in range(pixels.size):
+        p = pixels[i]
+        a = np.floor(np.float64((p >> _A16) & _WORD) * _STEPS / 65535.0 + 0.5)
+        scale = a / 65535.0
+        out[0, i] = np.float32(np.floor(np.float64((p >> _R16) & _WORD) * scale + 0.5)) * _STEP
+        out[1, i] = np.float32(np.floor(np.float64((p >> _G16) & _WORD) * scale + 0.5)) * _STEP
+        out[2, i] = np.float32(np.floor(np.float64((p >> _B16) & _WORD) * scale + 0.5)) * _STEP
+        out[3, i] = np.float32(a) * _STEP
+
+
+def _to_pixels(planes: np.ndarray, kernel: Callable[..., None], packed: type, channel: type) -> np.ndarray:
+    if planes.ndim != 3 or len(planes) != 4:
+        raise ValueError(f"pixels: found planes of shape {planes.shape}, expected (4, h, w)")
+    _, height, width = planes.shape
+    out = np.empty(height * width, packed)
+    kernel(flat(planes), out)
+    return out.view(channel).reshape(height, width, 4)
+
+
+def _to_planes(pixels: np.ndarray, kernel: Callable[..., None], packed: type, channel: type) -> np.ndarray:
+    if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != channel:
+        expected = np.dtype(channel).name
+        raise ValueError(f"pixels: found {pixels.dtype} of shape {pixels.shape}, expected {expected} (h, w, 4)")
+    height, width, _ = pixels.shape
+    out = np.empty((4, height, width), np.float32)
+    words: np.ndarray = np.ascontiguousarray(pixels).reshape(-1).view(packed)
+    words.setflags(write=False)
+    kernel(words, out.reshape(4, -1))
+    return out
+
+
+def to_rgba8(planes: np.ndarray) -> np.ndarray:
+    """Straight 8-bit RGBA (h, w, 4) of planes, clamped and rounded to nearest; all zero where alpha rounds to zero."""
+    return _to_pixels(planes, _straight8, np.uint32, np.uint8)
+
+
+def to_rgba16(planes: np.ndarray) -> np.ndarray:
+    """Straight 16-bit RGBA, uint16 (h, w, 4) in the machine's byte order; otherwise as `to_rgba8`."""
+    return _to_pixels(planes, _straight16, np.uint64, np.uint16)
+
+
+def to_premul8(planes: np.ndarray) -> np.ndarray:
+    """Premultiplied 8-bit RGBA (h, w, 4), colour <= alpha: what a screen's texture takes."""
+    return _to_pixels(planes, _premultiplied8, np.uint32, np.uint8)
+
+
+def from_rgba8(pixels: np.ndarray) -> np.ndarray:
+    """Planes on the grid of straight 8-bit RGBA (h, w, 4).
+
+    `to_rgba8` gives the same pixels back wherever alpha > 0: colour is scaled by the alpha that lies on the grid, and
+    that is at least 257 steps, one more than there are colours.
+    """
+    return _to_planes(pixels, _planes8, np.uint32, np.uint8)
+
+
+def from_rgba16(pixels: np.ndarray) -> np.ndarray:
+    """Planes on the grid of straight uint16 RGBA (h, w, 4).
+
+    `to_rgba16` gives alpha back, and colour where alpha is full; elsewhere colour to half a grid step over alpha.
+    """
+    return _to_planes(pixels, _planes16, np.uint64, np.uint16)
