@@ -1,0 +1,100 @@
+"""Kernels that turn a tile's coverage into the A and B of its stamp.  All results lie on the grid 2^-16."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.address import TILE
+from engine.numeric.grid import snap
+
+_ONE = np.float32(1.0)
+
+
+@njit(cache=True, nogil=True)
+def keep_of(coverage, keep):
+    """A = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w)."""
+    covered = 0
+    for y in range(coverage.shape[0]):
+        m, a = coverage[y], keep[y]
+        for x in range(m.shape[0]):
+            a[x] = _ONE - snap(m[x])
+            covered += a[x] < _ONE  # an integer sum vectorises, a float minimum does not
+    return covered > 0
+
+
+@njit(cache=True, nogil=True)
+def _weigh_locked(keep, alpha, weight, add_alpha):
+    for y in range(keep.shape[0]):
+        a, v, w, b = keep[y], alpha[y], weight[y], add_alpha[y]
+        for x in range(a.shape[0]):
+            w[x] = (_ONE - a[x]) * v[x]
+            b[x] = v[x] - snap(a[x] * v[x])
+
+
+def weigh(keep: np.ndarray, alpha: np.ndarray, locked: bool, add_alpha: np.ndarray) -> np.ndarray:
+    """The weight of new colour, float32 (h, w): M, or M times `alpha` where that is locked.
+
+    Writes the alpha plane of B into `add_alpha`: M, or exactly what A takes from `alpha`.
+    """
+    weight = np.empty_like(keep)
+    if locked:
+        _weigh_locked(keep, np.ascontiguousarray(alpha), weight, add_alpha)
+    else:
+        np.subtract(_ONE, keep, out=weight)
+        add_alpha[...] = weight
+    return weight
+
+
+@njit(cache=True, nogil=True)
+def wash(weight, colour, add):
+    """B = snap(weight * colour): `weight` float32 (h, w), `colour` float32 (n,), `add` float32 (n, h, w)."""
+    for c in range(add.shape[0]):
+        value = colour[c]
+        for y in range(weight.shape[0]):
+            w, b = weight[y], add[c, y]
+            for x in range(w.shape[0]):
+                b[x] = snap(w[x] * value)
+
+
+@njit(cache=True, nogil=True)
+def glaze(weight, colours, add):
+    """B = snap(weight * colours): `weight` float32 (h, w), `colours` and `add` float32 (n, h, w)."""
+    for c in range(add.shape[0]):
+        for y in range(weight.shape[0]):
+            w, p, b = weight[y], colours[c, y], add[c, y]
+            for x in range(w.shape[0]):
+                b[x] = snap(w[x] * p[x])
+
+
+def local_mean(planes: np.ndarray, reach: int) -> np.ndarray:
+    """The mean of each pixel's surroundings: two passes of a box of 2 reach + 1 px along each axis.
+
+    `planes`: float32 (n, 128 + 4 reach, 128 + 4 reach) on the grid; returns float32 (n, 128, 128).  The sums are
+    exact in float64, so the result does not depend on their order.
+    """
+    width = 2 * reach + 1
+    out = np.empty((len(planes), TILE, TILE), np.float32)
+    for plane, mean in zip(planes, out, strict=True):
+        down = _box(_box(plane.astype(np.float64), width), width)
+        across = _box(_box(np.ascontiguousarray(down.T), width), width)
+        np.divide(across.T, float(width**4), out=mean, casting="same_kind")
+    return out
+
+
+@njit(cache=True, nogil=True)
+def _box(values, width):
+    """Sums of `width` successive rows: float64 (h, w) to (h - width + 1, w)."""
+    out = np.empty((values.shape[0] - width + 1, values.shape[1]))
+    total = np.zeros(values.shape[1])
+    for y in range(width):
+        row = values[y]
+        for x in range(row.shape[0]):
+            total[x] += row[x]
+    out[0] = total
+    for y in range(1, out.shape[0]):
+        gone, come, o = values[y - 1], values[y + width - 1], out[y]
+        for x in range(total.shape[0]):
+            total[x] += come[x] - gone[x]
+            o[x] = total[x]
+    return out

@@ -1,0 +1,154 @@
+"""Round dabs as the mask's kernels see them: discs, the tiles they meet, and their profile laid into a tile.
+
+The profile of a dab of radius R (px) is d = (1-u)^2 (1+2u) with u = clip((r^2 - Rin^2)/(Rout^2 - Rin^2), 0, 1): 1 up
+to Rin, a smooth fall in r^2, 0 from Rout on.  Rout = R + 1/2 and Rin = min(hardness R, R - 1/2) >= 0, so that the
+hardest brush still has an edge of one pixel.  Below R = 1/2 the profile keeps its size and fades by area.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.address import TILE
+
+CX, CY, ROUT, RIN2, SCALE, CEILING, RATE = range(7)  # a disc's columns; SCALE = 1/(Rout^2 - Rin^2)
+DISC = 7
+
+_LANES = 16  # rows are worked on in whole groups of as many pixels, so that no scalar remainder is left
+HALF = 1 << 30  # added to tile coordinates, which stay below 2^25, so that codes are positive
+_INSIDE = -0.01  # u below which the whole profile is 1 whatever the rounding
+
+_ZERO = np.float32(0.0)
+_ONE = np.float32(1.0)
+_TWO = np.float32(2.0)
+_THREE = np.float32(3.0)
+
+
+@njit(cache=True, nogil=True)
+def as_discs(dabs, shift_x, shift_y, bounds):
+    """Dabs (n, 6) as discs (n, 7), moved by a shift in px; those without effect get RATE 0.
+
+    CEILING is the dab's opacity on the grid 2^-16.  `bounds`, float64 (x0, y0, x1, y1), grows to hold the discs.
+    """
+    discs = np.empty((dabs.shape[0], DISC))
+    for i in range(dabs.shape[0]):
+        radius = dabs[i, 2]
+        fade = min(1.0, 4.0 * radius * radius)
+        radius = max(radius, 0.5)
+        outer = radius + 0.5
+        inner = max(0.0, min(dabs[i, 5] * radius, radius - 0.5))
+        disc = discs[i]
+        disc[CX] = dabs[i, 0] + shift_x
+        disc[CY] = dabs[i, 1] + shift_y
+        disc[ROUT] = outer
+        disc[RIN2] = inner * inner
+        disc[SCALE] = 1.0 / (outer * outer - inner * inner)
+        disc[CEILING] = math.floor(dabs[i, 3] * fade * 65536.0 + 0.5) / 65536.0
+        disc[RATE] = dabs[i, 4] if disc[CEILING] > 0.0 else 0.0
+        if disc[RATE] > 0.0:
+            bounds[0] = min(bounds[0], disc[CX] - outer)
+            bounds[1] = min(bounds[1], disc[CY] - outer)
+            bounds[2] = max(bounds[2], disc[CX] + outer)
+            bounds[3] = max(bounds[3], disc[CY] + outer)
+    return discs
+
+
+@njit(cache=True, nogil=True)
+def list_pairs(discs, start, codes, which, inside):
+    """The pairs (tile, disc) of the discs from `start` on, disc by disc, until the next might not fit.
+
+    Writes the tile as (y + HALF) 2^32 + (x + HALF) into `codes`, the disc's index into `which`, and into `inside`
+    whether it covers every pixel of the tile in full.  Returns the number of pairs and the next disc.
+    """
+    count = 0
+    i = start
+    while i < discs.shape[0]:
+        disc = discs[i]
+        cx, cy, outer = disc[CX], disc[CY], disc[ROUT]
+        x0, x1 = math.floor((cx - outer) / TILE), math.floor((cx + outer) / TILE)
+        y0, y1 = math.floor((cy - outer) / TILE), math.floor((cy + outer) / TILE)
+        if count + (x1 - x0 + 1) * (y1 - y0 + 1) > codes.shape[0]:
+            break
+        if disc[RATE] > 0.0:
+            for ty in range(y0, y1 + 1):
+                near_y, far_y = _span(cy, ty)
+                for tx in range(x0, x1 + 1):
+                    near_x, far_x = _span(cx, tx)
+                    if near_x * near_x + near_y * near_y < outer * outer:
+                        codes[count] = ((ty + HALF) << 32) + (tx + HALF)
+                        which[count] = i
+                        inside[count] = (far_x * far_x + far_y * far_y - disc[RIN2]) * disc[SCALE] < _INSIDE
+                        count += 1
+        i += 1
+    return count, i
+
+
+@njit(inline="always")
+def _span(centre, tile):
+    """Along one axis, how far from `centre` the nearest and the farthest pixel centres of a tile are."""
+    low = tile * TILE + 0.5 - centre
+    high = low + (TILE - 1)
+    return max(0.0, max(low, -high)), max(high, -low)
+
+
+@njit(cache=True, nogil=True)
+def lay_flat(discs, which, inside, value, ceiling):
+    """Lays discs on a tile whose coverage is one `value`, float32, for as long as it stays one.
+
+    `ceiling`: no disc of the stroke so far has a higher one.  Returns the value and how many discs were laid.
+    """
+    laid = 0
+    for k in range(which.shape[0]):  # a disc that fills the tile to the ceiling wipes out what came before
+        disc = discs[which[k]]
+        if inside[k] and disc[RATE] == 1.0 and disc[CEILING] >= ceiling:
+            value, laid = np.float32(disc[CEILING]), k + 1
+    for k in range(laid, which.shape[0]):
+        disc = discs[which[k]]
+        room = max(_ZERO, np.float32(disc[CEILING]) - value)
+        if room > _ZERO:
+            if not inside[k]:
+                return value, k
+            value = value + room * np.float32(disc[RATE])
+    return value, which.shape[0]
+
+
+@njit(cache=True, nogil=True)
+def wiped(discs, which, inside, ceiling):
+    """Whether a disc among these fills the whole tile up to the ceiling."""
+    for k in range(which.shape[0]):
+        if inside[k] and discs[which[k], RATE] == 1.0 and discs[which[k], CEILING] >= ceiling:
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def lay(coverage, discs, which, left, top):
+    """Lays discs into one tile, in order: M' = M + max(0, ceiling - M) * rate * d(r).
+
+    `coverage`: M, float32 (128, 128), written; `left`, `top`: the tile's corner in px.
+    """
+    across = np.empty(TILE, np.float32)
+    for k in range(which.shape[0]):
+        disc = discs[which[k]]
+        cx, cy, outer, scale = disc[CX] - left, disc[CY] - top, disc[ROUT], disc[SCALE]
+        ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
+        for x in range(TILE):
+            across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
+        for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
+            dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)
+            half = math.sqrt(max(0.0, outer * outer - dy2))
+            a = max(0, math.ceil(cx - half - 0.5)) // _LANES * _LANES
+            b = (min(TILE, math.floor(cx + half - 0.5) + 1) + _LANES - 1) // _LANES * _LANES
+            if a < b:
+                down = np.float32((dy2 - disc[RIN2]) * scale)
+                _lay_row(coverage[y, a:b], across[a:b], down, ceiling, rate)
+
+
+@njit(inline="always")
+def _lay_row(row, across, down, ceiling, rate):
+    for i in range(row.shape[0]):
+        v = _ONE - max(_ZERO, min(_ONE, across[i] + down))  # 1 - u
+        row[i] += max(_ZERO, ceiling - row[i]) * (rate * (v * v * (_THREE - _TWO * v)))

@@ -1,0 +1,128 @@
+"""A brush's ink, resolved: its base colour, and the amplitude of every texture instance in it (features P3, P5).
+
+A component of amount a mixes the texture's value s, 0..1, of colour X into the brush's colour C: C + a s (X - C).
+With s = (S + 1)/2 for a procedural texture of nominal S in -1..1 that is linear in S: the constant parts gather in the
+base colour, and a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, sections 3.1 and 3.4).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from engine.brush.checks import BrushError
+from engine.brush.record import Brush, Component
+from engine.numeric.address import TileKey
+from engine.texture.image import ImageSource
+from engine.texture.planes import sort_key
+from engine.texture.record import Instance
+from engine.texture.table import KINDS, TextureError, instance
+
+_MEMO = 96  # tiles of textured colour kept: 18 MB
+
+
+class Texture(Protocol):
+    """A texture that a recording defined under a name.  A plain `ImageSource` may stand in its place."""
+
+    def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance: ...
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Loaded:
+    """One instance of the ink: `amplitude`, float32 (3,), multiplies its S; `hidden`, float32 (3,), is the colour that
+    a picture's own alpha hides, 0 for other textures."""
+
+    instance: Instance
+    amplitude: np.ndarray
+    hidden: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Ink:
+    """`base`: the constant part of the colour, float32 (3,), encoded sRGB; `loaded`: the instances, sorted by key."""
+
+    base: np.ndarray
+    loaded: tuple[Loaded, ...] = ()
+    _memo: dict[TileKey, np.ndarray] = field(default_factory=dict, repr=False)
+
+    @property
+    def inks(self) -> tuple[Instance, ...]:
+        return tuple(part.instance for part in self.loaded)
+
+    def field(self, key: TileKey) -> np.ndarray:
+        """The ink's colour over a tile of its own level: float32 (3, 128, 128), not to be written to."""
+        known = self._memo.get(key)
+        if known is not None:
+            return known
+        shape = (3, key.rect.height, key.rect.width)
+        out = np.broadcast_to(self.base[:, None, None], shape).copy()
+        for part in self.loaded:
+            seen = part.instance.appearance(key.level, key.rect)
+            out += part.amplitude[:, None, None] * (seen[:3] if len(seen) >= 3 else seen)
+            if len(seen) == 4:
+                out -= part.hidden[:, None, None] * seen[3]
+        while len(self._memo) >= _MEMO:
+            self._memo.pop(next(iter(self._memo)), None)
+        self._memo[key] = out
+        return out
+
+
+def resolve(
+    brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str = "brush"
+) -> Ink:
+    """The ink of a brush for a stroke at `level`; `textures` are those defined by name, before the built-in ones.
+
+    BrushError names the component and the field that is wrong.
+    """
+    under = np.array(brush.rgb)
+    base = under.copy()
+    found: dict[Instance, list[np.ndarray]] = {}
+    for i, component in enumerate(brush.ink):
+        towards = component.amount * (np.array(component.rgb) - under)
+        if component.amount == 0.0:
+            continue
+        if component.texture == "white" and "white" not in textures:
+            base += towards
+            continue
+        made = _instance(component, textures, level, seed, f"{where}.ink[{i}]")
+        amplitude, hidden = towards / 2.0, np.zeros(3)
+        if _is_picture(made):
+            amplitude, hidden = component.amount * np.array(component.rgb), component.amount * under
+        else:
+            base += amplitude
+        sums = found.setdefault(made, [np.zeros(3), np.zeros(3)])
+        sums[0] += amplitude
+        sums[1] += hidden
+    loaded = [
+        Loaded(made, amplitude.astype(np.float32), hidden.astype(np.float32))
+        for made, (amplitude, hidden) in sorted(found.items(), key=lambda item: sort_key(item[0].key))
+        if amplitude.any() or hidden.any()
+    ]
+    return Ink(base.astype(np.float32), tuple(loaded))
+
+
+def _is_picture(made: Instance) -> bool:
+    """Whether an instance's S is a premultiplied picture, 0..1 with alpha, rather than a pattern of -1..1."""
+    row = KINDS.get(made.key[0])
+    return row is not None and row.pictured
+
+
+def _instance(
+    component: Component, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
+) -> Instance:
+    name = component.texture
+    try:
+        defined = textures.get(name)
+        if isinstance(defined, ImageSource):
+            return instance("image", component.parameters, level, seed, defined)
+        if defined is not None:
+            return defined.instance(component.parameters, level, seed)
+        if name in KINDS:
+            return instance(name, component.parameters, level, seed)
+    except TextureError as error:
+        raise BrushError(f"{where}.{error.place}", error.found, error.expected) from None
+    names = ", ".join([*(row.name for row in KINDS.values() if not row.pictured), *sorted(textures)[:20]])
+    raise BrushError(f"{where}.texture", ascii(name), f"a texture: {names}")

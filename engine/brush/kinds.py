@@ -1,0 +1,181 @@
+"""What a stroke does where it covers: the table of modes, each an edit of the form v' = snap(A v) + B.
+
+A = 1 - M everywhere, M being the stroke's coverage on the grid.  Painting adds M times the ink, erasing nothing,
+smoothing M times the mean of what lies around.  Under alpha lock, colour is scaled by the alpha that lies there, and
+alpha itself stays as it is, bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from engine.brush import coat
+from engine.brush.checks import BrushError, shown, thawed
+from engine.brush.ink import Ink
+from engine.brush.mask import Coverage, StrokeMask
+from engine.brush.record import Brush
+from engine.brush.stamp import Edit, Stamp
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.texture.planes import COLOURS, Planes
+
+Read = Callable[[Rect], Planes]
+
+REACH_CAP = 32  # px: how far on each side a pass of smoothing looks
+_ALPHA = 3
+
+
+@dataclass(frozen=True, eq=False)
+class _Covered:
+    """What all modes share: the stroke's coverage, and the part A that stays."""
+
+    coverage: Coverage
+    brush: Brush
+    ink: Ink | None
+    locked: bool
+    read: Read | None
+    _flat: dict[float | None, Stamp] = field(default_factory=dict, repr=False)
+
+    @property
+    def level(self) -> int:
+        return self.coverage.level
+
+    @property
+    def tiles(self) -> tuple[TileKey, ...]:
+        return self.coverage.keys
+
+    @property
+    def rect(self) -> Rect:
+        return self.coverage.rect
+
+    def _keep(self, key: TileKey) -> np.ndarray | None:
+        """A of a tile, or None where nothing is covered."""
+        covered = self.coverage.tiles.get(key)
+        if covered is None:
+            return None
+        keep = np.empty((TILE, TILE), np.float32)
+        if not isinstance(covered, np.ndarray):
+            keep[...] = 1.0 - np.rint(covered * 65536.0) / 65536.0
+            return keep if keep[0, 0] < 1.0 else None
+        return keep if coat.keep_of(covered, keep) else None
+
+
+class Painting(_Covered):
+    """Lays the ink over what is there; its amplitudes become ink planes."""
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        assert self.ink is not None
+        covered = self.coverage.tiles.get(key)
+        alike = covered if isinstance(covered, float) and not self.ink.loaded and not self.locked else None
+        if alike in self._flat:
+            return self._flat[alike]
+        keep = self._keep(key)
+        if keep is None:
+            return None
+        parts = self.ink.loaded
+        add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
+        weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
+        if parts:
+            coat.glaze(weight, self.ink.field(key), add[:_ALPHA])
+        else:
+            coat.wash(weight, self.ink.base, add[:_ALPHA])
+        for i, part in enumerate(parts):
+            coat.wash(weight, part.amplitude, add[COLOURS + 3 * i : COLOURS + 3 * i + 3])
+        made = Stamp(keep, add, self.ink.inks)
+        if alike is not None:
+            self._flat[alike] = made
+        return made
+
+
+class Erasing(_Covered):
+    """Takes away colour, alpha, ink and all finer detail.  Under alpha lock there is nothing it may take."""
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        keep = None if self.locked else self._keep(key)
+        return None if keep is None else Stamp(keep, _NOTHING)
+
+
+class Smoothing(_Covered):
+    """Replaces what is there by its local mean at the stroke's level, and removes ink, and so all finer detail.
+
+    The mean is over a window in proportion to the radius: two passes of a box that reaches a quarter of the radius,
+    at most 32 px, to each side (Perlin & Velho 1995, section 6.1).
+    """
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        assert self.read is not None
+        keep = self._keep(key)
+        if keep is None:
+            return None
+        reach = min(max(round(self.brush.radius / 4.0), 1), REACH_CAP)
+        around = self.read(key.rect.grown(2 * reach)).data[:COLOURS]
+        mean = coat.local_mean(np.ascontiguousarray(around), reach)
+        add = np.empty((COLOURS, TILE, TILE), np.float32)
+        if self.locked:
+            np.divide(mean[:_ALPHA], mean[_ALPHA], out=mean[:_ALPHA], where=mean[_ALPHA] > 0.0)
+        weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
+        coat.glaze(weight, mean[:_ALPHA], add[:_ALPHA])
+        if not self.locked:
+            coat.glaze(weight, mean[_ALPHA:], add[_ALPHA:])
+        return Stamp(keep, add)
+
+
+_NOTHING = np.zeros((COLOURS, TILE, TILE), np.float32)
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """A row of the table: what the mode is called, what it does, and the class of its edits; None: not yet."""
+
+    name: str
+    label: str
+    tooltip: str
+    edit: type[Painting] | type[Erasing] | type[Smoothing] | None
+
+
+MODES: dict[str, Mode] = {
+    row.name: row
+    for row in (
+        Mode("paint", "Paint", "Lays paint over what is there", Painting),
+        Mode("erase", "Erase", "Takes away paint and the detail under it", Erasing),
+        Mode("smooth", "Smooth", "Blurs, and removes the detail that zooming in would show", Smoothing),
+        Mode("raster", "Raster operation", "Changes the colour that is there", None),
+        Mode("example", "Example", "Grows a texture from an example", None),
+    )
+}
+
+
+def check(brush: Brush, where: str = "brush") -> None:
+    """BrushError, naming the field, if the brush asks for something that this version cannot paint with."""
+    usable = ", ".join(name for name, mode in MODES.items() if mode.edit is not None)
+    if MODES[brush.mode].edit is None:
+        raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
+    if brush.op != "toward":
+        raise BrushError(f"{where}.op", shown(thawed(brush.op)), 'the one this version paints with, "toward"')
+    for name in ("density", "grain", "example", "depth"):
+        if getattr(brush, name) is not None:
+            raise BrushError(
+                f"{where}.{name}", shown(thawed(getattr(brush, name))), "none: this version paints without"
+            )
+    if brush.shaping not in _IDENTITY:
+        raise BrushError(f"{where}.shaping", shown(brush.shaping), "none: this version paints without")
+
+
+_IDENTITY = (None, "identity", ((0.0, 0.0), (1.0, 1.0)))
+
+
+def edit(
+    brush: Brush, mask: StrokeMask | Coverage, ink: Ink | None, alpha_locked: bool = False, read: Read | None = None
+) -> Edit:
+    """The edit that a stroke makes: `mask` as it is now, whatever is painted later.
+
+    `ink` (`ink.resolve`) is needed to paint; `read`, which gives the old values of any rectangle of the stroke's
+    level, to smooth.  BrushError as `check`.
+    """
+    check(brush)
+    coverage = mask.coverage() if isinstance(mask, StrokeMask) else mask
+    made = MODES[brush.mode].edit
+    assert made is not None
+    return made(coverage, brush, ink, alpha_locked, read)

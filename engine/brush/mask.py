@@ -1,0 +1,144 @@
+"""The coverage of one stroke: how much of each pixel its dabs have covered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from engine.brush import discs as kernels
+from engine.brush.checks import BrushError
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.grid import SNAP
+
+TILES_CAP = 1 << 15  # of one stroke: 2 GiB of coverage if none of them is flat
+_PAIRS = 1 << 17  # (tile, dab) pairs sorted at once
+_PAIRS_OF_ONE = 4608  # more tiles than the largest dab can meet
+_LOW = (1 << 32) - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Coverage:
+    """A stroke's coverage at one moment; shares its tiles with the mask it was taken from, and never changes.
+
+    `tiles`: by key, M as float32 (128, 128), or one float where M is the same all over; between grid values, in 0..1.
+    `rect`: pixels of `level` outside which M is 0.
+    """
+
+    level: int
+    tiles: Mapping[TileKey, np.ndarray | float]
+    rect: Rect
+
+    @cached_property
+    def keys(self) -> tuple[TileKey, ...]:
+        """The tiles, sorted by row, then column."""
+        return tuple(sorted(self.tiles, key=lambda key: (key.y, key.x)))
+
+    def on_grid(self, key: TileKey) -> np.ndarray:
+        """M of one tile rounded to the grid: a new float32 (128, 128)."""
+        m = np.empty((TILE, TILE), np.float32)
+        m[...] = self.tiles.get(key, 0.0)
+        m += SNAP
+        m -= SNAP
+        return m
+
+
+class StrokeMask:
+    """The coverage M of a stroke at `level`, grown dab by dab: M' = M + max(0, opacity - M) * flow * d(r).
+
+    So a dab's opacity is a ceiling that no number of dabs passes, and flow the rate at which M comes up to it; d is
+    the profile of module `discs`.  `origin`: the stroke's origin, integers of any size.  Only touched tiles take
+    memory, and of those only the ones that are not of one value.
+    """
+
+    def __init__(self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP) -> None:
+        self.level = level
+        self.origin = origin
+        self._tiles_cap = tiles_cap
+        self._corner = origin[0] // TILE, origin[1] // TILE  # the tile of the origin
+        self._shift = float(origin[0] % TILE), float(origin[1] % TILE)
+        self._tiles: dict[TileKey, np.ndarray | float] = {}
+        self._lent: set[TileKey] = set()  # tiles that a Coverage also holds: copied before they are written
+        self._bounds = np.array([np.inf, np.inf, -np.inf, -np.inf])
+        self._ceiling = 0.0
+
+    @property
+    def rect(self) -> Rect:
+        """The pixels of the level that the dabs so far may have covered."""
+        if not self._tiles:
+            return Rect(0, 0, 0, 0)
+        x0, y0, x1, y1 = self._bounds
+        left, top = self._corner[0] * TILE, self._corner[1] * TILE
+        return Rect(left + int(x0 // 1), top + int(y0 // 1), left - int(-x1 // 1), top - int(-y1 // 1))
+
+    def coverage(self) -> Coverage:
+        """What is covered so far, as a value that later dabs do not change."""
+        self._lent = set(self._tiles)
+        return Coverage(self.level, dict(self._tiles), self.rect)
+
+    def paint(self, dabs: np.ndarray) -> set[TileKey]:
+        """Lays dabs, float64 (n, 6) of `Stroker.add`, in order; returns the tiles that may have changed.
+
+        BrushError, before anything of this portion's next 131,072 pairs is laid, if the stroke would meet more than
+        `tiles_cap` tiles.
+        """
+        discs = kernels.as_discs(dabs, *self._shift, self._bounds)
+        if not len(discs):
+            return set()
+        self._ceiling = max(self._ceiling, float(discs[:, kernels.CEILING].max()))
+        room = max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs)))
+        codes, which, inside = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.bool_)
+        touched: set[TileKey] = set()
+        start = 0
+        while start < len(discs):
+            count, start = kernels.list_pairs(discs, start, codes, which, inside)
+            order = np.argsort(codes[:count], kind="stable")
+            groups = list(self._by_tile(codes[order]))
+            self._make_room([key for key, *_ in groups])
+            sorted_which, sorted_inside = which[order], inside[order]
+            for key, place, part in groups:
+                if self._lay(key, place, discs, sorted_which[part], sorted_inside[part]):
+                    touched.add(key)
+        return touched
+
+    def _by_tile(self, codes: np.ndarray) -> Iterator[tuple[TileKey, tuple[int, int], slice]]:
+        """Runs of equal codes: the tile, its corner in px of the discs' coordinates, and the run."""
+        if not len(codes):
+            return
+        ends = [*(np.flatnonzero(codes[1:] != codes[:-1]) + 1).tolist(), len(codes)]
+        begin = 0
+        for end in ends:
+            code = int(codes[begin])
+            x, y = (code & _LOW) - kernels.HALF, (code >> 32) - kernels.HALF
+            key = TileKey(self.level, self._corner[0] + x, self._corner[1] + y)
+            yield key, (x * TILE, y * TILE), slice(begin, end)
+            begin = end
+
+    def _make_room(self, keys: list[TileKey]) -> None:
+        total = len(self._tiles) + sum(key not in self._tiles for key in keys)
+        if total > self._tiles_cap:
+            raise BrushError(
+                "stroke", f"one that meets {total} tiles", f"at most {self._tiles_cap} of {TILE} x {TILE} px"
+            )
+
+    def _lay(
+        self, key: TileKey, place: tuple[int, int], discs: np.ndarray, which: np.ndarray, inside: np.ndarray
+    ) -> bool:
+        """Lays discs into one tile; False if that changes nothing."""
+        old = self._tiles.get(key, 0.0)
+        if not isinstance(old, np.ndarray) or (inside.any() and kernels.wiped(discs, which, inside, self._ceiling)):
+            start = 0.0 if isinstance(old, np.ndarray) else old
+            value, laid = kernels.lay_flat(discs, which, inside, np.float32(start), self._ceiling)
+            if laid == len(which):
+                self._tiles[key] = float(value)
+                return isinstance(old, np.ndarray) or value != old
+            which = which[laid:]
+            tile = np.full((TILE, TILE), value, np.float32)
+        else:
+            tile = old.copy() if key in self._lent else old
+        self._lent.discard(key)
+        kernels.lay(tile, discs, which, place[0], place[1])
+        self._tiles[key] = tile
+        return True

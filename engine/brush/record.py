@@ -1,0 +1,261 @@
+"""The brush as a value: its settings in one table, and its strict reading from and writing to JSON.
+
+The fields are those of the recording format.  Every field is read, checked and kept; which of them this version can
+paint with is decided when the brush is used (`kinds.check`).  Unknown members are kept and ignored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from immutables import Map
+
+from engine.brush import checks
+from engine.brush.checks import BrushError, Knots
+
+MODE_NAMES = ("paint", "erase", "smooth", "raster", "example")
+COMPONENTS_CAP = 8
+FORMULA_CAP = 4096
+
+Curve = str | Knots  # "pressure", or knots [in, out]
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One number of a brush.  `lo`..`hi` is what is accepted, `slider` what a slider offers, `logarithmic` how."""
+
+    name: str
+    label: str
+    default: float
+    lo: float
+    hi: float
+    slider: tuple[float, float]
+    unit: str
+    tooltip: str
+    dynamic: bool = True  # may follow the pen's pressure
+    logarithmic: bool = False
+
+    def clamped(self, value: float) -> float:
+        return min(max(float(value), self.lo), self.hi) if value == value else self.default
+
+
+SETTINGS: dict[str, Setting] = {
+    row.name: row
+    for row in (
+        Setting(
+            "radius",
+            "Radius",
+            16.0,
+            0.0,
+            4000.0,
+            (0.5, 1000.0),
+            "px",
+            "Half the width of the stroke, in pixels of the level painted on",
+            logarithmic=True,
+        ),
+        Setting(
+            "opacity",
+            "Opacity",
+            1.0,
+            0.0,
+            1.0,
+            (0.0, 1.0),
+            "",
+            "The most paint one stroke can lay down, however often it crosses itself",
+        ),
+        Setting(
+            "flow",
+            "Flow",
+            1.0,
+            0.0,
+            1.0,
+            (0.0, 1.0),
+            "",
+            "How fast a stroke comes up to its opacity: low for an airbrush",
+        ),
+        Setting("hardness", "Hardness", 0.8, 0.0, 1.0, (0.0, 1.0), "", "How much of the radius is covered in full"),
+        Setting(
+            "spacing",
+            "Spacing",
+            0.25,
+            0.0,
+            16.0,
+            (0.05, 2.0),
+            "radii",
+            "Distance from dab to dab; small is smooth, above 2 is a row of dots",
+            logarithmic=True,
+        ),
+    )
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """One texture of a brush's ink: how much of it, towards which colour, and its own parameters by name."""
+
+    texture: str
+    amount: float = 1.0
+    colour: str = "#ffffff"
+    parameters: Map[str, Any] = field(default_factory=Map)
+
+    @property
+    def rgb(self) -> tuple[float, float, float]:
+        return checks.rgb(self.colour)
+
+
+@dataclass(frozen=True, slots=True)
+class Brush:
+    """A brush; immutable and hashable.  BrushError if a number is out of its range.
+
+    `dynamics`: by setting, the curve of pen pressure by which its value is multiplied; the value of a setting without
+    a curve stays as it is.  `extra`: members of the JSON form that this version does not know.
+    """
+
+    radius: float = 16.0
+    hardness: float = 0.8
+    opacity: float = 1.0
+    flow: float = 1.0
+    spacing: float = 0.25
+    mode: str = "paint"
+    colour: str = "#000000"
+    ink: tuple[Component, ...] = ()
+    op: str | Map[str, Any] = "toward"
+    density: Any = None
+    grain: Any = None
+    shaping: Curve | None = None
+    example: str | None = None
+    depth: float | None = None
+    dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
+    extra: Map[str, Any] = field(default_factory=Map)
+
+    def __post_init__(self) -> None:
+        for name, row in SETTINGS.items():
+            object.__setattr__(self, name, checks.number(getattr(self, name), f"brush.{name}", row.lo, row.hi))
+        checks.one_of(self.mode, "brush.mode", MODE_NAMES)
+        object.__setattr__(self, "colour", checks.colour(self.colour, "brush.colour"))
+
+    @property
+    def rgb(self) -> tuple[float, float, float]:
+        return checks.rgb(self.colour)
+
+
+def from_json(data: Any, where: str = "brush") -> Brush:
+    """The brush that a JSON object describes.  BrushError names the field, what was found and what was expected."""
+    if not isinstance(data, Mapping):
+        raise BrushError(where, checks.shown(data), "an object")
+    known = {name: read(data[name], f"{where}.{name}") for name, read in _READERS.items() if name in data}
+    return Brush(**known, extra=checks.frozen({name: v for name, v in data.items() if name not in _READERS}))
+
+
+def to_json(brush: Brush) -> dict[str, Any]:
+    """The JSON object from which `from_json` makes the same brush; what is at its default and rarely used is left
+    out."""
+    data: dict[str, Any] = {}
+    for part in fields(Brush):
+        value = getattr(brush, part.name)
+        if part.name == "extra" or (part.name in _RARE and value == _RARE[part.name]):
+            continue
+        data[part.name] = [_component_json(c) for c in value] if part.name == "ink" else checks.thawed(value)
+    return data | checks.thawed(brush.extra)
+
+
+_RARE: dict[str, Any] = {
+    "ink": (),
+    "op": "toward",
+    "density": None,
+    "grain": None,
+    "shaping": None,
+    "example": None,
+    "depth": None,
+}
+
+
+def _component_json(component: Component) -> dict[str, Any]:
+    own = {"texture": component.texture, "amount": component.amount, "colour": component.colour}
+    return own | checks.thawed(component.parameters)
+
+
+# ---- one reader a field: (value, place) -> what Brush holds ---------------------------------------------------------
+
+
+def _setting(name: str) -> Callable[[Any, str], float]:
+    row = SETTINGS[name]
+    return lambda value, place: checks.number(value, place, row.lo, row.hi)
+
+
+def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
+    return lambda value, place: None if value is None else read(value, place)
+
+
+def _ink(value: Any, place: str) -> tuple[Component, ...]:
+    if not isinstance(value, list | tuple) or len(value) > COMPONENTS_CAP:
+        raise BrushError(place, checks.shown(value), f"a list of at most {COMPONENTS_CAP} components")
+    return tuple(_component(part, f"{place}[{i}]") for i, part in enumerate(value))
+
+
+def _component(value: Any, place: str) -> Component:
+    if not isinstance(value, Mapping):
+        raise BrushError(place, checks.shown(value), 'an object {"texture": NAME, ...}')
+    return Component(
+        checks.text(value.get("texture"), f"{place}.texture", "a texture's name"),
+        checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0),
+        checks.colour(value.get("colour", "#ffffff"), f"{place}.colour"),
+        checks.frozen({k: v for k, v in value.items() if k not in ("texture", "amount", "colour")}),
+    )
+
+
+def _op(value: Any, place: str) -> str | Map[str, Any]:
+    if isinstance(value, str):
+        return checks.text(value, place, "a raster operation")
+    if not isinstance(value, Mapping) or "formula" not in value:
+        raise BrushError(place, checks.shown(value), 'a name or {"formula": "..."}')
+    checks.text(value["formula"], f"{place}.formula", "a formula", FORMULA_CAP)
+    return checks.frozen(value)
+
+
+def _textured(value: Any, place: str) -> Any:
+    """A texture's name, or an object that holds one and perhaps an amount."""
+    if isinstance(value, str):
+        return checks.text(value, place, "a texture's name")
+    if not isinstance(value, Mapping):
+        raise BrushError(place, checks.shown(value), 'a texture\'s name or {"texture": NAME, ...}')
+    checks.text(value.get("texture"), f"{place}.texture", "a texture's name")
+    checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0)
+    return checks.frozen(value)
+
+
+def _curve(value: Any, place: str) -> Curve:
+    return checks.text(value, place, "a curve's name") if isinstance(value, str) else checks.knots(value, place)
+
+
+def _dynamics(value: Any, place: str) -> Map[str, Any]:
+    """Given dynamics replace the default ones; a null curve is none."""
+    if not isinstance(value, Mapping):
+        raise BrushError(place, checks.shown(value), 'an object {"opacity": "pressure", ...}')
+    curves = {}
+    for name, curve in value.items():
+        at = f"{place}.{name}"
+        if name not in SETTINGS:
+            curves[name] = checks.frozen(curve)
+        elif curve is not None:
+            curves[name] = (
+                checks.one_of(curve, at, ("pressure",)) if isinstance(curve, str) else checks.knots(curve, at)
+            )
+    return Map(curves)
+
+
+_READERS: dict[str, Callable[[Any, str], Any]] = {
+    **{name: _setting(name) for name in SETTINGS},
+    "mode": lambda value, place: checks.one_of(value, place, MODE_NAMES),
+    "colour": checks.colour,
+    "ink": _ink,
+    "op": _op,
+    "density": _optional(_textured),
+    "grain": _optional(_textured),
+    "shaping": _optional(_curve),
+    "example": _optional(lambda value, place: checks.text(value, place, "an example's name")),
+    "depth": _optional(lambda value, place: checks.number(value, place, -(2.0**31), 2.0**31)),
+    "dynamics": _dynamics,
+}

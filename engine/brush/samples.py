@@ -1,0 +1,50 @@
+"""Pen samples: the record of one, and what becomes of hostile ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from engine.brush.checks import BrushError
+
+COLUMNS = 6  # x, y, pressure, tilt_x, tilt_y, t
+REACH = 2.0**31  # px from the stroke's origin
+_DEFAULTS = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+
+
+class PenSample(NamedTuple):
+    """One event of a pen: x, y in pixels of the stroke's level from its origin, pressure 0..1, tilt in degrees, t in
+    seconds."""
+
+    x: float
+    y: float
+    pressure: float = 1.0
+    tilt_x: float = 0.0
+    tilt_y: float = 0.0
+    t: float = 0.0
+
+
+def cleaned(points: np.ndarray | Sequence[Sequence[float]]) -> tuple[np.ndarray, int]:
+    """Points (n, 2..6) made fit to paint with: float64 (m, 6), and how many were dropped.
+
+    A point whose x, y or pressure is not a number, or whose x or y is infinite, is dropped; pressure is clamped to
+    0..1; a tilt or time that is not finite becomes 0.  BrushError if a point is more than 2^31 px from the origin.
+    """
+    given = np.asarray(points, np.float64)
+    if given.ndim != 2 or not 2 <= given.shape[1] <= COLUMNS:
+        raise BrushError("points", f"an array of shape {given.shape}", "(n, 2 to 6)")
+    table = np.empty((len(given), COLUMNS))
+    table[:, : given.shape[1]] = given
+    table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] :]
+    whole = np.isfinite(table)
+    if not whole.all():
+        good = whole[:, 0] & whole[:, 1] & ~np.isnan(table[:, 2])
+        table[:, 3:][~whole[:, 3:]] = 0.0
+        table = table[good]
+    if len(table) and np.abs(table[:, :2]).max() > REACH:
+        row, column = np.argwhere(np.abs(table[:, :2]) > REACH)[0]
+        raise BrushError(f"point {row}, {'xy'[column]}", f"{table[row, column]:g}", "at most 2^31 px from the origin")
+    np.clip(table[:, 2], 0.0, 1.0, out=table[:, 2])
+    return table, len(given) - len(table)

@@ -1,0 +1,102 @@
+"""Smooth paths from raw pen samples, while they come in.
+
+The path is the uniform quadratic B-spline whose control points are the samples (the limit of Chaikin's corner
+cutting, Chaikin 1974): it runs from midpoint to midpoint; the first and the last sample count twice, so that it begins
+and ends there.  It is handed on as a polyline that is near it to a tenth of a pixel.  Pressure, tilt and time are
+smoothed with it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from engine.brush.samples import COLUMNS, cleaned
+
+TOLERANCE = 0.1  # px between the curve and its polyline
+PIECES_CAP = 256  # of one curve piece
+_TIME = 5
+_NOMINAL = 0.008  # s between samples whose times do not rise
+_SLOWEST = 0.15  # s, the lag of the strongest stabiliser
+
+
+class Smoother:
+    """Raw samples of one stroke in, points of its smooth path out; in any portions the same path, bit for bit.
+
+    `stabiliser`, 0..1: makes the path follow the pen with a lag of up to 0.15 s, which steadies the hand; the lag
+    grows with the square.  `finish` closes the path at the last sample whatever the lag.
+    """
+
+    def __init__(self, stabiliser: float = 0.0, tolerance: float = TOLERANCE) -> None:
+        self._lag = _SLOWEST * min(max(stabiliser, 0.0), 1.0) ** 2
+        self._tolerance = tolerance
+        self._recent = np.empty((0, COLUMNS))  # the last two control points
+        self._raw: np.ndarray | None = None  # the last sample as it came
+        self.dropped = 0
+
+    def add(self, samples: np.ndarray) -> np.ndarray:
+        """The points, float64 (m, 6), by which `samples`, float64 (n, 2..6), lengthen the path.
+
+        The path stays half a sample behind the pen until `finish`.  Samples that are not finite are dropped and
+        counted; BrushError beyond 2^31 px.
+        """
+        samples, dropped = cleaned(samples)
+        self.dropped += dropped
+        if not len(samples):
+            return samples
+        first = samples[:1] if self._raw is None else samples[:0]
+        steadied = self._steadied(samples)
+        controls = np.concatenate([self._recent, first, first, steadied[len(first) :]])
+        self._recent = controls[-2:]
+        self._raw = samples[-1]
+        return np.concatenate([first, _pieces(controls, self._tolerance)])
+
+    def finish(self) -> np.ndarray:
+        """The last points: to the last sample, where the pen left."""
+        if self._raw is None:
+            return np.empty((0, COLUMNS))
+        before, last = self._recent
+        end = self._raw[None]
+        if np.array_equal(last, self._raw):
+            return _pieces(np.stack([before, last, last]), self._tolerance) if (before != last).any() else end[:0]
+        return _pieces(np.concatenate([self._recent, end, end]), self._tolerance)
+
+    def _steadied(self, samples: np.ndarray) -> np.ndarray:
+        """The samples with positions that follow with the stabiliser's lag: a first-order filter in time."""
+        if not self._lag:
+            return samples
+        out = samples.copy()
+        before = self._raw if self._raw is not None else samples[0]
+        x, y = (self._recent[-1] if len(self._recent) else samples[0])[:2].tolist()
+        time = float(before[_TIME])
+        for i, sample in enumerate(samples.tolist()):
+            passed = sample[_TIME] - time
+            time = sample[_TIME]
+            part = -math.expm1(-(passed if 0.0 < passed < 1.0 else _NOMINAL) / self._lag)
+            x += (sample[0] - x) * part
+            y += (sample[1] - y) * part
+            out[i, 0], out[i, 1] = x, y
+        return out
+
+
+def _pieces(controls: np.ndarray, tolerance: float) -> np.ndarray:
+    """The polyline of the spline pieces around every control point but the first and the last, each without its
+    beginning.  A control point given twice makes the curve pass through it."""
+    if len(controls) < 3:
+        return np.empty((0, COLUMNS))
+    before, middle, after = controls[:-2], controls[1:-1], controls[2:]
+    start, end = 0.5 * (before + middle), 0.5 * (middle + after)
+    bend = (start - middle) + (end - middle)
+    # A parabola's chord is |bend| / (4 n^2) away from it when it is cut into n parts.
+    off = np.sqrt(bend[:, 0] * bend[:, 0] + bend[:, 1] * bend[:, 1])
+    parts = np.clip(np.ceil(np.sqrt(off / (4.0 * tolerance))), 1, PIECES_CAP).astype(np.int64)
+    which = np.repeat(np.arange(len(middle)), parts)
+    step = np.arange(len(which)) - np.repeat(np.cumsum(parts) - parts, parts) + 1
+    t = (step / parts[which])[:, None]
+    away = start[which] - middle[which]
+    # start + 2 t (middle - start) + t^2 bend; at t = 1 exactly the next piece's start
+    curve = start[which] - (2.0 * t) * away + (t * t) * bend[which]
+    ends = np.cumsum(parts) - 1
+    curve[ends] = end
+    return curve

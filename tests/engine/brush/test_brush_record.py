@@ -1,0 +1,186 @@
+"""The brush record: strict reading, unchanged writing, one clear line for what is wrong."""
+
+import math
+import pickle
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from immutables import Map
+
+from engine.brush.checks import BrushError
+from engine.brush.kinds import check
+from engine.brush.record import SETTINGS, Brush, from_json, to_json
+
+EVERYTHING = {
+    "radius": 12.5,
+    "hardness": 0.25,
+    "opacity": 0.5,
+    "flow": 0.125,
+    "spacing": 0.5,
+    "mode": "example",
+    "colour": "#a0b1c2",
+    "ink": [{"texture": "rock", "amount": 0.5, "colour": "#102030", "period": 64, "seed": 3, "new": [1, {"a": None}]}],
+    "op": {"formula": "1 - pic"},
+    "density": "paper",
+    "grain": {"texture": "canvas", "amount": 0.3},
+    "shaping": [[0, 1], [0.5, 0.25], [1, 0]],
+    "example": "leaves",
+    "depth": 2,
+    "dynamics": {"radius": "pressure", "opacity": [[0, 0.1], [1, 1]], "sparkle": {"of": "later"}},
+    "of a later version": {"x": [1, 2.5, "three", None, True]},
+}
+
+CURVES = st.one_of(
+    st.just("pressure"),
+    st.lists(st.integers(0, 1000), min_size=1, max_size=6, unique=True).flatmap(
+        lambda xs: st.lists(st.floats(0, 16), min_size=len(xs), max_size=len(xs)).map(
+            lambda ys: [[x / 1000, y] for x, y in zip(sorted(xs), ys, strict=True)]
+        )
+    ),
+)
+
+
+def test_defaults_are_those_of_the_recording_format():
+    brush = from_json({})
+    assert brush == Brush()
+    assert (brush.radius, brush.hardness, brush.opacity, brush.flow, brush.spacing) == (16, 0.8, 1, 1, 0.25)
+    assert (brush.mode, brush.colour, brush.op, brush.dynamics) == (
+        "paint",
+        "#000000",
+        "toward",
+        Map({"opacity": "pressure"}),
+    )
+    assert {name: row.default for name, row in SETTINGS.items()} == {n: getattr(brush, n) for n in SETTINGS}
+
+
+def test_every_field_survives_the_round_trip():
+    brush = from_json(EVERYTHING)
+    assert to_json(brush) == EVERYTHING
+    assert from_json(to_json(brush)) == brush
+    assert hash(from_json(EVERYTHING)) == hash(brush)
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    st.fixed_dictionaries(
+        {},
+        optional={name: st.floats(row.lo, row.hi) for name, row in SETTINGS.items()}
+        | {
+            "colour": st.from_regex("#[0-9a-f]{6}", fullmatch=True),
+            "mode": st.sampled_from(["paint", "erase", "smooth", "raster", "example"]),
+            "dynamics": st.dictionaries(st.sampled_from([*SETTINGS, "unheard of"]), CURVES, max_size=4),
+            "else": st.recursive(st.none() | st.integers() | st.text(max_size=4), lambda s: st.lists(s, max_size=3)),
+        },
+    )
+)
+def test_any_valid_brush_round_trips(data):
+    brush = from_json(data)
+    assert from_json(to_json(brush)) == brush
+    written = to_json(brush)
+    assert all(written[name] == value for name, value in data.items())
+
+
+HOSTILE = [
+    ({"radius": -1}, "brush.radius"),
+    ({"radius": 4000.5}, "brush.radius"),
+    ({"radius": math.nan}, "brush.radius"),
+    ({"radius": True}, "brush.radius"),
+    ({"radius": "16"}, "brush.radius"),
+    ({"radius": None}, "brush.radius"),
+    ({"radius": 10**400}, "brush.radius"),
+    ({"opacity": 1.01}, "brush.opacity"),
+    ({"opacity": math.inf}, "brush.opacity"),
+    ({"flow": -0.1}, "brush.flow"),
+    ({"hardness": [1]}, "brush.hardness"),
+    ({"spacing": -1}, "brush.spacing"),
+    ({"mode": "bash"}, "brush.mode"),
+    ({"mode": ["paint"]}, "brush.mode"),
+    ({"colour": "#12345"}, "brush.colour"),
+    ({"colour": "#12345g"}, "brush.colour"),
+    ({"colour": "red"}, "brush.colour"),
+    ({"colour": "#١٢٣٤٥٦"}, "brush.colour"),
+    ({"ink": {"texture": "rock"}}, "brush.ink"),
+    ({"ink": [{}]}, "brush.ink[0].texture"),
+    ({"ink": [{"texture": "rock"}, "rock"]}, "brush.ink[1]"),
+    ({"ink": [{"texture": "rock", "amount": 1.5}]}, "brush.ink[0].amount"),
+    ({"ink": [{"texture": "a\nb"}]}, "brush.ink[0].texture"),
+    ({"ink": [{"texture": "rock"}] * 9}, "brush.ink"),
+    ({"op": 3}, "brush.op"),
+    ({"op": {"formula": 3}}, "brush.op.formula"),
+    ({"op": {}}, "brush.op"),
+    ({"density": 0.5}, "brush.density"),
+    ({"grain": {"amount": 1}}, "brush.grain.texture"),
+    ({"grain": {"texture": "canvas", "amount": "much"}}, "brush.grain.amount"),
+    ({"shaping": []}, "brush.shaping"),
+    ({"shaping": [[0, 0], [0, 1]]}, "brush.shaping[1]"),
+    ({"example": 3}, "brush.example"),
+    ({"depth": "deep"}, "brush.depth"),
+    ({"dynamics": []}, "brush.dynamics"),
+    ({"dynamics": {"radius": "speed"}}, "brush.dynamics.radius"),
+    ({"dynamics": {"radius": []}}, "brush.dynamics.radius"),
+    ({"dynamics": {"radius": [[0, 0, 0]]}}, "brush.dynamics.radius[0]"),
+    ({"dynamics": {"radius": [[0.5, 1], [0.25, 1]]}}, "brush.dynamics.radius[1]"),
+    ({"dynamics": {"radius": [[0, 1], [2, 1]]}}, "brush.dynamics.radius[1]"),
+    ({"dynamics": {"radius": [[0, math.nan]]}}, "brush.dynamics.radius[0]"),
+    ({"dynamics": {"radius": [[i / 100, 1] for i in range(65)]}}, "brush.dynamics.radius"),
+    ([], "brush"),
+    (None, "brush"),
+]
+
+
+@pytest.mark.parametrize(("data", "place"), HOSTILE)
+def test_what_is_wrong_is_named_on_one_line(data, place):
+    with pytest.raises(BrushError) as caught:
+        from_json(data)
+    assert caught.value.place == place
+    line = str(caught.value)
+    assert line.startswith(f"{place}: found ")
+    assert "expected" in line
+    assert "\n" not in line
+    assert line.isascii()
+    assert len(line) < 250
+    assert str(pickle.loads(pickle.dumps(caught.value))) == line
+
+
+def test_a_brush_made_in_the_program_is_checked_too():
+    with pytest.raises(BrushError, match="radius"):
+        replace(Brush(), radius=math.nan)
+    assert Brush(colour="#ABCDEF").colour == "#abcdef"
+    assert SETTINGS["radius"].clamped(1e9) == 4000
+    assert SETTINGS["radius"].clamped(math.nan) == 16
+
+
+@pytest.mark.parametrize(
+    ("data", "place"),
+    [
+        ({"mode": "raster"}, "brush.mode"),
+        ({"mode": "example", "example": "leaves"}, "brush.mode"),
+        ({"op": "multiply"}, "brush.op"),
+        ({"op": {"formula": "pic"}}, "brush.op"),
+        ({"density": "rock"}, "brush.density"),
+        ({"grain": {"texture": "canvas"}}, "brush.grain"),
+        ({"shaping": "negation"}, "brush.shaping"),
+        ({"example": "leaves"}, "brush.example"),
+    ],
+)
+def test_what_this_version_cannot_paint_is_kept_but_refused_at_use(data, place):
+    brush = from_json(data)
+    assert to_json(brush)[place.split(".")[1]] == next(v for k, v in data.items() if k == place.split(".")[1])
+    with pytest.raises(BrushError) as caught:
+        check(brush)
+    assert caught.value.place == place
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "data", [{}, {"shaping": [[0, 0], [1, 1]]}, {"shaping": None, "op": "toward"}, {"mode": "erase"}]
+)
+def test_ordinary_brushes_are_usable(data):
+    check(from_json(data))
+
+
+def test_dynamics_given_replace_the_default_ones():
+    assert from_json({"dynamics": {}}).dynamics == Map()
+    assert from_json({"dynamics": {"opacity": None}}).dynamics == Map()
