@@ -6,26 +6,20 @@ changes any more; finer levels keep the part A of their residuals, applied when 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
 
 from engine.brush.stamp import Edit
 from engine.canvas.evaluate import TileCache, evaluate
-from engine.canvas.front import (
-    Front,
-    Keeps,
-    NewRecords,
-    climbed,
-    climbs,
-    cut_front,
-    joined,
-    stamped,
-    store,
-    tile_bounds,
-)
+from engine.canvas.front import Front, Surroundings, climbed, climbs, cut_front, joined, widened
+from engine.canvas.painted import Painted, lift, paint, tile_bounds
+from engine.canvas.residuals import NewRecords, Parents, store_front, store_painted
 from engine.canvas.store import Change, Level, Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.texture.planes import Planes
+from engine.texture.planes import Planes, merged
 
+Keeps = dict[tuple[int, int], np.ndarray]
 _AT_ONCE = 1 << 22  # pixels of an edit's bounds up to which it is worked on as one rectangle
 _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together
 _SLAB = TILE << _SLAB_LEVELS
@@ -34,11 +28,15 @@ _MARGIN = 4 << _SLAB_LEVELS  # pixels around a square that its residuals can see
 
 def preview(pyramid: Pyramid, edit: Edit, rect: Rect, cache: TileCache | None = None) -> Planes:
     """What `rect` of the edit's level will be once the edit is committed."""
-    keys = [key for key in edit.tiles if key.rect.meets(rect)]
-    whole = tile_bounds(keys).union(rect).evened()
-    old = evaluate(pyramid, edit.level, whole, cache)
-    front = stamped(edit, keys, whole, old, _reader(pyramid, edit.level, cache), None)
-    return (old if front is None else front.new).cut(*rect.slices(whole))
+    old = evaluate(pyramid, edit.level, rect, cache)
+    painted = paint(pyramid, edit, [key for key in edit.tiles if key.rect.meets(rect)], cache)
+    inks = merged(old.inks, *(tile.new.inks for tile in painted))
+    out = Planes(widened(old, inks).data.copy(), inks)
+    for tile in painted:
+        part = tile.key.rect.intersect(rect)
+        rows, columns = part.slices(rect)
+        out.data[:, rows, columns] = widened(tile.new.cut(*part.slices(tile.key.rect)), inks).data
+    return out
 
 
 def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyramid:
@@ -48,67 +46,90 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
         return pyramid
     keeps: Keeps | None = {} if _stored_below(pyramid, edit.level, tile_bounds(keys)) else None
     records: NewRecords = {}
+    painted: list[Painted] = []
     if tile_bounds(keys).area <= _AT_ONCE:
-        rect = tile_bounds(keys).evened()
-        read = _reader(pyramid, edit.level, cache)
-        front = stamped(edit, keys, rect, read(rect), read, keeps)
-        if front is None:
-            return pyramid
-        changed = front.bounds
-        _climb_to_the_top(pyramid, front, records, cache)
+        painted = paint(pyramid, edit, keys, cache)
+        changed = _noted(painted, keeps)
+        if painted:
+            levels = climbs(pyramid, edit.level, tile_bounds([tile.key for tile in painted]), cache)
+            _climb_to_the_top(pyramid, _climb_from(pyramid, painted, levels, None, records), levels, records)
     else:
-        front = None
         changed = _by_slabs(pyramid, edit, keys, records, keeps, cache)
     if not records and not keeps:
         return pyramid
     after = _with_records(pyramid, edit.level, changed, keeps or None, records)
-    if cache is not None and front is not None:
-        _remember(after, front, cache)
+    if cache is not None:
+        for tile in painted:  # they are on the screen
+            cache.adopt(after, tile.key, tile.new)
     return after
 
 
-def _reader(pyramid: Pyramid, level: int, cache: TileCache | None) -> Callable[[Rect], Planes]:
-    return lambda rect: evaluate(pyramid, level, rect, cache)
+def _noted(painted: Sequence[Painted], keeps: Keeps | None) -> Rect:
+    """The bounds of what changed; A by tile for the finer levels."""
+    changed = Rect(0, 0, 0, 0)
+    for tile in painted:
+        changed = changed.union(tile.bounds)
+        if keeps is not None:
+            keeps[tile.key.x, tile.key.y] = tile.keep
+    return changed
 
 
-def _climb_to_the_top(pyramid: Pyramid, front: Front, records: NewRecords, cache: TileCache | None) -> None:
+def _climb_from(
+    pyramid: Pyramid,
+    painted: Sequence[Painted],
+    levels: Iterator[Surroundings],
+    inside: Rect | None,
+    records: NewRecords,
+) -> Front | None:
+    """Store the residuals of painted tiles; the front at the level above."""
+    above = next(levels)
+    front = lift(painted, above, painted[0].key.level - 1)
+    store_painted(pyramid, painted, Parents(above, front), inside, records)
+    return front
+
+
+def _climb_to_the_top(
+    pyramid: Pyramid, front: Front | None, levels: Iterator[Surroundings], records: NewRecords
+) -> None:
     """Store this level's residuals and all coarser ones', up to where nothing changes any more."""
-    for above in climbs(pyramid, front, cache):
+    while front is not None:
+        above = next(levels)
         parent = climbed(front, above)
-        store(pyramid, front, parent, above, None, records)
-        if parent is None:
-            return
+        store_front(pyramid, front, Parents(above, parent), None, records)
         front = parent
 
 
 def _by_slabs(pyramid, edit, keys, records, keeps, cache) -> Rect:
     """A large edit, square by square, so that memory does not grow with it.  Returns the bounds of what changed."""
     changed, tops = Rect(0, 0, 0, 0), []
-    read = _reader(pyramid, edit.level, cache)
     for slab in _slabs(keys):
         near = [key for key in keys if key.rect.meets(slab.grown(_MARGIN))]
-        base = _aligned(tile_bounds(near).intersect(slab.grown(_MARGIN)))
-        front = stamped(edit, near, base, read(base), read, keeps)
-        if front is None:
+        painted = paint(pyramid, edit, near, cache)
+        if not painted:
             continue
-        changed = changed.union(front.bounds)
-        top = _climb_slab(pyramid, front, slab, records, cache)
+        changed = changed.union(_noted(painted, keeps))
+        levels = climbs(pyramid, edit.level, tile_bounds([tile.key for tile in painted]), cache)
+        front = _climb_from(pyramid, painted, levels, slab, records)
+        top = _climb_slab(pyramid, front, levels, slab.zoomed(-1), records)
         if top is not None:
             tops.append(top)
     if tops:
-        _climb_to_the_top(pyramid, joined(pyramid, tops, cache), records, cache)
+        front = joined(pyramid, tops, cache)
+        _climb_to_the_top(pyramid, front, climbs(pyramid, front.level, front.rect, cache), records)
     return changed
 
 
-def _climb_slab(pyramid, front: Front, slab: Rect, records: NewRecords, cache) -> Front | None:
-    """Three levels up within one square; residuals only of its own tiles.  Returns what is left for all together."""
-    for j, above in zip(range(_SLAB_LEVELS), climbs(pyramid, front, cache), strict=False):
+def _climb_slab(pyramid, front: Front | None, levels, slab: Rect, records: NewRecords) -> Front | None:
+    """The further levels of one square; residuals only of its own tiles.  Returns what is left for all together."""
+    if front is None:
+        return None
+    for j, above in zip(range(_SLAB_LEVELS - 1), levels, strict=False):
         parent = climbed(front, above)
-        store(pyramid, front, parent, above, slab.zoomed(-j), records)
+        store_front(pyramid, front, Parents(above, parent), slab.zoomed(-j), records)
         if parent is None:
             return None
         front = parent
-    return cut_front(front, slab.zoomed(-_SLAB_LEVELS))
+    return cut_front(front, slab.zoomed(1 - _SLAB_LEVELS))
 
 
 def _slabs(keys: Sequence[TileKey]) -> Iterator[Rect]:
@@ -121,13 +142,6 @@ def _slabs(keys: Sequence[TileKey]) -> Iterator[Rect]:
                 places.add((y, x))
     for y, x in sorted(places):
         yield Rect.at(x * _SLAB, y * _SLAB, _SLAB, _SLAB)
-
-
-def _aligned(rect: Rect) -> Rect:
-    step = 2 << _SLAB_LEVELS
-    return Rect(
-        rect.x0 // step * step, rect.y0 // step * step, -(-rect.x1 // step) * step, -(-rect.y1 // step) * step
-    )  # fmt: skip
 
 
 def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
@@ -163,10 +177,3 @@ def _write(editable, keys: Iterable[TileKey], records: NewRecords) -> None:
             editable.set((key.x, key.y), record)
         else:
             editable.pop((key.x, key.y), None)
-
-
-def _remember(after: Pyramid, front: Front, cache: TileCache) -> None:
-    """The tiles just painted are known: keep them, they are on the screen."""
-    for key in front.rect.tiles(front.level):
-        if front.rect.intersect(key.rect) == key.rect:
-            cache.keep(after, key, front.new.cut(*key.rect.slices(front.rect)))

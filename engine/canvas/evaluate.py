@@ -50,10 +50,12 @@ class TileCache:
 
     def keep(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
         """Keep a copy of a tile's value; None is an empty tile."""
+        self.adopt(pyramid, key, None if value is None else Planes(value.data.copy(), value.inks))
+
+    def adopt(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
+        """Keep a tile's value itself: nobody may write to it any more."""
         if value is not None:
-            value = without_empty_inks(Planes(value.data.copy(), value.inks))
-        if value is not None:
-            value.data.flags.writeable = False
+            value = without_empty_inks(value)
         place = (pyramid.uid, key)
         with self._lock:
             old = self._tiles.pop(place, None)

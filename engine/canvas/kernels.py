@@ -23,10 +23,10 @@ def any_nonzero(data, first_plane, last_plane, first, last):
     for c in range(first_plane, last_plane):
         for y in range(first, last):
             row = data[c, y]
-            total = _ZERO
+            found = np.int32(0)
             for i in range(row.size):
-                total += abs(row[i])
-            if total != _ZERO:
+                found |= np.int32(row[i] != _ZERO)
+            if found:
                 return True
     return False
 
@@ -79,22 +79,22 @@ def attenuate(data, keep, out):
 
 
 @njit(cache=True, nogil=True)
-def apply_stamp(old, top, left, keep, add, planes, new, attenuation, changed):
-    """v' = snap(A v) + B over one tile: writes `new` (C, h, w), `attenuation` (h, w), `changed` (h, w) uint8.
+def apply_stamp(old, keep, add, planes, new, changed):
+    """v' = snap(A v) + B over one tile, alpha clamped to [0, 1].
 
-    `keep` is A (n, n), `add` is B (D, n, n), both of the tile whose corner is (top, left) of the larger arrays;
-    `planes[c]` is the plane of B for plane c, or -1 for zero.  Alpha is clamped to [0, 1].
+    Writes `new` (C, n, n) and `changed` (n, n) uint8, 1 where A != 1 or v' != v.  Returns whether any is.
+
+    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.
     """
-    height, width = keep.shape
-    for y in range(height):
-        a = keep[y]
-        s = changed[top + y][left : left + width]
-        attenuation[top + y][left : left + width] = a
+    width = keep.shape[1]
+    marks = np.empty(width, np.int32)
+    found = np.int32(0)
+    for y in range(keep.shape[0]):
+        a, s = keep[y], changed[y]
         for i in range(width):
-            s[i] = a[i] != _ONE
+            marks[i] = np.int32(a[i] != _ONE)
         for c in range(old.shape[0]):
-            before = old[c, top + y][left : left + width]
-            after = new[c, top + y][left : left + width]
+            before, after = old[c, y], new[c, y]
             source = planes[c]
             if source < 0:
                 for i in range(width):
@@ -107,54 +107,74 @@ def apply_stamp(old, top, left, keep, add, planes, new, attenuation, changed):
                 for i in range(width):
                     after[i] = min(max(after[i], _ZERO), _ONE)
             for i in range(width):
-                s[i] |= before[i] != after[i]
-
-
-@njit(cache=True, nogil=True)
-def _mean(fine, row, out):
-    """One row of the means of 2 x 2 pixels of `fine` (2h, 2w)."""
-    upper, lower = fine[2 * row], fine[2 * row + 1]
-    for i in range(out.size):
-        out[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * _QUARTER)
-
-
-@njit(cache=True, nogil=True)
-def climb(old_fine, new_fine, keep_fine, changed_fine, old, new, keep, changed):
-    """Rule U, one level up: what a change of the finer level does to the coarser one.
-
-    r = v - R v_fine (zero where it is only lag);  v' = R v'_fine + snap(A r) on parents of changed pixels, v elsewhere.
-    Arrays of the finer level are (C, 2h, 2w) or (2h, 2w), of this one (C, h, w) or (h, w); `old` is read, the rest
-    written.  Returns whether anything of this level changed.
-    """
-    height, width = keep.shape
-    before, after = np.empty(width, np.float32), np.empty(width, np.float32)
-    parents = np.empty(width, np.uint8)
-    any_changed = False
-    for y in range(height):
-        _mean(keep_fine, y, keep[y])
-        upper, lower = changed_fine[2 * y], changed_fine[2 * y + 1]
-        a, s = keep[y], changed[y]
+                marks[i] |= np.int32(before[i] != after[i])
         for i in range(width):
-            parents[i] = upper[2 * i] | upper[2 * i + 1] | lower[2 * i] | lower[2 * i + 1]
-            if parents[i] == 0:
-                a[i] = _ONE
-            s[i] = a[i] != _ONE
+            found |= marks[i]
+            s[i] = np.uint8(marks[i])
+    return found != 0
+
+
+@njit(cache=True, nogil=True)
+def halve(fine, planes, out, top, left):
+    """out[:, top:, left:] = snapped means of 2 x 2 pixels of `fine` (D, 2h, 2w); plane c of `out` takes
+    `fine[planes[c]]`, zero for -1."""
+    height, width = fine.shape[1] // 2, fine.shape[2] // 2
+    for c in range(out.shape[0]):
+        source = planes[c]
+        for y in range(height):
+            row = out[c, top + y][left : left + width]
+            if source < 0:
+                row[:] = _ZERO
+                continue
+            upper, lower = fine[source, 2 * y], fine[source, 2 * y + 1]
+            for i in range(width):
+                total = (upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])
+                row[i] = snap(total * _QUARTER)
+
+
+@njit(cache=True, nogil=True)
+def halve_marks(fine, out, top, left):
+    """out[top:, left:] (uint8) = 1 where any of the 2 x 2 pixels of `fine` (2h, 2w) is marked."""
+    height, width = fine.shape[0] // 2, fine.shape[1] // 2
+    for y in range(height):
+        upper, lower = fine[2 * y], fine[2 * y + 1]
+        row = out[top + y][left : left + width]
+        for i in range(width):
+            row[i] = upper[2 * i] | upper[2 * i + 1] | lower[2 * i] | lower[2 * i + 1]
+
+
+@njit(cache=True, nogil=True)
+def climb(below_old, below_new, keep, parents, old, new, changed):
+    """Rule U: what a change of the level below does to this one.
+
+    r = v - R v_below (zero where it is only lag);  v' = R v'_below + snap(A r) on `parents` of changed pixels, v
+    elsewhere.  `below_old`, `below_new` are R of the level below before and after, (C, h, w); `old` is v; `new` and
+    `changed` are written, and `keep`, A (h, w), set to 1 off `parents`.  Returns whether anything changed.
+    """
+    width = keep.shape[1]
+    marks = np.empty(width, np.int32)
+    found = np.int32(0)
+    for y in range(keep.shape[0]):
+        a, p, s = keep[y], parents[y], changed[y]
+        for i in range(width):
+            a[i] = a[i] if p[i] else _ONE
+            marks[i] = np.int32(a[i] != _ONE)
         for c in range(old.shape[0]):
-            _mean(old_fine[c], y, before)
-            _mean(new_fine[c], y, after)
-            v, w = old[c, y], new[c, y]
+            v, w, before, after = old[c, y], new[c, y], below_old[c, y], below_new[c, y]
             for i in range(width):
                 r = v[i] - before[i]
                 r = _ZERO if abs(r) <= _LAG else r
                 value = after[i] + snap(a[i] * r)
-                if c == 3:
-                    value = min(max(value, _ZERO), _ONE)
-                value = value if parents[i] else v[i]
-                w[i] = value
-                s[i] |= value != v[i]
+                w[i] = value if p[i] else v[i]
+            if c == 3:
+                for i in range(width):
+                    w[i] = min(max(w[i], _ZERO), _ONE)
+            for i in range(width):
+                marks[i] |= np.int32(w[i] != v[i])
         for i in range(width):
-            any_changed |= s[i] != 0
-    return any_changed
+            found |= marks[i]
+            s[i] = np.uint8(marks[i])
+    return found != 0
 
 
 @njit(cache=True, nogil=True)
@@ -172,15 +192,23 @@ def differs(old, new, out):
 @njit(cache=True, nogil=True)
 def spread(parents, top, left, out):
     """out (2h, 2w) |= 1 where any of the four parents that expand reads is marked; out[0, 0] is the first child of
-    parents[top + 1, left + 1]."""
+    parents[top + 1, left + 1].  Returns whether any entry of `out` is set."""
+    n = out.shape[1] // 2
+    both = np.empty(n + 2, np.uint8)
+    found = np.uint8(0)
     for y in range(out.shape[0]):
         row = top + 1 + y // 2
-        other = row + 2 * (y & 1) - 1
-        near, far, s = parents[row], parents[other], out[y]
-        for x in range(out.shape[1]):
-            column = left + 1 + x // 2
-            beside = column + 2 * (x & 1) - 1
-            s[x] |= near[column] | near[beside] | far[column] | far[beside]
+        near, far = parents[row][left : left + n + 2], parents[row + 2 * (y & 1) - 1][left : left + n + 2]
+        for i in range(n + 2):
+            both[i] = near[i] | far[i]
+        s = out[y]
+        before, here, after = both[0:n], both[1 : n + 1], both[2 : n + 2]
+        for i in range(n):
+            s[2 * i] |= here[i] | before[i]
+            s[2 * i + 1] |= here[i] | after[i]
+        for i in range(s.size):
+            found |= s[i]
+    return found != 0
 
 
 @njit(cache=True, nogil=True)
@@ -221,16 +249,3 @@ def extent(data):
         if columns[x]:
             x0, x1 = min(x0, x), x + 1
     return largest, y0, y1, x0, x1
-
-
-@njit(cache=True, nogil=True)
-def any_set(mask):
-    """Whether any entry of the uint8 `mask` (h, w) is set."""
-    for y in range(mask.shape[0]):
-        row = mask[y]
-        found = np.uint8(0)
-        for i in range(row.size):
-            found |= row[i]
-        if found:
-            return True
-    return False

@@ -1,0 +1,98 @@
+"""The tiles that an edit paints, at its own level, before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.brush.stamp import Edit
+from engine.canvas import kernels
+from engine.canvas.evaluate import TileCache, evaluate_sparse, without_empty_inks
+from engine.canvas.front import Below, Front, Surroundings, lifted, widened
+from engine.canvas.store import Pyramid
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.texture.planes import Planes, merged, plane_map
+
+_BLANK = Planes(np.zeros((4, TILE, TILE), np.float32))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Painted:
+    """One tile: `old` (None: nothing lay there), `new`, A as `keep` float32 (128, 128), `changed` uint8 (128, 128)."""
+
+    key: TileKey
+    old: Planes | None
+    new: Planes
+    keep: np.ndarray
+    changed: np.ndarray
+
+    @property
+    def bounds(self) -> Rect:
+        """The smallest rectangle of the level that holds every changed pixel."""
+        rows, columns = np.flatnonzero(self.changed.any(1)), np.flatnonzero(self.changed.any(0))
+        x, y = self.key.x * TILE, self.key.y * TILE
+        return Rect(x + int(columns[0]), y + int(rows[0]), x + int(columns[-1]) + 1, y + int(rows[-1]) + 1)
+
+
+def tile_bounds(keys: Sequence[TileKey]) -> Rect:
+    """The smallest rectangle that holds all of some tiles of one level."""
+    if not keys:
+        return Rect(0, 0, 0, 0)
+    xs, ys = [key.x for key in keys], [key.y for key in keys]
+    return Rect(min(xs) * TILE, min(ys) * TILE, (max(xs) + 1) * TILE, (max(ys) + 1) * TILE)
+
+
+def paint(pyramid: Pyramid, edit: Edit, keys: Sequence[TileKey], cache: TileCache | None) -> list[Painted]:
+    """(A, B) of an edit applied to some of its tiles; only those in which a pixel changes."""
+    before = _tiles(pyramid, keys, cache)
+    painted = (_painted(edit, key, before[key]) for key in keys)
+    return [tile for tile in painted if tile is not None]
+
+
+def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
+    stamp = edit.stamp(key, _BLANK if old is None else old)
+    if stamp is None:
+        return None
+    inks = merged(() if old is None else old.inks, stamp.inks)
+    before = widened(_BLANK if old is None else old, inks)
+    new, changed = np.empty_like(before.data), np.empty((TILE, TILE), np.uint8)
+    if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, plane_map(stamp.inks, inks), new, changed):
+        return None
+    return Painted(key, None if old is None else before, Planes(new, inks), stamp.keep, changed)
+
+
+def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
+    """The present values of tiles of one level."""
+    values: dict[TileKey, Planes | None] = {}
+    missing = []
+    for key in keys:
+        known, value = cache.get(pyramid, key) if cache is not None else (False, None)
+        if known:
+            values[key] = value
+        else:
+            missing.append(key)
+    bounds = tile_bounds(missing)
+    if bounds.area > 4 * TILE * TILE * len(missing):
+        return values | {key: evaluate_sparse(pyramid, key.level, key.rect, cache) for key in missing}
+    whole = evaluate_sparse(pyramid, missing[0].level, bounds, cache) if missing else None
+    for key in missing:
+        if whole is None:
+            values[key] = None
+        else:
+            cut = np.ascontiguousarray(whole.data[:, *key.rect.slices(bounds)])
+            values[key] = without_empty_inks(Planes(cut, whole.inks))
+    return values
+
+
+def lift(painted: Iterable[Painted], above: Surroundings, level: int) -> Front | None:
+    """Rule U from painted tiles to the level above theirs, `level`; None when nothing changes there."""
+    tiles = list(painted)
+    rect = tile_bounds([tile.key for tile in tiles]).zoomed(-1)
+    held = () if above.planes is None else above.planes.inks
+    below = Below.blank(rect, merged(held, *(tile.new.inks for tile in tiles)))
+    for tile in tiles:
+        corner = tile.key.rect.zoomed(-1)
+        below.add(tile.old, tile.new, tile.keep, tile.changed, corner.y0 - rect.y0, corner.x0 - rect.x0)
+    return lifted(level, rect, below, above)
