@@ -6,9 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from engine.brush import samples
-from engine.brush.checks import BrushError
-from engine.painting.strictjson import FormatError
+from engine.painting.strictjson import FormatError, described
 
 POINTS_CAP = 1_000_000  # of one stroke
 REACH = float(1 << 24)  # pixels from a stroke's origin to its points
@@ -23,18 +21,27 @@ POINT_COLUMNS = (
     ("t", 0.0, -1e9, 1e9),
 )
 _DEFAULTS = np.array([column[1] for column in POINT_COLUMNS])
+_TAILS = {n: tuple(_DEFAULTS.tolist()[n:]) for n in range(2, 7)}
+_NUMERIC = {int, float}
+_DECIMALS = (3, 3, 4, 2, 2, 4)
 _LOWEST = np.array([column[2] for column in POINT_COLUMNS])
 _HIGHEST = np.array([column[3] for column in POINT_COLUMNS])
 
 
 def points_array(rows: Any, place: str) -> np.ndarray:
     """A list of lists of 2 to 6 numbers as float64 (n, 6), read-only; what is left out has its default."""
-    if isinstance(rows, list) and len(rows) > POINTS_CAP:
-        raise FormatError(place, f"{len(rows)} points", f"at most {POINTS_CAP}")
+    if not isinstance(rows, list) or not 1 <= len(rows) <= POINTS_CAP:
+        found = f"{len(rows)} points" if isinstance(rows, list) else described(rows)
+        raise FormatError(place, found, f"a list of 1 to {POINTS_CAP} points")
+    for i, row in enumerate(rows):
+        if type(row) is not list or not 2 <= len(row) <= 6 or not _NUMERIC.issuperset(map(type, row)):
+            names = ", ".join(column[0] for column in POINT_COLUMNS)
+            raise FormatError(f"{place}[{i}]", described(row), f"2 to 6 numbers [{names}]")
     try:
-        return checked_points(samples.from_json(rows, place), place)
-    except BrushError as error:
-        raise FormatError(error.place, error.found, error.expected) from None
+        return checked_points(np.array([(*row, *_TAILS[len(row)]) for row in rows], np.float64), place)
+    except OverflowError:
+        i = next(i for i, row in enumerate(rows) if any(abs(value) > 1e300 for value in row))
+        raise FormatError(f"{place}[{i}]", described(rows[i]), "numbers near the origin") from None
 
 
 def checked_points(table: np.ndarray, place: str) -> np.ndarray:
@@ -47,6 +54,14 @@ def checked_points(table: np.ndarray, place: str) -> np.ndarray:
     table += 0.0  # no negative zeros
     table.flags.writeable = False
     return table
+
+
+def rounded(points: np.ndarray) -> np.ndarray:
+    """What a pen told, rounded to far finer than it can tell, so that it is short as text: float64 (n, 6)."""
+    out = np.array(points, np.float64)
+    for column, decimals in enumerate(_DECIMALS):
+        out[:, column] = np.round(out[:, column], decimals)
+    return out
 
 
 def points_json(points: np.ndarray) -> list[list[float]]:

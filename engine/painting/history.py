@@ -1,0 +1,107 @@
+"""Undo and redo: paintings as they were, without a limit of steps, bounded by the bytes that only they hold.
+
+A step keeps two paintings, before and after, which share all tiles that it did not change.  What the one before holds
+alone counts while the step is done (undo would bring it back), what the one after holds alone while it is undone.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from engine.canvas import layers
+from engine.canvas.layers import Group
+from engine.canvas.store import Pyramid, Record, changed_rects
+from engine.painting.value import Painting
+
+STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Step:
+    """`lost`, `gained`: bytes held only by the painting before, and only by the one after."""
+
+    before: Painting
+    after: Painting
+    lost: int
+    gained: int
+
+
+class History:
+    """The steps done and the steps undone.  `bytes_cap`, `steps_cap`: None for no limit."""
+
+    def __init__(self, bytes_cap: int | None = None, steps_cap: int | None = None) -> None:
+        self._done: deque[Step] = deque()
+        self._undone: list[Step] = []
+        self._bytes_cap, self._steps_cap = bytes_cap, steps_cap
+        self.held = 0  # bytes
+
+    @property
+    def undo_count(self) -> int:
+        return len(self._done)
+
+    @property
+    def redo_count(self) -> int:
+        return len(self._undone)
+
+    def push(self, before: Painting, after: Painting) -> None:
+        """A step was done: nothing that was undone can be redone any more."""
+        self.held -= sum(step.gained + STEP_OVERHEAD for step in self._undone)
+        self._undone.clear()
+        step = Step(before, after, *difference(before.root, after.root))
+        self._done.append(step)
+        self.held += step.lost + STEP_OVERHEAD
+        self._forget()
+
+    def undo(self) -> Painting:
+        """The painting before the last step; IndexError if there is none."""
+        step = self._done.pop()
+        self._undone.append(step)
+        self.held += step.gained - step.lost
+        return step.before
+
+    def redo(self) -> Painting:
+        """The painting after the step undone last; IndexError if there is none."""
+        step = self._undone.pop()
+        self._done.append(step)
+        self.held += step.lost - step.gained
+        return step.after
+
+    def _forget(self) -> None:
+        """Drops the oldest steps beyond the limits; the last one stays, whatever it holds."""
+        while self._done and self._steps_cap is not None and len(self._done) > self._steps_cap:
+            self.held -= self._done.popleft().lost + STEP_OVERHEAD
+        while len(self._done) > 1 and self._bytes_cap is not None and self.held > self._bytes_cap:
+            self.held -= self._done.popleft().lost + STEP_OVERHEAD
+
+
+def difference(old: Group, new: Group) -> tuple[int, int]:
+    """Bytes that only `old` holds, and bytes that only `new` holds."""
+    before = {layer.id: layer.pyramid for layer in layers.layers(old)}
+    after = {layer.id: layer.pyramid for layer in layers.layers(new)}
+    lost = gained = 0
+    for number in before.keys() | after.keys():
+        a, b = before.get(number), after.get(number)
+        if a is b:
+            continue
+        if a is None or b is None or a.uid != b.uid:
+            lost += a.nbytes if a is not None else 0
+            gained += b.nbytes if b is not None else 0
+            continue
+        lost += sum(record.nbytes for record in _only(a, b))
+        gained += sum(record.nbytes for record in _only(b, a))
+        gained += b.last.nbytes if b.last is not None and b.last is not a.last else 0
+    return lost, gained
+
+
+def _only(one: Pyramid, other: Pyramid) -> Iterator[Record]:
+    """The records of one state that another of the same line of history does not share."""
+    for level, stored in one.levels.items():
+        there = other.levels.get(level)
+        if there is stored:
+            continue
+        for rect in changed_rects(other, one, level):
+            for key, record in one.records(level, rect):
+                if there is None or there.get((key.x, key.y)) is not record:
+                    yield record

@@ -1,0 +1,130 @@
+"""A session: the painting now, its past and future, and the recording of all that was done.
+
+Replaying the recording gives the same pixels: what could not be done is not in it, and an undo is in it with the
+number of steps that were there to undo.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from immutables import Map
+
+from engine.canvas import layers
+from engine.canvas.evaluate import TileCache
+from engine.painting import commands as c
+from engine.painting.history import History
+from engine.painting.painting import STEPS, apply
+from engine.painting.recording import Header, Recording
+from engine.painting.stroke import LiveStroke
+from engine.painting.textures import Around, recorded
+from engine.painting.value import Painting
+
+HISTORY_BYTES = 1 << 30
+SMALLEST_CACHE = 64 << 20
+
+
+class Session:
+    """One painting being worked on.  Not for several threads at once; the paintings it hands out are.
+
+    `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
+    `steps_cap`: how many steps undo remembers (None: as many as fit `history_bytes`).
+    """
+
+    def __init__(
+        self,
+        painting: Painting | None = None,
+        cache: TileCache | None = None,
+        log: Iterable[c.Command] = (),
+        folder: Path | None = None,
+        history: History | None = None,
+        extra: Map | None = None,
+    ) -> None:
+        self.painting = painting if painting is not None else Painting()
+        self.cache = cache if cache is not None else TileCache(cache_budget())
+        self.folder = folder
+        self.log: list[c.Command] = list(log)
+        self._history = history if history is not None else History(HISTORY_BYTES)
+        self._extra = extra if extra is not None else Map()
+
+    @property
+    def can_undo(self) -> bool:
+        return self._history.undo_count > 0
+
+    @property
+    def can_redo(self) -> bool:
+        return self._history.redo_count > 0
+
+    @property
+    def history(self) -> History:
+        return self._history
+
+    def do(self, command: c.Command) -> Painting:
+        """Carries out any command; the painting after it.  Refusal or FileError: nothing has changed, nothing is
+        recorded."""
+        if isinstance(command, c.Undo | c.Redo):
+            return self._travel(command)
+        after = apply(self.painting, command, self._around())
+        if isinstance(command, c.DefineTexture):
+            command = recorded(command, after.textures[command.name])
+        return self._done(command, after)
+
+    def begin(
+        self, level: int, origin: tuple[int, int], brush, layer: str | None = None, seed: int | None = None
+    ) -> LiveStroke:
+        """A stroke whose points are still to come; hand it to `finish`."""
+        return LiveStroke(self.painting, level, origin, brush, self.cache, layer, seed)
+
+    def finish(self, live: LiveStroke) -> Painting:
+        """The stroke done: the same as its command, without doing the work twice.  One without a point is nothing."""
+        if live.empty:
+            return self.painting
+        if live.before is not self.painting:  # something else was done in between
+            return self.do(live.to_command())
+        return self._done(live.to_command(), live.commit())
+
+    def recording(self) -> Recording:
+        """All that was done, as a recording that gives this painting."""
+        header = Header(self.painting.frame, self.painting.seed, self._extra)
+        return Recording(header, tuple(self.log), folder=self.folder)
+
+    def _around(self) -> Around:
+        """Pictures of textures are known by their sha, wherever their files are now."""
+        sources = (texture.source for texture in self.painting.textures.values())
+        return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
+
+    def _done(self, command: c.Command, after: Painting) -> Painting:
+        if type(command) in STEPS:
+            self._history.push(self.painting, after)
+        self.log.append(command)
+        self.painting = after
+        return after
+
+    def _travel(self, command: c.Undo | c.Redo) -> Painting:
+        undoing = isinstance(command, c.Undo)
+        there = self._history.undo_count if undoing else self._history.redo_count
+        count = min(command.count, there)
+        if not count:
+            return self.painting
+        step = self._history.undo if undoing else self._history.redo
+        for _ in range(count):
+            found = step()
+        # What is no step stays as it is: the textures defined, and the active layer if it is still there.
+        active = self.painting.active
+        if active is None or not layers.has(found.root, active):
+            active = found.active
+        self.painting = replace(found, textures=self.painting.textures, active=active)
+        self.log.append(replace(command, count=count))
+        return self.painting
+
+
+def cache_budget() -> int:
+    """Bytes for evaluated tiles: a quarter of the machine's memory."""
+    try:
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (ValueError, OSError, AttributeError):
+        memory = 4 << 30
+    return max(memory // 4, SMALLEST_CACHE)

@@ -1,0 +1,134 @@
+"""The stroke in progress: pen points in, the edit of the layer out.  Its preview is what its commit will be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from engine.brush import kinds
+from engine.brush.dabs import Stroker
+from engine.brush.ink import resolve
+from engine.brush.mask import StrokeMask
+from engine.brush.record import Brush
+from engine.brush.stamp import Edit
+from engine.canvas import commit, evaluate, layers
+from engine.canvas.evaluate import TileCache
+from engine.numeric.address import Rect
+from engine.painting.commands import Stroke
+from engine.painting.points import POINT_COLUMNS, REACH
+from engine.painting.value import Painting, Refusal, layer_for
+from engine.texture.planes import Planes
+
+POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
+_LOWEST = [lo for _, _, lo, _ in POINT_COLUMNS]
+_HIGHEST = [hi for _, _, _, hi in POINT_COLUMNS]
+
+
+class LiveStroke:
+    """A stroke that still grows, on the painting as it was when the pen touched down.
+
+    `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
+    points were no points (not finite, or too far away).  Refusal if the layer is locked or the brush cannot be used.
+    """
+
+    def __init__(
+        self,
+        painting: Painting,
+        level: int,
+        origin: tuple[int, int],
+        brush: Brush,
+        cache: TileCache | None = None,
+        layer: str | None = None,
+        seed: int | None = None,
+    ) -> None:
+        kinds.check(brush)
+        self.base, self.layer = layer_for(painting, layer)
+        self.before = painting
+        self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
+        self.cache = cache
+        self.dropped = 0
+        self._named = layer
+        self._points: list[np.ndarray] = []
+        self._count = 0
+        self._stroker = Stroker(brush)
+        self._mask = StrokeMask(level, origin)
+        textured = brush.mode == "paint"
+        self._ink = (
+            resolve(brush, painting.textures, level, painting.seed if seed is None else seed) if textured else None
+        )
+        self._edit: Edit | None = None
+
+    @property
+    def full(self) -> bool:
+        """Whether the stroke has as many points as one command can hold: end it and begin another."""
+        return self._count >= POINTS_CAP
+
+    @property
+    def empty(self) -> bool:
+        return self._count == 0
+
+    def add(self, points: np.ndarray) -> Rect:
+        """More of what the pen told: float64 (n, 2..6) as POINT_COLUMNS, in pixels of the level from the origin.
+
+        Points that are no points are dropped and counted, the others brought within their bounds; those of a recording
+        are taken as they are.
+        Returns the pixels of the level whose preview may have changed.
+        """
+        return self.lay(self._fit(np.atleast_2d(np.asarray(points, np.float64))))
+
+    def lay(self, points: np.ndarray) -> Rect:
+        """As `add`, for points float64 (n, 6) that are known to be good."""
+        dirty = Rect(0, 0, 0, 0)
+        if not len(points):
+            return dirty
+        for key in self._mask.paint(self._stroker.add(points)):
+            dirty = dirty.union(key.rect)
+        self._points.append(points)
+        self._count += len(points)
+        self._edit = None
+        return dirty
+
+    def _fit(self, given: np.ndarray) -> np.ndarray:
+        table = np.tile([column[1] for column in POINT_COLUMNS], (len(given), 1))
+        table[:, : given.shape[1]] = given[:, : len(POINT_COLUMNS)]
+        table[:, 3:] = np.nan_to_num(table[:, 3:], nan=0.0, posinf=0.0, neginf=0.0)
+        good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= REACH).all(axis=1)
+        self.dropped += int((~good).sum())
+        return np.clip(table[good], _LOWEST, _HIGHEST) + 0.0
+
+    @property
+    def rect(self) -> Rect:
+        """A rectangle of pixels of the level outside which nothing changes."""
+        return self._mask.rect
+
+    @property
+    def edit(self) -> Edit:
+        """The edit of the layer that the points so far make."""
+        if self._edit is None:
+            self._edit = kinds.edit(self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read)
+        return self._edit
+
+    def _read(self, rect: Rect) -> Planes:
+        return evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache)
+
+    def preview(self, rect: Rect) -> Planes:
+        """The layer's pixels of `rect` at the stroke's level, as they will be."""
+        return commit.preview(self.layer.pyramid, self.edit, rect, self.cache)
+
+    def commit(self) -> Painting:
+        """The painting with the stroke on its layer."""
+        if self.empty:
+            return self.before
+        pyramid = commit.commit(self.layer.pyramid, self.edit, self.cache)
+        if pyramid is self.layer.pyramid:
+            return self.base
+        return replace(self.base, root=layers.with_pyramid(self.base.root, self.layer.name, pyramid))
+
+    def to_command(self) -> Stroke:
+        """The command that does the same; Refusal if there is no point."""
+        if self.empty:
+            raise Refusal("stroke: found no point, expected one at least")
+        points = np.concatenate(self._points)
+        points.flags.writeable = False
+        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed)

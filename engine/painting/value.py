@@ -1,0 +1,55 @@
+"""The painting as a value: frame, seed, layers, the active one, and the textures that were defined."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from immutables import Map
+
+from engine.canvas import layers
+from engine.canvas.layers import Group, Layer, Node
+from engine.numeric.address import Rect
+from engine.painting.commands import Same
+from engine.painting.recording import DEFAULT_FRAME
+from engine.painting.textures import Texture
+
+
+class Refusal(ValueError):
+    """A command that cannot be done on this painting: `str()` is one line; the painting is as before."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Painting:
+    """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;
+    `active`: name of the layer that strokes go to; `textures`: those defined by name."""
+
+    frame: Rect = DEFAULT_FRAME
+    seed: int = 0
+    root: Group = layers.EMPTY
+    active: str | None = None
+    textures: Map[str, Texture] = field(default_factory=Map)
+
+
+def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SAME, to: int | None = None) -> Painting:
+    """With a new layer or group: at position `to` of a group (None: the root; SAME: that of the active layer); without
+    a position above the active layer if that lies there, else on top.  A new layer becomes the active one."""
+    beside = layers.place(painting.root, painting.active) if painting.active is not None else (None, -1)
+    where = beside[0] if isinstance(group, Same) else group
+    if to is None and painting.active is not None and where == beside[0]:
+        to = beside[1] + 1
+    root = layers.insert(painting.root, node, where, to)
+    return replace(painting, root=root, active=node.name if isinstance(node, Layer) else painting.active)
+
+
+def layer_for(painting: Painting, name: str | None) -> tuple[Painting, Layer]:
+    """The layer that a stroke goes to: the one named, else the active one; a first one is made where there is none."""
+    wanted = painting.active if name is None else name
+    if wanted is None:
+        wanted = layers.unique_name(painting.root)
+        painting = with_node(painting, Layer(layers.next_id(painting.root), wanted))
+    node = layers.find(painting.root, wanted)
+    if not isinstance(node, Layer):
+        raise Refusal(f"stroke: found {wanted!r}, which is a group, expected a layer")
+    if layers.is_locked(painting.root, wanted):
+        raise Refusal(f"stroke: found layer {wanted!r} locked, expected one that is not")
+    return painting, node
