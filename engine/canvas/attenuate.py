@@ -16,12 +16,7 @@ from engine.numeric.pyramid import expand
 
 def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     """The record as it is now: every attenuation since it was stored applied, oldest first."""
-    pending = []
-    change = _attenuating(pyramid.last)
-    while change is not None and change.depth > record.depth:
-        if change.level < key.level:
-            pending.append(change)
-        change = change.attenuating
+    pending = [change for change in pyramid.waiting(record.depth) if change.level < key.level]
     if not pending:
         return record
     data = record.data
@@ -39,12 +34,6 @@ def placed(key: TileKey, inner: Rect) -> Rect:
     """A rectangle given from a tile's corner, in pixels of the tile's level."""
     x, y = key.x * TILE, key.y * TILE
     return Rect(x + inner.x0, y + inner.y0, x + inner.x1, y + inner.y1)
-
-
-def _attenuating(change: Change | None) -> Change | None:
-    if change is None or change.keep is not None:
-        return change
-    return change.attenuating
 
 
 def attenuation(change: Change, level: int, rect: Rect) -> np.ndarray | None:

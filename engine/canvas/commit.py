@@ -12,6 +12,7 @@ import numpy as np
 
 from engine.brush.stamp import Edit
 from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.fold import fold
 from engine.canvas.front import Front, Surroundings, climbed, climbs, cut_front, joined, widened
 from engine.canvas.painted import Painted, lift, paint, tile_bounds
 from engine.canvas.residuals import NewRecords, Parents, store_front, store_painted
@@ -23,6 +24,7 @@ Keeps = dict[tuple[int, int], np.ndarray]
 _AT_ONCE = 1 << 22  # pixels of an edit's bounds up to which it is worked on as one rectangle
 _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together
 _SLAB = TILE << _SLAB_LEVELS
+_MOST_WAITING = 32  # strokes whose attenuation may wait: beyond, reading a fine tile would take too long
 _MARGIN = 4 << _SLAB_LEVELS  # pixels around a square that its residuals can see, at the coarsest of its levels
 
 
@@ -167,7 +169,8 @@ def _with_records(pyramid: Pyramid, level: int, rect: Rect, keeps: Keeps | None,
         _write(editable, keys, records)
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
-    return Pyramid(levels, change, pyramid.uid)
+    after = Pyramid(levels, change, pyramid.uid, pyramid.settled)
+    return fold(after) if keeps and sum(1 for _ in after.waiting()) > _MOST_WAITING else after
 
 
 def _write(editable, keys: Iterable[TileKey], records: NewRecords) -> None:

@@ -26,4 +26,4 @@ def fold(pyramid: Pyramid) -> Pyramid:
                 editable.set(place, smaller)
         finished = editable.finish()
         levels = levels.set(level, finished) if len(finished) else levels.delete(level)
-    return Pyramid(levels, pyramid.last, pyramid.uid)
+    return Pyramid(levels, pyramid.last, pyramid.uid, settled=pyramid.depth)

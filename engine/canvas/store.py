@@ -76,11 +76,16 @@ Level = immutables.Map[tuple[int, int], Record]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pyramid:
-    """One state of a layer's canvas.  `uid` names the layer's line of history, for caches."""
+    """One state of a layer's canvas.
+
+    `uid` names the layer's line of history, for caches.  `settled`: every attenuation of the commits up to this depth
+    has been applied to the records.
+    """
 
     levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
     last: Change | None = None
     uid: int = field(default_factory=lambda: next(_serials))
+    settled: int = 0
 
     @property
     def depth(self) -> int:
@@ -93,6 +98,15 @@ class Pyramid:
     @property
     def finest(self) -> int | None:
         return max(self.levels, default=None)
+
+    def waiting(self, since: int = 0) -> Iterator[Change]:
+        """The commits whose attenuation has not been applied to a record stored at depth `since`, newest first."""
+        change = self.last
+        if change is not None and change.keep is None:
+            change = change.attenuating
+        while change is not None and change.depth > max(since, self.settled):
+            yield change
+            change = change.attenuating
 
     def records(self, level: int, rect: Rect) -> Iterator[tuple[TileKey, Record]]:
         """The stored tiles of a level that meet a rectangle."""

@@ -234,6 +234,17 @@ def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts():
     assert all((a.data == b.data).all() for (_, a), (_, b) in pairs)
 
 
+def test_attenuation_waits_for_a_bounded_number_of_strokes():
+    pyramid = commit(Pyramid(), fill(6, 0, 0, 200, 200))
+    reference = pyramid
+    for n in range(80):
+        pyramid = commit(pyramid, fill(2, n % 9, n % 7, 8, 8, alpha=0.02))
+        reference = fold(commit(reference, fill(2, n % 9, n % 7, 8, 8, alpha=0.02)))
+        assert sum(1 for _ in pyramid.waiting()) <= 33
+    view = Rect(-10, -10, 220, 220)
+    assert (evaluate(pyramid, 6, view).data == evaluate(reference, 6, view).data).all()
+
+
 def test_attenuation_rounds_to_the_grid():
     data = np.array([[[3, -3, 1000, -70000]]], np.int32)
     out = np.empty_like(data)
