@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.desk import Desk
-from app.panels import dialogs, files
 from engine.painting import commands as c
 from engine.painting.requests import Do
 
@@ -145,18 +144,27 @@ def _moves(by: int) -> Callable[[Desk], None]:
     return do
 
 
-def _quit(desk: Desk) -> None:
-    desk.closing = True
+def _asks(name: str) -> Callable[[Desk], None]:
+    return lambda desk: desk.ask(name)
+
+
+def _asks_guarded(name: str) -> Callable[[Desk], None]:
+    return lambda desk: desk.guard(lambda d: d.ask(name))
+
+
+def close(desk: Desk) -> None:
+    """Closes the window, after asking about unsaved changes."""
+    desk.guard(lambda d: setattr(d, "quit", True))
 
 
 A = Action
 ACTIONS: dict[str, Action] = {
-    "new": A("New…", "File", ("Ctrl+N",), "Start a new painting", dialogs.ask_new, _ready),
-    "open": A("Open…", "File", ("Ctrl+O",), "Open a painting, a picture or a recording", files.ask_open, _ready),
-    "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", files.save, _ready),
-    "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", files.ask_save, _ready),
-    "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF at any depth", files.ask_export, _ready),
-    "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", _quit),
+    "new": A("New…", "File", ("Ctrl+N",), "Start a new painting", _asks_guarded("new"), _ready),
+    "open": A("Open…", "File", ("Ctrl+O",), "Open a painting, a picture or a recording", _asks_guarded("open"), _ready),
+    "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", Desk.save, _ready),
+    "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", _asks("save as"), _ready),
+    "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF at any depth", _asks("export"), _ready),
+    "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
@@ -185,8 +193,8 @@ ACTIONS: dict[str, Action] = {
     "upright": A("Upright", "View", ("5",), "Turn the view upright", _upright),
     "mirror": A("Mirror", "View", ("M",), "Mirror the view to see mistakes", _mirror, _always, lambda d: d.view.mirrored),
     "panels": A("Panels", "View", ("Tab",), "Show or hide the panels", _panels, _always, lambda d: d.panels),
-    "keys": A("Keys…", "Help", ("F1",), "All keys in one list", dialogs.show_keys),
-    "about": A("About Inkfall…", "Help", (), "What this program is", dialogs.show_about),
+    "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
+    "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),
 }  # fmt: skip
 MENUS = ("File", "Edit", "Tools", "Layer", "View", "Help")
 

@@ -16,7 +16,7 @@ from app.glide import Glide
 from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
-from engine.painting.requests import Note, Request, Scene
+from engine.painting.requests import Note, Request, Save, Scene
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
@@ -47,6 +47,7 @@ class Desk:
     colour: RGB = (0.11, 0.16, 0.24)
     other_colour: RGB = (1.0, 1.0, 1.0)
     colours: list[RGB] = field(default_factory=list)
+    stabiliser: float = 0.3  # 0..1: how much the path of a stroke is smoothed
     blends: tuple[tuple[str, str, str], ...] = ()  # name, title, hint; from the engine
     kinds: tuple[Any, ...] = ()  # rows of engine.texture.table
     presets: tuple[Any, ...] = ()  # app.presets.Preset
@@ -60,10 +61,10 @@ class Desk:
     message: tuple[str, bool, float] = ("", False, 0.0)
     pending: int = 0
     files: int = 0
-    dialog: Any = None  # what app.panels.dialogs shows
-    closing: bool = False
+    asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
+    then: Callable[[Desk], None] | None = None  # goes on once unsaved changes are dealt with
     quit: bool = False
-    after_save: Callable[[], None] | None = None
+    after_save: Callable[[Desk], None] | None = None
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
 
     @property
@@ -84,6 +85,24 @@ class Desk:
 
     def told(self, note: Note) -> None:
         self.say(note.text, note.bad)
+
+    def ask(self, name: str) -> None:
+        """Opens a dialog by its name."""
+        self.asked = name
+
+    def guard(self, then: Callable[[Desk], None]) -> None:
+        """Does `then`, after asking about unsaved changes if there are any."""
+        if self.modified:
+            self.then, self.asked = then, "unsaved"
+        else:
+            then(self)
+
+    def save(self) -> None:
+        """Saves where the painting came from; asks where, the first time."""
+        if self.path is not None and self.path.suffix.lower() == ".ora":
+            self.post(Save(self.path))
+        else:
+            self.asked = "save as"
 
     def free_area(self) -> tuple[float, float, float, float]:
         """The part of the screen that no panel covers."""

@@ -20,11 +20,11 @@ import moderngl
 from imgui_bundle.imgui import backends
 
 from app import cursor, theme
+from app.actions import close
 from app.desk import Desk
 from app.input.events import PointerSource
 from app.input.glfw_events import GlfwPointer
 from app.news import News
-from app.panels import dialogs
 from app.panels.layout import Layout
 from app.router import Router
 from app.screen import Screen
@@ -96,7 +96,7 @@ class Window:
     def _dropped(self, _w: Any, paths: list[str]) -> None:
         self._wake()
         if paths and self.desk.ready:
-            dialogs.guarded(self.desk, lambda desk: desk.post(Open(Path(paths[0]))))
+            self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
 
     def _wake(self) -> None:
         self._busy_until = time.monotonic() + LINGER
@@ -170,10 +170,7 @@ class Window:
         """Whether the window is to go; asks about unsaved changes first."""
         if glfw.window_should_close(self.handle):
             glfw.set_window_should_close(self.handle, False)
-            self.desk.closing = True
-        if self.desk.closing:
-            self.desk.closing = False
-            dialogs.guarded(self.desk, lambda desk: setattr(desk, "quit", True))
+            close(self.desk)
         return self.desk.quit
 
     def close(self) -> None:

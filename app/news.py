@@ -82,7 +82,7 @@ class News:
 
     def _ask_swatches(self, now: float) -> None:
         """The ink mixer's picture follows the brush, once it rests."""
-        brush = replace(self.desk.brush, colour=to_hex(self.desk.colour), radius=16.0, stabiliser=0.0)
+        brush = replace(self.desk.brush, colour=to_hex(self.desk.colour), radius=16.0)
         if brush != self._ink:
             self._ink, self._ink_since = brush, now
         if self._ink_since and now - self._ink_since >= SETTLE and self.worker:
@@ -105,7 +105,8 @@ class News:
         for fault in faults + more:
             desk.say(fault, bad=True)
         if not desk.preset:
-            desk.preset, desk.brush = desk.presets[0].name, desk.presets[0].brush
+            first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
+            desk.preset, desk.brush = first.name, first.brush
         size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
         for preset in desk.presets:
             desk.post(q.Swatch(f"preset {preset.name}", preset.brush, size))
@@ -129,7 +130,7 @@ class News:
         self.desk.say(f"Saved {Path(r.path).name}")
         then, self.desk.after_save = self.desk.after_save, None
         if then is not None:
-            then()
+            then(self.desk)
 
     def _picture(self, r: q.Picture, _now: float) -> None:
         """A swatch over paper, as a texture for imgui."""

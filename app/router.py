@@ -104,9 +104,10 @@ class Router:
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
             return
-        busy = self.desk.dialog is not None or imgui.get_io().want_text_input
+        dialog = self.layout.dialogs.open or bool(self.desk.asked)
+        busy = dialog or imgui.get_io().want_text_input
         found = by_key(keys)
-        if found is not None and (not busy or (keys in _TYPED_ANYWHERE and self.desk.dialog is None)):
+        if found is not None and (not busy or (keys in _TYPED_ANYWHERE and not dialog)):
             perform(self.desk, found)
 
     def lost_focus(self) -> None:

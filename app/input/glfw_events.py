@@ -21,6 +21,7 @@ class GlfwPointer:
         self._window = window
         self._queue: list[PenEvent] = []
         self._scale = 1.0
+        self._at: tuple[float, float] | None = None
         glfw.set_cursor_pos_callback(window, self._moved)
         glfw.set_mouse_button_callback(window, self._pressed)
         glfw.set_scroll_callback(window, self._scrolled)
@@ -37,15 +38,21 @@ class GlfwPointer:
 
     def _moved(self, _window: Any, x: float, y: float) -> None:
         self._measure()
+        self._at = x, y
         self._add("move", x, y)
 
-    def _pressed(self, window: Any, button: int, action: int, _mods: int) -> None:
+    def _where(self) -> tuple[float, float]:
+        """The last place reported: at a press, GLFW itself would tell where the pointer is by now."""
+        x, y = self._at or glfw.get_cursor_pos(self._window)
+        return x, y
+
+    def _pressed(self, _window: Any, button: int, action: int, _mods: int) -> None:
         if button in _BUTTONS:
             kind = "down" if action == glfw.PRESS else "up"
-            self._add(kind, *glfw.get_cursor_pos(window), button=_BUTTONS[button])
+            self._add(kind, *self._where(), button=_BUTTONS[button])
 
-    def _scrolled(self, window: Any, dx: float, dy: float) -> None:
-        self._add("wheel", *glfw.get_cursor_pos(window), dx=dx, dy=dy)
+    def _scrolled(self, _window: Any, dx: float, dy: float) -> None:
+        self._add("wheel", *self._where(), dx=dx, dy=dy)
 
     def events(self) -> list[PenEvent]:
         queue, self._queue = self._queue, []

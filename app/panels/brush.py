@@ -104,6 +104,7 @@ class BrushPanel:
 
     def _modes(self, desk: Desk) -> None:
         wide = (imgui.get_content_region_avail().x - 2 * imgui.get_style().item_spacing.x) / 3
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, 4) * desk.scale)
         for i, (mode, icon, hint) in enumerate(_MODES):
             if i:
                 imgui.same_line()
@@ -113,6 +114,7 @@ class BrushPanel:
                 desk.brush = replace(desk.brush, mode=mode)
                 desk.tool, desk.erasing = "brush", False
             imgui.pop_style_color()
+        imgui.pop_style_var()
 
     def _settings(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
@@ -124,6 +126,11 @@ class BrushPanel:
             if changed:
                 value = value / 100 if form.endswith("%%") else value
                 desk.brush = replace(desk.brush, **{name: row.clamped(round(value, 4))})
+
+        hint = "How much the stroke lags behind the pen to steady the hand"
+        changed, value = w.slider("Stabiliser", desk.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")
+        if changed:
+            desk.stabiliser = round(value / 100, 3)
 
     def _dynamics(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():

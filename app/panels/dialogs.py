@@ -1,4 +1,4 @@
-"""The windows that ask: a new painting, unsaved changes, the list of keys, about."""
+"""The windows that ask: a new painting, files, unsaved changes; the list of keys, about."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from typing import Protocol
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.actions import ACTIONS, MENUS
 from app.desk import Desk
+from app.panels import files
 from app.panels import widgets as w
 from engine.numeric.address import Rect
 from engine.painting.requests import New
@@ -25,24 +27,35 @@ class Dialog(Protocol):
         ...
 
 
-def draw(desk: Desk) -> None:
-    """Shows the dialog that is open, in the middle of the screen, above everything."""
-    dialog = desk.dialog
-    if dialog is None:
-        return
-    name = f"{dialog.title}###dialog"
-    if not imgui.is_popup_open("###dialog"):
-        imgui.open_popup("###dialog")
-    imgui.set_next_window_pos(ImVec2(desk.view.width / 2, desk.view.height / 2), imgui.Cond_.always, ImVec2(0.5, 0.5))
-    imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
-    flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
-    if imgui.begin_popup_modal(name, None, flags)[0]:
-        if not dialog.draw(desk) or imgui.is_key_pressed(imgui.Key.escape):
-            imgui.close_current_popup()
-            if desk.dialog is dialog:
-                desk.dialog = None
-        imgui.end_popup()
-    imgui.pop_style_var()
+class Dialogs:
+    """Shows the dialog that was asked for, in the middle of the screen, above everything; one at a time."""
+
+    def __init__(self) -> None:
+        self._open: Dialog | None = None
+
+    @property
+    def open(self) -> bool:
+        return self._open is not None
+
+    def draw(self, desk: Desk) -> None:
+        if desk.asked and self._open is None:
+            self._open, desk.asked = DIALOGS[desk.asked](desk), ""
+            imgui.open_popup("###dialog")
+        dialog = self._open
+        if dialog is None:
+            return
+        middle = ImVec2(desk.view.width / 2, desk.view.height / 2)
+        imgui.set_next_window_pos(middle, imgui.Cond_.always, ImVec2(0.5, 0.5))
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
+        flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
+        if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
+            if not dialog.draw(desk) or imgui.is_key_pressed(imgui.Key.escape):
+                imgui.close_current_popup()
+                self._open = None
+            imgui.end_popup()
+        else:
+            self._open = None
+        imgui.pop_style_var()
 
 
 class NewPainting:
@@ -80,34 +93,28 @@ class Unsaved:
 
     title = "Unsaved changes"
 
-    def __init__(self, save: Callable[[Desk], None], then: Callable[[Desk], None]) -> None:
-        self._save, self._then = save, then
-
     def draw(self, desk: Desk) -> bool:
         name = desk.path.name if desk.path else "This painting"
         imgui.text_unformatted(f"{name} has changes that are not saved.")
         imgui.spacing()
         em = imgui.get_font_size()
+        then, going = desk.then, False
         if w.text_button("Save", "Save, then go on", width=em * 7):
-            desk.after_save = lambda: self._then(desk)
-            desk.dialog = None
-            self._save(desk)
-            return False
+            desk.after_save, going = then, True
+            desk.save()
         imgui.same_line()
         if w.text_button("Don’t save", "Go on; the changes are lost", width=em * 7):
-            desk.dialog = None
-            self._then(desk)
-            return False
+            going = True
+            if then is not None:
+                then(desk)
         imgui.same_line()
-        return not w.text_button("Cancel", "Go back to the painting", width=em * 7)
+        return not (w.text_button("Cancel", "Go back to the painting", width=em * 7) or going)
 
 
 class Keys:
     title = "Keys"
 
     def draw(self, desk: Desk) -> bool:
-        from app.actions import ACTIONS, MENUS
-
         rows = [
             ("Wheel", "Zoom about the pointer"),
             ("Space + drag, middle button", "Pan"),
@@ -147,23 +154,12 @@ class About:
         return not w.text_button("Close", "Close", width=em * 7)
 
 
-def guarded(desk: Desk, then: Callable[[Desk], None]) -> None:
-    """Does `then`, after asking about unsaved changes if there are any."""
-    from app.panels import files
-
-    if desk.modified:
-        desk.dialog = Unsaved(files.save, then)
-    else:
-        then(desk)
-
-
-def ask_new(desk: Desk) -> None:
-    guarded(desk, lambda d: setattr(d, "dialog", NewPainting()))
-
-
-def show_keys(desk: Desk) -> None:
-    desk.dialog = Keys()
-
-
-def show_about(desk: Desk) -> None:
-    desk.dialog = About()
+DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
+    "new": lambda desk: NewPainting(),
+    "open": files.opening,
+    "save as": files.saving,
+    "export": files.exporting,
+    "unsaved": lambda desk: Unsaved(),
+    "keys": lambda desk: Keys(),
+    "about": lambda desk: About(),
+}

@@ -14,7 +14,6 @@ from imgui_bundle import portable_file_dialogs as pfd
 
 from app import icons, theme
 from app.desk import Desk
-from app.panels import dialogs
 from app.panels import widgets as w
 from engine.painting.requests import Export, Open, Save
 
@@ -48,7 +47,6 @@ class SystemDialog:
             path = Path(name)
             if self._saving and path.suffix.lower() not in self._endings:
                 path = path.with_name(path.name + self._endings[0])
-            desk.dialog = None
             self._then(desk, path)
         return False
 
@@ -144,44 +142,29 @@ class Browser:
         if not self._saving and not path.is_file():
             self._fault = f"{path.name}: there is no such file"
             return True
-        desk.dialog = None
         self._then(desk, path)
         return False
 
 
-def _ask(desk: Desk, title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> None:
+def _chooser(title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> SystemDialog | Browser:
     make = SystemDialog if has_system_dialogs() else Browser
-    desk.dialog = make(title, start, endings, saving, then)
+    return make(title, start, endings, saving, then)
 
 
 def _folder(desk: Desk) -> Path:
     return desk.path.parent if desk.path else Path.cwd()
 
 
-def ask_open(desk: Desk) -> None:
-    def choose(d: Desk) -> None:
-        _ask(d, "Open", _folder(d), OPENS, False, lambda d2, path: d2.post(Open(path)))
-
-    dialogs.guarded(desk, choose)
+def opening(desk: Desk) -> SystemDialog | Browser:
+    return _chooser("Open", _folder(desk), OPENS, False, lambda d, path: d.post(Open(path)))
 
 
-def save(desk: Desk) -> None:
-    """Saves where the painting came from; asks where, the first time."""
-    if desk.path is not None and desk.path.suffix.lower() == ".ora":
-        desk.post(Save(desk.path))
-    else:
-        ask_save(desk)
-
-
-def ask_save(desk: Desk) -> None:
+def saving(desk: Desk) -> SystemDialog | Browser:
     stem = desk.path.stem if desk.path else "untitled"
-    _ask(desk, "Save as", _folder(desk) / f"{stem}.ora", SAVES, True, lambda d, path: d.post(Save(path)))
+    return _chooser("Save as", _folder(desk) / f"{stem}.ora", SAVES, True, lambda d, path: d.post(Save(path)))
 
 
-def ask_export(desk: Desk) -> None:
+def exporting(desk: Desk) -> SystemDialog | Browser:
     stem = desk.path.stem if desk.path else "untitled"
-
-    def write(d: Desk, path: Path) -> None:
-        d.post(Export(path))
-
-    _ask(desk, "Export picture", _folder(desk) / f"{stem}.png", EXPORTS, True, write)
+    start = _folder(desk) / f"{stem}.png"
+    return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path)))

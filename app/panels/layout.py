@@ -7,10 +7,11 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.actions import ACTIONS, MENUS, Action, perform
 from app.desk import Desk
-from app.panels import dialogs, status
+from app.panels import status
 from app.panels import widgets as w
 from app.panels.brush import BrushPanel
 from app.panels.colour import ColourPanel
+from app.panels.dialogs import Dialogs
 from app.panels.ink import InkPanel
 from app.panels.layers import LayersPanel
 
@@ -29,6 +30,7 @@ class Layout:
 
     def __init__(self) -> None:
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
+        self.dialogs = Dialogs()
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup = False
 
@@ -53,16 +55,16 @@ class Layout:
                 self.layers.draw(desk)
             imgui.end()
         desk.insets = left, top, right, bottom
-        dialogs.draw(desk)
+        self.dialogs.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
 
-    def _begin(self, name: str, box: tuple[float, float, float, float]) -> bool:
+    def _begin(self, name: str, box: tuple[float, float, float, float], flags: int = 0) -> bool:
         x, y, width, height = box
         self._covered.append((x, y, x + width, y + height))
         imgui.set_next_window_pos(ImVec2(x, y))
         imgui.set_next_window_size(ImVec2(width, height))
-        return imgui.begin(name, None, _FIXED)[0]
+        return imgui.begin(name, None, _FIXED | flags)[0]
 
     def _menu(self, desk: Desk) -> float:
         if not desk.panels or not imgui.begin_main_menu_bar():
@@ -97,7 +99,9 @@ class Layout:
         imgui.push_style_color(imgui.Col_.window_bg, theme.vec(theme.SHADE))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(10 * desk.scale, 5 * desk.scale))
         imgui.push_style_var(imgui.StyleVar_.window_min_size, ImVec2(1, 1))
-        if self._begin("status", (0, desk.view.height - height, desk.view.width, height)):
+        if self._begin(
+            "status", (0, desk.view.height - height, desk.view.width, height), imgui.WindowFlags_.no_scrollbar
+        ):
             status.draw(desk, pointer_name)
         imgui.end()
         imgui.pop_style_var(2)

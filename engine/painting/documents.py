@@ -1,0 +1,98 @@
+"""Files as the window opens and writes them, whatever their kind: paintings, pictures, recordings."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from engine.painting import commands as c
+from engine.painting import requests as q
+from engine.painting.recording import Recording, read
+from engine.painting.session import Session
+from engine.painting.value import Painting
+
+LIVE_POINTS = 6  # of a stroke shown at a time when a recording plays
+LIVE_PAUSE = 0.012  # seconds between them
+
+
+class Stage(Protocol):
+    """Where a recording plays: an easel."""
+
+    live: object
+
+    def carry_out(self, command: c.Command) -> None: ...
+    def begin(self, stroke: c.Stroke) -> None: ...
+    def extend(self, points: np.ndarray) -> None: ...
+    def finish(self) -> None: ...
+    def send(self, result: q.Result) -> None: ...
+
+
+class Playing:
+    """A recording on its way: strokes grow as the pen drew them, views move the screen."""
+
+    def __init__(self, recording: Recording, live: bool) -> None:
+        self._commands: Iterator[c.Command] = iter(recording.commands)
+        self._live = live
+        self._rest: np.ndarray | None = None
+
+    def advance(self, stage: Stage) -> bool:
+        """One piece of it; False at the end."""
+        if self._rest is not None:
+            self._grow(stage)
+            return True
+        command = next(self._commands, None)
+        if command is None:
+            return False
+        if isinstance(command, c.View):
+            stage.carry_out(command)
+            stage.send(q.Looked(command.level, command.origin, command.size))
+            time.sleep(LIVE_PAUSE * 20 if self._live else 0)
+        elif isinstance(command, c.Stroke) and self._live:
+            stage.begin(command)
+            self._rest = command.points
+        else:
+            stage.carry_out(command)
+        return True
+
+    def _grow(self, stage: Stage) -> None:
+        assert self._rest is not None
+        stage.extend(self._rest[:LIVE_POINTS])
+        self._rest = self._rest[LIVE_POINTS:]
+        if len(self._rest):
+            time.sleep(LIVE_PAUSE)
+        else:
+            self._rest = None
+            stage.finish()
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """A session with what the file held; `path`: where to save it, None for what is no painting of ours."""
+
+    session: Session
+    path: Path | None = None
+    script: Playing | None = None
+
+
+def opened(path: Path, live: bool = False) -> Opened:
+    """What a file holds; FileError if it is none that can be read."""
+    if path.suffix.lower() == ".jsonl":
+        recording = read(path)
+        painting = Painting(frame=recording.header.frame, seed=recording.header.seed)
+        return Opened(Session(painting, folder=recording.folder), None, Playing(recording, live))
+    raise ValueError(f"{path.name}: found {path.suffix or 'no ending'}, expected .ora, .png, .jpg, .tif or .jsonl")
+
+
+def save(path: Path, painting: Painting, recording: Recording) -> None:
+    """The painting with its recording as .ora, replaced in one step."""
+    raise NotImplementedError
+
+
+def export(request: q.Export, painting: Painting) -> None:
+    """The frame, or the rectangle asked for, as a picture."""
+    raise NotImplementedError

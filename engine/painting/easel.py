@@ -1,0 +1,400 @@
+"""What the background worker works at: a session, the stroke in progress, and the tiles that the screen wants.
+
+Tiles are functions of the painting alone.  Which of those on the screen are old is found by comparing paintings.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from engine.canvas.composite import composite
+from engine.canvas.evaluate import evaluate_sparse
+from engine.canvas.layers import Group, Layer
+from engine.canvas.store import changed_rects
+from engine.numeric.address import Rect
+from engine.numeric.blend import BLENDS
+from engine.numeric.colour import to_premul8
+from engine.painting import commands as c
+from engine.painting import documents, swatches
+from engine.painting import requests as q
+from engine.painting.session import Session
+from engine.painting.stroke import LiveStroke
+from engine.painting.value import Painting
+from engine.texture.table import KINDS
+
+Key = tuple[int, int, int]
+Areas = Callable[[int], "list[Rect] | None"]
+STEPS_KEPT = 64  # changes remembered: a tile older than all of them is made anew
+
+
+class Easel:
+    """The engine's side of the post.  All calls come from one thread."""
+
+    def __init__(self, send: Callable[[q.Result], None]) -> None:
+        self.send = send
+        self.session = Session()
+        self.path: Path | None = None
+        self.live: LiveStroke | None = None
+        self.revision = 0
+        self._serial = 0
+        self._saved: Painting | None = self.session.painting
+        self._changes: deque[tuple[int, Areas]] = deque(maxlen=STEPS_KEPT)
+        self._wanted: dict[Key, int] = {}  # tile: revision that the window holds, -1 for none; in order of urgency
+        self._open: deque[Key] = deque()  # tiles to look at
+        self._dirty = Rect(0, 0, 0, 0)  # pixels of the live stroke's level not sent yet
+        self._dirty_level = 0
+        self._script: documents.Playing | None = None
+        self._writers: list[threading.Thread] = []
+        self._handlers: dict[type, Callable[[Any], None]] = {
+            q.New: self._new,
+            q.Open: self._open_file,
+            q.Save: self._save,
+            q.Export: self._export,
+            q.Do: lambda r: self.carry_out(r.command),
+            q.Begin: self._begin,
+            q.Points: lambda r: self.extend(r.points),
+            q.Finish: lambda r: self.finish(),
+            q.Abandon: lambda r: self._abandon(),
+            q.Swatch: self._swatch,
+            q.Pick: self._pick,
+        }
+        send(q.Ready(tuple((b.name, b.label, b.tooltip) for b in BLENDS.values()), tuple(KINDS.values())))
+        self._tell()
+
+    # --- requests ----------------------------------------------------------------------------------------------------
+
+    def do(self, request: q.Request) -> None:
+        """Carries out a request that changes something; sends its results."""
+        self._handlers[type(request)](request)
+
+    def look(self, request: q.Look) -> None:
+        """Takes over what is wanted on the screen."""
+        self._wanted = {(level, x, y): held for level, x, y, held in request.tiles}
+        self._open = deque(self._wanted)
+
+    @property
+    def pending(self) -> int:
+        return len(self._open) + (not self._dirty.empty) + (self._script is not None)
+
+    def step(self) -> bool:
+        """The most urgent piece of open work: what the pen just painted, then tiles, then a recording that plays."""
+        if not self._dirty.empty:
+            self._send_dirty()
+        elif self._open:
+            self._bring_up_to_date(self._open.popleft())
+        elif self._script is not None:
+            self._play_on()
+        else:
+            return False
+        return True
+
+    def close(self) -> None:
+        """Waits for files that are being written."""
+        for writer in self._writers:
+            writer.join()
+
+    # --- the painting ------------------------------------------------------------------------------------------------
+
+    def _new(self, request: q.New) -> None:
+        self.show(Session(Painting(frame=request.frame, seed=request.seed)), None)
+
+    def show(self, session: Session, path: Path | None, saved: bool = True) -> None:
+        """Another painting is on the easel."""
+        self.live, self._script = None, None
+        self.session, self.path = session, path
+        self._saved = session.painting if saved else None
+        self._serial += 1
+        self._changes.clear()
+        self._dirty = Rect(0, 0, 0, 0)
+        self._tell()
+        self._changed(lambda level: None)
+
+    def carry_out(self, command: c.Command) -> None:
+        """A command; what it changed on the screen is brought up to date."""
+        if self.live is not None:
+            self.finish()
+        before = self.session.painting
+        after = self.session.do(command)
+        if after is not before:
+            self._changed(areas(before, after))
+        self._tell()
+
+    def _begin(self, request: q.Begin) -> None:
+        self.begin(c.Stroke(request.level, request.origin, np.empty((0, 6)), request.brush))
+
+    def begin(self, stroke: c.Stroke) -> None:
+        """The pen touches down; the stroke's points come later."""
+        if self.live is not None:
+            self.finish()
+        self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed)
+        self._dirty_level = stroke.level
+
+    def extend(self, points: np.ndarray) -> None:
+        """More of the stroke.  Only the paint is laid; pictures of it follow when no more points wait."""
+        if self.live is None:  # its beginning was refused
+            return
+        rect = self.live.add(points)
+        if rect.empty:
+            return
+        level = self.live.level
+        self._dirty = self._dirty.union(rect)
+        self.revision += 1
+        self._changes.append((self.revision, lambda n: [rect] if n == level else []))
+        if self.live.full:
+            stroke = self.live.to_command()
+            self.finish()
+            self.begin(replace(stroke, points=points[:0]))
+
+    def finish(self) -> None:
+        """The pen lifts."""
+        live, self.live = self.live, None
+        if live is None:
+            return
+        after = self.session.finish(live)
+        other = areas(live.base, after)
+        # At the stroke's own level the preview, which is or will be on the screen, is what was committed.
+        self._changed(lambda level: [] if level == live.level else other(level))
+        self._tell()
+
+    def _abandon(self) -> None:
+        live, self.live = self.live, None
+        if live is not None:
+            self._changed(lambda level: [live.rect] if level == live.level else [])
+            self._dirty = Rect(0, 0, 0, 0)
+
+    def _changed(self, where: Areas) -> None:
+        """The painting became another one, different in the areas that `where` gives for a level."""
+        self.revision += 1
+        self._changes.append((self.revision, where))
+        self._open = deque(self._wanted)
+
+    def _tell(self) -> None:
+        painting = self.session.painting
+        self.send(
+            q.Scene(
+                frame=painting.frame,
+                layers=tuple(rows(painting.root)),
+                active=painting.active,
+                can_undo=self.session.can_undo,
+                can_redo=self.session.can_redo,
+                modified=painting is not self._saved,
+                path=self.path,
+                textures=tuple(sorted(painting.textures)),
+                serial=self._serial,
+            )
+        )
+
+    # --- tiles -------------------------------------------------------------------------------------------------------
+
+    def _send_dirty(self) -> None:
+        """The part of the wanted tiles that the stroke in progress changed."""
+        dirty, level, self._dirty = self._dirty, self._dirty_level, Rect(0, 0, 0, 0)
+        for key, held in self._wanted.items():
+            if key[0] == level and held >= 0:
+                part = dirty.intersect(tile_rect(key))
+                if not part.empty:
+                    self._send_part(key, part)
+
+    def _bring_up_to_date(self, key: Key) -> None:
+        """Sends a wanted tile anew, or the parts of it that changed since the window's copy, or that it is good."""
+        held = self._wanted.get(key)
+        if held is None or held == self.revision:
+            return
+        whole = tile_rect(key)
+        parts = [whole] if held < 0 else self._old_parts(key[0], whole, held)
+        if not parts:
+            self._wanted[key] = self.revision
+            self.send(q.Same((key,), self.revision))
+            return
+        part = parts[0]
+        for other in parts[1:]:
+            part = part.union(other)
+        self._send_part(key, part)
+
+    def _old_parts(self, level: int, whole: Rect, held: int) -> list[Rect]:
+        """The parts of a rectangle that changed after revision `held`."""
+        if not self._changes or self._changes[0][0] > held + 1:
+            return [whole]
+        out = []
+        for revision, where in self._changes:
+            if revision <= held:
+                continue
+            changed = where(level)
+            if changed is None:
+                return [whole]
+            out += [r for r in (area.intersect(whole) for area in changed) if not r.empty]
+        return out
+
+    def _send_part(self, key: Key, part: Rect) -> None:
+        tile = tile_rect(key)
+        pixels = q.frozen(to_premul8(self.picture(key[0], part)))
+        self._wanted[key] = self.revision
+        self.send(
+            q.Patch(
+                key,
+                Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0),
+                pixels,
+                self.revision,
+            )
+        )
+
+    def picture(self, level: int, rect: Rect) -> np.ndarray:
+        """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
+        root = self.live.base.root if self.live is not None else self.session.painting.root
+        return composite(root, level, rect, self._read)
+
+    def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        live = self.live
+        if (
+            live is not None
+            and not live.empty
+            and layer.name == live.layer.name
+            and level == live.level
+            and rect.meets(live.rect)
+        ):
+            return live.preview(rect).rgba
+        found = evaluate_sparse(layer.pyramid, level, rect, self.session.cache)
+        return None if found is None else found.rgba
+
+    def _pick(self, request: q.Pick) -> None:
+        pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]
+        alpha = float(pixel[3])
+        r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
+        self.send(q.Picked((r, g, b), alpha))
+
+    def _swatch(self, request: q.Swatch) -> None:
+        pixels = swatches.painted(request, self.session.painting)
+        self.send(q.Picture(request.ident, q.frozen(to_premul8(pixels))))
+
+    # --- files -------------------------------------------------------------------------------------------------------
+
+    def _open_file(self, request: q.Open) -> None:
+        found = documents.opened(request.path, request.live)
+        self.show(found.session, found.path)
+        if found.script is not None:
+            self._script = found.script
+            self.send(q.Note(f"Playing {request.path.name}"))
+
+    def _play_on(self) -> None:
+        """The next piece of a recording that plays."""
+        assert self._script is not None
+        if not self._script.advance(self):
+            self._script = None
+            self._saved = None if self.session.log else self.session.painting
+            self._tell()
+            self.send(q.Note("The recording has ended"))
+
+    def _save(self, request: q.Save) -> None:
+        """Writes on a thread of its own, from the painting as it is now; painting goes on meanwhile."""
+        if self.live is not None:
+            self.finish()
+        painting, recording = self.session.painting, self.session.recording()
+
+        def write() -> None:
+            documents.save(request.path, painting, recording)
+            self.path, self._saved = request.path, painting
+            self._tell()
+            self.send(q.Saved(request.path))
+
+        self._in_background(write)
+
+    def _export(self, request: q.Export) -> None:
+        painting = self.session.painting
+
+        def write() -> None:
+            documents.export(request, painting)
+            self.send(q.Note(f"Wrote {request.path.name}"))
+
+        self._in_background(write)
+
+    def _in_background(self, write: Callable[[], None]) -> None:
+        def run() -> None:
+            try:
+                write()
+            except Exception as error:
+                self.send(q.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
+            finally:
+                self.send(q.Pending(self.pending, 0))
+
+        self._writers = [w for w in self._writers if w.is_alive()]
+        self._writers.append(threading.Thread(target=run, name="inkfall file", daemon=False))
+        self.send(q.Pending(self.pending, 1))
+        self._writers[-1].start()
+
+
+def tile_rect(key: Key) -> Rect:
+    _, x, y = key
+    return Rect.at(x * q.SIDE, y * q.SIDE, q.SIDE, q.SIDE)
+
+
+def areas(old: Painting, new: Painting) -> Areas:
+    """Where two paintings differ, by level; None for anywhere."""
+    pairs = _pairs(old.root, new.root)
+
+    def where(level: int) -> list[Rect] | None:
+        if pairs is None:
+            return None
+        return [rect for a, b in pairs for rect in changed_rects(a.pyramid, b.pyramid, level)]
+
+    return where
+
+
+def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
+    """Layers whose paint differs; None if the trees differ in anything else."""
+    if old is new:
+        return []
+    if len(old.children) != len(new.children) or _plain(old) != _plain(new):
+        return None
+    out = []
+    for a, b in zip(old.children, new.children, strict=True):
+        if isinstance(a, Group) and isinstance(b, Group):
+            inner = _pairs(a, b)
+            if inner is None:
+                return None
+            out += inner
+        elif isinstance(a, Layer) and isinstance(b, Layer) and _plain(a) == _plain(b):
+            if a.pyramid is not b.pyramid:
+                if a.pyramid.uid != b.pyramid.uid:
+                    return None
+                out.append((a, b))
+        else:
+            return None
+    return out
+
+
+def _plain(node: Layer | Group) -> tuple[Any, ...]:
+    """What of a node shows, besides its paint."""
+    return node.id, node.opacity, node.visible, node.blend, isinstance(node, Group) and node.isolated
+
+
+def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[q.LayerRow]:
+    """The tree as the panel lists it, top-most first."""
+    out = []
+    for position in reversed(range(len(group.children))):
+        node = group.children[position]
+        is_group = isinstance(node, Group)
+        alpha_locked = isinstance(node, Layer) and node.alpha_locked
+        out.append(
+            q.LayerRow(
+                node.name,
+                is_group,
+                depth,
+                parent,
+                position,
+                node.opacity,
+                node.visible,
+                node.blend,
+                node.locked,
+                alpha_locked,
+            )
+        )
+        if isinstance(node, Group):
+            out += rows(node, depth + 1, node.name)
+    return out

@@ -1,0 +1,69 @@
+"""Small pictures that a brush paints of itself: thumbnails of presets, and the ink mixer's patch (feature A5)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from engine.brush.record import Brush
+from engine.canvas.composite import composite
+from engine.canvas.evaluate import evaluate_sparse
+from engine.canvas.layers import Layer
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting.painting import apply
+from engine.painting.requests import Swatch
+from engine.painting.value import Painting
+
+_GROUND = Brush(radius=10.0, hardness=0.7, colour="#5b6470")
+
+
+def painted(request: Swatch, of: Painting) -> np.ndarray:
+    """The picture: float32 (4, height, width), premultiplied.  `of`: whose textures the brush may name."""
+    painting = Painting(seed=of.seed, textures=of.textures)
+    width, height = request.size
+    strokes = (
+        _fill(request.brush, width, height) if request.kind == "fill" else _thumbnail(request.brush, width, height)
+    )
+    for stroke in strokes:
+        painting = apply(painting, stroke)
+    level = request.zoom
+    middle = Rect.at((width << level) // 2 - width // 2, (height << level) // 2 - height // 2, width, height)
+    return composite(painting.root, level, middle, _read)
+
+
+def _read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+    found = evaluate_sparse(layer.pyramid, level, rect, None)
+    return None if found is None else found.rgba
+
+
+def _fill(brush: Brush, width: int, height: int) -> list[c.Stroke]:
+    """The whole patch covered."""
+    cover = replace(brush, radius=float(height), hardness=1.0, opacity=1.0, flow=1.0, spacing=0.5)
+    points = _points([[0.0, height / 2, 1.0], [float(width), height / 2, 1.0]])
+    return [c.Stroke(0, (0, 0), points, cover)]
+
+
+def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
+    """A wave whose pressure rises and falls; over some paint, if the brush takes paint away."""
+    t = np.linspace(0.0, 1.0, 40)
+    x = width * (0.12 + 0.76 * t)
+    y = height * (0.5 + 0.2 * np.sin(t * math.tau))
+    pressure = np.sin(np.pi * (0.06 + 0.9 * t)) ** 0.8
+    radius = min(max(brush.radius, 2.0), height * 0.24)
+    wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
+    if brush.mode == "paint":
+        return [wave]
+    lines = [_points([[width * 0.08, height * k, 1.0], [width * 0.92, height * k, 1.0]]) for k in (0.3, 0.7)]
+    return [*(c.Stroke(0, (0, 0), line, _GROUND) for line in lines), wave]
+
+
+def _points(rows: object) -> np.ndarray:
+    """x, y, pressure as a stroke's points."""
+    given = np.asarray(rows, np.float64)
+    points = np.zeros((len(given), 6))
+    points[:, :3] = given
+    points.flags.writeable = False
+    return points
