@@ -15,6 +15,7 @@ from engine.canvas.layers import Group
 from engine.canvas.store import Pyramid, Record, changed_rects
 from engine.painting.value import Painting
 
+_AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 
 
@@ -102,6 +103,6 @@ def _only(one: Pyramid, other: Pyramid) -> Iterator[Record]:
         if there is stored:
             continue
         for rect in changed_rects(other, one, level):
-            for key, record in one.records(level, rect):
+            for key, record in one.records(level, rect.grown(_AROUND)):
                 if there is None or there.get((key.x, key.y)) is not record:
                     yield record

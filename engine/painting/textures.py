@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -93,7 +94,7 @@ def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
 def read_picture(path: str, folder: Path | None) -> np.ndarray:
     """The planes of a picture file, float32 (4, h, w) on the grid.  A relative path starts from `folder`."""
     where = Path(path) if folder is None else folder / path
-    if not where.is_file():  # also so that no pipe or device is opened
+    if not os.path.isfile(where):  # also so that no pipe or device is opened
         raise FileError(path, f"found no picture there, expected a PNG, JPEG or TIFF beside the recording ({where})")
     pixels, _ = read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))
     return from_rgba16(pixels) if pixels.dtype == np.uint16 else from_rgba8(pixels)
