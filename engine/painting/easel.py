@@ -24,6 +24,7 @@ from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import documents, swatches
 from engine.painting import requests as q
+from engine.painting.points import rounded
 from engine.painting.session import Session
 from engine.painting.stroke import LiveStroke
 from engine.painting.value import Painting
@@ -59,7 +60,7 @@ class Easel:
             q.Export: self._export,
             q.Do: lambda r: self.carry_out(r.command),
             q.Begin: self._begin,
-            q.Points: lambda r: self.extend(r.points),
+            q.Points: lambda r: self.extend(rounded(r.points)),
             q.Finish: lambda r: self.finish(),
             q.Abandon: lambda r: self._abandon(),
             q.Swatch: self._swatch,
