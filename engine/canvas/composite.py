@@ -29,12 +29,14 @@ class Read(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One operation on the picture so far: its source is a layer, or the steps of an isolated group."""
+    """One operation on the picture so far: its source is a layer, or the steps of an isolated group.
+
+    `over`: the operator is src-over.
+    """
 
     row: blend.Blend
     opacity: np.float32
     source: Layer | tuple[Step, ...]
-
     over: bool
 
     @property
@@ -144,8 +146,9 @@ def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.nd
 
 
 def _pair_at(found: _Found, i: int) -> bool:
-    pair = found[i : i + 2]
-    return len(pair) == 2 and all(step.over and isinstance(source, np.ndarray) for step, source in pair)
+    if i + 1 >= len(found) or not (found[i][0].over and found[i + 1][0].over):
+        return False
+    return isinstance(found[i][1], np.ndarray) and isinstance(found[i + 1][1], np.ndarray)
 
 
 def _apply(step: Step, source: np.ndarray | None, target: np.ndarray, empty: bool) -> bool:

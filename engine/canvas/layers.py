@@ -8,6 +8,7 @@ all untouched parts with the old one; errors are `LayerError`, one line with wha
 from __future__ import annotations
 
 import math
+import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -28,13 +29,18 @@ def _check(name: str, what: str, found: object, right: bool, expected: str) -> N
         raise LayerError(f"layer {name!r}: {what}: found {found!r}, expected {expected}")
 
 
+def _allowed(character: str) -> bool:
+    """Whether a name may hold it: no control characters, line ends, lone surrogates or what XML 1.0 cannot hold."""
+    return unicodedata.category(character) not in ("Cc", "Cs", "Zl", "Zp") and character not in "\ufffe\uffff"
+
+
 def _check_name(name: object) -> None:
-    shown = isinstance(name, str) and 0 < len(name) <= MAX_NAME and name.isprintable() and name.strip() == name
-    if not shown:
-        text = repr(name)
+    right = isinstance(name, str) and 0 < len(name) <= MAX_NAME and name.strip() == name and all(map(_allowed, name))
+    if not right:
+        text = ascii(name)
         text = text if len(text) <= 60 else text[:57] + "..."
         raise LayerError(
-            f"layer name: found {text}, expected 1 to {MAX_NAME} printable characters, no blanks around them"
+            f"layer name: found {text}, expected 1 to {MAX_NAME} characters, no controls, no blanks around"
         )
 
 
@@ -199,7 +205,14 @@ def next_id(root: Group) -> int:
 def unique_name(root: Group, stem: str = "Layer") -> str:
     """'Layer 1', 'Layer 2', ...: the first that is free."""
     taken = {node.name for node in walk(root)}
-    return next(name for i in range(1, len(taken) + 2) if (name := f"{stem[: MAX_NAME - 12]} {i}") not in taken)
+    stem = stem[: MAX_NAME - 12].strip()
+    return next(name for i in range(1, len(taken) + 2) if (name := f"{stem} {i}") not in taken)
+
+
+def free_name(root: Group, wanted: str) -> str:
+    """The allowed and free name nearest to `wanted`, which may be any text: for what comes from other programs."""
+    name = "".join(filter(_allowed, wanted[: 4 * MAX_NAME])).strip()[:MAX_NAME].strip()
+    return name if name and not has(root, name) else unique_name(root, name or "Layer")
 
 
 def alone(node: Node) -> Group:

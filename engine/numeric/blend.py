@@ -27,6 +27,7 @@ from numba.extending import register_jitable
 
 ZERO, HALF, ONE, TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
 TINY = np.float32(1e-30)
+_FLOAT32 = np.dtype(np.float32)
 # Colour burn jumps where the backdrop is white, colour dodge where it is black.  A backdrop that was composited is
 # white or black up to rounding; sixteen steps finer than the grid counts as equal.
 NEAR = np.float32(2.0**-20)
@@ -357,9 +358,12 @@ def flat(planes: np.ndarray) -> np.ndarray:
     Always read-only, so that each kernel is compiled for one type.
     """
     rows = planes.reshape(4, -1)
-    if not rows.flags.c_contiguous or rows.dtype != np.float32:
-        rows = np.ascontiguousarray(rows, np.float32)
-    rows.setflags(write=False)
+    flags = rows.flags
+    if not flags.c_contiguous or rows.dtype is not _FLOAT32:
+        rows = np.array(rows, np.float32, order="C")
+        flags = rows.flags
+    if flags.writeable:
+        flags.writeable = False
     return rows
 
 

@@ -115,6 +115,17 @@ def test_names_and_ids_for_new_layers(tree):
     assert layers.next_id(EMPTY) == 1
 
 
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.one_of(st.text(max_size=8), st.sampled_from(["", "a", " a ", "a 1", "x" * 500])), max_size=12))
+def test_free_names_are_allowed_and_unique_whatever_is_wanted(wanted):
+    root = EMPTY
+    for i, text in enumerate(wanted):
+        name = layers.free_name(root, text)
+        if text and text.isprintable() and text.strip() == text and len(text) < 200 and not layers.has(root, text):
+            assert name == text
+        root = layers.insert(root, Layer(i + 1, name))
+
+
 REFUSED = {
     "unknown": (lambda t: layers.find(t, "Sea"), r"found 'Sea', expected one of 'Sky', 'Land'"),
     "nothing there": (lambda t: layers.find(EMPTY, "Sea"), "there are no layers"),
@@ -143,7 +154,10 @@ REFUSED = {
     ),
     "not settable": (lambda t: layers.set_fields(t, "Land", name="x"), "property: found 'name'"),
     "empty name": (lambda t: Layer(9, ""), "layer name: found ''"),
-    "control character": (lambda t: Group(9, "a\x00b"), "expected 1 to 200 printable characters"),
+    "control character": (lambda t: Group(9, "a\x00b"), "expected 1 to 200 characters, no controls"),
+    "line end": (lambda t: Layer(9, "a\u2028b"), "layer name: found"),
+    "lone surrogate": (lambda t: Layer(9, "a\udc80"), "layer name: found"),
+    "blanks around": (lambda t: Layer(9, " a"), "layer name: found ' a'"),
     "long name": (lambda t: Layer(9, "x" * 201), "layer name: found 'xxx"),
     "paint on a group": (lambda t: layers.with_pyramid(t, "Land", Pyramid()), "which is a group, expected a layer"),
 }
