@@ -22,6 +22,7 @@ from imgui_bundle.imgui import backends
 from app import cursor, theme
 from app.actions import close
 from app.desk import Desk
+from app.input.choose import pen_source
 from app.input.events import PointerSource
 from app.input.glfw_events import GlfwPointer
 from app.news import News
@@ -55,7 +56,8 @@ class Window:
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, self.scale)
         self.layout = Layout()
         self.router = Router(self.desk, self.layout)
-        self.pointers: PointerSource = GlfwPointer(self.handle)
+        self.mouse: PointerSource = GlfwPointer(self.handle)
+        self.pen: PointerSource | None = None
         self._callbacks()
         address = ctypes.cast(self.handle, ctypes.c_void_p).value or 0
         backends.glfw_init_for_opengl(address, False)
@@ -78,6 +80,7 @@ class Window:
         glfw.set_key_callback(w, self._key)
         glfw.set_char_callback(w, lambda _, c: backends.glfw_char_callback(self._address, c))
         glfw.set_window_focus_callback(w, self._focus)
+        glfw.set_cursor_enter_callback(w, self._entered)
         glfw.set_window_refresh_callback(w, lambda _: self._wake())
         glfw.set_framebuffer_size_callback(w, lambda *_: self._wake())
         glfw.set_drop_callback(w, self._dropped)
@@ -93,6 +96,11 @@ class Window:
         if not focused:
             self.router.lost_focus()
 
+    def _entered(self, _w: Any, entered: int) -> None:
+        self._wake()
+        if not entered:
+            self.router.left()
+
     def _dropped(self, _w: Any, paths: list[str]) -> None:
         self._wake()
         if paths and self.desk.ready:
@@ -102,7 +110,8 @@ class Window:
         self._busy_until = time.monotonic() + LINGER
 
     def connect(self, worker: Worker) -> None:
-        """From now on requests go to the engine's thread."""
+        """From now on pens are heard, and requests go to the engine's thread."""
+        self.pen = pen_source(self.handle)
         self.desk.post = worker.post
         self.news.worker = worker
 
@@ -111,9 +120,10 @@ class Window:
         now = time.monotonic()
         seconds, self._last = min(0.1, now - self._last), now
         self._resize()
-        for event in self.pointers.events():
-            self._wake()
-            self.router.pointer(event)
+        for source in (self.pen, self.mouse):
+            for event in source.events() if source is not None else ():
+                self._wake()
+                self.router.pointer(event)
         if self.news.take(now):
             self._busy_until = max(self._busy_until, now + 0.05)
         moving = self.desk.glide.moving
@@ -175,7 +185,8 @@ class Window:
 
     def close(self) -> None:
         self.router.cancel()
-        self.pointers.close()
+        if self.pen is not None:
+            self.pen.close()
         backends.opengl3_shutdown()
         backends.glfw_shutdown()
         imgui.destroy_context()

@@ -115,6 +115,12 @@ class Router:
         self._keys.clear()
         self.cancel()
 
+    def left(self) -> None:
+        """The pointer is no longer over the window."""
+        if self.gesture is None and not self._panel_buttons:
+            self.desk.pointer.over_canvas = False
+            imgui.get_io().add_mouse_pos_event(_AWAY, _AWAY)
+
     @property
     def panning_key(self) -> bool:
         return glfw.KEY_SPACE in self._keys

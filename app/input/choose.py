@@ -1,0 +1,30 @@
+"""Which source of pointer events a system has: the richest that works, the plain mouse otherwise."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import glfw
+
+from app.input.events import PointerSource
+
+
+def pen_source(window: Any) -> PointerSource | None:
+    """A source that knows pens; None where there is none, then GLFW's mouse stays."""
+    try:
+        if sys.platform == "win32":
+            from app.input.windows import WindowsPointer
+
+            return WindowsPointer(glfw.get_win32_window(window), glfw.post_empty_event)
+        if sys.platform == "darwin":
+            from app.input.macos import MacPointer
+
+            return MacPointer(window, glfw.post_empty_event)
+        if glfw.get_platform() == glfw.PLATFORM_X11:
+            from app.input.xinput2 import XInput2Pointer
+
+            return XInput2Pointer(glfw.get_x11_window(window), glfw.post_empty_event)
+    except (RuntimeError, OSError, ImportError, AttributeError):
+        return None
+    return None
