@@ -87,14 +87,10 @@ def _box(values, width):
     """Sums of `width` successive rows: float64 (h, w) to (h - width + 1, w)."""
     out = np.empty((values.shape[0] - width + 1, values.shape[1]))
     total = np.zeros(values.shape[1])
-    for y in range(width):
-        row = values[y]
-        for x in range(row.shape[0]):
-            total[x] += row[x]
-    out[0] = total
-    for y in range(1, out.shape[0]):
-        gone, come, o = values[y - 1], values[y + width - 1], out[y]
+    for y in range(values.shape[0]):
+        come, gone, o = values[y], values[max(y - width, 0)], out[max(y - width + 1, 0)]
+        full = 1.0 if y >= width else 0.0  # whether there is a row to take away
         for x in range(total.shape[0]):
-            total[x] += come[x] - gone[x]
+            total[x] += come[x] - full * gone[x]
             o[x] = total[x]
     return out

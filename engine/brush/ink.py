@@ -84,10 +84,10 @@ def resolve(
         towards = component.amount * (np.array(component.rgb) - under)
         if component.amount == 0.0:
             continue
-        if component.texture == "white" and "white" not in textures:
+        made = _instance(component, textures, level, seed, f"{where}.ink[{i}]")
+        if made.key[0] == "white":  # S = 1: plain colour, no planes
             base += towards
             continue
-        made = _instance(component, textures, level, seed, f"{where}.ink[{i}]")
         amplitude, hidden = towards / 2.0, np.zeros(3)
         if _is_picture(made):
             amplitude, hidden = component.amount * np.array(component.rgb), component.amount * under

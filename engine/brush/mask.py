@@ -81,8 +81,7 @@ class StrokeMask:
     def paint(self, dabs: np.ndarray) -> set[TileKey]:
         """Lays dabs, float64 (n, 6) of `Stroker.add`, in order; returns the tiles that may have changed.
 
-        BrushError, before anything of this portion's next 131,072 pairs is laid, if the stroke would meet more than
-        `tiles_cap` tiles.
+        BrushError if the stroke would meet more than `tiles_cap` tiles; dabs before that may have been laid.
         """
         discs = kernels.as_discs(dabs, *self._shift, self._bounds)
         if not len(discs):

@@ -15,6 +15,7 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
+from engine.texture.table import instance
 
 KEY = TileKey(0, 0, 0)
 SOFT = np.array([[40.0, 50, 45, 0.8, 0.7, 0.3], [90, 70, 30, 1, 1, 0.9]])
@@ -159,6 +160,22 @@ def test_plain_and_white_ink_have_no_planes():
     assert ink.inks == ()
     np.testing.assert_allclose(ink.base, 0.5)
     assert resolve(from_json({"colour": "#ff0000"}), {}, 0, 0).base.tolist() == [1, 0, 0]
+
+
+class Named:
+    """A texture defined under a name."""
+
+    def __init__(self, kind):
+        self.kind = kind
+
+    def instance(self, parameters, level, seed):
+        return instance(self.kind, {"period": 10, **parameters}, level, seed)
+
+
+def test_a_defined_texture_comes_before_a_built_in_one_of_its_name():
+    brush = from_json({"ink": [{"texture": "rock"}, {"texture": "mine", "period": 20}]})
+    ink = resolve(brush, {"rock": Named("squares"), "mine": Named("white")}, 0, 1)
+    assert [i.key[:3] for i in ink.inks] == [("squares", 0, 10)]
 
 
 def test_a_component_mixes_towards_its_colour():

@@ -167,6 +167,19 @@ def test_flat_tiles_hold_what_the_kernel_would_lay():
     np.testing.assert_allclose(laid(mask, Rect(0, 0, 128, 128)), plain(rows, Rect(0, 0, 128, 128)), atol=1e-5)
 
 
+def test_a_tile_is_wiped_only_by_a_dab_that_reaches_the_ceiling():
+    rect = Rect(0, 0, 128, 128)
+    small, low, high = [40.0, 64, 30, 0.8, 1, 0.5], [64.0, 64, 700, 0.5, 1, 1], [64.0, 60, 700, 0.8, 1, 1]
+    for rows, flat in (([small, low], False), ([small, low, high], True), ([high, small, low], True)):
+        together, apart = StrokeMask(0, (0, 0)), StrokeMask(0, (0, 0))
+        together.paint(np.array(rows))
+        for row in rows:
+            apart.paint(np.array([row]))
+        for mask in (together, apart):
+            assert isinstance(mask.coverage().tiles[TileKey(0, 0, 0)], float) == flat
+            np.testing.assert_allclose(laid(mask, rect), plain(np.array(rows), rect), atol=1e-5)
+
+
 def test_a_coverage_never_changes():
     mask = StrokeMask(0, (0, 0))
     dab = np.array([[64.0, 64, 20, 1, 0.1, 0.5]])
