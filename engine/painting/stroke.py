@@ -21,8 +21,7 @@ from engine.painting.value import Painting, Refusal, layer_for
 from engine.texture.planes import Planes
 
 POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
-_LOWEST = [lo for _, _, lo, _ in POINT_COLUMNS]
-_HIGHEST = [hi for _, _, _, hi in POINT_COLUMNS]
+_DEFAULTS, _LOWEST, _HIGHEST = (np.array(column) for column in list(zip(*POINT_COLUMNS, strict=True))[1:])
 
 
 class LiveStroke:
@@ -90,12 +89,16 @@ class LiveStroke:
         return dirty
 
     def _fit(self, given: np.ndarray) -> np.ndarray:
-        table = np.tile([column[1] for column in POINT_COLUMNS], (len(given), 1))
-        table[:, : given.shape[1]] = given[:, : len(POINT_COLUMNS)]
+        table = np.empty((len(given), len(POINT_COLUMNS)))
+        table[:, : given.shape[1]] = given
+        table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] :]
+        table += 0.0  # no negative zeros
+        if ((table >= _LOWEST) & (table <= _HIGHEST)).all():
+            return table
         table[:, 3:] = np.nan_to_num(table[:, 3:], nan=0.0, posinf=0.0, neginf=0.0)
         good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= REACH).all(axis=1)
         self.dropped += int((~good).sum())
-        return np.clip(table[good], _LOWEST, _HIGHEST) + 0.0
+        return np.clip(table[good], _LOWEST, _HIGHEST)
 
     @property
     def rect(self) -> Rect:
