@@ -52,6 +52,10 @@ class Event(ct.Union):
     _fields_ = (("type", ct.c_int), ("xcookie", Cookie), ("pad", ct.c_long * 24))
 
 
+class ButtonState(ct.Structure):
+    _fields_ = (("mask_len", ct.c_int), ("mask", ct.POINTER(ct.c_ubyte)))
+
+
 class ValuatorState(ct.Structure):
     _fields_ = (("mask_len", ct.c_int), ("mask", ct.POINTER(ct.c_ubyte)), ("values", ct.POINTER(ct.c_double)))
 
@@ -78,8 +82,7 @@ class DeviceEvent(ct.Structure):
         ("event_x", ct.c_double),
         ("event_y", ct.c_double),
         ("flags", ct.c_int),
-        ("buttons_len", ct.c_int),
-        ("buttons", ct.POINTER(ct.c_ubyte)),
+        ("buttons", ButtonState),
         ("valuators", ValuatorState),
     )
 
