@@ -1,0 +1,173 @@
+"""Pictures as textures: an image tiles the plane and is refined, level by level, as far as its own pixels go.
+
+Perlin & Velho 1995, section 7.1: a source image is a bandpass pyramid, built with toroidal ends so that its tiles join.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from engine.numeric.address import Rect
+from engine.numeric.detail import cut, parents, subtract_expanded
+from engine.numeric.grid import snapped
+from engine.numeric.pyramid import reduce
+from engine.numeric.resample import resampled
+
+_STRIP = 64  # narrower images are repeated to this width before they are laid out
+_KEPT = 8  # pyramids held in memory
+_WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece by piece
+
+
+@dataclass(frozen=True, slots=True)
+class ImageSource:
+    """A picture: `data` float32 (4, h, w), premultiplied RGBA in 0..1; None where only its name is known any more.
+
+    Sources are equal when name and `sha` are: `sha` is the SHA-256 of the size and the pixels, in hexadecimal.
+    """
+
+    name: str
+    sha: str
+    data: np.ndarray | None = field(default=None, compare=False, repr=False)
+
+    @classmethod
+    def of(cls, name: str, data: np.ndarray) -> ImageSource:
+        if data.ndim != 3 or data.shape[0] != 4 or data.dtype != np.float32 or not data.size:
+            raise ValueError(f"image: found {data.dtype} {data.shape}, expected float32 (4, h, w)")
+        data = np.ascontiguousarray(data)
+        digest = hashlib.sha256(repr(data.shape).encode())
+        digest.update(data.astype("<f4", copy=False).tobytes())
+        return cls(name, digest.hexdigest(), data)
+
+    @property
+    def width(self) -> int:
+        return 0 if self.data is None else self.data.shape[2]
+
+    @property
+    def height(self) -> int:
+        return 0 if self.data is None else self.data.shape[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """`period`: the width of the picture in pixels of the base level; its height follows.
+
+    The plane is tiled from pixel (0, 0) of the base level on.  A source without pixels is transparent everywhere.
+    """
+
+    base: int
+    period: int
+    source: ImageSource
+
+    @property
+    def key(self) -> tuple:
+        return ("image", self.base, self.period, self.source.name, self.source.sha)
+
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """The picture over `rect`: float32 (4, h, w) premultiplied RGBA; beyond its own pixels it is expanded."""
+        if level < self.base:
+            raise ValueError(f"image: level {level} is coarser than the base level {self.base}")
+        if self.source.data is None:
+            return np.zeros((4, rect.height, rect.width), np.float32)
+        n = level - self.base
+        if n <= self.refinements:
+            return self._own(n, rect)
+        even = rect.evened()
+        out = np.zeros((4, even.height, even.width), np.float32)
+        subtract_expanded(out, self.appearance(level - 1, parents(even)))
+        return np.negative(cut(out, rect, even))
+
+    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """What the picture's next finer level adds to its colours: float32 (3, h, w)."""
+        n = level - self.base
+        if not 0 < n <= self.refinements or rect.empty:
+            return None
+        even = rect.evened()
+        out = self._own(n, even)[:3]
+        if not subtract_expanded(out, self._own(n - 1, parents(even))[:3]):
+            return None
+        inner = cut(out, rect, even)
+        return inner if rect == even or inner.any() else None
+
+    @property
+    def refinements(self) -> int:
+        """How many levels finer than its base the picture has pixels for."""
+        return 0 if self.source.data is None else _refinements(self.source, self.period)
+
+    def _own(self, n: int, rect: Rect) -> np.ndarray:
+        """The picture n levels finer than its base, n <= refinements."""
+        height, width = _base_size(self.source, self.period)
+        if n or height * width <= _WHOLE * self.source.height * self.source.width:
+            return tiled(picture_pyramid(self.source, self.period)[n], rect)
+        rows = rect.y0 % height + np.arange(rect.height)
+        columns = rect.x0 % width + np.arange(rect.width)
+        return stretched(self.source, (height, width), rows, columns)
+
+
+def _base_size(source: ImageSource, period: int) -> tuple[int, int]:
+    return max(1, round(period * source.height / source.width)), period
+
+
+def _refinements(source: ImageSource, period: int) -> int:
+    """Until the picture is no smaller than its source, or, for a sliver of a picture, several times as large."""
+    height, width = _base_size(source, period)
+    n = 0
+    while (width << n < source.width or height << n < source.height) and (
+        (width << n + 1) * (height << n + 1) <= _WHOLE * source.height * source.width
+    ):
+        n += 1
+    return n
+
+
+@lru_cache(maxsize=_KEPT)
+def picture_pyramid(source: ImageSource, period: int) -> tuple[np.ndarray, ...]:
+    """S of a picture from its base level on, each twice as large as the one before: float32 (4, h, w) on the grid.
+
+    The base is `period` pixels wide.  The finest is the first that is no smaller than the picture: the picture
+    resampled to it; every coarser one is the 2 x 2 mean of the next.
+    """
+    height, width = _base_size(source, period)
+    n = _refinements(source, period)
+    size = height << n, width << n
+    levels = [stretched(source, size, np.arange(size[0]), np.arange(size[1]))]
+    for _ in range(n):
+        levels.append(reduce(levels[-1]))
+    for level in levels:
+        level.flags.writeable = False
+    return tuple(reversed(levels))
+
+
+def stretched(source: ImageSource, size: tuple[int, int], rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Some pixels of a picture resampled to `size` (h, w): premultiplied RGBA that is valid, on the grid."""
+    assert source.data is not None
+    out = resampled(source.data, size, rows, columns)
+    np.clip(out[3], 0.0, 1.0, out=out[3])
+    np.clip(out[:3], 0.0, out[3], out=out[:3])
+    return snapped(out)
+
+
+def tiled(planes: np.ndarray, rect: Rect) -> np.ndarray:
+    """`planes` (C, h, w) repeated over the plane from (0, 0) on, cut to `rect`: a new C-contiguous array."""
+    repeats = [max(1, -(-_STRIP // size)) for size in planes.shape[1:]]
+    if max(repeats) > 1:
+        planes = np.tile(planes, (1, *repeats))
+    channels, height, width = planes.shape
+    out = np.empty((channels, rect.height, rect.width), planes.dtype)
+    for y, v, rows in _pieces(rect.y0, rect.height, height):
+        for x, u, columns in _pieces(rect.x0, rect.width, width):
+            out[:, y : y + rows, x : x + columns] = planes[:, v : v + rows, u : u + columns]
+    return out
+
+
+def _pieces(origin: int, size: int, period: int) -> list[tuple[int, int, int]]:
+    """Where runs of a periodic axis fall: (place in the result, place in the period, length)."""
+    pieces = []
+    at, inside = 0, origin % period
+    while at < size:
+        run = min(size - at, period - inside)
+        pieces.append((at, inside, run))
+        at, inside = at + run, 0
+    return pieces

@@ -1,0 +1,161 @@
+"""The table of texture kinds: their parameters, and the instances they make.
+
+One row makes the sliders, the entries of a brush's ink, the checks and the form in files.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from engine.texture.image import Image, ImageSource
+from engine.texture.procedural import Sawtooth, Squares, Stripes, White
+from engine.texture.record import Instance
+from engine.texture.rock import Rock
+
+DEEPEST = 1 << 16  # |level| up to which textures are made: a claim in a file beyond it is refused
+
+
+class TextureError(ValueError):
+    """A texture that cannot be made: `place` names the field.  `str()` is one line."""
+
+    def __init__(self, place: str, found: str, expected: str) -> None:
+        self.place, self.found, self.expected = place, found, expected
+        super().__init__(f"{place}: found {found}, expected {expected}")
+
+    def __reduce__(self) -> tuple:
+        return type(self), (self.place, self.found, self.expected)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A number of a texture: `lo` <= value <= `hi`; `whole` ones are integers."""
+
+    name: str
+    default: float
+    lo: float
+    hi: float
+    unit: str
+    tooltip: str
+    whole: bool = False
+
+    def checked(self, value: Any) -> float | int:
+        """The value as a float (or int); TextureError if it is no number or out of range."""
+        if isinstance(value, int | float) and not isinstance(value, bool) and self.lo <= value <= self.hi:
+            if not self.whole:
+                return float(value) + 0.0  # -0.0 becomes 0.0: one key for one texture
+            if value == int(value):
+                return int(value)
+        kind = "an integer" if self.whole else "a number"
+        raise TextureError(self.name, _shown(value), f"{kind} from {self.lo:g} to {self.hi:g}")
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A row: the texture's name, its parameters in the order of its key, and what makes it of (base, *parameters)."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    make: Callable[..., Instance]
+    tooltip: str
+    pictured: bool = False  # whether it needs a picture, as the last argument of `make`
+
+
+_WAVE = (
+    Parameter("period", 32.0, 2.0, 65536.0, "px", "Length of one repeat, in pixels of the level painted on"),
+    Parameter("angle", 0.0, -360.0, 360.0, "degrees", "Direction across the bands, clockwise from rightwards"),
+    Parameter("phase", 0.0, 0.0, 1.0, "periods", "Shift along that direction, in repeats"),
+)
+_ROCK = (
+    Parameter("period", 32.0, 2.0, 4096.0, "px", "Size of the largest features, in pixels of the level painted on"),
+    Parameter("roughness", 0.5, 0.0, 1.0, "", "H: 0 is the roughest, 1 the smoothest"),
+    Parameter("seed", 0, -(1 << 63), (1 << 64) - 1, "", "Another seed, another rock", whole=True),
+)
+_IMAGE = (
+    Parameter("period", 256, 1, 65536, "px", "Width of the picture, in pixels of the level painted on", whole=True),
+)
+
+_ROWS = (
+    Kind("white", (), White, "Plain paint of the ink's colour"),
+    Kind("rock", _ROCK, Rock, "Noise like rock, finer and finer however far you zoom in"),
+    Kind("stripes", _WAVE, Stripes, "Bands with edges that stay sharp at every depth"),
+    Kind("sawtooth", _WAVE, Sawtooth, "Ramps, each ending in an edge that stays sharp"),
+    Kind("squares", _WAVE, Squares, "A checkerboard whose edges stay sharp at every depth"),
+    Kind("image", _IMAGE, Image, "A picture, tiled; it shows its own detail as you zoom in", pictured=True),
+    Kind("canvas", _IMAGE, Image, "A piece of the painting, tiled like a picture", pictured=True),
+)
+KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
+
+
+def instance(
+    kind: str, parameters: Mapping[str, Any], level: int, seed: int, source: ImageSource | None = None
+) -> Instance:
+    """A texture bound to its base level `level`.
+
+    Parameters that are missing take the row's default, those of other kinds are ignored; `seed` is for textures
+    whose parameters name none; `source` is the picture of an image, its width the default period.  TextureError
+    names the field.
+    """
+    row = _row(kind)
+    _check_level(level)
+    values = []
+    for p in row.parameters:
+        value = parameters.get(p.name)
+        if value is None:
+            value = seed if p.name == "seed" else p.default
+            if row.pictured and source is not None and source.width:
+                value = source.width
+        values.append(p.checked(value))
+    if not row.pictured:
+        return row.make(level, *values)
+    if source is None:
+        raise TextureError("source", "none", f"a picture for the texture {kind!r}")
+    return row.make(level, *values, source)
+
+
+def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
+    """The instance whose key this is, as read back from JSON (lists for tuples); `images` by their sha.
+
+    An image that is not among them keeps its key and is transparent.  TextureError names the part of the key.
+    """
+    if not isinstance(key, list | tuple) or len(key) < 2:
+        raise TextureError("key", _shown(key), "[kind, base level, parameters ...]")
+    row = _row(key[0])
+    _check_level(key[1])
+    count = 2 + len(row.parameters) + (2 if row.pictured else 0)
+    if len(key) != count:
+        raise TextureError("key", f"{len(key)} parts", f"{count} parts for {row.name!r}")
+    values = [p.checked(value) for p, value in zip(row.parameters, key[2:], strict=False)]
+    if not row.pictured:
+        return row.make(key[1], *values)
+    name, sha = key[-2:]
+    for field, text in (("name", name), ("sha", sha)):
+        if not isinstance(text, str):
+            raise TextureError(field, _shown(text), "a string")
+    known = images.get(sha)
+    return row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
+
+
+def _row(kind: object) -> Kind:
+    row = KINDS.get(kind) if isinstance(kind, str) else None
+    if row is None:
+        raise TextureError("texture", _shown(kind), "one of " + ", ".join(KINDS))
+    return row
+
+
+def _check_level(level: object) -> None:
+    if not isinstance(level, int) or isinstance(level, bool) or abs(level) > DEEPEST:
+        raise TextureError("level", _shown(level), f"an integer from -{DEEPEST} to {DEEPEST}")
+
+
+def _shown(value: object) -> str:
+    """A value as a message shows it: ASCII, on one line, not long."""
+    if isinstance(value, int) and value.bit_length() > 200:
+        return f"an integer of about {int(value.bit_length() * 0.30103)} digits"
+    try:
+        text = json.dumps(value)
+    except (TypeError, ValueError, RecursionError):
+        text = ascii(type(value).__name__)
+    return text if len(text) <= 48 else text[:48] + "..."
