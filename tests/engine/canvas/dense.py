@@ -1,9 +1,11 @@
 """An eager dense reference of the pyramid: every level a whole array, every rule written out plainly in float64.
 
-It shares no code with the canvas but the rounding of a product, which is defined on float32.
+It shares no code with the canvas but the rectangles that textures are asked for.
 """
 
 import numpy as np
+
+from engine.numeric.address import Rect
 
 COUNT = 65536.0
 
@@ -88,8 +90,9 @@ class Dense:
         total = np.zeros((3, 2 * h, 2 * h))
         for i, ink in enumerate(self.inks):
             if k > ink.base:
-                detail = ink.whole(k, -h, -h, 2 * h, 2 * h)
-                total += product(ink_planes[3 * i : 3 * i + 3], detail)
+                detail = ink.bandpass(k, Rect(-h, -h, h, h))
+                if detail is not None:
+                    total += product(ink_planes[3 * i : 3 * i + 3], np.broadcast_to(detail, (3, 2 * h, 2 * h)))
         return total
 
     def settle(self, k):

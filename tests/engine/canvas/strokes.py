@@ -23,16 +23,13 @@ class Grain:
     def key(self):
         return ("grain", self.base, self.seed)
 
-    def whole(self, level, x, y, width, height):
-        xs = ((np.arange(width) + x % 65521) % 65521).astype(np.uint64)[None, :]
-        ys = ((np.arange(height) + y % 65521) % 65521).astype(np.uint64)[:, None]
+    def appearance(self, level, rect):
+        xs = ((np.arange(rect.width) + rect.x0 % 65521) % 65521).astype(np.uint64)[None, :]
+        ys = ((np.arange(rect.height) + rect.y0 % 65521) % 65521).astype(np.uint64)[:, None]
         h = (xs * np.uint64(2654435761) ^ ys * np.uint64(40503) ^ np.uint64(self.seed * 7919 + level + 64)) * np.uint64(
             0x9E3779B97F4A7C15
         )
-        return ((h >> np.uint64(40)).astype(np.float64) / 2**24 - 0.5).astype(np.float32)
-
-    def appearance(self, level, rect):
-        return self.whole(level, rect.x0, rect.y0, rect.width, rect.height)[None]
+        return ((h >> np.uint64(40)).astype(np.float64) / 2**24 - 0.5).astype(np.float32)[None]
 
     def bandpass(self, level, rect):
         if level <= self.base:

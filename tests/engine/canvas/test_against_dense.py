@@ -10,14 +10,24 @@ from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
+from engine.texture.planes import merged
+from engine.texture.table import instance
 
-INKS = (Grain(0, 1), Grain(1, 2), Grain(2, 3))
+NOISE = (Grain(0, 1), Grain(1, 2), Grain(2, 3))
+TEXTURES = merged(
+    (),
+    (
+        instance("rock", {"period": 8}, 0, 3),
+        instance("squares", {"period": 3, "angle": 30}, 1, 3),
+        instance("sawtooth", {"period": 5.5, "phase": 0.3}, 2, 3),
+    ),
+)
 COARSEST, FINEST, HALF = -16, 4, 12
 
 
-def compare(pyramid, dense, cache):
+def compare(pyramid, dense, cache, inks):
     for k, h in dense.half.items():
-        got = spread_planes(evaluate(pyramid, k, Rect(-h, -h, h, h), cache), INKS)
+        got = spread_planes(evaluate(pyramid, k, Rect(-h, -h, h, h), cache), inks)
         np.testing.assert_array_equal(got, dense.v[k], err_msg=f"level {k}")
 
 
@@ -29,11 +39,11 @@ def visit(pyramid, rng, cache):
         evaluate(pyramid, k, Rect.at(x, y, int(rng.integers(1, 300)), int(rng.integers(1, 200))), cache)
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_every_level_equals_the_dense_reference(seed):
+@pytest.mark.parametrize(("seed", "inks"), [*((n, NOISE) for n in range(6)), (6, TEXTURES), (7, TEXTURES)])
+def test_every_level_equals_the_dense_reference(seed, inks):
     rng = np.random.default_rng(seed)
     cache = TileCache(int(rng.choice([0, 3 << 20, 64 << 20])))
-    dense = Dense(COARSEST, FINEST, HALF, INKS)
+    dense = Dense(COARSEST, FINEST, HALF, inks)
     states, references = [Pyramid()], [dense.snapshot()]
     unvisited = [states[0]]
     for n in range(40):
@@ -41,21 +51,21 @@ def test_every_level_equals_the_dense_reference(seed):
             back = int(rng.integers(1, min(4, len(states))))
             states, references, unvisited = states[:-back], references[:-back], unvisited[:-back]
             dense.restore(references[-1])
-        m, x, y, keep, add = random_stroke(rng, FINEST, HALF, INKS)
-        edit = ArrayEdit(m, x, y, keep, add, INKS)
+        m, x, y, keep, add = random_stroke(rng, FINEST, HALF, inks)
+        edit = ArrayEdit(m, x, y, keep, add, inks)
         shown = preview(states[-1], edit, edit.rect, cache)
         states.append(commit(states[-1], edit, cache))
         unvisited.append(commit(unvisited[-1], edit))
         dense.paint(m, x, y, keep, add)
         references.append(dense.snapshot())
         committed = evaluate(states[-1], m, edit.rect, cache)
-        np.testing.assert_array_equal(spread_planes(shown, INKS), spread_planes(committed, INKS))
+        np.testing.assert_array_equal(spread_planes(shown, inks), spread_planes(committed, inks))
         visit(states[-1], rng, cache)
         if rng.random() < 0.3:
             states[-1] = fold(states[-1])
         if rng.random() < 0.2:
             cache.clear()
         if n % 8 == 7:
-            compare(states[-1], dense, cache)
-    compare(states[-1], dense, cache)
-    compare(unvisited[-1], dense, None)
+            compare(states[-1], dense, cache, inks)
+    compare(states[-1], dense, cache, inks)
+    compare(unvisited[-1], dense, None, inks)
