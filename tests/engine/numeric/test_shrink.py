@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from skimage.transform import resize_local_mean
 
-from engine.numeric.resample import box_reduce, fitted
+from engine.numeric.shrink import box_reduce, fitted
 
 
 @settings(deadline=None, max_examples=40)
