@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
@@ -43,6 +44,10 @@ class ImageSource:
         return cls(name, digest.hexdigest(), data)
 
     @property
+    def opaque(self) -> bool:
+        return self.data is not None and _opaque(self)
+
+    @property
     def width(self) -> int:
         return 0 if self.data is None else self.data.shape[2]
 
@@ -51,8 +56,13 @@ class ImageSource:
         return 0 if self.data is None else self.data.shape[1]
 
 
+@lru_cache(maxsize=64)
+def _opaque(source: ImageSource) -> bool:
+    return source.data is not None and bool((source.data[3] == 1.0).all())
+
+
 @dataclass(frozen=True, slots=True)
-class Image:
+class _Picture:
     """`period`: the width of the picture in pixels of the base level; its height follows.
 
     The plane is tiled from pixel (0, 0) of the base level on.  A source without pixels is transparent everywhere.
@@ -62,49 +72,75 @@ class Image:
     period: int
     source: ImageSource
 
+    kind: ClassVar[str]
+    shown: ClassVar[slice]  # the planes of RGBA that `appearance` gives
+    refined: ClassVar[slice]  # and those that `bandpass` gives
+
     @property
     def key(self) -> tuple:
-        return ("image", self.base, self.period, self.source.name, self.source.sha)
-
-    def appearance(self, level: int, rect: Rect) -> np.ndarray:
-        """The picture over `rect`: float32 (4, h, w) premultiplied RGBA; beyond its own pixels it is expanded."""
-        if level < self.base:
-            raise ValueError(f"image: level {level} is coarser than the base level {self.base}")
-        if self.source.data is None:
-            return np.zeros((4, rect.height, rect.width), np.float32)
-        n = level - self.base
-        if n <= self.refinements:
-            return self._own(n, rect)
-        even = rect.evened()
-        out = np.zeros((4, even.height, even.width), np.float32)
-        subtract_expanded(out, self.appearance(level - 1, parents(even)))
-        return np.negative(cut(out, rect, even))
-
-    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
-        """What the picture's next finer level adds to its colours: float32 (3, h, w)."""
-        n = level - self.base
-        if not 0 < n <= self.refinements or rect.empty:
-            return None
-        even = rect.evened()
-        out = self._own(n, even)[:3]
-        if not subtract_expanded(out, self._own(n - 1, parents(even))[:3]):
-            return None
-        inner = cut(out, rect, even)
-        return inner if rect == even or inner.any() else None
+        return (self.kind, self.base, self.period, self.source.name, self.source.sha)
 
     @property
     def refinements(self) -> int:
         """How many levels finer than its base the picture has pixels for."""
         return 0 if self.source.data is None else _refinements(self.source, self.period)
 
-    def _own(self, n: int, rect: Rect) -> np.ndarray:
-        """The picture n levels finer than its base, n <= refinements."""
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """The picture over `rect`, float32; beyond its own pixels it is expanded."""
+        if level < self.base:
+            raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
+        if self.source.data is None:
+            return np.zeros((4, rect.height, rect.width), np.float32)[self.shown]
+        if level - self.base <= self.refinements:
+            return self._own(level, rect, self.shown)
+        even = rect.evened()
+        coarse = self.appearance(level - 1, parents(even))
+        out = np.zeros((coarse.shape[0], even.height, even.width), np.float32)
+        subtract_expanded(out, coarse)
+        return np.negative(cut(out, rect, even))
+
+    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """What the picture's next finer level adds, float32."""
+        if not 0 < level - self.base <= self.refinements or rect.empty:
+            return None
+        even = rect.evened()
+        out = self._own(level, even, self.refined)
+        if not subtract_expanded(out, self._own(level - 1, parents(even), self.refined)):
+            return None
+        inner = cut(out, rect, even)
+        return inner if rect == even or inner.any() else None
+
+    def _own(self, level: int, rect: Rect, planes: slice) -> np.ndarray:
+        """The picture at one of the levels for which it has pixels."""
         height, width = _base_size(self.source, self.period)
-        if n or height * width <= _WHOLE * self.source.height * self.source.width:
-            return tiled(picture_pyramid(self.source, self.period)[n], rect)
+        if level > self.base or height * width <= _WHOLE * self.source.height * self.source.width:
+            return tiled(picture_pyramid(self.source, self.period)[level - self.base][planes], rect)
         rows = rect.y0 % height + np.arange(rect.height)
         columns = rect.x0 % width + np.arange(rect.width)
-        return stretched(self.source, (height, width), rows, columns)
+        return stretched(self.source, (height, width), rows, columns)[planes]
+
+
+@dataclass(frozen=True, slots=True)
+class Image(_Picture):
+    """The picture's colours: S is premultiplied RGBA (4, h, w), the bandpass red, green and blue (3, h, w)."""
+
+    kind: ClassVar[str] = "image"
+    shown: ClassVar[slice] = slice(0, 4)
+    refined: ClassVar[slice] = slice(0, 3)
+
+    @property
+    def cover(self) -> Cover | None:
+        """What the picture hides, for an ink that lies over another colour; None if it is opaque, and hides all."""
+        return None if self.source.opaque else Cover(self.base, self.period, self.source)
+
+
+@dataclass(frozen=True, slots=True)
+class Cover(_Picture):
+    """The picture's alpha: S and the bandpass (1, h, w)."""
+
+    kind: ClassVar[str] = "cover"
+    shown: ClassVar[slice] = slice(3, 4)
+    refined: ClassVar[slice] = slice(3, 4)
 
 
 def _base_size(source: ImageSource, period: int) -> tuple[int, int]:

@@ -16,7 +16,7 @@ larger than a view.  With the age m = d - j of an octave,
 
     W(d, j) = g 2^(H (m - M)) for m <= M,   g 2^(M - m) beyond,
 
-where the peak M goes back from D to 8 by half an octave per level, and g keeps the standard deviation of S at 0.4.
+where the peak M goes back from D to 8 by half an octave per level, and g keeps the standard deviation of S at 0.36.
 (With M = d the same formula is the first octaves' rule.)  At every depth a view then shows the spectrum f^-(1+H) over
 its last M octaves with the same contrast, and the mean, what is left of the older ones, stays bounded.  Ages whose
 weight is below 2^-17 are left out, so S and the bandpass are finite cascades at any depth.
@@ -37,7 +37,7 @@ from engine.numeric.hashing import MASK32, fold_key, place64
 
 FIRST = 10  # the depth down to which octaves keep their amplitudes, at least
 PEAK = 8  # the age of the strongest octave in the end: features of 2^8 pixels
-SPREAD = 0.4  # standard deviation of S from that depth on
+SPREAD = 0.36  # standard deviation of S from that depth on: one pixel in 200 leaves the nominal -1..1
 _NEGLIGIBLE = 2.0**-17
 _DOMAIN = 0x726F636B  # "rock": tells these hashes from those of other textures
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from engine.texture.image import Image, ImageSource
+from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
 from engine.texture.rock import Rock
@@ -86,6 +86,8 @@ _ROWS = (
     Kind("image", _IMAGE, Image, "A picture, tiled; it shows its own detail as you zoom in", pictured=True),
     Kind("canvas", _IMAGE, Image, "A piece of the painting, tiled like a picture", pictured=True),
 )
+# Not for the brush to name: the alpha that an image brings along where it is translucent.
+_COVER = Kind("cover", _IMAGE, Cover, "", pictured=True)
 KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 
 
@@ -122,7 +124,7 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     """
     if not isinstance(key, list | tuple) or len(key) < 2:
         raise TextureError("key", _shown(key), "[kind, base level, parameters ...]")
-    row = _row(key[0])
+    row = _COVER if key[0] == _COVER.name else _row(key[0])
     _check_level(key[1])
     count = 2 + len(row.parameters) + (2 if row.pictured else 0)
     if len(key) != count:

@@ -139,6 +139,26 @@ def test_sources_are_told_apart_by_their_pixels():
     assert ImageSource.of("a", a.data.reshape(4, 6, 4)).sha != a.sha
 
 
+@settings(deadline=None, max_examples=20)
+@given(ORIGINS, ORIGINS, st.integers(1, 90), st.integers(1, 9))
+def test_cover_is_the_alpha_of_the_image_at_every_level(x, y, period, up):
+    image = Image(0, period, PICTURE)
+    cover = image.cover
+    rect = Rect.at(x, y, 40, 30).evened()
+    assert (cover.appearance(up, rect) == image.appearance(up, rect)[3:]).all()
+    found = cover.bandpass(up, rect)
+    whole = expand(cover.appearance(up - 1, parents(rect))) + (0 if found is None else found)
+    assert np.abs(whole - cover.appearance(up, rect)).max() <= 2.0**-17
+    assert cover.key != image.key
+    assert cover.key[1:] == image.key[1:]
+
+
+def test_an_opaque_picture_has_no_cover():
+    data = PICTURE.data.copy()
+    data[3] = 1.0
+    assert Image(0, 8, ImageSource.of("opaque", data)).cover is None
+
+
 def test_a_flat_picture_adds_nothing():
     flat = ImageSource.of("flat", np.full((4, 32, 32), 0.5, np.float32))
     assert Image(0, 8, flat).bandpass(1, Rect.at(0, 0, 40, 40)) is None

@@ -59,6 +59,13 @@ def test_a_picture_comes_in_its_own_width():
     assert instance("canvas", {"period": 33.0}, 0, 0, SOURCE) == instance("image", {"period": 33}, 0, 0, SOURCE)
 
 
+def test_the_cover_of_a_picture_comes_back_from_its_key_but_has_no_name():
+    cover = instance("image", {}, 0, 0, SOURCE).cover
+    assert from_key(list(cover.key), {SOURCE.sha: SOURCE}) == cover
+    with pytest.raises(TextureError, match="texture"):
+        instance("cover", {}, 0, 0, SOURCE)
+
+
 def test_one_texture_has_one_key():
     a, b = (
         instance("stripes", {"angle": -0.0, "period": 8}, 0, 0),
