@@ -57,9 +57,22 @@ def _open_window(words: list[str]) -> int:
         if len(words) > 1:
             raise Refused(f"found {len(words)} arguments, expected one FILE or a command: {', '.join(COMMANDS)}")
         raise Refused(f"{words[0]}: no such file, and no command: {', '.join(COMMANDS)}")
-    from app.loop import run
+    try:
+        from app.loop import WindowError, run
+    except ImportError as error:
+        raise _no_window(f"its libraries cannot be loaded: {error}") from None
+    try:
+        return run(words[0] if words else None)
+    except WindowError as error:
+        raise _no_window(str(error)) from None
 
-    return run(words[0] if words else None) or 0
+
+def _no_window(reason: str) -> Exception:
+    from app.cli.outcome import Failed
+
+    return Failed(
+        f"the window cannot be opened ({reason}); `inkfall doctor` tells more, `inkfall --help` what needs none"
+    )
 
 
 if __name__ == "__main__":

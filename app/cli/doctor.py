@@ -24,14 +24,16 @@ TABLET_WORDS = ("tablet", " pen", "stylus", "wacom", "huion", "xp-pen", "gaomon"
 PROBE = """
 import json, glfw, moderngl
 glfw.ERROR_REPORTING = False
+def why():
+    return (glfw.get_error()[1] or b"no reason given").decode(errors="replace")
 if not glfw.init():
-    raise SystemExit(f"GLFW finds no display: {glfw.get_error()}")
+    raise SystemExit(f"no display: {why()}")
 for hint, value in ((glfw.VISIBLE, 0), (glfw.CONTEXT_VERSION_MAJOR, 3), (glfw.CONTEXT_VERSION_MINOR, 3),
                     (glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE), (glfw.OPENGL_FORWARD_COMPAT, 1)):
     glfw.window_hint(hint, value)
 window = glfw.create_window(16, 16, "doctor", None, None)
 if not window:
-    raise SystemExit(f"no OpenGL 3.3 context: {glfw.get_error()}")
+    raise SystemExit(f"no OpenGL 3.3: {why()}")
 glfw.make_context_current(window)
 found = moderngl.create_context(require=330)
 print(json.dumps({"version": found.info["GL_VERSION"], "renderer": found.info["GL_RENDERER"],

@@ -31,6 +31,10 @@ class Progress:
             sys.stderr.write(f"\r{self.label} [{'#' * filled}{'.' * (WIDTH - filled)}] {done}/{self.total}")
             sys.stderr.flush()
 
+    def part(self, done: float) -> None:
+        """As a call, for work that tells the part done, 0..1."""
+        self(int(100 * done), 100)
+
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:

@@ -1,0 +1,41 @@
+"""Where a command writes: checked before the work begins, so that nobody waits for nothing."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.cli.arguments import Rectangle
+from app.cli.outcome import Failed, Refused
+
+if TYPE_CHECKING:
+    from engine.painting.export import Picture
+    from engine.painting.value import Painting
+
+
+def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
+    """The path's ending in lower case, if it is one of `endings` and its folder is there."""
+    if path is None:
+        return None
+    ending = Path(path).suffix.lower()
+    if ending not in endings:
+        later = " (.exr: not in this version)" if ending == ".exr" else ""
+        raise Refused(f"{path}: found the ending {ending or 'none'}{later}, expected {' or '.join(endings)}")
+    folder = os.path.dirname(path) or "."
+    if not os.path.isdir(folder):
+        raise Failed(f"{path}: there is no folder {folder}")
+    return ending
+
+
+def picture_of(painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8) -> Picture:
+    """A rectangle of a painting, or its frame, as a picture to export."""
+    from engine.numeric.address import Rect
+    from engine.painting.export import SIDE, Picture
+
+    if at is None:
+        return Picture(painting, layer=layer, depth=depth)
+    if max(at.width, at.height) > SIDE:
+        raise Refused(f"--rect: found {at.width} x {at.height} pixels, expected at most {SIDE} each way")
+    return Picture(painting, at.level, Rect.at(at.x, at.y, at.width, at.height), layer, depth)
