@@ -9,7 +9,6 @@ import ctypes
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +28,7 @@ from app.news import News
 from app.panels.layout import Layout
 from app.router import Router
 from app.screen import Screen
+from app.trace import trace
 from app.view import Place, View
 from engine.painting.requests import Open
 from engine.painting.worker import Worker
@@ -233,7 +233,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
     """Opens the window, on a file if there is one; `play`: a recording that is replayed live.  The exit status."""
     window = Window()
     window.frame()
-    _trace_start()
+    trace("first frame")
     sys.setswitchinterval(0.0005)
     worker = Worker(glfw.post_empty_event)
     window.connect(worker)
@@ -249,21 +249,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
     return 0
 
 
-def _frames(window: Window, done: Callable[[], bool] | None = None) -> None:
+def _frames(window: Window) -> None:
     while not window.closed():
         moving = window.frame()
         window.wait(moving)
-
-
-def _trace_start() -> None:
-    """With INKFALL_TRACE_START set, tells the milliseconds from the start of the process to the first frame."""
-    if not os.environ.get("INKFALL_TRACE_START"):
-        return
-    ticks = os.sysconf("SC_CLK_TCK")
-    started = int(Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19]) / ticks
-    up = time.clock_gettime(time.CLOCK_BOOTTIME)
-    print(
-        f"first frame {1000 * (up - started):.0f} ms, engine loaded: {'numba' in sys.modules}",
-        file=sys.stderr,
-        flush=True,
-    )

@@ -17,6 +17,7 @@ from app.desk import Desk
 from app.panels.brush import THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
+from app.trace import trace
 from app.view import Place
 from engine.painting import requests as q
 from engine.painting.worker import Worker
@@ -99,6 +100,7 @@ class News:
     def _ready(self, result: q.Ready, _now: float) -> None:
         desk = self.desk
         desk.ready, desk.blends, desk.kinds = True, result.blends, result.kinds
+        trace("engine ready")
         found, faults = presets.load(presets.bundled_folder())
         own, more = presets.load(presets.own_folder())
         desk.presets = (*found, *own) or (presets.DEFAULT,)

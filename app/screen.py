@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -66,9 +65,8 @@ def near_first(view: View, tiles: list[ScreenTile], x: float, y: float) -> list[
 
 
 def shader_source(name: str) -> str:
-    """A file of the `shaders` folder, which lies beside the packages."""
-    beside = Path(__file__).resolve().parent.parent / "shaders" / name
-    return (beside if beside.is_file() else Path(str(files("shaders") / name))).read_text("utf-8")
+    """A file of the `shaders` folder, which lies beside the packages, in a checkout as in an installation."""
+    return (Path(__file__).resolve().parent.parent / "shaders" / name).read_text("utf-8")
 
 
 def _program(ctx: moderngl.Context, vertex: str, fragment: str) -> Any:

@@ -20,7 +20,7 @@ ORDER = (
     ("engine.canvas",),
     ("engine.painting",),
     ("app.input",),
-    ("app.theme", "app.colours", "app.icons", "app.presets", "app.keys"),
+    ("app.theme", "app.colours", "app.icons", "app.presets", "app.keys", "app.trace"),
     ("app.view",),
     ("app.glide",),
     ("app.desk",),

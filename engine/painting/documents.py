@@ -10,6 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
+from engine.painting import archive, export
 from engine.painting import commands as c
 from engine.painting import requests as q
 from engine.painting.recording import Recording, read
@@ -89,10 +90,10 @@ def opened(path: Path, live: bool = False) -> Opened:
 
 
 def save(path: Path, painting: Painting, recording: Recording) -> None:
-    """The painting with its recording as .ora, replaced in one step."""
-    raise NotImplementedError
+    """The painting with its recording as .ora, replaced in one step; WriteError if that failed."""
+    archive.save(path, archive.Snapshot(painting, recording))
 
 
-def export(request: q.Export, painting: Painting) -> None:
-    """The frame, or the rectangle asked for, as a picture."""
-    raise NotImplementedError
+def write_picture(request: q.Export, painting: Painting) -> None:
+    """The frame, or the rectangle asked for, as a picture; WriteError if that failed."""
+    export.export(request.path, export.Picture(painting, request.level, request.area))

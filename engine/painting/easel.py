@@ -310,7 +310,7 @@ class Easel:
         painting = self.session.painting
 
         def write() -> None:
-            documents.export(request, painting)
+            documents.write_picture(request, painting)
             self.send(q.Note(f"Wrote {request.path.name}"))
 
         self._in_background(write)

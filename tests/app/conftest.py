@@ -1,0 +1,136 @@
+"""A display of their own for tests that open the real window, and the program under a test's hand."""
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import ImageGrab
+
+ROOT = Path(__file__).parents[2]
+PATIENCE = 90.0  # seconds; the first start compiles kernels
+
+
+class Program:
+    """`python -m app` on a display, moved by xdotool, seen through pictures of its screen."""
+
+    def __init__(self, display: str, folder: Path, *words: str) -> None:
+
+        self.display, self.folder = display, folder
+        environment = {
+            **os.environ,
+            "DISPLAY": display,
+            "PYTHONPATH": str(ROOT),
+            "XDG_CONFIG_HOME": str(folder / "config"),
+            "INKFALL_TRACE": "1",
+            "INKFALL_TRACEBACK": "1",
+        }
+        self.log = folder / f"log-{time.monotonic_ns()}"
+        with self.log.open("w") as log:
+            command = [sys.executable, "-W", "error::RuntimeWarning", "-m", "app", *words]
+            self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=log)
+        self.wait_for("engine ready")
+
+    def wait_for(self, words: str) -> None:
+        end = time.monotonic() + PATIENCE
+        while words not in self.log.read_text():
+            assert self.process.poll() is None, self.log.read_text()
+            assert time.monotonic() < end, f"no {words!r}: {self.log.read_text()}"
+            time.sleep(0.05)
+
+    def do(self, *words: object) -> None:
+        """xdotool's words."""
+        subprocess.run(
+            ["xdotool", *map(str, words)], check=True, env={**os.environ, "DISPLAY": self.display}, timeout=30
+        )
+
+    def keys(self, *chords: str) -> None:
+        for chord in chords:
+            self.do("key", chord)
+            time.sleep(0.08)
+
+    def type(self, text: str) -> None:
+        self.do("type", "--delay", "20", text)
+
+    def stroke(self, *points: tuple[int, int]) -> None:
+        """The left button drawn through screen points."""
+        self.do("mousemove", *points[0], "mousedown", 1)
+        for point in points[1:]:
+            self.do("mousemove", *point)
+            time.sleep(0.02)
+        self.do("mouseup", 1)
+
+    def wheel(self, notches: int) -> None:
+        for _ in range(abs(notches)):
+            self.do("click", 4 if notches > 0 else 5)
+
+    def screen(self) -> np.ndarray:
+        """What the screen shows, uint8 (800, 1280, 3)."""
+        return np.asarray(ImageGrab.grab(xdisplay=self.display).convert("RGB"))
+
+    def settled(self, seconds: float = 20.0) -> np.ndarray:
+        """The screen when it has not changed for a while."""
+        end = time.monotonic() + seconds
+        last, same = self.screen(), 0
+        while same < 3:
+            time.sleep(0.15)
+            now = self.screen()
+            same = same + 1 if np.array_equal(now, last) else 0
+            last = now
+            assert time.monotonic() < end, "the screen does not come to rest"
+        return last
+
+    def canvas(self) -> np.ndarray:
+        """The middle of the settled screen, with the pointer parked so that no cursor or tooltip covers it."""
+        self.do("mousemove", 700, 790)
+        time.sleep(0.2)
+        return self.settled()[60:740, 270:970].astype(int)
+
+    def close(self) -> None:
+        self.process.terminate()
+        self.process.wait(10)
+
+
+def need(*programs: str) -> None:
+    for program in programs:
+        if shutil.which(program) is None:
+            pytest.skip(f"needs {program}")
+
+
+def started_server(command: list[str]) -> tuple[subprocess.Popen, str]:
+    """An X server on a free display that it chooses itself, and the display's name."""
+    read, write = os.pipe()
+    process = subprocess.Popen(
+        [*command, "-displayfd", str(write)], pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    os.close(write)
+    with os.fdopen(read) as answer:
+        number = answer.readline().strip()
+    assert number, f"{command[0]} did not start"
+    return process, f":{number}"
+
+
+@pytest.fixture(scope="session")
+def display():
+    need("Xvfb", "xdotool")
+    process, name = started_server(["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp"])
+    yield name
+    process.terminate()
+    process.wait(10)
+
+
+@pytest.fixture
+def program(display, tmp_path):
+    opened = []
+
+    def start(*words: str, on: str = display) -> Program:
+        opened.append(Program(on, tmp_path, *words))
+        return opened[-1]
+
+    yield start
+    for one in opened:
+        one.close()

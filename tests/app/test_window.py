@@ -1,0 +1,125 @@
+"""The real program in a real window: what an artist does in the first minutes, judged by pictures of the screen."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+
+WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
+
+
+def differing(a, b, by=3):
+    """How many pixels differ by more than `by` of 255."""
+    return int((np.abs(a - b).max(axis=-1) > by).sum())
+
+
+def test_paint_zoom_undo_save_reopen(program, tmp_path):
+    app = program()
+    empty = app.canvas()
+    app.keys("bracketright", "bracketright", "bracketright", "bracketright")
+    app.stroke(*WAVE)
+    painted = app.canvas()
+    assert differing(empty, painted) > 1500
+
+    # Twenty levels in and out about one point: exactly the same picture again.
+    app.do("mousemove", 600, 400)
+    app.wheel(80)
+    time.sleep(0.5)
+    deep = app.settled()
+    assert differing(deep[60:740, 270:970].astype(int), painted) > 1000
+    app.wheel(-80)
+    time.sleep(0.5)
+    app.settled()
+    assert np.array_equal(app.canvas(), painted)
+
+    # A stroke at depth changes nothing where it is too small to be seen, and undo takes both back.
+    app.keys("ctrl+z")
+    assert np.array_equal(app.canvas(), empty)
+    app.keys("ctrl+shift+z")
+    assert np.array_equal(app.canvas(), painted)
+
+    app.keys("ctrl+s")
+    time.sleep(0.5)
+    app.keys("ctrl+a")
+    app.type(str(tmp_path / "picture.ora"))
+    app.keys("Return")
+    end = time.monotonic() + 20
+    while not (tmp_path / "picture.ora").exists():
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    assert np.array_equal(app.canvas(), painted)
+    app.keys("ctrl+q")
+    assert app.process.wait(15) == 0
+
+    again = program(str(tmp_path / "picture.ora"))
+    assert np.array_equal(again.canvas(), painted)
+
+
+def test_a_stroke_twenty_levels_deep_is_there_again_after_going_away(program):
+    app = program()
+    app.do("mousemove", 600, 400)
+    app.wheel(80)
+    app.canvas()
+    app.stroke(*WAVE)
+    deep = app.canvas()
+    app.do("mousemove", 600, 400)
+    app.wheel(-80)
+    far = app.canvas()
+    app.do("mousemove", 600, 400)
+    app.wheel(80)
+    assert np.array_equal(app.canvas(), deep)
+    assert differing(far, deep) > 1500
+
+
+def test_the_keys_for_the_view_and_the_panels(program):
+    app = program()
+    app.stroke(*WAVE[:12])
+    before = app.canvas()
+    app.keys("m")
+    mirrored = app.canvas()
+    assert differing(before, mirrored) > 300
+    app.keys("m")
+    assert np.array_equal(app.canvas(), before)
+    app.keys("Tab")
+    hidden = app.settled()
+    app.keys("Tab")
+    shown = app.settled()
+    assert differing(hidden[:, :240].astype(int), shown[:, :240].astype(int)) > 5000
+    app.keys("1")
+    time.sleep(0.5)
+    app.keys("f")
+    assert np.array_equal(app.canvas(), before)
+
+
+def test_an_idle_window_sleeps(program):
+    app = program()
+    app.settled()
+    time.sleep(8)  # the engine warms up, thumbnails are painted, frames linger
+
+    def used() -> float:
+        fields = Path(f"/proc/{app.process.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / 100
+
+    before = used()
+    time.sleep(4)
+    assert used() - before < 0.12  # 3 % of one core
+
+
+def test_the_first_frame_comes_before_the_engine(program):
+    app = program()
+    first = app.log.read_text().splitlines()[0]
+    assert first.startswith("first frame")
+    assert first.endswith("numba False")
+
+
+def test_escape_abandons_a_stroke(program):
+    app = program()
+    empty = app.canvas()
+    app.do("mousemove", 400, 400, "mousedown", 1, "mousemove", 500, 420, "mousemove", 600, 400)
+    time.sleep(0.3)
+    app.keys("Escape")
+    app.do("mouseup", 1)
+    assert np.array_equal(app.canvas(), empty)
