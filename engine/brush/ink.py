@@ -7,6 +7,7 @@ base colour, and a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, section
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -16,7 +17,7 @@ import numpy as np
 from engine.brush.checks import BrushError
 from engine.brush.record import Brush, Component
 from engine.numeric.address import TileKey
-from engine.texture.image import ImageSource
+from engine.texture.image import Image, ImageSource
 from engine.texture.planes import sort_key
 from engine.texture.record import Instance
 from engine.texture.table import KINDS, TextureError, instance
@@ -32,12 +33,10 @@ class Texture(Protocol):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Loaded:
-    """One instance of the ink: `amplitude`, float32 (3,), multiplies its S; `hidden`, float32 (3,), is the colour that
-    a picture's own alpha hides, 0 for other textures."""
+    """One instance of the ink: `amplitude`, float32 (3,), multiplies its S."""
 
     instance: Instance
     amplitude: np.ndarray
-    hidden: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +60,7 @@ class Ink:
         out = np.broadcast_to(self.base[:, None, None], shape).copy()
         for part in self.loaded:
             seen = part.instance.appearance(key.level, key.rect)
-            out += part.amplitude[:, None, None] * (seen[:3] if len(seen) >= 3 else seen)
-            if len(seen) == 4:
-                out -= part.hidden[:, None, None] * seen[3]
+            out += part.amplitude[:, None, None] * seen[:3]
         while len(self._memo) >= _MEMO:
             self._memo.pop(next(iter(self._memo)), None)
         self._memo[key] = out
@@ -79,7 +76,7 @@ def resolve(
     """
     under = np.array(brush.rgb)
     base = under.copy()
-    found: dict[Instance, list[np.ndarray]] = {}
+    found: defaultdict[Instance, np.ndarray] = defaultdict(lambda: np.zeros(3))
     for i, component in enumerate(brush.ink):
         towards = component.amount * (np.array(component.rgb) - under)
         if component.amount == 0.0:
@@ -88,26 +85,21 @@ def resolve(
         if made.key[0] == "white":  # S = 1: plain colour, no planes
             base += towards
             continue
-        amplitude, hidden = towards / 2.0, np.zeros(3)
-        if _is_picture(made):
-            amplitude, hidden = component.amount * np.array(component.rgb), component.amount * under
+        if isinstance(made, Image):  # premultiplied, 0..1: its own alpha hides the brush's colour
+            found[made] += component.amount * np.array(component.rgb)
+            if made.cover is None:
+                base -= component.amount * under
+            else:
+                found[made.cover] -= component.amount * under
         else:
-            base += amplitude
-        sums = found.setdefault(made, [np.zeros(3), np.zeros(3)])
-        sums[0] += amplitude
-        sums[1] += hidden
+            found[made] += towards / 2.0
+            base += towards / 2.0
     loaded = [
-        Loaded(made, amplitude.astype(np.float32), hidden.astype(np.float32))
-        for made, (amplitude, hidden) in sorted(found.items(), key=lambda item: sort_key(item[0].key))
-        if amplitude.any() or hidden.any()
+        Loaded(made, amplitude.astype(np.float32))
+        for made, amplitude in sorted(found.items(), key=lambda item: sort_key(item[0].key))
+        if amplitude.any()
     ]
     return Ink(base.astype(np.float32), tuple(loaded))
-
-
-def _is_picture(made: Instance) -> bool:
-    """Whether an instance's S is a premultiplied picture, 0..1 with alpha, rather than a pattern of -1..1."""
-    row = KINDS.get(made.key[0])
-    return row is not None and row.pictured
 
 
 def _instance(

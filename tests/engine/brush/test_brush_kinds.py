@@ -240,10 +240,23 @@ def picture():
 def test_a_picture_covers_the_brush_colour_by_its_own_alpha():
     brush = from_json({"colour": "#ffffff", "ink": [{"texture": "leaf", "amount": 0.5, "colour": "#ff8000"}]})
     ink = resolve(brush, {"leaf": picture()}, 0, 1)
-    s = ink.inks[0].appearance(0, KEY.rect)
+    cover, image = ink.loaded
+    s = image.instance.appearance(0, KEY.rect)
     tint = np.array([1, 128 / 255, 0])[:, None, None]
     np.testing.assert_allclose(ink.field(KEY), 1 - 0.5 * s[3] + 0.5 * tint * s[:3], atol=1e-6)
-    np.testing.assert_allclose(ink.loaded[0].amplitude, 0.5 * tint[:, 0, 0])
+    np.testing.assert_allclose(image.amplitude, 0.5 * tint[:, 0, 0])
+    np.testing.assert_allclose(cover.amplitude, [-0.5, -0.5, -0.5])
+    assert (cover.instance.appearance(0, KEY.rect) == s[3:]).all()
+
+
+def test_an_opaque_picture_hides_the_brush_colour_without_a_plane_for_its_alpha():
+    data = np.concatenate([picture().data[:3], np.ones((1, 32, 32), np.float32)])
+    brush = from_json({"colour": "#ffffff", "ink": [{"texture": "leaf", "amount": 0.5}]})
+    ink = resolve(brush, {"leaf": ImageSource.of("leaf", data)}, 0, 1)
+    assert len(ink.loaded) == 1
+    np.testing.assert_allclose(ink.base, 0.5)
+    s = ink.inks[0].appearance(0, KEY.rect)
+    np.testing.assert_allclose(ink.field(KEY), 0.5 + 0.5 * s[:3], atol=1e-6)
 
 
 @pytest.mark.parametrize(
