@@ -1,4 +1,7 @@
-"""The table of actions: name, menu, keys, when allowed, what it does.  Menus, keys, tooltips and help are made from it."""
+"""The table of actions: name, menu, keys, when allowed, what it does.
+
+Menus, keys, tooltips and the list of keys are made from it.
+"""
 
 from __future__ import annotations
 
@@ -54,6 +57,14 @@ def _tool(name: str) -> Callable[[Desk], None]:
         desk.tool, desk.erasing = name, False
 
     return choose
+
+
+def _is(name: str) -> Check:
+    return lambda desk: desk.tool == name and not desk.erasing
+
+
+def _erasing(desk: Desk) -> bool:
+    return desk.erasing and desk.tool == "brush"
 
 
 def _toggle_eraser(desk: Desk) -> None:
@@ -163,18 +174,18 @@ ACTIONS: dict[str, Action] = {
     "open": A("Open…", "File", ("Ctrl+O",), "Open a painting, a picture or a recording", _asks_guarded("open"), _ready),
     "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", Desk.save, _ready),
     "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", _asks("save as"), _ready),
-    "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF at any depth", _asks("export"), _ready),
+    "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF", _asks("export"), _ready),
     "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
     "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
-    "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), _always, lambda d: d.tool == "brush" and not d.erasing),
-    "eraser": A("Eraser", "Tools", ("E",), "Erase with the chosen brush; again to paint", _toggle_eraser, _always, lambda d: d.erasing),
-    "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), _always, lambda d: d.tool == "pick"),
-    "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), _always, lambda d: d.tool == "pan"),
-    "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), _always, lambda d: d.tool == "zoom"),
-    "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), _always, lambda d: d.tool == "turn"),
+    "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), _always, _is("brush")),
+    "eraser": A("Eraser", "Tools", ("E",), "Erase; again to paint", _toggle_eraser, _always, _erasing),
+    "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), _always, _is("pick")),
+    "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), _always, _is("pan")),
+    "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), _always, _is("zoom")),
+    "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), _always, _is("turn")),
     "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.resize_brush(1 / 1.15)),
     "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.resize_brush(1.15)),
     "escape": A("Back to the brush", "Tools", ("Escape",), "Stop what is going on; back to the brush", _escape),
@@ -191,7 +202,7 @@ ACTIONS: dict[str, Action] = {
     "turn_left": A("Turn left", "View", ("4",), "Turn the view by 15° to the left", _turns(-15)),
     "turn_right": A("Turn right", "View", ("6",), "Turn the view by 15° to the right", _turns(15)),
     "upright": A("Upright", "View", ("5",), "Turn the view upright", _upright),
-    "mirror": A("Mirror", "View", ("M",), "Mirror the view to see mistakes", _mirror, _always, lambda d: d.view.mirrored),
+    "mirror": A("Mirror", "View", ("M",), "Mirror the view", _mirror, _always, lambda d: d.view.mirrored),
     "panels": A("Panels", "View", ("Tab",), "Show or hide the panels", _panels, _always, lambda d: d.panels),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
     "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),

@@ -83,7 +83,8 @@ class Window:
         glfw.set_cursor_enter_callback(w, self._entered)
         glfw.set_window_refresh_callback(w, lambda _: self._wake())
         glfw.set_framebuffer_size_callback(w, lambda *_: self._wake())
-        glfw.set_drop_callback(w, self._dropped)
+        drop: Any = self._dropped  # gets a list of names
+        glfw.set_drop_callback(w, drop)
 
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
         self._wake()
@@ -101,7 +102,7 @@ class Window:
         if not entered:
             self.router.left()
 
-    def _dropped(self, _w: Any, paths: list[str]) -> None:
+    def _dropped(self, _w: Any, paths: Any) -> None:
         self._wake()
         if paths and self.desk.ready:
             self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import glfw
 from imgui_bundle import imgui
 
@@ -59,7 +61,7 @@ class Router:
             self._panel_buttons.add(event.button)
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
             return
-        imgui.set_window_focus(None)  # type: ignore[arg-type]
+        imgui.set_window_focus(None)
         self._button = event.button
         self.gesture = self._chosen(event)
         imgui.get_io().add_mouse_pos_event(_AWAY, _AWAY)
@@ -71,7 +73,7 @@ class Router:
         ctrl = bool({glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL} & held)
         shift = bool({glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT} & held)
         if glfw.KEY_SPACE in held or event.button == MIDDLE:
-            begin = zoom if ctrl else turn if shift else pan
+            begin: Callable[[Desk, PenEvent], Gesture] = zoom if ctrl else turn if shift else pan
         elif event.button == RIGHT or ctrl:
             begin = pick
         else:

@@ -19,7 +19,6 @@ from app.view import View
 from engine.numeric.address import Rect
 from engine.painting.requests import SIDE
 
-
 FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show
 LIGHT, DARK = (0.955, 0.955, 0.955), (0.225, 0.225, 0.225)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import imgui_bundle
-from imgui_bundle import ImVec4, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 FONT_SIZE = 15.0
 FONTS = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
@@ -54,7 +54,8 @@ _COLOURS: dict[str, tuple[tuple[float, ...], float]] = {
 
 
 def vec(colour: tuple[float, ...], alpha: float = 1.0) -> ImVec4:
-    return ImVec4(*colour[:3], alpha)
+    r, g, b = colour
+    return ImVec4(r, g, b, alpha)
 
 
 def packed(colour: tuple[float, ...], alpha: float = 1.0) -> int:
@@ -77,10 +78,10 @@ def apply(scale: float) -> None:
     style = imgui.get_style()
     for name, (colour, alpha) in _COLOURS.items():
         style.set_color_(getattr(imgui.Col_, name), vec(colour, alpha))
-    style.window_padding = (10, 8)
-    style.frame_padding = (8, 4)
-    style.item_spacing = (7, 6)
-    style.item_inner_spacing = (6, 4)
+    style.window_padding = ImVec2(10, 8)
+    style.frame_padding = ImVec2(8, 4)
+    style.item_spacing = ImVec2(7, 6)
+    style.item_inner_spacing = ImVec2(6, 4)
     style.indent_spacing = 14
     style.scrollbar_size = 10
     style.grab_min_size = 8

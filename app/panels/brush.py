@@ -125,7 +125,8 @@ class BrushPanel:
             changed, value = w.slider(row.label, shown, (lo, hi), hint, form=form, curved=row.logarithmic)
             if changed:
                 value = value / 100 if form.endswith("%%") else value
-                desk.brush = replace(desk.brush, **{name: row.clamped(round(value, 4))})
+                setting: dict[str, Any] = {name: row.clamped(round(value, 4))}
+                desk.brush = replace(desk.brush, **setting)
 
         hint = "How much the stroke lags behind the pen to steady the hand"
         changed, value = w.slider("Stabiliser", desk.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")

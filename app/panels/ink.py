@@ -8,7 +8,7 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.colours import from_hex, to_hex
+from app.colours import to_hex
 from app.desk import Desk
 from app.panels import widgets as w
 from engine.brush.record import COMPONENTS_CAP, Component

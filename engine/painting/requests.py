@@ -123,7 +123,7 @@ Request = New | Open | Save | Export | Do | Begin | Points | Finish | Abandon | 
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """The engine is loaded.  `blends`: name, title and hint of each blend mode; `kinds`: the rows of the texture table."""
+    """The engine is loaded.  `blends`: name, title, hint of each blend mode; `kinds`: the rows of the texture table."""
 
     blends: tuple[tuple[str, str, str], ...] = ()
     kinds: tuple[Any, ...] = ()
@@ -131,8 +131,8 @@ class Ready:
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """Pixels of the rectangle `area` (within 0..256) of screen tile `tile` (level, x, y): uint8 (h, w, 4), premultiplied,
-    read-only.  `revision` counts what has happened to the painting."""
+    """Pixels of the rectangle `area` (within 0..256) of screen tile `tile` (level, x, y): uint8 (h, w, 4),
+    premultiplied, read-only.  `revision` counts what has happened to the painting."""
 
     tile: tuple[int, int, int]
     area: Rect

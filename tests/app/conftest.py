@@ -65,8 +65,7 @@ class Program:
         self.do("mouseup", 1)
 
     def wheel(self, notches: int) -> None:
-        for _ in range(abs(notches)):
-            self.do("click", 4 if notches > 0 else 5)
+        self.do("click", "--repeat", abs(notches), "--delay", 15, 4 if notches > 0 else 5)
 
     def screen(self) -> np.ndarray:
         """What the screen shows, uint8 (800, 1280, 3)."""

@@ -19,10 +19,7 @@ from app.view import Place, View
 
 @pytest.fixture
 def desk():
-    posted = []
-    made = Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), posted.append)
-
-    return made
+    return Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), [].append)
 
 
 @pytest.mark.parametrize("name", sorted(ACTIONS))
