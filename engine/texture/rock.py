@@ -1,8 +1,9 @@
 """Rock: 1/f noise that never runs out of detail.
 
-Perlin & Velho 1995, section 3.3: each finer level adds noise of a smaller amplitude.  Octave j, white within 2 x 2
-blocks of zero mean (so that coarser levels stay as they are), lives at level root + j, where a pixel is as large as
-the texture's period.  Writing n_j for it and E for expand, the texture at depth d (level root + d) is
+Perlin & Velho 1995, section 3.3: each finer level adds noise of a smaller amplitude.  Octave j, white in 2 x 2 blocks
+of zero mean (so that coarser levels stay as they are), lives at level root + j; at the root, a pixel is as large as
+the texture's period, or up to twice that, octave 0 being the weaker the nearer its size is to twice the period.
+Writing n_j for an octave and E for expand, the texture at depth d (level root + d) is
 
     S_d = sum over j <= d of  W(d, j) E^(d-j) n_j                  and   bandpass_d = S_d - E S_(d-1).
 
@@ -64,7 +65,12 @@ class Rock:
     @property
     def root(self) -> int:
         """The level of octave 0."""
-        return self.base - round(math.log2(self.period))
+        return self.base - math.ceil(math.log2(self.period))
+
+    @property
+    def first(self) -> float:
+        """The part of octave 0 that is there, 0..1, so that S varies steadily with the period."""
+        return 1.0 + math.log2(self.period) - math.ceil(math.log2(self.period))
 
     @property
     def settled(self) -> int:
@@ -74,12 +80,20 @@ class Rock:
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         if level < self.base:
             raise ValueError(f"rock: level {level} is coarser than the base level {self.base}")
-        return self._cascade(level, rect, weights(level - self.root, self.settled, self.roughness))
+        return self._cascade(level, rect, self.weights(level))
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
         if level <= self.base or rect.empty:
             return None
-        return self._cascade(level, rect, changes(level - self.root, self.settled, self.roughness))
+        return self._cascade(level, rect, self.changes(level))
+
+    def weights(self, level: int) -> np.ndarray:
+        """What S takes of the octaves of ages 0, 1, ...: float32 (ages,)."""
+        return octave_weights(level - self.root, self.settled, self.roughness, self.first)
+
+    def changes(self, level: int) -> np.ndarray:
+        """What the bandpass takes of them, without the zeros at the end: float32 (ages,)."""
+        return octave_changes(level - self.root, self.settled, self.roughness, self.first)
 
     def _cascade(self, level: int, rect: Rect, factors: np.ndarray) -> np.ndarray:
         """sum over m of factors[m] E^m n_(level - m), over `rect`: float32 (1, h, w)."""
@@ -91,34 +105,36 @@ class Rock:
 
 
 @lru_cache(maxsize=4096)
-def weights(depth: int, settled: int, roughness: float) -> np.ndarray:
+def octave_weights(depth: int, settled: int, roughness: float, first: float) -> np.ndarray:
     """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,)."""
     if depth <= settled:
-        peak, gain = float(depth), _gain(_profile(settled, settled, roughness))
-    else:
-        peak = max(float(PEAK), settled - (depth - settled) / 2)
-        gain = _gain(_profile(peak, depth, roughness))
-    return np.array([gain * w for w in _profile(peak, depth, roughness)], np.float32)
-
-
-def _profile(peak: float, oldest: int, roughness: float) -> list[float]:
-    """The weights of ages 0, 1, ... to `oldest` or until they are negligible; 1 at age `peak`."""
-    ages = range(min(oldest, int(peak - math.log2(_NEGLIGIBLE))) + 1)
-    return [2.0 ** (roughness * (m - peak)) if m <= peak else 2.0 ** (peak - m) for m in ages]
-
-
-def _gain(profile: list[float]) -> float:
-    return SPREAD / math.sqrt(sum(w * w * octave_variance(m) for m, w in enumerate(profile)))
+        gain = _gain(_profile(settled, settled, roughness, first))
+        return np.array(_profile(depth, depth, roughness, first), np.float32) * np.float32(gain)
+    profile = _profile(max(float(PEAK), settled - (depth - settled) / 2), depth, roughness, first)
+    return np.array(profile, np.float32) * np.float32(_gain(profile))
 
 
 @lru_cache(maxsize=4096)
-def changes(depth: int, settled: int, roughness: float) -> np.ndarray:
-    """What the bandpass needs of each age: W(depth, j) - W(depth - 1, j), without the zeros at the end."""
-    now, before = weights(depth, settled, roughness), weights(depth - 1, settled, roughness)
+def octave_changes(depth: int, settled: int, roughness: float, first: float) -> np.ndarray:
+    """W(depth, j) - W(depth - 1, j), by age, without the zeros at the end: float32 (number of octaves,)."""
+    now, before = (octave_weights(d, settled, roughness, first) for d in (depth, depth - 1))
     both = np.zeros(max(now.size, before.size + 1), np.float32)
     both[: now.size] = now
     both[1 : before.size + 1] -= before
     return np.trim_zeros(both, "b")
+
+
+def _profile(peak: float, depth: int, roughness: float, first: float) -> list[float]:
+    """The weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age `peak`."""
+    ages = range(min(depth, int(peak - math.log2(_NEGLIGIBLE))) + 1)
+    profile = [2.0 ** (roughness * (m - peak)) if m <= peak else 2.0 ** (peak - m) for m in ages]
+    if len(profile) == depth + 1:
+        profile[depth] *= first
+    return profile
+
+
+def _gain(profile: list[float]) -> float:
+    return SPREAD / math.sqrt(sum(w * w * octave_variance(m) for m, w in enumerate(profile)))
 
 
 @lru_cache(maxsize=64)
