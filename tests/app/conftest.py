@@ -1,7 +1,6 @@
 """A display of their own for tests that open the real window, and the program under a test's hand."""
 
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import ImageGrab
+from xserver import need, started_server
 
 ROOT = Path(__file__).parents[2]
 PATIENCE = 90.0  # seconds; the first start compiles kernels
@@ -92,25 +92,6 @@ class Program:
     def close(self) -> None:
         self.process.terminate()
         self.process.wait(10)
-
-
-def need(*programs: str) -> None:
-    for program in programs:
-        if shutil.which(program) is None:
-            pytest.skip(f"needs {program}")
-
-
-def started_server(command: list[str]) -> tuple[subprocess.Popen, str]:
-    """An X server on a free display that it chooses itself, and the display's name."""
-    read, write = os.pipe()
-    process = subprocess.Popen(
-        [*command, "-displayfd", str(write)], pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    os.close(write)
-    with os.fdopen(read) as answer:
-        number = answer.readline().strip()
-    assert number, f"{command[0]} did not start"
-    return process, f":{number}"
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,87 @@
+"""A pen with pressure, from the X server's driver to paint on the screen."""
+
+import time
+from pathlib import Path
+
+import inputtest
+import numpy as np
+import pytest
+from xserver import need, started_server
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+UNITS_X, UNITS_Y = 65536 / 1280, 65536 / 800  # of the driver's axes in a pixel
+HEAVIEST = 1000.0
+
+
+@pytest.fixture(scope="module")
+def pen(tmp_path_factory):
+    """(display, pen): an X server whose only pointer is a pen."""
+    need("Xorg", "xdotool")
+    if not list(Path("/usr/lib/xorg/modules").glob("**/dummy_drv.so")):
+        pytest.skip("needs xserver-xorg-video-dummy")
+    folder = tmp_path_factory.mktemp("pen")
+    (folder / "pen.conf").write_text(inputtest.CONFIG.format(socket=folder / "socket"))
+    switches = ["-noreset", "-nolisten", "tcp", "-novtswitch", "-sharevts", "-logfile", str(folder / "log")]
+    process, display = started_server(["Xorg", "-config", str(folder / "pen.conf"), *switches])
+    held = inputtest.Pen(folder / "socket")
+    yield display, held
+    process.terminate()
+    process.wait(10)
+    held.close()
+
+
+def moved(pen, x, y, pressure):
+    pen.move(x * UNITS_X, y * UNITS_Y, pressure * HEAVIEST)
+    pen.sync()
+    time.sleep(0.004)
+
+
+def test_pressure_arrives_as_paint(program, pen):
+    display, held = pen
+    app = program(on=display)
+    held.near(True)
+    empty = app.settled().astype(int)
+    moved(held, 350, 400, 0.0)
+    held.press(True)
+    for i in range(101):
+        moved(held, 350 + 5 * i, 400, 0.1 + 0.9 * i / 100)
+    held.press(False)
+    moved(held, 700, 790, 0.0)
+    held.sync()
+    time.sleep(0.5)
+    painted = app.settled().astype(int)
+    ink = np.abs(painted - empty).sum(axis=(0, 2))
+    light, heavy = ink[400:500].sum(), ink[720:820].sum()
+    assert heavy > 0
+    assert heavy > 1.5 * light, "the same paint whatever the pressure"
+
+
+def test_every_report_arrives_in_order_with_its_fractions(pen):
+    """A thousand reports, faster than frames are drawn: none is lost, none is rounded."""
+    import glfw
+    from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use one libglfw
+
+    from app.input.xinput2 import XInput2Pointer
+
+    display, held = pen
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("DISPLAY", display)
+        assert glfw.init()
+        window = glfw.create_window(1280, 800, "pen", None, None)
+    source = XInput2Pointer(glfw.get_x11_window(window), glfw.post_empty_event, display)
+    try:
+        assert source.tablets() == ["Test Pen"]
+        for i in range(1000):
+            held.move((100 + i * 0.37) * UNITS_X, 300 * UNITS_Y, i)
+        held.sync()
+        time.sleep(0.3)
+        glfw.poll_events()
+        events = source.events()
+    finally:
+        source.close()
+        glfw.destroy_window(window)
+        glfw.terminate()
+    assert len(events) == 1000
+    assert all(event.pen for event in events)
+    assert np.allclose([e.pressure for e in events], np.arange(1000) / 1000)
+    assert np.allclose([e.x for e in events], 100 + np.arange(1000) * 0.37, atol=0.03)

@@ -1,0 +1,26 @@
+"""X servers for tests, on displays that they choose themselves."""
+
+import os
+import shutil
+import subprocess
+
+import pytest
+
+
+def need(*programs: str) -> None:
+    for program in programs:
+        if shutil.which(program) is None:
+            pytest.skip(f"needs {program}")
+
+
+def started_server(command: list[str]) -> tuple[subprocess.Popen, str]:
+    """An X server on a free display that it chooses itself, and the display's name."""
+    read, write = os.pipe()
+    process = subprocess.Popen(
+        [*command, "-displayfd", str(write)], pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    os.close(write)
+    with os.fdopen(read) as answer:
+        number = answer.readline().strip()
+    assert number, f"{command[0]} did not start"
+    return process, f":{number}"
