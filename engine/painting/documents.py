@@ -10,9 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from engine.painting import archive, export
+from engine.painting import archive, export, replay
 from engine.painting import commands as c
 from engine.painting import requests as q
+from engine.painting.imports import open_image
+from engine.painting.opening import open_painting
 from engine.painting.recording import Recording, read
 from engine.painting.session import Session
 from engine.painting.value import Painting
@@ -70,25 +72,42 @@ class Playing:
 
 
 @dataclass(frozen=True, slots=True)
-class Opened:
-    """A session with what the file held; `path`: where to save it, None for what is no painting of ours."""
+class Document:
+    """A session with what the file held.
+
+    `path`: where to save it, None for what is no painting of ours; `known`: whether the session's log leads from
+    nothing to the painting; `script`: a recording still to be played; `notes`: what was lost or replaced.
+    """
 
     session: Session
     path: Path | None = None
+    known: bool = True
     script: Playing | None = None
+    notes: tuple[str, ...] = ()
 
 
-def opened(path: Path, live: bool = False) -> Opened:
-    """What a file holds; FileError if it is none that can be read."""
-    if path.suffix.lower() == ".jsonl":
+def opened(path: Path, live: bool = False) -> Document:
+    """What a file holds: a recording, a painting of ours or of another program, or a picture.
+
+    FileError if it is none that can be read.
+    """
+    ending = path.suffix.lower()
+    if ending == ".jsonl":
         recording = read(path)
-        painting = Painting(frame=recording.header.frame, seed=recording.header.seed)
-        return Opened(Session(painting, folder=recording.folder), None, Playing(recording, live))
-    raise ValueError(f"{path.name}: found {path.suffix or 'no ending'}, expected .ora, .png, .jpg, .tif or .jsonl")
+        return Document(replay.opened(recording), script=Playing(recording, live))
+    found = open_painting(path) if ending == ".ora" else open_image(path)
+    told = found.recording
+    session = Session(
+        found.painting,
+        log=told.commands if told else (),
+        folder=told.folder if told else path.parent,
+        extra=told.header.extra if told else None,
+    )
+    return Document(session, path if found.native else None, told is not None, None, found.notes)
 
 
-def save(path: Path, painting: Painting, recording: Recording) -> None:
-    """The painting with its recording as .ora, replaced in one step; WriteError if that failed."""
+def save(path: Path, painting: Painting, recording: Recording | None) -> None:
+    """The painting as .ora, with its recording if that is known, replaced in one step; WriteError if that failed."""
     archive.save(path, archive.Snapshot(painting, recording))
 
 

@@ -52,6 +52,7 @@ class Easel:
         self._dirty = Rect(0, 0, 0, 0)  # pixels of the live stroke's level not sent yet
         self._dirty_level = 0
         self._script: documents.Playing | None = None
+        self._known = True  # whether the session's log leads from nothing to the painting
         self._writers: list[threading.Thread] = []
         self._handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
@@ -106,11 +107,11 @@ class Easel:
     def _new(self, request: q.New) -> None:
         self.show(Session(Painting(frame=request.frame, seed=request.seed)), None)
 
-    def show(self, session: Session, path: Path | None, saved: bool = True) -> None:
+    def show(self, session: Session, path: Path | None) -> None:
         """Another painting is on the easel."""
-        self.live, self._script = None, None
+        self.live, self._script, self._known = None, None, True
         self.session, self.path = session, path
-        self._saved = session.painting if saved else None
+        self._saved = session.painting
         self._serial += 1
         self._changes.clear()
         self._dirty = Rect(0, 0, 0, 0)
@@ -279,9 +280,11 @@ class Easel:
     def _open_file(self, request: q.Open) -> None:
         found = documents.opened(request.path, request.live)
         self.show(found.session, found.path)
+        self._known, self._script = found.known, found.script
         if found.script is not None:
-            self._script = found.script
             self.send(q.Note(f"Playing {request.path.name}"))
+        elif found.notes:
+            self.send(q.Note(f"{request.path.name}: {found.notes[0]}", bad=True))
 
     def _play_on(self) -> None:
         """The next piece of a recording that plays."""
@@ -296,7 +299,8 @@ class Easel:
         """Writes on a thread of its own, from the painting as it is now; painting goes on meanwhile."""
         if self.live is not None:
             self.finish()
-        painting, recording = self.session.painting, self.session.recording()
+        painting = self.session.painting
+        recording = self.session.recording() if self._known else None
 
         def write() -> None:
             documents.save(request.path, painting, recording)
