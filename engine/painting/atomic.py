@@ -43,7 +43,7 @@ def replacing(path: str | os.PathLike[str], verify: Callable[[Path], None] | Non
         raise WriteError(path, f"cannot be written: {_reason(error)}") from error
     done = False
     try:
-        with os.fdopen(descriptor, "w+b") as file:
+        with open(part, "w+b", opener=lambda path, flags: descriptor) as file:
             yield file
             file.flush()
             os.fsync(file.fileno())

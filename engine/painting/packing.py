@@ -207,13 +207,16 @@ def _runs(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
 # ---- reading ----
 
 
-def unpack(data: bytes, name: str, ink_of: Callable[[Any], Instance]) -> list[Tile]:
+def unpack(
+    data: bytes, name: str, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None = None
+) -> list[Tile]:
     """The tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
 
-    FileError if anything is not as it should be; `name` is the file's and the member's.
+    `announced`: the numbers of tiles and of plain bytes there must be.  FileError if anything is not as it should be,
+    before memory is taken for it; `name` is the file's and the member's.
     """
     try:
-        return _unpack(data, ink_of)
+        return _unpack(data, ink_of, announced)
     except (FormatError, _Fault, ValueError) as error:
         raise FileError(name, str(error)) from error
 
@@ -227,7 +230,7 @@ def _need(right: bool, what: str, found: object) -> None:
         raise _Fault(f"{what}: found {shown(found)}")
 
 
-def _unpack(data: bytes, ink_of: Callable[[Any], Instance]) -> list[Tile]:
+def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None) -> list[Tile]:
     _need(data[:8] == MAGIC and len(data) >= 12, "start of a pack of tiles", data[:8])
     (length,) = struct.unpack_from("<I", data, 8)
     start = 12 + length
@@ -238,6 +241,8 @@ def _unpack(data: bytes, ink_of: Callable[[Any], Instance]) -> list[Tile]:
     )
     inks = [ink_of(key) for key in head["inks"]]
     heads = [_tile_head(line, inks) for line in head["tiles"]]
+    found = len(heads), sum(encoded_size(shape, bits) for _, _, shape, bits, _ in heads)
+    _need(announced is None or found == announced, "tiles and bytes of a pack", found)
     tiles: list[Tile] = []
     for block in head["blocks"]:
         whole = isinstance(block, list) and len(block) == 3 and all(type(v) is int and v >= 0 for v in block)

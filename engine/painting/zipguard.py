@@ -12,13 +12,16 @@ import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from isal import isal_zlib
 
 from engine.painting.fault import FileError, shown
 from engine.painting.inflate import PIECE, RAW, DeflateError, Inflated
 from engine.painting.limits import LIMITS, Limits
+
+if TYPE_CHECKING:
+    from _typeshed import WriteableBuffer
 
 STORED, DEFLATED = 0, 8
 END = struct.Struct("<4s4H2LH")
@@ -241,17 +244,22 @@ class MemberStream(io.RawIOBase):
         return True
 
     def read(self, count: int = -1) -> bytes:
-        wanted = self._left if count < 0 else min(count, self._left)
-        data = bytearray(wanted)
+        data = bytearray(self._left if count < 0 else min(count, self._left))
+        self.readinto(data)
+        return bytes(data)
+
+    def readinto(self, buffer: WriteableBuffer) -> int:
+        """Fills `buffer`; fewer bytes only where the member ends."""
+        view = memoryview(buffer).cast("B")[: self._left]
         try:
-            filled = self._source.readinto(memoryview(data))
+            filled = self._source.readinto(view)
         except DeflateError as error:
             raise self._fail(f"damaged ({error})") from error
-        if filled != wanted:
+        if filled != len(view):
             raise self._fail(f"ends {self._left - filled} bytes short of {self.member.size}")
         self._left -= filled
-        self._crc = isal_zlib.crc32(data, self._crc)
-        return bytes(data)
+        self._crc = isal_zlib.crc32(view, self._crc)
+        return filled
 
     def finish(self) -> None:
         """Reads what is left and compares length and checksum with the directory."""

@@ -1,0 +1,229 @@
+"""inkfall/manifest.json: what a painting's file holds, in words, and how its tree is told.
+
+All numbers in our members are little-endian, pixel values whole multiples of 2^-16, premultiplied and sRGB-encoded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from immutables import Map
+
+from engine.brush.checks import frozen, thawed
+from engine.canvas import layers
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.store import Pyramid
+from engine.numeric.address import TILE, Rect
+from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
+from engine.painting.recording import SIDE_LIMIT
+from engine.painting.strictjson import Fields, FormatError
+from engine.painting.textures import Texture
+from engine.painting.value import Painting
+from engine.texture.image import ImageSource
+from engine.texture.table import TextureError
+
+FORMAT = 1
+MANIFEST = "inkfall/manifest.json"
+RECORDING = "inkfall/recording.jsonl"
+_CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
+
+
+@dataclass(frozen=True)
+class Pack:
+    """A member with packed tiles: how many, and their bytes when unpacked."""
+
+    member: str
+    tiles: int
+    plain: int
+
+
+@dataclass(frozen=True)
+class PictureEntry:
+    """A picture that inks or textures refer to."""
+
+    name: str
+    sha: str
+    size: tuple[int, int]
+    packs: tuple[Pack, ...]
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """The parsed manifest.  `root` has layers without paint; `packs`: where their paint is, by the layer's id;
+    `members`: (size, SHA-256) of all members but the manifest."""
+
+    frame: Rect
+    seed: int
+    active: str | None
+    root: Group
+    packs: Mapping[int, tuple[Pack, ...]]
+    textures: Mapping[str, tuple[str, Map, str | None]]  # name -> kind, parameters, sha of its picture
+    pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
+    members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
+
+    def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
+        """The named textures; FormatError if one cannot be made."""
+        made = {}
+        for name, (kind, parameters, sha) in self.textures.items():
+            if sha is not None and sha not in pictures:
+                raise FormatError(f"textures.{name}", "no picture", "one of those in the file")
+            source = None if sha is None else ImageSource(name, sha, pictures[sha].data)
+            made[name] = Texture(kind, parameters, source)
+            try:
+                made[name].instance({}, 0, 0)
+            except TextureError as error:
+                raise FormatError(f"textures.{name}.{error.place}", error.found, error.expected) from None
+        return Map(made)
+
+
+# ---- writing ----
+
+
+def manifest_json(
+    painting: Painting,
+    packs: Mapping[int, list[Pack]],
+    pictures: list[PictureEntry],
+    members: Mapping[str, tuple[int, str]],
+) -> dict[str, Any]:
+    """The JSON of a painting's manifest."""
+    frame = painting.frame
+    return {
+        "inkfall": FORMAT,
+        **_CONSTANTS,
+        "frame": [frame.x0, frame.y0, frame.width, frame.height],
+        "seed": painting.seed,
+        "active": painting.active,
+        "layers": [_node_json(node, packs) for node in painting.root.children],
+        "textures": {
+            name: {
+                "kind": t.kind,
+                "parameters": thawed(t.parameters),
+                **({"picture": t.source.sha} if t.source is not None else {}),
+            }
+            for name, t in sorted(painting.textures.items())
+        },
+        "pictures": {
+            p.sha: {"name": p.name, "size": list(p.size), "packs": [_pack_json(k) for k in p.packs]} for p in pictures
+        },
+        "members": {name: list(entry) for name, entry in members.items()},
+    }
+
+
+def _pack_json(pack: Pack) -> list[Any]:
+    return [pack.member, pack.tiles, pack.plain]
+
+
+def _node_json(node: Node, packs: Mapping[int, list[Pack]]) -> dict[str, Any]:
+    common = {
+        "id": node.id,
+        "name": node.name,
+        "opacity": node.opacity,
+        "visible": node.visible,
+        "blend": node.blend,
+        "locked": node.locked,
+    }
+    if isinstance(node, Layer):
+        stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
+        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored}
+    children = [_node_json(child, packs) for child in node.children]
+    return {"kind": "group", **common, "isolated": node.isolated, "children": children}
+
+
+# ---- reading ----
+
+
+def parse_manifest(value: Any) -> Manifest:
+    """The manifest that a JSON value tells.  FormatError names the member; LayerError if the tree cannot be."""
+    members = Fields(value, "manifest")
+    version = members.integer("inkfall", lo=1, hi=1 << 30)
+    if version > FORMAT:
+        raise FormatError("manifest.inkfall", f"{version} (a newer Inkfall wrote this)", f"version {FORMAT}")
+    for name, expected in _CONSTANTS.items():
+        if members.take(name, expected="a value") != expected:
+            raise members.fault(name, repr(expected))
+    x, y, width, height = members.integers("frame", 4, limit=PLACE_LIMIT)
+    if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
+        raise members.fault("frame", "a width and height from 1 to 2^40")
+    packs: dict[int, tuple[Pack, ...]] = {}
+    nodes = tuple(_node(v, f"layers[{i}]", packs, 0) for i, v in enumerate(_list(members, "layers")))
+    root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
+    active = members.take("active", None)
+    if active is not None and not (isinstance(active, str) and layers.has(root, active)):
+        raise members.fault("active", "the name of a layer")
+    return Manifest(
+        Rect.at(x, y, width, height),
+        members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
+        active,
+        root,
+        packs,
+        {name: _texture(v, f"textures.{name}") for name, v in _object(members, "textures").items()},
+        {sha: _picture(sha, v) for sha, v in _object(members, "pictures").items()},
+        {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
+    )
+
+
+def _list(members: Fields, name: str) -> list:
+    value = members.take(name, expected="a list")
+    if not isinstance(value, list):
+        raise members.fault(name, "a list")
+    return value
+
+
+def _object(members: Fields, name: str) -> dict[str, Any]:
+    value = members.take(name, expected="an object")
+    if not isinstance(value, dict):
+        raise members.fault(name, "an object")
+    return value
+
+
+def _node(value: Any, where: str, packs: dict[int, tuple[Pack, ...]], depth: int) -> Node:
+    members = Fields(value, where)
+    kind = members.take("kind", expected='"layer" or "group"')
+    if kind not in ("layer", "group") or depth > layers.MAX_DEPTH + 1:
+        raise members.fault("kind", f'"layer" or "group", at most {layers.MAX_DEPTH} deep')
+    common: dict[str, Any] = {
+        "id": members.integer("id", lo=1, hi=1 << 62),
+        "name": members.text("name"),
+        "opacity": members.number("opacity", lo=0.0, hi=1.0),
+        "visible": members.flag("visible"),
+        "blend": members.text("blend"),
+        "locked": members.flag("locked"),
+    }
+    if kind == "layer":
+        packs[common["id"]] = _packs(members)
+        return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=Pyramid())
+    inside = _list(members, "children")
+    children = tuple(_node(v, f"{where}.children[{i}]", packs, depth + 1) for i, v in enumerate(inside))
+    return Group(**common, isolated=members.flag("isolated"), children=children)
+
+
+def _packs(members: Fields) -> tuple[Pack, ...]:
+    out = []
+    for entry in _list(members, "packs"):
+        sound = isinstance(entry, list) and len(entry) == 3 and isinstance(entry[0], str)
+        if not (sound and all(type(v) is int and 0 <= v < 1 << 62 for v in entry[1:])):
+            raise members.fault("packs", "[member, tiles, bytes] each")
+        out.append(Pack(*entry))
+    return tuple(out)
+
+
+def _texture(value: Any, where: str) -> tuple[str, Map, str | None]:
+    members = Fields(value, where)
+    parameters = _object(members, "parameters")
+    return members.text("kind"), frozen(parameters), members.text("picture", None)
+
+
+def _picture(sha: str, value: Any) -> PictureEntry:
+    members = Fields(value, f"pictures.{sha[:12]}")
+    width, height = members.integers("size", 2, limit=1 << 20)
+    if width < 1 or height < 1 or width * height > 1 << 28:
+        raise members.fault("size", "a width and height from 1 on, at most 2^28 pixels")
+    return PictureEntry(members.text("name"), sha, (width, height), _packs(members))
+
+
+def _member(value: Any, where: str) -> tuple[int, str]:
+    if not (isinstance(value, list) and len(value) == 2 and type(value[0]) is int and isinstance(value[1], str)):
+        raise FormatError(where, "another form", "[size, SHA-256]")
+    return value[0], value[1]

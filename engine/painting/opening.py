@@ -1,0 +1,209 @@
+"""Opening an .ora: our own painting as it was, or, where that is gone or overtaken, its pictures as layers."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import os
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+from immutables import Map
+
+from engine.canvas import layers
+from engine.canvas.layers import LayerError
+from engine.canvas.store import Level, Pyramid, Record
+from engine.painting import pictures
+from engine.painting.fault import FileError, shown
+from engine.painting.imports import STACK, Opened, read_raster
+from engine.painting.limits import LIMITS, Limits
+from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack, PictureEntry, parse_manifest
+from engine.painting.packing import Tile, unpack
+from engine.painting.recording import Recording, read_from
+from engine.painting.rendering import Stop, check
+from engine.painting.stackxml import parse_stack
+from engine.painting.strictjson import FormatError, loads
+from engine.painting.value import Painting
+from engine.painting.zipguard import ZipArchive
+from engine.texture.image import ImageSource
+from engine.texture.table import from_key
+
+WORKERS = 2
+AHEAD = 4  # packs being unpacked at a time
+PIECE = 1 << 20
+LOST = "deep detail is missing: this file was saved by another program"
+CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
+NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is left out"
+
+
+def open_painting(
+    path: str | os.PathLike[str],
+    progress: Callable[[float], None] | None = None,
+    cancelled: Stop = None,
+    limits: Limits = LIMITS,
+) -> Opened:
+    """The painting in an .ora file.
+
+    A file of another program, or one of ours that another program changed or stripped, gives its pictures as layers,
+    `native` False, and says so in `notes`.  FileError, one line, if the file is none, or damaged.
+    """
+    name = os.fspath(path)
+    try:
+        if not os.path.isfile(path):
+            raise FileError(name, "a folder, expected a file" if os.path.isdir(path) else "no such file")
+        with open(path, "rb") as file:
+            archive = ZipArchive(file, name, limits)
+            return _Opening(archive, limits, progress, cancelled).run()
+    except (OSError, ValueError) as error:
+        raise FileError(name, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
+    except MemoryError as error:
+        raise FileError(name, "not enough memory to open it") from error
+
+
+class _Opening:
+    """One file being opened."""
+
+    def __init__(self, archive: ZipArchive, limits: Limits, progress, cancelled: Stop) -> None:
+        self._archive = archive
+        self._limits = limits
+        self._progress = progress
+        self._cancelled = cancelled
+        self._total = 1
+        self._done = 0
+
+    def run(self) -> Opened:
+        try:
+            manifest, note = self._manifest()
+            if manifest is not None:
+                note = self._overtaken(manifest)
+            if manifest is None or note:
+                found = read_raster(self._archive, self._limits, self._progress, self._cancelled)
+                return replace(found, notes=(*((note,) if note else ()), *found.notes))
+            return self._native(manifest)
+        except (FormatError, LayerError) as error:
+            raise FileError(self._archive.name, f"{MANIFEST}: {error}") from error
+
+    # ---- whose file it is ----
+
+    def _manifest(self) -> tuple[Manifest | None, str]:
+        """The manifest, or None and what to say about that."""
+        if MANIFEST not in self._archive:
+            image = parse_stack(self._archive.read(STACK, self._limits.xml), self._archive.name, self._limits)
+            ours = bool(image.ours) or any(entry.ours for entry in image.root.layers())
+            return None, LOST if ours else ""
+        value = loads(self._archive.read(MANIFEST, self._limits.json), cap=self._limits.json)
+        version = value.get("inkfall") if isinstance(value, dict) else None
+        if type(version) is int and version > FORMAT:
+            return None, NEWER
+        return parse_manifest(value), ""
+
+    def _overtaken(self, manifest: Manifest) -> str:
+        """What another program changed or left out, or nothing.
+
+        A member that differs from the manifest but is whole, as its own checksum tells, was put there on purpose.
+        """
+        needed = [name for name in manifest.members if name.startswith("inkfall/")]
+        if any(name not in self._archive for name in needed):
+            return LOST
+        for name, (size, sha) in manifest.members.items():
+            if name.startswith(("mergedimage", "Thumbnails")):
+                continue  # nothing is read from these
+            if name not in self._archive or self._archive.members[name].size != size:
+                return CHANGED.format(what=shown(name))
+            if not name.endswith(".tiles") and self._sum(name) != sha:
+                return CHANGED.format(what=shown(name))
+        return ""
+
+    def _sum(self, name: str) -> str:
+        digest = hashlib.sha256()
+        stream = self._archive.open(name)
+        while piece := stream.read(PIECE):
+            check(self._cancelled)
+            digest.update(piece)
+        stream.finish()
+        return digest.hexdigest()
+
+    # ---- our own ----
+
+    def _native(self, manifest: Manifest) -> Opened:
+        packs = [p for group in manifest.packs.values() for p in group]
+        packs += [p for entry in manifest.pictures.values() for p in entry.packs]
+        self._total = sum(p.plain for p in packs) + 1
+        if self._total > memory_cap():
+            raise FileError(self._archive.name, f"its paint takes {self._total >> 20} MB, more than this machine has")
+        sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
+        root = manifest.root
+        for layer in list(layers.layers(root)):
+            pyramid = self._pyramid(manifest.packs[layer.id], manifest, sources)
+            root = layers.with_pyramid(root, layer.name, pyramid)
+        textures = manifest.textures_with(sources)
+        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
+        return Opened(painting, native=True, recording=self._recording(), pictures=Map(sources))
+
+    def _pyramid(self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]) -> Pyramid:
+        levels: dict[int, dict[tuple[int, int], Record]] = {}
+        for key, record in self._tiles(packs, manifest, sources):
+            level = levels.setdefault(key.level, {})
+            if (key.x, key.y) in level:
+                raise FileError(self._archive.name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
+            level[key.x, key.y] = record
+        stored: dict[int, Level] = {level: Map(tiles) for level, tiles in levels.items()}
+        return Pyramid(Map(stored))
+
+    def _picture(self, entry: PictureEntry, manifest: Manifest) -> ImageSource:
+        parts = list(self._tiles(entry.packs, manifest, {}))
+        return pictures.assembled(entry.name, entry.sha, entry.size, parts, self._archive.name)
+
+    def _tiles(self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]) -> Iterator[Tile]:
+        """All tiles of some packs; the file is read here, unpacking goes on beside."""
+        waiting: deque[tuple[Pack, Future]] = deque()
+        with ThreadPoolExecutor(WORKERS, "open") as pool:
+            try:
+                for pack in packs:
+                    check(self._cancelled)
+                    waiting.append((pack, pool.submit(self._unpack, pack, self._stored(pack, manifest), sources)))
+                    if len(waiting) > AHEAD:
+                        yield from self._next(waiting)
+                while waiting:
+                    yield from self._next(waiting)
+            finally:
+                for _, future in waiting:
+                    future.cancel()
+
+    def _next(self, waiting: deque) -> list[Tile]:
+        pack, future = waiting.popleft()
+        tiles = future.result()
+        self._done += pack.plain
+        if self._progress is not None:
+            self._progress(self._done / self._total)
+        return tiles
+
+    def _stored(self, pack: Pack, manifest: Manifest) -> tuple[bytes, str]:
+        size, sha = manifest.members.get(pack.member, (-1, ""))
+        if size < 0:
+            raise FileError(self._archive.name, f"{MANIFEST}: {shown(pack.member)} is not among the members")
+        return self._archive.read(pack.member, size), sha
+
+    def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Tile]:
+        data, sha = stored
+        where = f"{self._archive.name}: member {shown(pack.member)}"
+        if hashlib.sha256(data).hexdigest() != sha:
+            raise FileError(where, "its bytes are not those that the manifest names")
+        return unpack(data, where, lambda key: from_key(key, sources), (pack.tiles, pack.plain))
+
+    def _recording(self) -> Recording | None:
+        if RECORDING not in self._archive:
+            return None
+        stream = io.BufferedReader(self._archive.open(RECORDING), PIECE)
+        return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent)
+
+
+def memory_cap() -> int:
+    """Bytes that a painting's tiles may take: three quarters of the machine's memory."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 * 3
+    except (ValueError, OSError, AttributeError):
+        return 6 << 30

@@ -1,0 +1,75 @@
+"""The pictures that inks and textures refer to, as members of a painting's file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from engine.canvas import layers
+from engine.canvas.store import Record
+from engine.numeric.address import Rect, TileKey
+from engine.numeric.grid import Q
+from engine.painting import packing
+from engine.painting.fault import FileError
+from engine.painting.value import Painting
+from engine.texture.image import ImageSource
+from engine.texture.record import Instance
+
+
+def sources(painting: Painting) -> dict[str, ImageSource]:
+    """All pictures that a painting needs, by their sha, in the order of it."""
+    found: dict[str, ImageSource] = {}
+    for texture in painting.textures.values():
+        _collect(texture.source, found)
+    inks: set[Instance] = set()
+    for layer in layers.layers(painting.root):
+        for _, record in layer.pyramid.all_records():
+            inks.update(record.inks)
+    for ink in inks:
+        _collect(getattr(ink, "source", None), found)
+    return dict(sorted(found.items()))
+
+
+def _collect(source: Any, found: dict[str, ImageSource]) -> None:
+    if isinstance(source, ImageSource) and source.data is not None:
+        found[source.sha] = source
+
+
+def tiles(source: ImageSource) -> list[packing.Tile]:
+    """A picture on the grid, cut into tiles of whole numbers; ValueError if it does not lie on the grid."""
+    assert source.data is not None
+    steps = np.rint(source.data / np.float32(Q))
+    if not (np.array_equal(steps * np.float32(Q), source.data) and np.abs(steps).max() <= packing.RESIDUAL_CAP):
+        raise ValueError(f"picture {source.name!r}: values off the grid of 2^-16")
+    return [
+        (key, Record(Rect(0, 0, place.width, place.height), _cut(steps, place), (), 0))
+        for key, place in _places(source.width, source.height)
+    ]
+
+
+def _places(width: int, height: int) -> Iterator[tuple[TileKey, Rect]]:
+    whole = Rect(0, 0, width, height)
+    for key in whole.tiles(0):
+        yield key, key.rect.intersect(whole)
+
+
+def _cut(steps: np.ndarray, place: Rect) -> np.ndarray:
+    return np.ascontiguousarray(steps[:, place.y0 : place.y1, place.x0 : place.x1], np.int32)
+
+
+def assembled(name: str, sha: str, size: tuple[int, int], parts: list[packing.Tile], where: str) -> ImageSource:
+    """The picture of `size` (width, height) again; FileError if its tiles do not cover exactly that."""
+    width, height = size
+    data = np.empty((4, height, width), np.float32)
+    left = dict(_places(width, height))
+    for key, record in parts:
+        place = left.pop(key, None)
+        if place is None or record.data.shape != (4, place.height, place.width):
+            raise FileError(where, f"picture {sha[:12]}: a tile at {key.x}, {key.y} does not fit {width} x {height}")
+        data[:, place.y0 : place.y1, place.x0 : place.x1] = record.data * np.float32(Q)
+    if left:
+        raise FileError(where, f"picture {sha[:12]}: {len(left)} tiles are missing")
+    # Its members' checksums were compared; the name is kept whatever the pixels hash to.
+    return ImageSource(name, sha, data)

@@ -1,0 +1,101 @@
+"""Pictures of any size from a painting, strip by strip, in bounded memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from engine.canvas import layers
+from engine.canvas.composite import Read, composite
+from engine.canvas.evaluate import evaluate_sparse
+from engine.canvas.fold import fold
+from engine.canvas.layers import Group, Layer
+from engine.canvas.store import Pyramid
+from engine.numeric.address import Rect
+from engine.painting.fault import Cancelled
+
+STRIP = 1 << 22  # pixels of a strip, about
+ROWS = 256
+COLUMNS = 1024  # of the pieces in which layers are evaluated
+HELD = 64  # layers for which a piece has that size; for more it is narrower
+
+Stop = Callable[[], bool] | None
+
+
+def folded(root: Group) -> Group:
+    """The same tree with nothing pending, so that no strip settles it anew."""
+    for layer in list(layers.layers(root)):
+        settled = fold(layer.pyramid)
+        if settled.levels != layer.pyramid.levels:
+            root = layers.with_pyramid(root, layer.name, settled)
+    return root
+
+
+def bands(rect: Rect) -> Iterator[Rect]:
+    """The rectangle in strips of whole rows, from the top."""
+    rows = max(16, min(ROWS, STRIP // max(1, rect.width)))
+    for y in range(rect.y0, rect.y1, rows):
+        yield Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1))
+
+
+def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Iterator[np.ndarray]:
+    """The composited picture of `rect` from the top: float32 (4, n, w) premultiplied, clamped for display; the same
+    array every time.  Cancelled is raised between pieces."""
+    count = sum(1 for _ in layers.layers(root))
+    columns = max(128, COLUMNS * HELD // max(HELD, count))
+    out: np.ndarray | None = None
+    for band in bands(rect):
+        if out is None:
+            out = np.empty((4, band.height, band.width), np.float32)
+        strip = out[:, : band.height]
+        for x in range(band.x0, band.x1, columns):
+            check(cancelled)
+            piece = Rect(x, band.y0, min(x + columns, band.x1), band.y1)
+            rows, across = piece.slices(band)
+            strip[:, rows, across] = composite(root, level, piece, _reader(piece))
+        yield strip
+
+
+def layer_strips(pyramid: Pyramid, level: int, rect: Rect, cancelled: Stop = None) -> Iterator[np.ndarray | None]:
+    """One layer's own pixels of `rect` from the top: float32 (4, n, w) or None where it is empty; one for each of
+    `bands(rect)`."""
+    for band in bands(rect):
+        check(cancelled)
+        found = evaluate_sparse(pyramid, level, band, None)
+        yield None if found is None else found.rgba
+
+
+def check(cancelled: Stop) -> None:
+    """Raises Cancelled if the one who asked says so."""
+    if cancelled is not None and cancelled():
+        raise Cancelled
+
+
+def _reader(piece: Rect) -> Read:
+    """Evaluates each layer once for the whole piece, and hands out its blocks."""
+    known: dict[int, np.ndarray | None] = {}
+
+    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        if layer.id not in known:
+            found = evaluate_sparse(layer.pyramid, level, piece, None)
+            known[layer.id] = None if found is None else found.rgba
+        planes = known[layer.id]
+        if planes is None:
+            return None
+        rows, columns = rect.slices(piece)
+        return planes[:, rows, columns]
+
+    return read
+
+
+def reach(pyramid: Pyramid, level: int, frame: Rect) -> Rect:
+    """A rectangle of `level` within `frame` outside which a layer is empty there."""
+    whole = Rect(0, 0, 0, 0)
+    for key, record in pyramid.all_records():
+        x, y, r = key.rect.x0, key.rect.y0, record.rect
+        placed = Rect(x + r.x0, y + r.y0, x + r.x1, y + r.y1)
+        # What lies on a coarser level spreads by less than two of its pixels when it is expanded.
+        spread = placed.grown(2) if key.level < level else placed
+        whole = whole.union(spread.zoomed(level - key.level).intersect(frame))
+    return whole
