@@ -1,18 +1,33 @@
-"""Where a command writes: checked before the work begins, so that nobody waits for nothing."""
+"""What commands read and where they write: checked before the work begins, so that nobody waits for nothing."""
 
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.cli.arguments import Rectangle
 from app.cli.outcome import Failed, Refused
+from app.cli.progress import Progress
 
 if TYPE_CHECKING:
+    from engine.numeric.address import Rect
     from engine.painting.export import Picture
+    from engine.painting.imports import Opened
     from engine.painting.value import Painting
+
+
+def opened(path: str, tell: bool = True) -> Opened:
+    """The painting in an .ora; what was lost or replaced on the way is told on standard error."""
+    from engine.painting.opening import open_painting
+
+    with Progress("opening", 100) as progress:
+        found = open_painting(path, progress.part)
+    for note in found.notes if tell else ():
+        print(f"inkfall: {path}: {note}", file=sys.stderr)
+    return found
 
 
 def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
@@ -29,13 +44,19 @@ def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
     return ending
 
 
+def rect_of(at: Rectangle) -> tuple[int, Rect]:
+    """The level, and the rectangle in its pixels."""
+    from engine.numeric.address import Rect
+
+    return at.level, Rect.at(at.x, at.y, at.width, at.height)
+
+
 def picture_of(painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8) -> Picture:
     """A rectangle of a painting, or its frame, as a picture to export."""
-    from engine.numeric.address import Rect
     from engine.painting.export import SIDE, Picture
 
     if at is None:
         return Picture(painting, layer=layer, depth=depth)
     if max(at.width, at.height) > SIDE:
         raise Refused(f"--rect: found {at.width} x {at.height} pixels, expected at most {SIDE} each way")
-    return Picture(painting, at.level, Rect.at(at.x, at.y, at.width, at.height), layer, depth)
+    return Picture(painting, *rect_of(at), layer, depth)

@@ -1,0 +1,149 @@
+"""Tell what a painting holds: layers, ink instances, levels used, bytes, bounds."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from typing import TYPE_CHECKING, Any
+
+from app.cli.outcome import DONE
+from app.cli.output import opened
+
+if TYPE_CHECKING:
+    from engine.canvas.layers import Group, Node
+    from engine.canvas.store import Pyramid
+    from engine.numeric.address import Rect
+    from engine.painting.imports import Opened
+
+WIDE = 2048  # pixels: how finely bounds are found
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("painting", metavar="PAINTING.ora")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(options: argparse.Namespace) -> int:
+    told = facts(opened(options.painting, tell=not options.json))
+    told = {"file": options.painting, "file_bytes": os.path.getsize(options.painting), **told}
+    if options.json:
+        print(json.dumps(told))
+    else:
+        _print(told)
+    return DONE
+
+
+def facts(found: Opened) -> dict[str, Any]:
+    """What there is to know of a painting, ready for JSON."""
+    from engine.canvas import layers
+
+    painting, frame = found.painting, found.painting.frame
+    rows = [_row(painting.root, node) for node in layers.walk(painting.root)]
+    records = [record for sheet in layers.layers(painting.root) for _, record in sheet.pyramid.all_records()]
+    inks = sorted({ink.key for record in records for ink in record.inks}, key=str)
+    levels = sorted({level for sheet in layers.layers(painting.root) for level in sheet.pyramid.levels})
+    return {
+        "native": found.native,
+        "frame": [frame.x0, frame.y0, frame.width, frame.height],
+        "seed": painting.seed,
+        "active": painting.active,
+        "layers": rows,
+        "inks": [list(key) for key in inks],
+        "levels": levels,
+        "bytes": sum(record.nbytes for record in records),
+        "textures": {name: texture.kind for name, texture in sorted(painting.textures.items())},
+        "commands": None if found.recording is None else len(found.recording.commands),
+        "notes": list(found.notes),
+    }
+
+
+def _row(root: Group, node: Node) -> dict[str, Any]:
+    from engine.canvas import layers
+
+    row: dict[str, Any] = {
+        "name": node.name,
+        "kind": "group" if isinstance(node, layers.Group) else "layer",
+        "group": layers.place(root, node.name)[0],
+        "opacity": node.opacity,
+        "visible": node.visible,
+        "blend": node.blend,
+        "locked": node.locked,
+    }
+    if isinstance(node, layers.Layer):
+        pyramid = node.pyramid
+        row |= {
+            "alpha_locked": node.alpha_locked,
+            "levels": sorted(pyramid.levels),
+            "tiles": sum(len(stored) for stored in pyramid.levels.values()),
+            "bytes": pyramid.nbytes,
+            "bounds": bounds(pyramid),
+        }
+    return row
+
+
+def bounds(pyramid: Pyramid) -> list[int] | None:
+    """[L, X, Y, W, H]: the smallest rectangle that holds all paint, to a pixel of L, the finest level at which it is no
+    more than WIDE pixels wide and high; None if there is no paint.
+
+    What is stored reaches far beyond the paint at coarse levels, so it is searched from the coarsest on.
+    """
+    level = pyramid.finest
+    if level is None:
+        return None
+    finest, rect = level, pyramid.bounds(level)
+    while max(rect.width, rect.height) > WIDE:
+        level -= 1
+        rect = pyramid.bounds(level)
+    found = _painted(pyramid, level, rect.grown(2))
+    while found is not None and level < finest and max(found.width, found.height) <= WIDE // 2:
+        finer = _painted(pyramid, level + 1, found.zoomed(1).grown(2))
+        if finer is None:
+            break
+        level, found = level + 1, finer
+    return None if found is None else [level, found.x0, found.y0, found.width, found.height]
+
+
+def _painted(pyramid: Pyramid, level: int, rect: Rect) -> Rect | None:
+    """The smallest rectangle of the pixels in `rect` that are not empty."""
+    import numpy as np
+
+    from engine.canvas.evaluate import evaluate
+    from engine.numeric.address import Rect
+
+    planes = evaluate(pyramid, level, rect).rgba
+    rows, columns = np.flatnonzero(planes.any(axis=(0, 2))), np.flatnonzero(planes.any(axis=(0, 1)))
+    if not len(rows):
+        return None
+    return Rect(
+        rect.x0 + int(columns[0]), rect.y0 + int(rows[0]), rect.x0 + int(columns[-1]) + 1, rect.y0 + int(rows[-1]) + 1
+    )
+
+
+def _print(told: dict[str, Any]) -> None:
+    frame = told["frame"]
+    print(f"{told['file']}: {told['file_bytes']:,} bytes, frame {frame[2]} x {frame[3]} at {frame[0]}, {frame[1]}")
+    levels = told["levels"]
+    span = f"{levels[0]} to {levels[-1]}" if levels else "none"
+    print(f"levels {span}; {told['bytes']:,} bytes of paint in memory; seed {told['seed']}")
+    print("layers, from the top:")
+    for row in reversed(told["layers"]):
+        print("  " + _line(row))
+    for key in told["inks"]:
+        print(f"ink: {key[0]}, base level {key[1]}, {', '.join(map(str, key[2:])) or 'no parameters'}")
+    for name, kind in told["textures"].items():
+        print(f"texture: {name}, {kind}")
+    if told["commands"] is not None:
+        print(f"recording: {told['commands']} commands")
+
+
+def _line(row: dict[str, Any]) -> str:
+    marks = [mark for mark, on in (("hidden", not row["visible"]), ("locked", row["locked"])) if on]
+    parts = [f"{row['kind']} {row['name']!r}", f"{row['blend']} {row['opacity']:g}", *marks]
+    if row["group"] is not None:
+        parts.insert(1, f"in {row['group']!r}")
+    if row["kind"] == "layer":
+        at = row["bounds"]
+        parts.append(f"{row['tiles']} tiles, {row['bytes']:,} bytes")
+        parts.append("empty" if at is None else f"{at[3]} x {at[4]} at {at[1]}, {at[2]} of level {at[0]}")
+    return "; ".join(parts)
