@@ -30,12 +30,12 @@ class Step:
 
 
 class History:
-    """The steps done and the steps undone.  `bytes_cap`, `steps_cap`: None for no limit."""
+    """The steps done and the steps undone.  `bytes_cap`: None for no limit; `keep`: steps never forgotten."""
 
-    def __init__(self, bytes_cap: int | None = None, steps_cap: int | None = None) -> None:
+    def __init__(self, bytes_cap: int | None = None, keep: int = 1) -> None:
         self._done: deque[Step] = deque()
         self._undone: list[Step] = []
-        self._bytes_cap, self._steps_cap = bytes_cap, steps_cap
+        self._bytes_cap, self._keep = bytes_cap, keep
         self.held = 0  # bytes
 
     @property
@@ -70,10 +70,8 @@ class History:
         return step.after
 
     def _forget(self) -> None:
-        """Drops the oldest steps beyond the limits; the last one stays, whatever it holds."""
-        while self._done and self._steps_cap is not None and len(self._done) > self._steps_cap:
-            self.held -= self._done.popleft().lost + STEP_OVERHEAD
-        while len(self._done) > 1 and self._bytes_cap is not None and self.held > self._bytes_cap:
+        """Drops the oldest steps beyond the limit."""
+        while len(self._done) > self._keep and self._bytes_cap is not None and self.held > self._bytes_cap:
             self.held -= self._done.popleft().lost + STEP_OVERHEAD
 
 

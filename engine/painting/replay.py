@@ -9,14 +9,19 @@ from engine.painting.fault import FileError
 from engine.painting.history import History
 from engine.painting.painting import STEPS, Painting, Refusal
 from engine.painting.recording import Recording, undo_reach
-from engine.painting.session import Session
+from engine.painting.session import HISTORY_BYTES, Session
 
 
-def opened(recording: Recording, cache: TileCache | None = None, seed: int | None = None) -> Session:
-    """A session as the recording's header describes it, nothing done yet.  Undo remembers what the recording needs."""
+def opened(
+    recording: Recording, cache: TileCache | None = None, seed: int | None = None, history_bytes: int = HISTORY_BYTES
+) -> Session:
+    """A session as the recording's header describes it, nothing done yet.
+
+    However few `history_bytes` are, undo remembers as many steps as the recording takes back.
+    """
     header = recording.header
     painting = Painting(header.frame, header.seed if seed is None else seed)
-    history = History(steps_cap=undo_reach(recording.commands, STEPS))
+    history = History(history_bytes, undo_reach(recording.commands, STEPS))
     return Session(painting, cache, folder=recording.folder, history=history, extra=header.extra)
 
 
@@ -30,7 +35,7 @@ def replay(
 
     FileError names the line of a command that cannot be done.
     """
-    session = opened(recording, cache, seed)
+    session = opened(recording, cache, seed, history_bytes=0)
     for i, command in enumerate(recording.commands):
         try:
             session.do(command)

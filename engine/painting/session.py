@@ -31,7 +31,7 @@ class Session:
     """One painting being worked on.  Not for several threads at once; the paintings it hands out are.
 
     `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
-    `steps_cap`: how many steps undo remembers (None: as many as fit `history_bytes`).
+    `extra`: members of the recording's header that this version does not know.
     """
 
     def __init__(

@@ -12,8 +12,10 @@ from engine.canvas.evaluate import TileCache, evaluate, evaluate_sparse
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
+from engine.painting.archive import Snapshot, save
 from engine.painting.fault import FileError
 from engine.painting.history import STEP_OVERHEAD, History, difference
+from engine.painting.opening import open_painting
 from engine.painting.painting import Painting, Refusal
 from engine.painting.replay import replay
 from engine.painting.session import Session
@@ -276,6 +278,24 @@ def test_a_replay_remembers_only_as_many_steps_as_it_needs():
     session = replay(r.Recording(r.Header(FRAME, 7), tuple(commands)))
     assert session.history.undo_count <= 2
     assert_same(session.painting, done(fresh(), commands).painting)
+
+
+def test_a_painting_saved_and_reopened_on_the_way_goes_on_alike(tmp_path):
+    commands = [
+        stroke(**ROCK),
+        c.AddLayer("B"),
+        stroke(2, at=(20, 28)),
+        stroke(-1, opacity=0.5),
+        stroke(3, mode="erase"),
+    ]
+    straight = done(fresh(), [TEXTURE, *commands])
+    for cut in range(1, len(commands)):
+        first = done(fresh(), [TEXTURE, *commands[:cut]])
+        save(tmp_path / "a.ora", Snapshot(first.painting, first.recording()))
+        found = open_painting(tmp_path / "a.ora")
+        second = done(Session(found.painting, log=found.recording.commands), commands[cut:])
+        assert_same(straight.painting, second.painting)
+        assert second.log == straight.log
 
 
 def test_another_seed_is_another_rock_and_nothing_else():
