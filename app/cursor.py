@@ -1,4 +1,7 @@
-"""The pointer over the canvas: the brush's circle at its true size, drawn light and dark to show on any colour."""
+"""What is drawn over the canvas: the edge of the frame, and the brush's circle at its true size.
+
+Both are drawn light and dark, to show on any colour.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,17 @@ def shape(desk: Desk, panning: bool) -> int:
     if panning:
         return int(glfw.RESIZE_ALL_CURSOR)
     return int(_SHAPES.get(desk.tool, glfw.CROSSHAIR_CURSOR))
+
+
+def draw_frame(desk: Desk) -> None:
+    """The frame's edge, so that it shows under paint that goes beyond it."""
+    r, view = desk.frame, desk.view
+    corners = [view.pixel_to_screen(0, x, y) for x, y in ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))]
+    painter = imgui.get_background_draw_list()
+    far = 4.0 * (view.width + view.height)
+    points = [ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in corners]
+    for width, colour in ((1.8 * desk.scale, theme.packed((0.0,) * 3, 0.25)), (1.0, theme.packed((1.0,) * 3, 0.35))):
+        painter.add_quad(*points, colour, width)
 
 
 def draw_outline(desk: Desk) -> None:

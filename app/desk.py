@@ -118,11 +118,11 @@ class Desk:
         self.glide.stop()
         self.view = fitted(self.frame, self.free_area(), self.view.width, self.view.height)
 
-    def look_at(self, place: Place, zoom: float) -> None:
-        """Puts a place into the middle at a real zoom level."""
+    def look_at(self, place: Place, zoom: float, seconds: float = 0.0) -> None:
+        """Brings a place into the middle at a real zoom level, in some seconds."""
         level = int(zoom // 1)
-        self.glide.stop()
-        self.view = replace(self.view, level=level, fraction=zoom - level).held(place, *self.middle())
+        there = replace(self.view, level=level, fraction=zoom - level).held(place, *self.middle())
+        self.view = self.glide.fly(self.view, there, seconds)
 
     def resize_brush(self, factor: float) -> None:
         radius = max(SMALLEST, min(LARGEST, self.brush.radius * factor))

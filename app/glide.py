@@ -17,6 +17,7 @@ class Glide:
     def __init__(self) -> None:
         self._target: tuple[int, float] | None = None
         self._anchor: tuple[Place, float, float] | None = None
+        self._left = 0.0  # seconds that a flight still takes
 
     @property
     def moving(self) -> bool:
@@ -36,9 +37,30 @@ class Glide:
         self.zoom(view, distance(view, level, fraction), x, y)
         self._target = level, fraction
 
+    def fly(self, view: View, there: View, seconds: float) -> View:
+        """Goes to the view `there` in a time; the view to begin with.  Both have the same size, angle and side.
+
+        The one place that both show at the same point of the screen is held.  Where there is none near, the way is
+        a jump.
+        """
+        self.stop()
+        ratio = 2.0 ** max(-60.0, min(60.0, -distance(view, there.level, there.fraction)))
+        if abs(1 - ratio) < 0.02 or seconds <= 0:
+            return there
+        x, y = view.to_screen(there.centre)
+        mx, my = view.width / 2, view.height / 2
+        x, y = mx + (x - mx) / (1 - ratio), my + (y - my) / (1 - ratio)
+        if math.hypot(x - mx, y - my) > 1e7:
+            return there
+        self._anchor = there.to_canvas(x, y), x, y
+        self._target = there.level, there.fraction
+        self._left = seconds
+        return view
+
     def stop(self) -> None:
         """The view is moved by something else: the place under the pointer is no longer the one held."""
         self._target = self._anchor = None
+        self._left = 0.0
 
     def step(self, view: View, seconds: float) -> View:
         """The view `seconds` later."""
@@ -46,8 +68,11 @@ class Glide:
             return view
         level, fraction = self._target
         rest = distance(view, level, fraction)
-        if abs(rest) < NEAR:
-            view, self._target = replace(view, level=level, fraction=fraction), None
+        if self._left > seconds:
+            view = view.zoomed(rest * seconds / self._left)
+            self._left -= seconds
+        elif abs(rest) < NEAR or self._left > 0:
+            view, self._target, self._left = replace(view, level=level, fraction=fraction), None, 0.0
         else:
             view = view.zoomed(rest * (1 - math.exp(-seconds / PACE)))
         return view.held(*self._anchor)

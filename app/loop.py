@@ -150,6 +150,7 @@ class Window:
         backends.opengl3_new_frame()
         backends.glfw_new_frame()
         imgui.new_frame()
+        cursor.draw_frame(self.desk)
         cursor.draw_outline(self.desk)
         self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
         if self.news.first_layout():

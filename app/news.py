@@ -161,7 +161,7 @@ class News:
         if r.size[0] > 0 and r.size[1] > 0:
             zoom += float(np.log2(min((x1 - x0) / r.size[0], (y1 - y0) / r.size[1])))
         place = Place(x, y, int(r.level // 1) + bits)
-        self.desk.look_at(place, zoom)
+        self.desk.look_at(place, zoom, r.seconds)
 
     def _pending(self, r: q.Pending, _now: float) -> None:
         self.desk.pending, self.desk.files = r.tiles, r.files

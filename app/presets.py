@@ -12,13 +12,17 @@ from engine.brush import record
 from engine.brush.record import Brush
 
 BYTES_CAP = 1 << 20
+_GROUP_RANK = {"Basic": 0, "Own": 2}  # others lie between, by name
 
 
 @dataclass(frozen=True, slots=True)
 class Preset:
+    """A brush under a name; presets of one `group` are listed together."""
+
     name: str
     brush: Brush
     path: Path | None = None
+    group: str = "Own"
 
 
 DEFAULT = Preset("Round", Brush(radius=12.0))
@@ -42,7 +46,13 @@ def load(folder: Path) -> tuple[list[Preset], list[str]]:
             presets.append(_read(path))
         except (OSError, ValueError) as error:
             faults.append(f"{path.name}: {error}")
+    presets.sort(key=lambda p: (_GROUP_RANK.get(p.group, 1), p.group, _order(p)))
     return presets, faults
+
+
+def _order(preset: Preset) -> tuple[bool, str]:
+    """Brushes that paint first, then by name."""
+    return preset.brush.mode != "paint", preset.name
 
 
 def _read(path: Path) -> Preset:
@@ -52,8 +62,9 @@ def _read(path: Path) -> Preset:
     if not isinstance(data, dict):
         raise ValueError("found no object, expected a brush")
     name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
+    group = str(data.pop("group", "Own"))
     brush = record.from_json(data.pop("brush", data))
-    return Preset(str(name), brush, path)
+    return Preset(str(name), brush, path, group)
 
 
 def save(preset: Preset, folder: Path) -> Path:

@@ -25,7 +25,8 @@ _CURVES: tuple[tuple[str, str, Any], ...] = (
     ("soft", "Soft pen", ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0))),
     ("firm", "Firm pen", ((0.0, 0.0), (0.6, 0.25), (1.0, 1.0))),
 )
-THUMB = (104, 44)
+THUMB = (104, 44)  # of a thumbnail, points
+ACROSS = 2
 
 
 class BrushPanel:
@@ -56,26 +57,37 @@ class BrushPanel:
                 actions.perform(desk, actions.ACTIONS[name])
 
     def _presets(self, desk: Desk) -> None:
-        gap = 5 * desk.scale
-        room = imgui.get_content_region_avail().x
-        across = 2
-        wide = (room - 12 * desk.scale - gap * (across - 1)) / across
-        tall = wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 5 * desk.scale
-        lines = -(-len(desk.presets) // across)
-        imgui.begin_child("presets", ImVec2(0, min(3.5, lines) * (tall + gap)))
+        gap, em = 5 * desk.scale, imgui.get_font_size()
+        wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
+        tall = wide * THUMB[1] / THUMB[0] + em + 4 * desk.scale
+        imgui.begin_child(
+            "presets", ImVec2(0, max(6 * em, min(_height(desk.presets, tall + gap, em + gap), self._room(desk))))
+        )
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
-        for i, preset in enumerate(desk.presets):
-            if i % across:
+        group, column = "", 0
+        for preset in desk.presets:
+            if preset.group != group:
+                group, column = preset.group, 0
+                imgui.text_disabled(group)
+            if column % ACROSS:
                 imgui.same_line()
+            column += 1
             self._preset(desk, preset, wide, tall)
         imgui.pop_style_var()
         imgui.end_child()
+
+    def _room(self, desk: Desk) -> float:
+        """The height that the settings below leave free."""
+        lines = len(SETTINGS) + 5
+        return imgui.get_content_region_avail().y - lines * imgui.get_frame_height_with_spacing()
 
     def _preset(self, desk: Desk, preset: Preset, wide: float, tall: float) -> None:
         corner = imgui.get_cursor_screen_pos()
         if imgui.invisible_button(preset.name, ImVec2(wide, tall)):
             radius = desk.brush.radius
             desk.brush, desk.preset = preset.brush, preset.name
+            if preset.brush.ink:  # its colours belong together
+                desk.colour = preset.brush.rgb
             desk.tool, desk.erasing = "brush", False
             if imgui.get_io().key_shift:
                 desk.brush = replace(desk.brush, radius=radius)
@@ -149,6 +161,14 @@ class BrushPanel:
                 dynamics = desk.brush.dynamics
                 dynamics = dynamics.set(name, value) if value is not None else _without(dynamics, name)
                 desk.brush = replace(desk.brush, dynamics=dynamics)
+
+
+def _height(presets: tuple[Preset, ...], row: float, heading: float) -> float:
+    """Of all presets, `row` for each pair and `heading` for each group."""
+    groups: dict[str, int] = {}
+    for preset in presets:
+        groups[preset.group] = groups.get(preset.group, 0) + 1
+    return sum(-(-n // ACROSS) * row + heading for n in groups.values())
 
 
 def _without(curves: Any, name: str) -> Any:

@@ -33,7 +33,7 @@ class ColourPanel:
 
     def _wheel(self, desk: Desk) -> None:
         room = imgui.get_content_region_avail().x
-        side = min(room, imgui.get_font_size() * 13.5)
+        side = min(room, imgui.get_font_size() * 12.0)
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + (room - side) / 2)
         imgui.set_next_item_width(side)
         changed, value = imgui.color_picker3("##wheel", list(desk.colour), w.PICKER_FLAGS)

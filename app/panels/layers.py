@@ -76,12 +76,13 @@ class LayersPanel:
             desk.post(Do(c.SetLayer(name, opacity=round(wanted, 4))))
 
     def _list(self, desk: Desk, rows: tuple[LayerRow, ...]) -> None:
-        lines = max(4, min(9, len(rows)))
         line = imgui.get_frame_height() + 3 * desk.scale
+        room = imgui.get_content_region_avail().y - imgui.get_frame_height_with_spacing() - 2 * desk.scale
+        height = max(room, 3.3 * line)
         imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(4 * desk.scale, 3 * desk.scale))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(3 * desk.scale, 3 * desk.scale))
-        imgui.begin_child("list", ImVec2(0, line * lines + 6 * desk.scale), imgui.ChildFlags_.always_use_window_padding)
+        imgui.begin_child("list", ImVec2(0, height), imgui.ChildFlags_.always_use_window_padding)
         hidden_below: int | None = None
         for row in rows:
             if hidden_below is not None and row.depth > hidden_below:

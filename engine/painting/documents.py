@@ -19,8 +19,10 @@ from engine.painting.recording import Recording, read
 from engine.painting.session import Session
 from engine.painting.value import Painting
 
-LIVE_POINTS = 6  # of a stroke shown at a time when a recording plays
-LIVE_PAUSE = 0.012  # seconds between them
+LIVE_SECONDS = 70.0  # that the strokes of a recording take at most when it plays live
+SLOWEST = 0.004  # seconds a point: no slower than a hand
+PIECE = 0.02  # seconds of work between two looks at the screen
+FLIGHT, A_LEVEL = 0.7, 0.35  # seconds that moving the view takes, and each level of zoom
 
 
 class Stage(Protocol):
@@ -34,15 +36,28 @@ class Stage(Protocol):
 
 
 class Playing:
-    """A recording on its way: strokes grow as the pen drew them, views move the screen."""
+    """A recording on its way.  Live, strokes grow as the pen drew them and views move the screen."""
 
     def __init__(self, recording: Recording, live: bool) -> None:
         self._commands: Iterator[c.Command] = iter(recording.commands)
-        self._live = live
+        points = sum(len(command.points) for command in recording.commands if isinstance(command, c.Stroke))
+        self._pace = min(SLOWEST, LIVE_SECONDS / max(1, points)) if live else 0.0
+        self._clock = 0.0  # when, by the pace, the next point is due
         self._rest: np.ndarray | None = None
+        self._level: float | None = None
 
-    def advance(self, stage: Stage) -> bool:
-        """One piece of it; False at the end."""
+    def advance(self, stage: Stage) -> float | None:
+        """Some pieces of it; when the next is due (seconds of the monotonic clock), None at the end."""
+        now = time.monotonic()
+        self._clock = max(self._clock, now - 1.0)  # behind: hurry, but do not make up for a long wait
+        end = now + PIECE
+        while self._clock <= now < end:
+            if not self._next(stage):
+                return None
+            now = time.monotonic()
+        return max(self._clock, now)
+
+    def _next(self, stage: Stage) -> bool:
         if self._rest is not None:
             self._grow(stage)
             return True
@@ -51,22 +66,30 @@ class Playing:
             return False
         if isinstance(command, c.View):
             stage.carry_out(command)
-            stage.send(q.Looked(command.level, command.origin, command.size))
-            time.sleep(LIVE_PAUSE * 20 if self._live else 0)
-        elif isinstance(command, c.Stroke) and self._live:
+            self._look(stage, command)
+        elif isinstance(command, c.Stroke) and self._pace:
             stage.begin(command)
             self._rest = command.points
         else:
             stage.carry_out(command)
         return True
 
+    def _look(self, stage: Stage, view: c.View) -> None:
+        """The screen flies there; the next command waits for it."""
+        levels = 0.0 if self._level is None else abs(view.level - self._level)
+        seconds = FLIGHT + A_LEVEL * levels if self._pace else 0.0
+        stage.send(q.Looked(view.level, view.origin, view.size, seconds))
+        self._clock = time.monotonic() + seconds
+        self._level = view.level
+
     def _grow(self, stage: Stage) -> None:
+        """The points that are due, one at least, all that would be late."""
         assert self._rest is not None
-        stage.extend(self._rest[:LIVE_POINTS])
-        self._rest = self._rest[LIVE_POINTS:]
-        if len(self._rest):
-            time.sleep(LIVE_PAUSE)
-        else:
+        due = max(1, int((time.monotonic() - self._clock + PIECE) / self._pace))
+        stage.extend(self._rest[:due])
+        self._clock += self._pace * min(due, len(self._rest))
+        self._rest = self._rest[due:]
+        if not len(self._rest):
             self._rest = None
             stage.finish()
 

@@ -44,6 +44,7 @@ class Easel:
         self.path: Path | None = None
         self.live: LiveStroke | None = None
         self.revision = 0
+        self.due: float | None = None  # when a recording that plays goes on
         self._serial = 0
         self._saved: Painting | None = self.session.painting
         self._changes: deque[tuple[int, Areas]] = deque(maxlen=STEPS_KEPT)
@@ -83,16 +84,14 @@ class Easel:
 
     @property
     def pending(self) -> int:
-        return len(self._open) + (not self._dirty.empty) + (self._script is not None)
+        return len(self._open) + (not self._dirty.empty)
 
     def step(self) -> bool:
-        """The most urgent piece of open work: what the pen just painted, then tiles, then a recording that plays."""
+        """The most urgent piece of open work: what the pen just painted, then tiles."""
         if not self._dirty.empty:
             self._send_dirty()
         elif self._open:
             self._bring_up_to_date(self._open.popleft())
-        elif self._script is not None:
-            self._play_on()
         else:
             return False
         return True
@@ -109,7 +108,7 @@ class Easel:
 
     def show(self, session: Session, path: Path | None) -> None:
         """Another painting is on the easel."""
-        self.live, self._script, self._known = None, None, True
+        self.live, self._script, self.due, self._known = None, None, None, True
         self.session, self.path = session, path
         self._saved = session.painting
         self._serial += 1
@@ -281,15 +280,17 @@ class Easel:
         found = documents.opened(request.path, request.live)
         self.show(found.session, found.path)
         self._known, self._script = found.known, found.script
+        self.due = None if found.script is None else 0.0
         if found.script is not None:
             self.send(q.Note(f"Playing {request.path.name}"))
         elif found.notes:
             self.send(q.Note(f"{request.path.name}: {found.notes[0]}", bad=True))
 
-    def _play_on(self) -> None:
+    def play(self) -> None:
         """The next piece of a recording that plays."""
         assert self._script is not None
-        if not self._script.advance(self):
+        self.due = self._script.advance(self)
+        if self.due is None:
             self._script = None
             self._saved = None if self.session.log else self.session.painting
             self._tell()

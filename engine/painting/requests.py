@@ -212,11 +212,12 @@ class Picked:
 
 @dataclass(frozen=True, slots=True)
 class Looked:
-    """Where a recording that plays looked: level, origin, size of its view command."""
+    """Where a recording that plays looked: level, origin, size of its view command; `seconds` to go there."""
 
     level: float
     origin: tuple[float, float]
     size: tuple[float, float]
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

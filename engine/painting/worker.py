@@ -8,6 +8,7 @@ so that anything newer is seen after at most one tile.
 from __future__ import annotations
 
 import threading
+import time
 from collections import deque
 from collections.abc import Callable
 from typing import Protocol
@@ -31,7 +32,13 @@ class Bench(Protocol):
         ...
 
     @property
-    def pending(self) -> int: ...
+    def pending(self) -> int:
+        """Pieces of open work."""
+        ...
+
+    due: float | None  # when `play` is to be called next, by the monotonic clock; None when nothing plays
+
+    def play(self) -> None: ...
 
     def close(self) -> None: ...
 
@@ -106,7 +113,10 @@ class Worker:
                 if self._swatches:
                     swatch = self._swatches.pop(next(iter(self._swatches)))
                     return lambda: bench.do(swatch)
-                self._signal.wait()
+                now = time.monotonic()
+                if bench.due is not None and bench.due <= now:
+                    return bench.play
+                self._signal.wait(None if bench.due is None else bench.due - now)
 
     def _run(self) -> None:
         try:
