@@ -10,8 +10,9 @@ from __future__ import annotations
 import os
 import tempfile
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -84,10 +85,11 @@ def save(
             writer = ZipWriter(file)
             writer.add("mimetype", MIMETYPE)
             jobs = plan.jobs
-            for number, (job, product) in enumerate(_made(jobs, cancelled)):
-                _add(writer, job, product)
-                if progress is not None:
-                    progress((number + 1) / (len(jobs) + 1))
+            with closing(_made(jobs, cancelled)) as made:
+                for number, (job, product) in enumerate(made):
+                    _add(writer, job, product)
+                    if progress is not None:
+                        progress((number + 1) / (len(jobs) + 1))
             plan.finish(writer)
             writer.close()
     except MemoryError as error:
@@ -96,27 +98,38 @@ def save(
         progress(1.0)
 
 
-def _made(jobs: list[Job], cancelled: Stop) -> Iterator[tuple[Job, bytes | IO[bytes]]]:
+def _made(jobs: list[Job], cancelled: Stop) -> Generator[tuple[Job, bytes | IO[bytes]], None, None]:
     """The jobs in their order, each with what it made; a few are worked on ahead."""
-    with ThreadPoolExecutor(WORKERS, "save") as pool:
-        waiting: deque[tuple[Job, Future]] = deque()
-        todo = iter(jobs)
-        try:
-            for job in todo:
-                waiting.append((job, pool.submit(job.make)))
-                if len(waiting) >= WAITING:
+    waiting: deque[tuple[Job, Future]] = deque()
+    try:
+        with ThreadPoolExecutor(WORKERS, "save") as pool:
+            try:
+                for job in jobs:
+                    waiting.append((job, pool.submit(job.make)))
+                    if len(waiting) >= WAITING:
+                        yield _next(waiting, cancelled)
+                while waiting:
                     yield _next(waiting, cancelled)
-            while waiting:
-                yield _next(waiting, cancelled)
-        finally:
-            for _, future in waiting:
-                future.cancel()
+            finally:
+                for _, future in waiting:
+                    future.cancel()
+    finally:
+        for _, future in waiting:
+            _discard(future)
+
+
+def _discard(future: Future) -> None:
+    """Closes what a job made that nobody wants any more."""
+    if not future.cancelled() and future.exception() is None and not isinstance(future.result(), bytes):
+        future.result().close()
 
 
 def _next(waiting: deque, cancelled: Stop) -> tuple[Job, bytes | IO[bytes]]:
-    job, future = waiting.popleft()
     check(cancelled)
-    return job, future.result()
+    job, future = waiting[0]
+    product = future.result()
+    waiting.popleft()
+    return job, product
 
 
 def _add(writer: ZipWriter, job: Job, product: bytes | IO[bytes]) -> None:
@@ -272,10 +285,14 @@ def shown_level(frame: Rect) -> int:
 def _png(place: Rect, strips_of: Iterator[np.ndarray | None]) -> IO[bytes]:
     """A PNG of 8-bit rows, one array for each of `bands(place)`, None for empty ones."""
     file = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115  # closed by the one who writes it on
-    writer = PngWriter(file, place.width, place.height)  # type: ignore[arg-type]
-    for band, pixels in zip(bands(place), strips_of, strict=False):
-        writer.rows(np.zeros((band.height, band.width, 4), np.uint8) if pixels is None else pixels)
-    writer.close()
+    try:
+        writer = PngWriter(file, place.width, place.height)  # type: ignore[arg-type]
+        for band, pixels in zip(bands(place), strips_of, strict=False):
+            writer.rows(np.zeros((band.height, band.width, 4), np.uint8) if pixels is None else pixels)
+        writer.close()
+    except BaseException:
+        file.close()
+        raise
     return file
 
 

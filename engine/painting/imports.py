@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -32,6 +32,7 @@ from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
 
 STACK = "stack.xml"
+NOTES = 20
 PIXELS = 1 << 24  # of a band of rows that is laid down at once
 # Names that programs give to modes of ours.
 ALIASES = {"svg:add": "plus", "krita:pass": "src-over"}
@@ -159,7 +160,12 @@ class _Import:
             raise FileError(self._archive.name, f"stack.xml: {error}") from error
         frame = Rect(0, 0, self._image.width, self._image.height)
         top = next((layer.name for layer in reversed(list(layers.layers(root)))), None)
-        return Opened(Painting(frame, 0, root, self._selected or top), tuple(self._notes))
+        return Opened(Painting(frame, 0, root, self._selected or top), self._told())
+
+    def _told(self) -> tuple[str, ...]:
+        """The notes, of which nobody reads more than some."""
+        more = len(self._notes) - NOTES
+        return tuple(self._notes[:NOTES]) + ((f"and {more} more like these",) if more > 0 else ())
 
     def _total(self) -> None:
         """Adds up what all layers claim, before any is decoded."""
@@ -235,8 +241,3 @@ def clean_name(name: str, fallback: str) -> str:
     """A layer's name made of what a file says: printable, without blanks around it, not too long."""
     kept = "".join(c if c.isprintable() else " " for c in name)[: layers.MAX_NAME].strip()
     return kept or fallback
-
-
-def open_raster(path: str | os.PathLike[str], file: BinaryIO, limits: Limits = LIMITS) -> Opened:
-    """As `read_raster`, from an open file."""
-    return read_raster(ZipArchive(file, os.fspath(path), limits), limits)

@@ -1,0 +1,508 @@
+"""Paintings saved and opened: equal everywhere, readable by others, and what happens when others touched the file."""
+
+import hashlib
+import io
+import json
+import threading
+import zipfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from engine.canvas import layers
+from engine.canvas.composite import composite
+from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.fold import fold
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8
+from engine.painting import archive, opening
+from engine.painting import commands as c
+from engine.painting.archive import Snapshot, save, shown_level
+from engine.painting.fault import Cancelled, FileError, WriteError
+from engine.painting.limits import LIMITS
+from engine.painting.opening import open_painting
+from engine.painting.painting import Painting
+from engine.painting.rendering import strips
+from engine.painting.session import Session
+from engine.painting.stackxml import parse_stack
+from engine.painting.zipwrite import MemberSink
+
+FRAME = Rect.at(-40, 10, 300, 200)
+LEVELS = (-7, -3, 0, 1, 4, 60)
+
+
+def stroke(x, y, level=0, **more):
+    brush = {"radius": 30, "colour": "#c04020", "hardness": 0.5, **more}
+    return {"do": "stroke", "level": level, "origin": [x, y], "points": [[0, 0], [40, 25, 0.7]], "brush": brush}
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """A painting with every kind of thing in it."""
+    folder = tmp_path_factory.mktemp("pictures")
+    y, x = np.mgrid[0:24, 0:40]
+    pixels = np.stack([x * 6, y * 10, x * 3 + y, 255 - x * 2], axis=-1).astype(np.uint8)
+    Image.fromarray(pixels).save(folder / "leaf.png")
+    session = Session(Painting(FRAME, 11), TileCache(64 << 20), folder=folder)
+    rock = [{"texture": "rock", "amount": 0.7, "colour": "#ffffff", "period": 24}]
+    deep = 60 << 60
+    for command in (
+        stroke(0, 60),
+        {"do": "layer", "add": "ink & <stone> “ü”"},
+        stroke(60, 80, ink=rock),
+        {"do": "texture", "name": "leaf", "maker": "image", "path": "leaf.png"},
+        {"do": "texture", "name": "fine", "maker": "stripes", "period": 6, "angle": 30},
+        {"do": "layer", "add": "Group", "kind": "group", "group": None},
+        {"do": "layer", "add": "inside", "group": "Group"},
+        stroke(
+            120, 100, ink=[{"texture": "leaf", "amount": 1, "period": 20}, {"texture": "fine", "colour": "#00ff00"}]
+        ),
+        {"do": "layer", "set": "Group", "opacity": 0.6, "blend": "multiply"},
+        {"do": "layer", "add": "hidden", "group": None},
+        stroke(20, 20, colour="#0000ff"),
+        {"do": "layer", "set": "hidden", "visible": False, "locked": True},
+        {"do": "layer", "add": "deep", "group": None},
+        stroke(10, 10, level=-4, radius=9),
+        stroke(deep, -deep, level=60, ink=rock),
+        stroke(30, 40, level=3, mode="erase", radius=100),
+        {"do": "layer", "add": "empty", "group": "Group"},
+        {"do": "layer", "set": "inside", "alpha_locked": True, "blend": "screen", "opacity": 0.123456789},
+        {"do": "layer", "select": "inside"},
+        stroke(-4, 6, level=-5, radius=3),
+    ):
+        session.do(c.parse(command))
+    return session
+
+
+@pytest.fixture(scope="module")
+def saved(session, tmp_path_factory):
+    path = tmp_path_factory.mktemp("saved") / "a.ora"
+    save(path, Snapshot(session.painting, session.recording()))
+    return path
+
+
+def places(painting):
+    for level in LEVELS:
+        frame = painting.frame.zoomed(level)
+        yield level, Rect.at(frame.x0, frame.y0, min(frame.width, 200), min(frame.height, 150))
+    yield 60, Rect.at(60 << 60, -(60 << 60), 90, 70)
+    yield 62, Rect.at(60 << 62, -(60 << 62), 90, 70)
+
+
+def assert_same(one, other):
+    """Equal in every property, pixel and ink."""
+
+    def facts(painting):
+        return [
+            (type(n), n.id, n.name, n.opacity, n.visible, n.blend, n.locked, getattr(n, "alpha_locked", n))
+            if isinstance(n, layers.Layer)
+            else (type(n), n.id, n.name, n.opacity, n.visible, n.blend, n.locked, n.isolated)
+            for n in layers.walk(painting.root)
+        ]
+
+    assert facts(one) == facts(other)
+    assert (one.frame, one.seed, one.active) == (other.frame, other.seed, other.active)
+    assert {k: (t.kind, t.parameters) for k, t in one.textures.items()} == {
+        k: (t.kind, t.parameters) for k, t in other.textures.items()
+    }
+    for a, b in zip(layers.layers(one.root), layers.layers(other.root), strict=True):
+        for level, rect in places(one):
+            p, q = evaluate(a.pyramid, level, rect), evaluate(b.pyramid, level, rect)
+            assert p.inks == q.inks
+            assert np.array_equal(p.data, q.data), (a.name, level)
+
+
+# ---- ours ----
+
+
+def test_round_trip(session, saved):
+    found = open_painting(saved)
+    assert found.native
+    assert found.notes == ()
+    assert_same(session.painting, found.painting)
+    assert found.painting.textures["leaf"].source.data is not None
+
+
+def test_pixels_are_there_to_compare(session):
+    """The comparison above is not of empty pictures."""
+    for layer in layers.layers(session.painting.root):
+        seen = sum(evaluate(layer.pyramid, *place).rgba.any() for place in places(session.painting))
+        assert seen or layer.name == "empty"
+    deep = layers.find(session.painting.root, "deep")
+    assert max(deep.pyramid.levels) == 60
+    assert evaluate(deep.pyramid, 60, Rect.at(60 << 60, -(60 << 60), 90, 70)).inks
+
+
+def test_painting_goes_on_after_opening_as_it_would_have_without(session, saved):
+    """Records come back with nothing pending, so later strokes weaken them as they would have the old ones."""
+    reopened = Session(open_painting(saved).painting, TileCache(64 << 20))
+    straight = Session(session.painting, TileCache(64 << 20))
+    for command in (stroke(0, 60, colour="#00ff00", opacity=0.5), stroke(2, 2, level=-4, mode="erase", opacity=0.7)):
+        reopened.do(c.parse({**command, "layer": "deep"}))
+        straight.do(c.parse({**command, "layer": "deep"}))
+    assert_same(straight.painting, reopened.painting)
+
+
+def test_the_recording_comes_back(session, saved):
+    recording = open_painting(saved).recording
+    assert list(recording.lines()) == list(session.recording().lines())
+    assert recording.folder == saved.parent
+
+
+def test_the_same_painting_gives_the_same_bytes(session, saved, tmp_path):
+    again = tmp_path / "b.ora"
+    save(again, Snapshot(session.painting, session.recording()))
+    assert again.read_bytes() == saved.read_bytes()
+    reopened = open_painting(saved)
+    save(again, Snapshot(reopened.painting, reopened.recording))
+    assert open_painting(again).native
+    assert_same(reopened.painting, open_painting(again).painting)
+
+
+def test_a_painting_with_nothing_in_it(tmp_path):
+    painting = Painting(Rect.at(0, 0, 1, 1), -3)
+    save(tmp_path / "a.ora", Snapshot(painting))
+    found = open_painting(tmp_path / "a.ora")
+    assert found.native
+    assert found.recording is None
+    assert_same(painting, found.painting)
+
+
+@pytest.mark.parametrize(("frame", "level"), [((0, 0, 1 << 40, 1 << 33), -26), ((0, 0, 40000, 10), -1)])
+def test_a_frame_too_large_for_a_picture_is_shown_smaller(tmp_path, frame, level):
+    painting = Session(Painting(Rect.at(*frame), 1), TileCache(1 << 24))
+    painting.do(c.parse(stroke(0, 0, level=level)))
+    assert shown_level(painting.painting.frame) == level
+    if level < -1:
+        return  # a picture of 32,768 pixels each way takes a while
+    save(tmp_path / "a.ora", Snapshot(painting.painting))
+    assert open_painting(tmp_path / "a.ora").painting.frame == Rect.at(*frame)
+    assert Image.open(io.BytesIO(zipfile.ZipFile(tmp_path / "a.ora").read("mergedimage.png"))).size == (20000, 5)
+
+
+# ---- for others ----
+
+
+@pytest.fixture(scope="module")
+def members(saved):
+    with zipfile.ZipFile(saved) as file:
+        assert file.testzip() is None
+        return {name: file.read(name) for name in file.namelist()}
+
+
+def test_layout(saved, members):
+    data = saved.read_bytes()
+    assert data[30:54] == b"mimetypeimage/openraster"
+    assert {"stack.xml", "mergedimage.png", "Thumbnails/thumbnail.png", "inkfall/manifest.json"} <= set(members)
+    assert all(n.startswith(("data/L", "inkfall/", "Thumb")) for n in members if "/" in n)
+    with zipfile.ZipFile(saved) as file:
+        assert {info.compress_type for info in file.infolist()} == {0, 8}
+        assert {info.date_time for info in file.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_merged_picture_and_thumbnail(session, members):
+    merged = np.asarray(Image.open(io.BytesIO(members["mergedimage.png"])))
+    pieces = [to_rgba8(planes) for planes in strips(session.painting.root, 0, FRAME)]
+    assert np.array_equal(merged, np.concatenate(pieces))
+    assert merged[..., 3].any()
+    thumbnail = Image.open(io.BytesIO(members["Thumbnails/thumbnail.png"]))
+    assert thumbnail.size == (256, 171)
+
+
+def test_small_frames_keep_their_size_as_thumbnails(tmp_path):
+    save(tmp_path / "a.ora", Snapshot(Painting(Rect.at(0, 0, 40, 30), 1)))
+    with zipfile.ZipFile(tmp_path / "a.ora") as file:
+        assert Image.open(io.BytesIO(file.read("Thumbnails/thumbnail.png"))).size == (40, 30)
+
+
+def test_layers_as_others_see_them_make_the_merged_picture(session, members):
+    """The tree of stack.xml with its PNGs, composited from 8 bits, is the merged picture within rounding."""
+    from engine.painting.imports import read_raster
+    from engine.painting.zipguard import ZipArchive
+
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as out:
+        for name, data in members.items():
+            if not name.startswith("inkfall/"):
+                out.writestr(name, data)
+    found = read_raster(ZipArchive(file, "a.ora"))
+    assert [n.name for n in layers.walk(found.painting.root)] == [n.name for n in layers.walk(session.painting.root)]
+    assert found.painting.active == "inside"
+    size = Rect(0, 0, FRAME.width, FRAME.height)
+    ours = np.concatenate([to_rgba8(p.copy()) for p in strips(session.painting.root, 0, FRAME)]).astype(int)
+    theirs = np.concatenate([to_rgba8(p.copy()) for p in strips(found.painting.root, 0, size)]).astype(int)
+    premultiplied = [np.dstack([p[..., :3] * p[..., 3:] / 255, p[..., 3:]]) for p in (ours, theirs)]
+    assert np.abs(premultiplied[0] - premultiplied[1]).max() <= 3
+
+
+def test_stack_says_what_each_layer_is(session, members):
+    image = parse_stack(members["stack.xml"], "a")
+    assert (image.width, image.height) == (300, 200)
+    assert image.ours["manifest"] == "inkfall/manifest.json"
+    group = next(e for e in image.root.children if e.name == "Group")
+    assert (group.opacity, group.op, group.isolated) == (0.6, "svg:multiply", True)
+    for entry in image.root.layers():
+        assert hashlib.sha256(members[entry.src]).hexdigest() == entry.ours["sha256"]
+        assert entry.x >= 0
+        assert entry.y >= 0
+
+
+def test_the_manifest_names_every_member(members):
+    manifest = json.loads(members["inkfall/manifest.json"])
+    assert set(manifest["members"]) == set(members) - {"inkfall/manifest.json"}
+    for name, (size, sha) in manifest["members"].items():
+        assert size == len(members[name])
+        assert sha == hashlib.sha256(members[name]).hexdigest()
+
+
+# ---- what other programs leave of it ----
+
+
+def rewritten(members, change=None, drop=()):
+    file = io.BytesIO()
+    kept = {name: data for name, data in members.items() if not name.startswith(tuple(drop))}
+    kept.update(change or {})
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as out:
+        for name, data in kept.items():
+            out.writestr(name, data)
+    return file.getvalue()
+
+
+def opened(data, tmp_path, **limits):
+    path = tmp_path / "x.ora"
+    path.write_bytes(data)
+    return open_painting(path, limits=replace(LIMITS, **limits))
+
+
+def test_zipped_anew_it_is_still_ours(session, members, tmp_path):
+    found = opened(rewritten(dict(reversed(members.items()))), tmp_path)
+    assert found.native
+    assert_same(session.painting, found.painting)
+
+
+@pytest.mark.parametrize("drop", [("inkfall/",), ("inkfall/layers/1/",), ("inkfall/manifest",), ("inkfall/recording",)])
+def test_members_that_are_gone_are_told(members, tmp_path, drop):
+    found = opened(rewritten(members, drop=drop), tmp_path)
+    assert not found.native
+    assert found.notes[0] == opening.LOST
+    assert len(list(layers.layers(found.painting.root))) == 6
+    assert found.painting.frame == Rect(0, 0, 300, 200)
+
+
+def test_another_program_painted_on_a_layer(session, members, tmp_path):
+    name = next(n for n in members if n.startswith("data/L"))
+    picture = Image.open(io.BytesIO(members[name]))
+    picture.putpixel((0, 0), (1, 2, 3, 255))
+    file = io.BytesIO()
+    picture.save(file, "PNG")
+    found = opened(rewritten(members, {name: file.getvalue()}), tmp_path)
+    assert not found.native
+    assert "another program changed" in found.notes[0]
+    assert name in found.notes[0]
+    top = next(e for e in parse_stack(members["stack.xml"], "a").root.layers() if e.src == name)
+    layer = layers.find(found.painting.root, top.name)
+    pixel = evaluate(layer.pyramid, 0, Rect.at(top.x, top.y, 1, 1)).rgba
+    assert to_rgba8(pixel).tolist() == [[[1, 2, 3, 255]]]
+
+
+def test_another_program_rearranged_the_layers(members, tmp_path):
+    found = opened(rewritten(members, {"stack.xml": members["stack.xml"].replace(b"0.6", b"0.5")}), tmp_path)
+    assert not found.native
+    assert "stack.xml" in found.notes[0]
+    assert layers.find(found.painting.root, "Group").opacity == 0.5
+
+
+def test_other_merged_pictures_change_nothing(session, members, tmp_path):
+    found = opened(rewritten(members, {"mergedimage.png": b"", "Thumbnails/thumbnail.png": b""}), tmp_path)
+    assert found.native
+    assert_same(session.painting, found.painting)
+
+
+def test_a_newer_format_shows_its_pictures(members, tmp_path):
+    manifest = json.loads(members["inkfall/manifest.json"]) | {"inkfall": 2}
+    found = opened(rewritten(members, {"inkfall/manifest.json": json.dumps(manifest).encode()}), tmp_path)
+    assert not found.native
+    assert found.notes[0] == opening.NEWER
+
+
+# ---- what lies ----
+
+
+def altered(members, path, value):
+    manifest = json.loads(members["inkfall/manifest.json"])
+    place = manifest
+    for step in path[:-1]:
+        place = place[step]
+    if value is None:
+        del place[path[-1]]
+    else:
+        place[path[-1]] = value
+    return {"inkfall/manifest.json": json.dumps(manifest).encode()}
+
+
+LIES = {
+    "no frame": (("frame",), None),
+    "frame of text": (("frame",), "all"),
+    "endless frame": (("frame",), [0, 0, 1 << 50, 1]),
+    "other byte order": (("byteorder",), "big"),
+    "layer of unknown kind": (("layers", 0, "kind"), "mask"),
+    "layer without a name": (("layers", 0, "name"), ""),
+    "two layers of a name": (("layers", 0, "name"), "Group"),
+    "two layers of an id": (("layers", 0, "id"), 2),
+    "opacity 2": (("layers", 0, "opacity"), 2),
+    "mode": (("layers", 0, "blend"), "pigment"),
+    "visible maybe": (("layers", 0, "visible"), 1),
+    "active layer that is not there": (("active",), "nobody"),
+    "packs of text": (("layers", 0, "packs"), ["x"]),
+    "pack that is no member": (("layers", 0, "packs", 0, 0), "inkfall/none"),
+    "pack that is a picture": (("layers", 0, "packs", 0, 0), "mergedimage.png"),
+    "pack of fewer tiles": (("layers", 0, "packs", 0, 1), 1),
+    "pack of more bytes": (("layers", 0, "packs", 0, 2), 1 << 30),
+    "pack beyond all memory": (("layers", 0, "packs", 0, 2), 1 << 60),
+    "texture of unknown kind": (("textures", "leaf", "kind"), "marble"),
+    "texture without its picture": (("textures", "leaf", "picture"), "0" * 64),
+    "texture of period 0": (("textures", "fine", "parameters", "period"), 0),
+    "members of text": (("members",), "all"),
+}
+
+
+@pytest.mark.parametrize("name", LIES)
+def test_manifests_that_lie(members, tmp_path, name):
+    with pytest.raises(FileError) as caught:
+        opened(rewritten(members, altered(members, *LIES[name])), tmp_path)
+    assert str(caught.value).startswith(str(tmp_path / "x.ora") + ": ")
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 500
+
+
+def test_a_pack_twice_is_refused(members, tmp_path):
+    manifest = json.loads(members["inkfall/manifest.json"])
+    layer = next(v for v in manifest["layers"] if v.get("packs"))
+    layer["packs"] *= 2
+    data = rewritten(members, {"inkfall/manifest.json": json.dumps(manifest).encode()})
+    with pytest.raises(FileError, match="there twice"):
+        opened(data, tmp_path)
+
+
+def test_tiles_of_other_bytes_are_refused(members, tmp_path):
+    name = next(n for n in members if n.endswith(".tiles"))
+    other = bytearray(members[name])
+    other[-1] ^= 1
+    with pytest.raises(FileError, match="not those that the manifest names"):
+        opened(rewritten(members, {name: bytes(other)}), tmp_path)
+
+
+def test_a_recording_that_cannot_be_read_is_told_with_its_line(members, tmp_path):
+    text = members["inkfall/recording.jsonl"] + b'{"do": "stroke", "level": NaN}\n'
+    manifest = json.loads(members["inkfall/manifest.json"])
+    manifest["members"]["inkfall/recording.jsonl"] = [len(text), hashlib.sha256(text).hexdigest()]
+    changes = {"inkfall/recording.jsonl": text, "inkfall/manifest.json": json.dumps(manifest).encode()}
+    with pytest.raises(FileError, match=r"recording.jsonl.*line 22.*NaN"):
+        opened(rewritten(members, changes), tmp_path)
+
+
+def test_truncated_files_are_refused(saved, tmp_path):
+    data = saved.read_bytes()
+    for length in [*range(0, 200, 7), *range(200, len(data), len(data) // 40), len(data) - 1]:
+        with pytest.raises(FileError):
+            opened(data[:length], tmp_path)
+
+
+def test_flipped_bits_are_found(session, saved, tmp_path):
+    """A flipped bit is refused, or lies where nothing is read from; never a different painting."""
+    data = saved.read_bytes()
+    rng = np.random.default_rng(4)
+    refused = 0
+    for place in rng.integers(0, len(data), 60):
+        bad = bytearray(data)
+        bad[place] ^= 1 << int(rng.integers(8))
+        try:
+            found = opened(bytes(bad), tmp_path)
+        except FileError:
+            refused += 1
+            continue
+        if found.native:
+            assert_same(session.painting, found.painting)
+    assert refused > 30
+
+
+@pytest.mark.parametrize("name", ["missing.ora", "."])
+def test_places_that_are_no_file(tmp_path, name):
+    with pytest.raises(FileError, match=r"no such file|a folder"):
+        open_painting(tmp_path / name)
+
+
+# ---- saving ----
+
+
+def test_progress_and_threads(session, tmp_path):
+    """A save runs on any thread while painting goes on."""
+    seen = []
+    worker = Session(session.painting, TileCache(1 << 24))
+    snapshot = Snapshot(session.painting)
+    thread = threading.Thread(target=save, args=(tmp_path / "a.ora", snapshot, seen.append))
+    thread.start()
+    for i in range(3):
+        worker.do(c.parse(stroke(10 * i, 30)))
+    thread.join()
+    assert seen == sorted(seen)
+    assert seen[-1] == 1.0
+    assert_same(session.painting, open_painting(tmp_path / "a.ora").painting)
+
+
+@pytest.mark.parametrize("when", [0, 1, 5, 9])
+def test_a_cancelled_save_leaves_the_old_file(session, tmp_path, when):
+    path = tmp_path / "a.ora"
+    path.write_bytes(b"old")
+    asked = []
+
+    def cancelled():
+        asked.append(1)
+        return len(asked) > when
+
+    with pytest.raises(Cancelled):
+        save(path, Snapshot(session.painting), cancelled=cancelled)
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.ora"]
+
+
+def test_a_job_that_fails_leaves_the_old_file(session, tmp_path, monkeypatch):
+    path = tmp_path / "a.ora"
+    path.write_bytes(b"old")
+
+    def fail(*args):
+        raise MemoryError
+
+    monkeypatch.setattr(archive, "pack", fail)
+    with pytest.raises(WriteError, match="not enough memory"):
+        save(path, Snapshot(session.painting))
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.ora"]
+
+
+def test_a_file_that_cannot_be_read_back_is_not_put_in_place(session, tmp_path, monkeypatch):
+    path = tmp_path / "a.ora"
+    written = MemberSink.write
+    monkeypatch.setattr(MemberSink, "write", lambda sink, data: written(sink, data) and sink._file.seek(-1, 1))
+    with pytest.raises(WriteError, match="cannot be read back"):
+        save(path, Snapshot(session.painting))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_pending_attenuation_is_settled_in_the_file(session, saved):
+    """What was painted over from a coarser level is stored as it looks."""
+    deep = layers.find(session.painting.root, "deep").pyramid
+    assert deep.last is not None
+    found = layers.find(open_painting(saved).painting.root, "deep").pyramid
+    assert found.last is None
+    assert fold(found).levels == found.levels
+
+
+def test_composite_of_the_reopened_frame(session, saved):
+    def read(layer, level, rect):
+        return evaluate(layer.pyramid, level, rect).rgba
+
+    one, two = session.painting.root, open_painting(saved).painting.root
+    assert np.array_equal(composite(one, 0, FRAME, read), composite(two, 0, FRAME, read))
