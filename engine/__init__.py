@@ -3,6 +3,7 @@
 import ctypes
 import os
 import sys
+import tempfile
 from pathlib import Path
 
 import platformdirs
@@ -32,7 +33,10 @@ def _keep_freed_memory() -> None:
 def _compiled_kernels_folder() -> str:
     """A folder only the user can write to: numba reads its cache of compiled kernels with pickle."""
     folder = Path(platformdirs.user_cache_dir("inkfall")) / "kernels"
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError:  # a home that cannot be written to: compiled anew at every start
+        return tempfile.mkdtemp(prefix="inkfall-kernels-")
     return str(folder)
 
 
