@@ -23,6 +23,7 @@ from engine.painting.fault import FileError, shown
 from engine.painting.images import read_image
 from engine.painting.limits import LIMITS, Limits
 from engine.painting.pngread import PngReader
+from engine.painting.pngstream import SIGNATURE
 from engine.painting.recording import Recording
 from engine.painting.rendering import Stop, check
 from engine.painting.stackxml import ImageEntry, LayerEntry, StackEntry, parse_stack
@@ -113,12 +114,34 @@ def _regrouped(bands: Iterator[np.ndarray], y: int) -> Iterator[np.ndarray]:
 
 def open_image(path: str | os.PathLike[str], limits: Limits = LIMITS, cancelled: Stop = None) -> Opened:
     """A PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
-    pixels, meta = read_image(path, limits=limits)
-    height, width = pixels.shape[:2]
-    pyramid = pasted(iter([pixels]), 0, 0, cancelled)
+    streamed = _png_rows(path, limits, cancelled)
+    if streamed is None:
+        pixels, meta = read_image(path, limits=limits)
+        size = (pixels.shape[1], pixels.shape[0])
+        pyramid, notes = pasted(iter([pixels]), 0, 0, cancelled), meta.notes
+    else:
+        pyramid, size, notes = streamed
     layer = Layer(1, clean_name(PurePath(path).stem, "Picture"), pyramid=pyramid)
     root = layers.insert(layers.EMPTY, layer)
-    return Opened(Painting(Rect(0, 0, width, height), 0, root, layer.name), meta.notes)
+    return Opened(Painting(Rect(0, 0, *size), 0, root, layer.name), notes)
+
+
+def _png_rows(
+    path: str | os.PathLike[str], limits: Limits, cancelled: Stop
+) -> tuple[Pyramid, tuple[int, int], tuple[str, ...]] | None:
+    """The pyramid of a PNG, read strip by strip, its size and notes; None if it is none, or cannot be opened."""
+    if not os.path.isfile(path):
+        return None
+    try:
+        with open(path, "rb") as file:
+            if file.read(len(SIGNATURE)) != SIGNATURE:
+                return None
+            file.seek(0)
+            reader = PngReader(file, os.fspath(path), limits)
+            header = reader.header
+            return pasted(reader.strips(), 0, 0, cancelled), (header.width, header.height), header.notes
+    except OSError:
+        return None
 
 
 # ---- OpenRaster of other programs ----
