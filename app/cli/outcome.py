@@ -29,8 +29,8 @@ def reported(error: BaseException) -> int:
     if os.environ.get(TRACE):
         traceback.print_exception(error)
     status, line = _judged(error)
-    if isinstance(error, BrokenPipeError):
-        _close_standard_output()
+    if isinstance(error, OSError):
+        _give_up_standard_output()
     with suppress(OSError, ValueError):
         print(f"inkfall: {' '.join(line.split())}", file=sys.stderr, flush=True)
     return status
@@ -96,9 +96,12 @@ def begin_again(error: BaseException) -> None:
     os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
-def _close_standard_output() -> None:
-    """So that the interpreter does not fail a second time when it flushes on the way out."""
-    with suppress(OSError, ValueError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
-        os.close(nowhere)
+def _give_up_standard_output() -> None:
+    """If it can take nothing more: so that the interpreter does not fail a second time when it flushes on the way out."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        with suppress(OSError, ValueError):
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, sys.stdout.fileno())
+            os.close(nowhere)
