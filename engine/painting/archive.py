@@ -35,7 +35,7 @@ from engine.painting.packing import Tile, encoded_size, grouped, pack
 from engine.painting.pngread import PngReader
 from engine.painting.pngstream import PngWriter
 from engine.painting.recording import Recording
-from engine.painting.rendering import Stop, bands, check, folded, layer_strips, reach, strips
+from engine.painting.rendering import Stop, check, folded, reach, sheets, strips
 from engine.painting.stackxml import ImageEntry, LayerEntry, StackEntry, stack_text
 from engine.painting.strictjson import dumps
 from engine.painting.value import Painting
@@ -45,7 +45,8 @@ from engine.painting.zipwrite import ZipWriter
 MIMETYPE = b"image/openraster"
 SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
 THUMBNAIL = 256
-IN_MEMORY = 32 << 20  # bytes of a compressed picture that are kept in memory before it goes into the file
+MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
+IN_MEMORY = 256 << 20  # bytes of all pictures that are kept in memory before they go into the file
 WORKERS = 2
 WAITING = 4  # finished jobs that may wait for their turn
 
@@ -58,12 +59,15 @@ class Snapshot:
     recording: Recording | None = None
 
 
+Product = bytes | IO[bytes]
+
+
 @dataclass(frozen=True)
 class Job:
     """One member: its name, and what makes its bytes; `deflate`: text."""
 
     name: str
-    make: Callable[[], bytes | IO[bytes]]
+    make: Callable[[], bytes]
     deflate: bool = False
 
 
@@ -84,12 +88,11 @@ def save(
         with replacing(path, verify=lambda part: _verify(part, path, plan)) as file:
             writer = ZipWriter(file)
             writer.add("mimetype", MIMETYPE)
-            jobs = plan.jobs
-            with closing(_made(jobs, cancelled)) as made:
+            with closing(_made(plan, cancelled)) as made:
                 for number, (job, product) in enumerate(made):
-                    _add(writer, job, product)
+                    _add(writer, job.name, product, job.deflate)
                     if progress is not None:
-                        progress((number + 1) / (len(jobs) + 1))
+                        progress((number + 1) / (len(plan.names) + 1))
             plan.finish(writer)
             writer.close()
     except MemoryError as error:
@@ -98,50 +101,49 @@ def save(
         progress(1.0)
 
 
-def _made(jobs: list[Job], cancelled: Stop) -> Generator[tuple[Job, bytes | IO[bytes]], None, None]:
-    """The jobs in their order, each with what it made; a few are worked on ahead."""
+def _made(plan: Plan, cancelled: Stop) -> Generator[tuple[Job, Product], None, None]:
+    """The members, each with its bytes: those of our own as they are made, a few ahead, then all pictures.
+
+    The pictures are one long piece of work, so it is begun first.
+    """
     waiting: deque[tuple[Job, Future]] = deque()
+    shown: Future | None = None
     try:
         with ThreadPoolExecutor(WORKERS, "save") as pool:
+            shown = pool.submit(plan.pictures)
             try:
-                for job in jobs:
+                for job in plan.jobs:
                     waiting.append((job, pool.submit(job.make)))
                     if len(waiting) >= WAITING:
                         yield _next(waiting, cancelled)
                 while waiting:
                     yield _next(waiting, cancelled)
+                yield from shown.result()
             finally:
                 for _, future in waiting:
                     future.cancel()
     finally:
-        for _, future in waiting:
-            _discard(future)
+        if shown is not None and not shown.cancelled() and shown.exception() is None:
+            for _, product in shown.result():
+                product.close()
 
 
-def _discard(future: Future) -> None:
-    """Closes what a job made that nobody wants any more."""
-    if not future.cancelled() and future.exception() is None and not isinstance(future.result(), bytes):
-        future.result().close()
-
-
-def _next(waiting: deque, cancelled: Stop) -> tuple[Job, bytes | IO[bytes]]:
+def _next(waiting: deque, cancelled: Stop) -> tuple[Job, Product]:
     check(cancelled)
-    job, future = waiting[0]
-    product = future.result()
-    waiting.popleft()
-    return job, product
+    job, future = waiting.popleft()
+    return job, future.result()
 
 
-def _add(writer: ZipWriter, job: Job, product: bytes | IO[bytes]) -> None:
+def _add(writer: ZipWriter, name: str, product: Product, deflate: bool) -> None:
     if isinstance(product, bytes):
-        writer.add(job.name, product, job.deflate)
+        writer.add(name, product, deflate)
         return
-    with product:
-        size = product.seek(0, os.SEEK_END)
-        product.seek(0)
-        with writer.stored(job.name, size) as sink:
-            while piece := product.read(1 << 20):
-                sink.write(piece)
+    size = product.seek(0, os.SEEK_END)
+    product.seek(0)
+    with writer.stored(name, size) as sink:
+        while piece := product.read(1 << 20):
+            sink.write(piece)
+    product.close()
 
 
 def _verify(part: Path, path: str | os.PathLike[str], plan: Plan) -> None:
@@ -150,11 +152,11 @@ def _verify(part: Path, path: str | os.PathLike[str], plan: Plan) -> None:
         with open(part, "rb") as file:
             archive = ZipArchive(file, os.fspath(path))
             archive.check()
-            if set(archive.members) != {"mimetype", "stack.xml", MANIFEST, *(job.name for job in plan.jobs)}:
+            if set(archive.members) != {"mimetype", "stack.xml", MANIFEST, *plan.names}:
                 raise WriteError(path, "the file written lacks members")
-            for job in plan.jobs:
-                if job.name.endswith(".png"):
-                    PngReader(archive.open(job.name), job.name)  # type: ignore[arg-type]
+            for name in plan.names:
+                if name.endswith(".png"):
+                    PngReader(archive.open(name), name)  # type: ignore[arg-type]
     except FileError as error:
         raise WriteError(path, f"the file written cannot be read back ({error.message})") from error
 
@@ -170,33 +172,42 @@ class Plan:
         self._packs: dict[int, list[Pack]] = {}
         self._places: dict[int, Rect] = {}
         self._pictures: list[PictureEntry] = []
-        merged = Job("mergedimage.png", self._merged)
-        thumbnail = Job("Thumbnails/thumbnail.png", self._thumbnail)
-        shown = [self._layer_job(layer) for layer in layers.layers(painting.root)]
+        for layer in layers.layers(painting.root):
+            self._places[layer.id] = self._place(layer)
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
         told = [] if recording is None else [Job(RECORDING, lambda: _told(recording), deflate=True)]
-        # The longest first, so that the last to finish is a short one.
-        self.jobs = [merged, *shown, *stored, *seen, *told, thumbnail]
+        self.jobs = [*stored, *seen, *told]
+        self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
+        self.names = [*(job.name for job in self.jobs), *self._shown]
 
     # ---- pictures for other programs ----
 
-    def _layer_job(self, layer: Layer) -> Job:
+    def _place(self, layer: Layer) -> Rect:
         place = reach(layer.pyramid, self._level, self._frame)
-        if place.empty:
-            place = Rect.at(self._frame.x0, self._frame.y0, 1, 1)
-        self._places[layer.id] = place
-        return Job(f"data/L{layer.id}.png", partial(self._layer_picture, layer, place))
+        return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
-    def _layer_picture(self, layer: Layer, place: Rect) -> IO[bytes]:
-        found = layer_strips(layer.pyramid, self._level, place, self._cancelled)
-        return _png(place, ((None if p is None else to_rgba8(p)) for p in found))
+    def pictures(self) -> list[tuple[Job, IO[bytes]]]:
+        """The PNGs of all layers, of them together, and the thumbnail."""
+        root, level, places = self._painting.root, self._level, self._places
+        files: dict[str, _Png] = {}
+        try:
+            for layer in layers.layers(root):
+                files[_png_name(layer)] = _Png(places[layer.id], len(self._shown))
+            files[MERGED] = _Png(self._frame, len(self._shown))
+            for known, merged in sheets(root, level, self._frame, places, self._cancelled):
+                for layer in layers.layers(root):
+                    if layer.id in known:
+                        files[_png_name(layer)].rows(known[layer.id])
+                files[MERGED].rows(merged)
+            files[THUMB] = self._thumbnail()
+            return [(Job(name, bytes), png.finished()) for name, png in files.items()]
+        except BaseException:
+            for png in files.values():
+                png.file.close()
+            raise
 
-    def _merged(self) -> IO[bytes]:
-        found = strips(self._painting.root, self._level, self._frame, self._cancelled)
-        return _png(self._frame, (to_rgba8(planes) for planes in found))
-
-    def _thumbnail(self) -> IO[bytes]:
+    def _thumbnail(self) -> _Png:
         """At most 256 x 256: the level that is just large enough, reduced by exact area means."""
         size = fitted(self._frame.width, self._frame.height, THUMBNAIL)
         level, frame = self._level, self._frame
@@ -207,8 +218,9 @@ class Plan:
             frame = self._painting.frame.zoomed(level)
         read = strips(self._painting.root, level, frame, self._cancelled)
         planes = np.concatenate([planes.copy() for planes in read], axis=1)
-        small = box_reduce(planes, *size)
-        return _png(Rect(0, 0, *size), iter([to_rgba8(small)]))
+        png = _Png(Rect(0, 0, *size), 1)
+        png.rows(box_reduce(planes, *size))
+        return png
 
     def _entry(self, node: Node) -> StackEntry | LayerEntry:
         if isinstance(node, Group):
@@ -282,18 +294,23 @@ def shown_level(frame: Rect) -> int:
         level -= 1
 
 
-def _png(place: Rect, strips_of: Iterator[np.ndarray | None]) -> IO[bytes]:
-    """A PNG of 8-bit rows, one array for each of `bands(place)`, None for empty ones."""
-    file = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115  # closed by the one who writes it on
-    try:
-        writer = PngWriter(file, place.width, place.height)  # type: ignore[arg-type]
-        for band, pixels in zip(bands(place), strips_of, strict=False):
-            writer.rows(np.zeros((band.height, band.width, 4), np.uint8) if pixels is None else pixels)
-        writer.close()
-    except BaseException:
-        file.close()
-        raise
-    return file
+class _Png:
+    """An 8-bit PNG on its way into the file, in memory while it is small; `count` of them share that memory."""
+
+    def __init__(self, place: Rect, count: int) -> None:
+        self.file: IO[bytes] = tempfile.SpooledTemporaryFile(max(1 << 16, IN_MEMORY // count))  # noqa: SIM115
+        self._writer = PngWriter(self.file, place.width, place.height)  # type: ignore[arg-type]
+
+    def rows(self, planes: np.ndarray) -> None:
+        self._writer.rows(to_rgba8(planes))
+
+    def finished(self) -> IO[bytes]:
+        self._writer.close()
+        return self.file
+
+
+def _png_name(layer: Layer) -> str:
+    return f"data/L{layer.id}.png"
 
 
 def _pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack]) -> Iterator[Job]:

@@ -21,7 +21,7 @@ from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.fault import FileError, shown
 from engine.painting.images import read_image
-from engine.painting.limits import LIMITS, Limits
+from engine.painting.limits import LIMITS, Limits, memory_cap
 from engine.painting.pngread import PngReader
 from engine.painting.pngstream import SIGNATURE
 from engine.painting.recording import Recording
@@ -173,6 +173,7 @@ class _Import:
         self._selected: str | None = None
         self._pixels = 0
         self._done = 0
+        self._bytes = 0
 
     def run(self) -> Opened:
         self._total()
@@ -238,6 +239,11 @@ class _Import:
         for note in reader.header.notes:
             self._notes.append(f"layer {shown(entry.name, 30)}: {note}")
         pyramid = pasted(reader.strips(), entry.x, entry.y, self._cancelled)
+        self._bytes += pyramid.nbytes
+        if self._bytes > memory_cap():
+            raise FileError(
+                self._archive.name, f"its layers take over {self._bytes >> 20} MB, all that this machine has"
+            )
         self._done += reader.header.width * reader.header.height
         if self._progress is not None:
             self._progress(self._done / max(1, self._pixels))

@@ -6,6 +6,7 @@ The figures leave room for every real file known to us and keep the worst case w
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 
 
@@ -16,7 +17,7 @@ class Limits:
     file: int = 64 << 30  # a file as a whole
     side: int = 1 << 18  # pixels along a side of one image
     pixels: int = 400_000_000  # of one image
-    total_pixels: int = 4_000_000_000  # of all layers of one file, from their headers, before any is decoded
+    total_pixels: int = 2_000_000_000  # of all layers of one file, from their headers, before any is decoded
     chunk: int = 16 << 20  # one PNG chunk that is kept in memory; image data streams and is not kept
     chunks: int = 1_000_000  # PNG chunks in one file
     entries: int = 20_000  # members of an archive
@@ -29,8 +30,16 @@ class Limits:
     layers: int = 2_000  # layers and groups
     text: int = 4096  # characters of one attribute
     offset: int = 1 << 31  # |x|, |y| of a layer, pixels
-    json: int = 64 << 20  # our own manifest
-    log: int = 1 << 30  # the recording inside a painting
+    json: int = 16 << 20  # our own manifest
+    log: int = 1 << 30  # the recording inside a painting: larger ones are left out
 
 
 LIMITS = Limits()
+
+
+def memory_cap() -> int:
+    """Bytes that the paint of one file may take: three quarters of the machine's memory."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 * 3
+    except (ValueError, OSError, AttributeError):
+        return 6 << 30

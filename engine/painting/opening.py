@@ -19,7 +19,7 @@ from engine.canvas.store import Level, Pyramid, Record
 from engine.painting import pictures
 from engine.painting.fault import FileError, shown
 from engine.painting.imports import STACK, Opened, read_raster
-from engine.painting.limits import LIMITS, Limits
+from engine.painting.limits import LIMITS, Limits, memory_cap
 from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack, PictureEntry, parse_manifest
 from engine.painting.packing import Tile, unpack
 from engine.painting.recording import Recording, read_from
@@ -141,7 +141,8 @@ class _Opening:
             root = layers.with_pyramid(root, layer.name, pyramid)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
-        return Opened(painting, native=True, recording=self._recording(), pictures=Map(sources))
+        recording, notes = self._recording()
+        return Opened(painting, notes, True, recording, Map(sources))
 
     def _pyramid(self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]) -> Pyramid:
         levels: dict[int, dict[tuple[int, int], Record]] = {}
@@ -194,16 +195,12 @@ class _Opening:
             raise FileError(where, "its bytes are not those that the manifest names")
         return unpack(data, where, lambda key: from_key(key, sources), (pack.tiles, pack.plain))
 
-    def _recording(self) -> Recording | None:
+    def _recording(self) -> tuple[Recording | None, tuple[str, ...]]:
+        """The commands that led here, and what to say if they are left out."""
         if RECORDING not in self._archive:
-            return None
+            return None, ()
+        size = self._archive.members[RECORDING].size
+        if size > self._limits.log:
+            return None, (f"its recording of {size >> 20} MB is left out",)
         stream = io.BufferedReader(self._archive.open(RECORDING), PIECE)
-        return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent)
-
-
-def memory_cap() -> int:
-    """Bytes that a painting's tiles may take: three quarters of the machine's memory."""
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 * 3
-    except (ValueError, OSError, AttributeError):
-        return 6 << 30
+        return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent), ()

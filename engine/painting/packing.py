@@ -21,6 +21,7 @@ from numba import njit
 
 from engine.canvas.store import Record
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.fault import FileError, shown
 from engine.painting.inflate import DeflateError, Inflated
 from engine.painting.strictjson import FormatError, dumps, loads
@@ -31,9 +32,10 @@ MAGIC = b"inkfall\x01"
 TILES = 256  # in a pack
 BYTES = 32 << 20  # plain, of all tiles of a pack, about
 BLOCK = 1 << 20  # plain, of all tiles of a block, about
+HEAD_CAP = 24 << 20  # bytes of the head
 BLOCK_CAP = 256 << 20  # what a block may claim: one tile of a thousand inks fits
-LEVEL_CAP = 1 << 16
-DIGITS_CAP = 1 << 15  # of an address: enough for the finest level there may be
+LEVEL_CAP = LEVEL_LIMIT + 256  # a stroke changes some levels coarser than its own
+DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
 RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 LEVEL = 1
@@ -235,7 +237,7 @@ def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int
     (length,) = struct.unpack_from("<I", data, 8)
     start = 12 + length
     _need(start <= len(data), "length of the head", length)
-    head = loads(data[12:start], cap=64 << 20)
+    head = loads(data[12:start], cap=HEAD_CAP)
     _need(
         isinstance(head, dict) and all(isinstance(head.get(k), list) for k in ("inks", "tiles", "blocks")), "head", ""
     )

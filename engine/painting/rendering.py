@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from engine.painting.fault import Cancelled
 STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 256
 COLUMNS = 1024  # of the pieces in which layers are evaluated
+TOGETHER = 1 << 25  # pixels of all layers' parts of a band, about: half a gigabyte
 HELD = 64  # layers for which a piece has that size; for more it is narrower
 
 Stop = Callable[[], bool] | None
@@ -57,13 +58,46 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
         yield strip
 
 
-def layer_strips(pyramid: Pyramid, level: int, rect: Rect, cancelled: Stop = None) -> Iterator[np.ndarray | None]:
-    """One layer's own pixels of `rect` from the top: float32 (4, n, w) or None where it is empty; one for each of
-    `bands(rect)`."""
-    for band in bands(rect):
-        check(cancelled)
-        found = evaluate_sparse(pyramid, level, band, None)
-        yield None if found is None else found.rgba
+def sheets(
+    root: Group, level: int, frame: Rect, places: Mapping[int, Rect], cancelled: Stop = None
+) -> Iterator[tuple[dict[int, np.ndarray], np.ndarray]]:
+    """The frame from the top, in bands, each layer evaluated once: (planes of each layer by its id, composited).
+
+    `places`: where each layer is to be seen (`reach`); its planes cover the part of the band there, and are left out
+    where that is empty.  All float32 (4, n, w), premultiplied; the composited ones clamped for display.
+    """
+    all_layers = list(layers.layers(root))
+    rows = max(16, min(ROWS, TOGETHER // (len(all_layers) + 1) // frame.width))
+    for y in range(frame.y0, frame.y1, rows):
+        band = Rect(frame.x0, y, frame.x1, min(y + rows, frame.y1))
+        known: dict[int, np.ndarray] = {}
+        for layer in all_layers:
+            check(cancelled)
+            part = places[layer.id].intersect(band)
+            if not part.empty:
+                found = evaluate_sparse(layer.pyramid, level, part, None)
+                known[layer.id] = np.zeros((4, part.height, part.width), np.float32) if found is None else found.rgba
+        yield known, composite(root, level, band, _parts(known, places, band))
+
+
+def _parts(known: Mapping[int, np.ndarray], places: Mapping[int, Rect], band: Rect) -> Read:
+    """Hands out blocks of what is known of each layer, empty elsewhere."""
+
+    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        whole = places[layer.id].intersect(band)
+        part = whole.intersect(rect)
+        if part.empty or layer.id not in known:
+            return None
+        rows, columns = part.slices(whole)
+        planes = known[layer.id][:, rows, columns]
+        if part == rect:
+            return planes
+        out = np.zeros((4, rect.height, rect.width), np.float32)
+        rows, columns = part.slices(rect)
+        out[:, rows, columns] = planes
+        return out
+
+    return read
 
 
 def check(cancelled: Stop) -> None:

@@ -170,6 +170,20 @@ def test_a_painting_with_nothing_in_it(tmp_path):
     assert_same(painting, found.painting)
 
 
+@pytest.mark.parametrize(("level", "place"), [(c.LEVEL_LIMIT, 1 << 4100), (-c.LEVEL_LIMIT, 3)])
+def test_the_farthest_levels(tmp_path, level, place):
+    session = Session(Painting(Rect.at(0, 0, 30, 20), 1), TileCache(1 << 24))
+    session.do(c.parse(stroke(place, -place, level=level)))
+    save(tmp_path / "a.ora", Snapshot(session.painting))
+    found = open_painting(tmp_path / "a.ora")
+    assert found.native
+    one, two = (next(layers.layers(p.root)).pyramid for p in (session.painting, found.painting))
+    assert min(one.levels) < level
+    rect = Rect.at(place, -place, 60, 60)
+    assert np.array_equal(evaluate(one, level, rect).data, evaluate(two, level, rect).data)
+    assert evaluate(two, level, rect).data.any()
+
+
 @pytest.mark.parametrize(("frame", "level"), [((0, 0, 1 << 40, 1 << 33), -26), ((0, 0, 40000, 10), -1)])
 def test_a_frame_too_large_for_a_picture_is_shown_smaller(tmp_path, frame, level):
     painting = Session(Painting(Rect.at(*frame), 1), TileCache(1 << 24))
@@ -325,6 +339,13 @@ def test_a_newer_format_shows_its_pictures(members, tmp_path):
     found = opened(rewritten(members, {"inkfall/manifest.json": json.dumps(manifest).encode()}), tmp_path)
     assert not found.native
     assert found.notes[0] == opening.NEWER
+
+
+def test_a_recording_that_is_too_long_is_left_out(members, tmp_path):
+    found = opened(rewritten(members), tmp_path, log=100)
+    assert found.native
+    assert found.recording is None
+    assert "left out" in found.notes[0]
 
 
 # ---- what lies ----
