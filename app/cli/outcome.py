@@ -97,7 +97,7 @@ def begin_again(error: BaseException) -> None:
 
 
 def _give_up_standard_output() -> None:
-    """If it can take nothing more: so that the interpreter does not fail a second time when it flushes on the way out."""
+    """If it can take nothing more: so that the interpreter does not fail once more when it flushes on its way out."""
     try:
         sys.stdout.flush()
     except (OSError, ValueError):
