@@ -1,0 +1,45 @@
+"""A display of its own for benchmarks that open the window: an X server without a screen."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+NEEDED = "Xvfb, imgui_bundle, glfw and moderngl"
+
+
+def available() -> bool:
+    """Whether a window can be opened where nobody sees it."""
+    from importlib.util import find_spec
+
+    return shutil.which("Xvfb") is not None and all(find_spec(n) for n in ("imgui_bundle", "glfw", "moderngl"))
+
+
+@contextmanager
+def display() -> Iterator[dict[str, str]]:
+    """An environment for programs that shall open their windows there."""
+    read, write = os.pipe()
+    command = ["Xvfb", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp", "-displayfd", str(write)]
+    server = subprocess.Popen(command, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write)
+    try:
+        with os.fdopen(read) as told:
+            number = told.readline().strip()
+        if not number:
+            raise OSError("Xvfb did not start")
+        paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
+        yield {**os.environ, "DISPLAY": f":{number}", "PYTHONPATH": os.pathsep.join(p for p in paths if p)}
+    finally:
+        server.terminate()
+        server.wait(10)
+
+
+def python(*words: str) -> list[str]:
+    """The command of a program that runs in this interpreter."""
+    return [sys.executable, *words]

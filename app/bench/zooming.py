@@ -1,0 +1,103 @@
+"""The real window zooming by itself: `python -m app.bench.zooming FILE X Y EXPONENT LEVELS SECONDS`.
+
+Prints one JSON object.  A frame's time is from the end of the frame before to its own end, without the rest the
+window takes where it is early.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+from app.loop import Window  # first: it imports imgui before glfw
+from app.screen import cells
+from app.view import Place
+
+import glfw  # isort: skip
+
+from engine.painting.requests import Open
+from engine.painting.worker import Worker
+
+PATIENCE = 120.0
+WARM = 0.5  # seconds of zooming before frames are counted: the first tiles' memory on the screen is made
+SMOOTH = 0.016
+
+
+def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float) -> dict:
+    window = Window()
+    window.frame()
+    sys.setswitchinterval(0.0005)
+    worker = Worker(glfw.post_empty_event)
+    window.connect(worker)
+    worker.post(Open(Path(file)))
+    place = Place(x, y, exponent)
+    try:
+        _until(window, lambda: window.desk.scene is not None and window.desk.scene.path is not None)
+        window.desk.view = replace(window.desk.view, centre=place, level=0, fraction=0.0)
+        _until(window, lambda: sharp(window))
+        _rest(window, 2.0)  # the presets' pictures are painted
+        times = _zoom(window, place, levels, duration)
+        start = time.perf_counter()
+        _until(window, lambda: sharp(window))
+        after = time.perf_counter() - start
+        renderer = window.ctx.info["GL_RENDERER"].partition(" (")[0]
+    finally:
+        worker.close()
+        window.close()
+    times.sort()
+    return {
+        "frames": len(times),
+        "late": sum(t > SMOOTH for t in times),
+        "median": times[len(times) // 2],
+        "worst": times[-1],
+        "sharp": after,
+        "renderer": renderer,
+    }
+
+
+def _zoom(window: Window, place: Place, levels: int, duration: float) -> list[float]:
+    """Zooms in evenly about the screen's middle, and tells how long each frame took."""
+    times = []
+    x, y = window.desk.view.width / 2, window.desk.view.height / 2
+    first = window.desk.view
+    start = time.perf_counter()
+    while (now := time.perf_counter()) - start < duration:
+        window.desk.view = first.zoomed(levels * (now - start) / duration).held(place, x, y)
+        window.frame()
+        taken = time.perf_counter() - now
+        if now - start > min(WARM, duration / 4):
+            times.append(taken)
+        window.wait(True)
+    window.desk.view = first.zoomed(levels).held(place, x, y)
+    return times
+
+
+def sharp(window: Window) -> bool:
+    """Whether every tile on the screen is there."""
+    view = window.desk.view
+    return all(window.screen.revision(tile) >= 0 for tile in cells(view, view.shown_level))
+
+
+def _rest(window: Window, seconds: float) -> None:
+    end = time.perf_counter() + seconds
+    _until(window, lambda: time.perf_counter() > end)
+
+
+def _until(window: Window, done) -> None:
+    end = time.perf_counter() + PATIENCE
+    while True:
+        window.frame()
+        window.wait(True)
+        if done():
+            return
+        if time.perf_counter() > end:
+            raise TimeoutError("the window does not get ready")
+
+
+if __name__ == "__main__":
+    name, *numbers, seconds = sys.argv[1:]
+    x, y, exponent, levels = map(int, numbers)
+    print(json.dumps(main(name, x, y, exponent, levels, float(seconds))))
