@@ -30,9 +30,9 @@ def draw_frame(desk: Desk) -> None:
     corners = [view.pixel_to_screen(0, x, y) for x, y in ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))]
     painter = imgui.get_background_draw_list()
     far = 4.0 * (view.width + view.height)
-    points = [ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in corners]
+    a, b, c, d = (ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in corners)
     for width, colour in ((1.8 * desk.scale, theme.packed((0.0,) * 3, 0.25)), (1.0, theme.packed((1.0,) * 3, 0.35))):
-        painter.add_quad(*points, colour, width)
+        painter.add_quad(a, b, c, d, colour, width)
 
 
 def draw_outline(desk: Desk) -> None:
