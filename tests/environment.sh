@@ -37,8 +37,6 @@ make_environment() {
         fi
     fi
     "$python" -m venv "$1"
-    # The pip of Debian 12 forgets the user's certificates when it fetches what a build needs.
-    "$1/bin/python" -m pip install --quiet --disable-pip-version-check --root-user-action=ignore --upgrade pip
 }
 
 # A stamp of everything that goes into the installed program.
