@@ -130,7 +130,7 @@ class Window:
         moving = self.desk.glide.moving
         self.desk.view = self.desk.glide.step(self.desk.view, seconds)
         self._panels()
-        fading = self.screen.draw(self.desk.view, self.desk.frame, now)
+        fading = self.screen.draw(self.desk.view, self.desk.frame, now, self.desk.insets)
         imgui.render()
         backends.opengl3_render_draw_data(imgui.get_draw_data())
         self.news.ask(now)

@@ -23,6 +23,7 @@ FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show
 LIGHT, DARK = (0.955, 0.955, 0.955), (0.225, 0.225, 0.225)
 MINIFY_LINEAR = (moderngl.LINEAR, moderngl.LINEAR)
+Insets = tuple[float, float, float, float]
 
 
 class ScreenTile(NamedTuple):
@@ -136,13 +137,21 @@ class Screen:
             return oldest.layer
         return self._free.pop()
 
-    def draw(self, view: View, frame: Rect | None, now: float) -> bool:
-        """Draws the canvas; True while something still fades."""
+    def draw(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> bool:
+        """Draws the canvas; True while something still fades.
+
+        `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
+        """
         self.ctx.viewport = (0, 0, view.width, view.height)
-        self.ctx.disable(moderngl.BLEND)
-        self._draw_paper(view, frame)
-        if self._array is None:
-            return False
+        self.ctx.scissor = _free(view, insets)
+        try:
+            self.ctx.disable(moderngl.BLEND)
+            self._draw_paper(view, frame)
+            return self._array is not None and self._draw_tiles(view, now)
+        finally:
+            self.ctx.scissor = None
+
+    def _draw_tiles(self, view: View, now: float) -> bool:
         rows, fading = self._rows(view, now)
         if not rows:
             return fading
@@ -209,6 +218,12 @@ class Screen:
             elif depth > 1:
                 rows += self._descendants(view, child, depth - 1)
         return rows
+
+
+def _free(view: View, insets: Insets) -> tuple[int, int, int, int]:
+    """The part of the screen that panels leave free, as GL has it: x, y of the lower left corner, width, height."""
+    left, top, right, bottom = (max(0, math.floor(inset)) for inset in insets)
+    return left, bottom, max(0, view.width - left - right), max(0, view.height - top - bottom)
 
 
 def _corner(view: View, tile: ScreenTile, snap: bool) -> tuple[float, float, float]:
