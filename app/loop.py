@@ -65,6 +65,7 @@ class Window:
         self._address = address
         self.screen = Screen(self.ctx)
         self.news = News(self.desk, self.screen, self.ctx)
+        self._keys: list[tuple[int, int, int, int]] = []
         self._cursors: dict[int, Any] = {}
         self._cursor = 0
         self._last = time.monotonic()
@@ -89,7 +90,7 @@ class Window:
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
         self._wake()
         backends.glfw_key_callback(self._address, key, scancode, action, mods)
-        self.router.key(key, scancode, action, mods)
+        self._keys.append((key, scancode, action, mods))
 
     def _focus(self, _w: Any, focused: int) -> None:
         self._wake()
@@ -125,6 +126,9 @@ class Window:
             for event in source.events() if source is not None else ():
                 self._wake()
                 self.router.pointer(event)
+        keys, self._keys = self._keys, []
+        for key in keys:  # after the pointer: a stroke ends before what a key does to it
+            self.router.key(*key)
         if self.news.take(now):
             self._busy_until = max(self._busy_until, now + 0.05)
         moving = self.desk.glide.moving
@@ -153,6 +157,7 @@ class Window:
         cursor.draw_frame(self.desk)
         cursor.draw_outline(self.desk)
         self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
+        self.router.hover()
         if self.news.first_layout():
             self.desk.fit()
 

@@ -117,6 +117,12 @@ class Router:
         self._keys.clear()
         self.cancel()
 
+    def hover(self) -> None:
+        """What the pointer is over, now that the panels are drawn: a dialog may have opened under it."""
+        at = self.desk.pointer
+        if at.over_canvas and self.gesture is None and self.layout.covers(at.x, at.y):
+            at.over_canvas = False
+
     def left(self) -> None:
         """The pointer is no longer over the window."""
         if self.gesture is None and not self._panel_buttons:

@@ -23,8 +23,8 @@ _COLOURS: dict[str, tuple[tuple[float, ...], float]] = {
     "text_disabled": (QUIET, 1),
     "window_bg": (PANEL, 1),
     "child_bg": (PANEL, 0),
-    "popup_bg": (SHADE, 0.98),
-    "border": (LINE, 1),
+    "popup_bg": ((0.145,) * 3, 1),
+    "border": ((0.27,) * 3, 1),
     "frame_bg": (FIELD, 1),
     "frame_bg_hovered": ((0.145,) * 3, 1),
     "frame_bg_active": ((0.145,) * 3, 1),
@@ -49,7 +49,7 @@ _COLOURS: dict[str, tuple[tuple[float, ...], float]] = {
     "drag_drop_target": (ACCENT, 1),
     "text_selected_bg": (ACCENT_SOFT, 1),
     "nav_cursor": (ACCENT, 1),
-    "modal_window_dim_bg": ((0.0, 0.0, 0.0), 0.45),
+    "modal_window_dim_bg": ((0.0, 0.0, 0.0), 0.35),
 }
 
 

@@ -79,12 +79,13 @@ def slider(
     if part > 0.004:
         fill = ImVec2(corner.x + max(rounding, width * part), end.y)
         painter.add_rect_filled(corner, fill, theme.packed((0.36,) * 3 if hovered else (0.305,) * 3), rounding)
-    _hidden_frame(True)
+    typing = imgui.internal.temp_input_is_active(imgui.get_id(f"##{label}"))
+    _hidden_frame(True, typing)
     imgui.set_next_item_width(width)
     flags = imgui.SliderFlags_.logarithmic if curved and lo > 0 else 0
-    changed, value = imgui.slider_float(f"##{label}", value, lo, hi, form if _typing() else "", flags)
-    _hidden_frame(False)
-    if not (imgui.is_item_active() and imgui.get_io().want_text_input):
+    changed, value = imgui.slider_float(f"##{label}", value, lo, hi, form if typing or imgui.get_io().key_ctrl else "", flags)
+    _hidden_frame(False, typing)
+    if not typing:
         pad = imgui.get_style().frame_padding
         text = _number(form, value)
         painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.split("##")[0])
@@ -94,24 +95,19 @@ def slider(
     return changed, max(lo, min(hi, value)) if changed else value
 
 
-def _typing() -> bool:
-    """Ctrl is down: the next click turns the slider into a field, which then needs its number format."""
-    io = imgui.get_io()
-    return bool(io.key_ctrl or io.want_text_input)
-
-
 def _number(form: str, value: float) -> str:
     return (form % value).replace("%%", "%")
 
 
-def _hidden_frame(on: bool) -> None:
+def _hidden_frame(on: bool, typing: bool) -> None:
+    """The slider's own looks made invisible, but for the text while it is a field to type in."""
     names = (Col.frame_bg, Col.frame_bg_hovered, Col.frame_bg_active, Col.slider_grab, Col.slider_grab_active)
     if not on:
         imgui.pop_style_color(len(names) + 1)
         return
     for name in names:
         imgui.push_style_color(name, theme.vec(theme.FIELD, 0.0))
-    imgui.push_style_color(Col.text, theme.vec(theme.TEXT, 1.0 if imgui.get_io().want_text_input else 0.0))
+    imgui.push_style_color(Col.text, theme.vec(theme.TEXT, 1.0 if typing else 0.0))
 
 
 def _part(value: float, lo: float, hi: float, curved: bool) -> float:

@@ -17,7 +17,7 @@ from engine.painting.painting import apply
 from engine.painting.requests import Swatch
 from engine.painting.value import Painting
 
-_GROUND = Brush(radius=10.0, hardness=0.7, colour="#5b6470")
+_GROUND = "#5b6470"
 
 
 def painted(request: Swatch, of: Painting) -> np.ndarray:
@@ -57,7 +57,8 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     if brush.mode == "paint":
         return [wave]
     lines = [_points([[width * 0.08, height * k, 1.0], [width * 0.92, height * k, 1.0]]) for k in (0.3, 0.7)]
-    return [*(c.Stroke(0, (0, 0), line, _GROUND) for line in lines), wave]
+    ground = Brush(radius=height * 0.24, hardness=0.7, colour=_GROUND)
+    return [*(c.Stroke(0, (0, 0), line, ground) for line in lines), wave]
 
 
 def _points(rows: object) -> np.ndarray:

@@ -123,7 +123,7 @@ class Worker:
             bench = self._make(self._send)
         except Exception as error:
             self._send(Note(f"The paint engine did not load: {error}", bad=True))
-            raise
+            return
         while (work := self._next(bench)) is not None:
             try:
                 work()

@@ -1,0 +1,275 @@
+"""The easel: whatever is done and looked at, the window ends up with the picture that the painting is."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.brush.record import Brush, Component
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_premul8
+from engine.painting import commands as c
+from engine.painting import requests as q
+from engine.painting.easel import Easel, tile_rect
+from engine.painting.painting import apply
+
+
+class Window:
+    """A window's memory of what it was sent."""
+
+    def __init__(self):
+        self.tiles, self.revisions, self.other = {}, {}, []
+        self.easel = Easel(self.take)
+
+    def take(self, result):
+        if isinstance(result, q.Patch):
+            assert not result.pixels.flags.writeable
+            whole = result.area.width == q.SIDE and result.area.height == q.SIDE
+            if result.tile not in self.tiles:
+                assert whole, "a part of a tile that the window never had"
+                self.tiles[result.tile] = np.zeros((q.SIDE, q.SIDE, 4), np.uint8)
+            a = result.area
+            self.tiles[result.tile][a.y0 : a.y1, a.x0 : a.x1] = result.pixels
+            self.revisions[result.tile] = result.revision
+        elif isinstance(result, q.Same):
+            self.revisions.update(dict.fromkeys(result.tiles, result.revision))
+        else:
+            self.other.append(result)
+            if isinstance(result, q.Scene) and result.serial != getattr(self, "serial", 0):
+                self.serial = result.serial
+                self.tiles.clear()
+                self.revisions.clear()
+
+    def look(self, *tiles):
+        self.easel.look(q.Look(tuple((*tile, self.revisions.get(tile, -1)) for tile in tiles)))
+
+    def work(self):
+        while self.easel.pending:
+            self.easel.step()
+
+    def scene(self):
+        return next(r for r in reversed(self.other) if isinstance(r, q.Scene))
+
+    def check(self, *tiles):
+        """What the window shows of these tiles is what the painting is."""
+        for tile in tiles:
+            assert np.array_equal(self.tiles[tile], to_premul8(self.easel.picture(tile[0], tile_rect(tile)))), tile
+
+
+def line(n, x=20.0, y=40.0, dx=9.0, dy=3.0):
+    points = np.zeros((n, 6))
+    points[:, 0] = x + dx * np.arange(n)
+    points[:, 1] = y + dy * np.arange(n)
+    points[:, 2] = 1.0
+    return points
+
+
+LEVELS = (-1, 0, 2)
+VIEWS = {level: tuple((level, x, y) for x in (-1, 0) for y in (-1, 0)) for level in LEVELS}
+BRUSHES = (
+    Brush(radius=9.0),
+    Brush(radius=30.0, opacity=0.5, colour="#cc2200"),
+    Brush(radius=20.0, mode="erase"),
+    Brush(radius=14.0, ink=(Component("rock", 0.7, "#88aaff"),)),
+)
+DEEDS = st.lists(
+    st.one_of(
+        st.tuples(st.just("begin"), st.sampled_from(LEVELS), st.sampled_from(range(len(BRUSHES)))),
+        st.tuples(st.just("points"), st.floats(-120, 200), st.floats(-120, 200)),
+        st.tuples(st.sampled_from(["finish", "abandon", "undo", "redo", "add", "hide", "work", "half"])),
+        st.tuples(st.just("look"), st.sampled_from(LEVELS)),
+    ),
+    min_size=4,
+    max_size=24,
+)
+
+
+@given(DEEDS)
+@settings(deadline=None, max_examples=40)
+def test_the_window_ends_up_with_the_picture(deeds):
+    window = Window()
+    level = 0
+    window.look(*VIEWS[0])
+    for deed in deeds:
+        match deed:
+            case ("begin", at, brush):
+                window.easel.do(q.Begin(at, (0, 0), BRUSHES[brush]))
+            case ("points", x, y):
+                window.easel.do(q.Points(line(5, x, y)))
+            case ("finish",):
+                window.easel.do(q.Finish())
+            case ("abandon",):
+                window.easel.do(q.Abandon())
+            case ("undo",):
+                window.easel.do(q.Do(c.Undo()))
+            case ("redo",):
+                window.easel.do(q.Do(c.Redo()))
+            case ("add",):
+                names = {row.name for row in window.scene().layers}
+                window.easel.do(q.Do(c.AddLayer(f"Another {len(names)}")))
+            case ("hide",):
+                for row in window.scene().layers[:1]:
+                    window.easel.do(q.Do(c.SetLayer(row.name, visible=not row.visible)))
+            case ("look", at):
+                level = at
+                window.look(*VIEWS[level])
+            case ("work",):
+                window.work()
+            case ("half",):
+                window.easel.step()
+    window.work()
+    window.check(*VIEWS[level])
+    window.easel.do(q.Finish())
+    for other in LEVELS:
+        window.look(*VIEWS[other])
+        window.work()
+        window.check(*VIEWS[other])
+
+
+def test_what_is_shown_while_the_pen_moves_is_what_is_committed():
+    window = Window()
+    window.look(*VIEWS[0])
+    window.work()
+    window.easel.do(q.Begin(0, (0, 0), BRUSHES[3]))
+    for k in range(4):
+        window.easel.do(q.Points(line(6, 20.0 + 40 * k)))
+        window.work()
+    shown = {tile: window.tiles[tile].copy() for tile in VIEWS[0]}
+    window.easel.do(q.Finish())
+    window.tiles.clear()
+    window.revisions.clear()
+    window.look(*VIEWS[0])
+    window.work()
+    for tile in VIEWS[0]:
+        assert np.array_equal(window.tiles[tile], shown[tile])
+
+
+def test_points_that_wait_are_painted_before_any_picture_is_made():
+    window = Window()
+    window.look(*VIEWS[0])
+    window.work()
+    sent = len(window.revisions)
+    window.easel.do(q.Begin(0, (0, 0), BRUSHES[0]))
+    for _ in range(10):
+        window.easel.do(q.Points(line(3)))
+    assert len(window.revisions) == sent
+    assert window.easel.pending
+
+
+def test_a_tile_far_from_the_change_is_not_made_anew():
+    window = Window()
+    far = ((0, 40, 40),)
+    window.look(*far)
+    window.work()
+    pixels = window.tiles[far[0]]
+    window.easel.do(q.Begin(0, (0, 0), BRUSHES[0]))
+    window.easel.do(q.Points(line(4)))
+    window.easel.do(q.Finish())
+    window.work()
+    assert window.tiles[far[0]] is pixels
+    assert window.revisions[far[0]] == window.easel.revision
+
+
+def test_the_stroke_of_the_pen_is_the_stroke_of_the_command():
+    window = Window()
+    window.easel.do(q.Begin(1, (7, -3), BRUSHES[1]))
+    for k in range(3):
+        window.easel.do(q.Points(line(4, 30.0 * k)))
+    window.easel.do(q.Finish())
+    stroke = window.easel.session.log[-1]
+    assert isinstance(stroke, c.Stroke)
+    again = apply(Window().easel.session.painting, stroke)
+    other = Window()
+    other.easel.session.painting = again
+    rect = Rect(0, 0, 200, 200)
+    assert np.array_equal(other.easel.picture(1, rect), window.easel.picture(1, rect))
+
+
+def test_the_scene_tells_what_the_panels_show():
+    window = Window()
+    assert window.scene().layers == ()
+    window.easel.do(q.Do(c.AddLayer("Low")))
+    window.easel.do(q.Do(c.AddLayer("Group", kind="group")))
+    window.easel.do(q.Do(c.AddLayer("In it", group="Group")))
+    scene = window.scene()
+    assert [(r.name, r.group, r.depth, r.parent, r.position) for r in scene.layers] == [
+        ("Group", True, 0, None, 1),
+        ("In it", False, 1, "Group", 0),
+        ("Low", False, 0, None, 0),
+    ]
+    assert scene.can_undo
+    assert scene.modified
+    assert scene.active == "In it"
+
+
+def test_picking_takes_the_colour_that_is_seen():
+    window = Window()
+    window.easel.do(q.Begin(0, (0, 0), Brush(radius=20.0, hardness=1.0, colour="#336699")))
+    window.easel.do(q.Points(line(2, 50.0, 50.0, 4.0, 0.0)))
+    window.easel.do(q.Pick(0, 52, 50))
+    found = window.other[-1]
+    assert found.alpha == 1.0
+    assert np.allclose(found.rgb, (0x33 / 255, 0x66 / 255, 0x99 / 255), atol=1e-3)
+    window.easel.do(q.Pick(0, 500, 500))
+    assert window.other[-1].alpha == 0.0
+
+
+@pytest.mark.parametrize("mode", ["paint", "erase", "smooth"])
+def test_a_preset_paints_its_own_thumbnail(mode):
+    window = Window()
+    window.easel.do(q.Swatch("it", Brush(radius=10.0, mode=mode), (104, 44)))
+    picture = window.other[-1]
+    assert picture.pixels.shape == (44, 104, 4)
+    assert len(np.unique(picture.pixels[..., 3])) > 4
+
+
+def test_the_ink_mixers_picture_is_covered_everywhere_and_shows_more_when_nearer():
+    window = Window()
+    brush = Brush(radius=16.0, colour="#203040", ink=(Component("rock", 0.8, "#ffffff"),))
+    window.easel.do(q.Swatch("ink", brush, (96, 48), "fill"))
+    flat = window.other[-1].pixels
+    assert (flat[..., 3] == 255).all()
+    assert flat[..., 0].std() > 4
+    window.easel.do(q.Swatch("near", brush, (96, 48), "fill", 4))
+    assert window.other[-1].pixels[..., 0].std() > 1
+
+
+def test_saving_and_opening_give_the_same_picture(tmp_path):
+    window = Window()
+    window.easel.do(q.Begin(0, (0, 0), BRUSHES[3]))
+    window.easel.do(q.Points(line(12)))
+    window.easel.do(q.Finish())
+    window.easel.do(q.Save(tmp_path / "p.ora"))
+    window.easel.close()
+    assert any(isinstance(r, q.Saved) for r in window.other)
+    assert not window.scene().modified
+    other = Window()
+    other.easel.do(q.Open(tmp_path / "p.ora"))
+    assert other.scene().path == tmp_path / "p.ora"
+    assert not other.scene().modified
+    for level in LEVELS:
+        other.look(*VIEWS[level])
+        other.work()
+        for tile in VIEWS[level]:
+            assert np.array_equal(other.tiles[tile], to_premul8(window.easel.picture(level, tile_rect(tile))))
+    assert other.easel.session.log
+
+
+def test_a_recording_plays_to_the_same_painting_live_or_not(tmp_path):
+    lines = [
+        '{"inkfall": 1, "frame": [0, 0, 200, 200], "seed": 3}',
+        '{"do": "view", "level": 0, "origin": [0, 0], "size": [200, 200]}',
+        '{"do": "stroke", "points": [[10, 10], [60, 90], [120, 40]], "brush": {"radius": 7}}',
+        '{"do": "stroke", "level": 1, "points": [[50, 50], [90, 60]], "brush": {"radius": 20, "mode": "erase"}}',
+    ]
+    (tmp_path / "r.jsonl").write_text("\n".join(lines) + "\n")
+    pictures = []
+    for live in (False, True):
+        window = Window()
+        window.easel.do(q.Open(tmp_path / "r.jsonl", live))
+        while window.easel.due is not None:
+            window.easel.play()
+        assert any(isinstance(r, q.Looked) for r in window.other)
+        pictures.append(window.easel.picture(1, Rect(0, 0, 400, 400)))
+    assert np.array_equal(*pictures)
+    assert pictures[0][3].max() > 0.5

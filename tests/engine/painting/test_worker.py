@@ -1,0 +1,153 @@
+"""The worker's thread: order, cancellation, and errors that leave it alive."""
+
+import threading
+import time
+
+import pytest
+
+from engine.numeric.address import Rect
+from engine.painting import requests as q
+from engine.painting.worker import Worker
+
+
+class Bench:
+    """A stand-in that writes down what it is asked to do; `gate` holds it up."""
+
+    due = None
+
+    def __init__(self, send):
+        self.send, self.did, self.open, self.gate = send, [], [], threading.Event()
+        self.gate.set()
+        send(q.Ready())
+
+    def do(self, request):
+        self.gate.wait(5)
+        self.did.append(request)
+        if isinstance(request, q.Export):
+            raise ValueError("it did not work\nand more that nobody wants to read")
+
+    def look(self, request):
+        self.open = list(request.tiles)
+
+    def step(self):
+        self.gate.wait(5)
+        self.did.append(self.open.pop(0))
+        return True
+
+    @property
+    def pending(self):
+        return len(self.open)
+
+    def play(self):
+        self.did.append("play")
+        self.due = None
+
+    def close(self):
+        self.did.append("closed")
+
+
+@pytest.fixture
+def worker():
+    woken = threading.Event()
+    made = []
+
+    def make(send):
+        made.append(Bench(send))
+        return made[0]
+
+    one = Worker(woken.set, make)
+    woken.wait(5)
+    one.bench, one.woken = made[0], woken
+    yield one
+    one.close()
+
+
+def until(condition):
+    end = time.monotonic() + 5
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.002)
+
+
+def test_requests_are_carried_out_in_order(worker):
+    posts = [q.New(Rect(0, 0, n, n)) for n in range(1, 20)]
+    for post in posts:
+        worker.post(post)
+    until(lambda: len(worker.bench.did) == len(posts))
+    assert worker.bench.did == posts
+
+
+def test_posting_never_waits(worker):
+    worker.bench.gate.clear()
+    start = time.perf_counter()
+    for n in range(200):
+        worker.post(q.New(Rect(0, 0, n, n)))
+    assert time.perf_counter() - start < 0.5
+    worker.bench.gate.set()
+
+
+def test_a_newer_look_replaces_the_tiles_of_the_older(worker):
+    worker.bench.gate.clear()
+    worker.post(q.Look(tuple((0, n, 0, -1) for n in range(50))))
+    until(lambda: worker.bench.open)
+    worker.post(q.Look(((9, 1, 1, -1),)))
+    worker.bench.gate.set()
+    until(lambda: not worker.bench.open and (9, 1, 1, -1) in worker.bench.did)
+    assert len(worker.bench.did) <= 3
+
+
+def test_commands_go_before_tiles(worker):
+    worker.bench.gate.clear()
+    worker.post(q.Look(tuple((0, n, 0, -1) for n in range(50))))
+    until(lambda: worker.bench.open)
+    worker.post(q.Finish())
+    worker.bench.gate.set()
+    until(lambda: q.Finish() in worker.bench.did)
+    assert worker.bench.did.index(q.Finish()) <= 1
+
+
+def test_an_error_becomes_one_line_and_the_thread_goes_on(worker):
+    worker.post(q.Export("somewhere.png"))
+    worker.post(q.Finish())
+    until(lambda: q.Finish() in worker.bench.did)
+    notes = [r for r in worker.results() if isinstance(r, q.Note)]
+    assert notes == [q.Note("it did not work", bad=True)]
+
+
+def test_only_the_newest_swatch_of_a_name_is_painted(worker):
+    worker.bench.gate.clear()
+    worker.post(q.Finish())
+    for n in range(5):
+        worker.post(q.Swatch("ink", None, (n, n)))
+    worker.post(q.Swatch("other", None, (7, 7)))
+    worker.bench.gate.set()
+    until(lambda: len(worker.bench.did) == 3)
+    assert worker.bench.did[1:] == [q.Swatch("ink", None, (4, 4)), q.Swatch("other", None, (7, 7))]
+
+
+def test_closing_does_what_was_posted_before(worker):
+    worker.bench.gate.clear()
+    posts = [q.New(Rect(0, 0, n, n)) for n in range(5)]
+    for post in posts:
+        worker.post(post)
+    threading.Timer(0.05, worker.bench.gate.set).start()
+    worker.close()
+    assert worker.bench.did == [*posts, "closed"]
+
+
+def test_something_that_plays_goes_on_by_itself(worker):
+    worker.bench.due = 0.0
+    worker.post(q.Finish())
+    until(lambda: "play" in worker.bench.did)
+
+
+def test_an_engine_that_does_not_load_is_told(capfd):
+    woken = threading.Event()
+
+    def broken(send):
+        raise ImportError("no numba here")
+
+    worker = Worker(woken.set, broken)
+    woken.wait(5)
+    assert worker.results() == [q.Note("The paint engine did not load: no numba here", bad=True)]
+    worker.close()
