@@ -1,4 +1,4 @@
-# Shared by `start` and `tests/run`: a virtual environment on a machine that may have nothing but Python.
+# Shared by `app/start` and `tests/run`: a virtual environment on a machine that may have nothing but Python.
 
 may_install() { command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; }
 

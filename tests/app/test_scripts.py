@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SCRIPTS = ["start", "tests/run", "tests/environment.sh", ".ci/run"]
+SCRIPTS = ["app/start", "tests/run", "tests/environment.sh", ".ci/run"]
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
@@ -17,7 +17,7 @@ def test_valid_shell(name):
 
 def test_the_readme_names_the_scripts():
     lines = (ROOT / "README.md").read_text().splitlines()
-    assert "    bash start" in lines
+    assert "    bash app/start" in lines
     assert "    bash tests/run" in lines
 
 
