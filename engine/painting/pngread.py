@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from typing import BinaryIO
 
 import numpy as np
-from isal import isal_zlib
 from numba import njit
 
-from engine.painting.fault import FileError, shown
-from engine.painting.inflate import PIECE, DeflateError, Inflated
+from engine.painting.fault import shown
+from engine.painting.inflate import DeflateError, Inflated
 from engine.painting.limits import LIMITS, Limits
+from engine.painting.pngchunks import Chunks
 from engine.painting.pngstream import SIGNATURE
 
 CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
@@ -53,118 +53,85 @@ class Header:
 
 
 @njit(cache=True, nogil=True)
+def _add_paeth(row, above, step):
+    """Adds the Paeth predictor (section 9.4) to a row in place."""
+    for i in range(min(step, row.size)):
+        row[i] = np.uint8(row[i] + above[i])
+    for i in range(step, row.size):
+        a = np.int32(row[i - step])
+        b = np.int32(above[i])
+        c = np.int32(above[i - step])
+        pa = abs(b - c)
+        pb = abs(a - c)
+        pc = abs(a + b - c - c)
+        nearest = a
+        if pb < pa and pb <= pc:
+            nearest = b
+        elif pc < pa and pc < pb:
+            nearest = c
+        row[i] = np.uint8(row[i] + nearest)
+
+
+@njit(cache=True, nogil=True)
 def _unfilter(raw, before, step):
     """Undoes the filters of `raw` uint8 (n, 1 + stride) in place (section 9.2); `before` is the row above (stride).
 
     Gives the number of rows done: fewer than n if a row names no known filter.
     """
-    count = raw.shape[0]
-    stride = raw.shape[1] - 1
-    for y in range(count):
+    for y in range(raw.shape[0]):
         kind = raw[y, 0]
         row = raw[y, 1:]
         above = before if y == 0 else raw[y - 1, 1:]
         if kind == 1:
-            for i in range(step, stride):
+            for i in range(step, row.size):
                 row[i] = np.uint8(row[i] + row[i - step])
         elif kind == 2:
-            for i in range(stride):
+            for i in range(row.size):
                 row[i] = np.uint8(row[i] + above[i])
         elif kind == 3:
-            for i in range(min(step, stride)):
+            for i in range(min(step, row.size)):
                 row[i] = np.uint8(row[i] + (above[i] >> 1))
-            for i in range(step, stride):
+            for i in range(step, row.size):
                 row[i] = np.uint8(row[i] + ((np.int32(row[i - step]) + np.int32(above[i])) >> 1))
         elif kind == 4:
-            for i in range(min(step, stride)):
-                row[i] = np.uint8(row[i] + above[i])
-            for i in range(step, stride):
-                a = np.int32(row[i - step])
-                b = np.int32(above[i])
-                c = np.int32(above[i - step])
-                pa = abs(b - c)
-                pb = abs(a - c)
-                pc = abs(a + b - c - c)
-                nearest = a
-                if pb < pa and pb <= pc:
-                    nearest = b
-                elif pc < pa and pc < pb:
-                    nearest = c
-                row[i] = np.uint8(row[i] + nearest)
+            _add_paeth(row, above, step)
         elif kind != 0:
             return y
-    return count
+    return raw.shape[0]
 
 
 class PngReader:
     """A PNG being read.  `file` needs only `read`; `name` stands in the messages.  FileError on any fault."""
 
     def __init__(self, file: BinaryIO, name: str, limits: Limits = LIMITS) -> None:
-        self._file = file
-        self._name = name
         self._limits = limits
-        self._chunks = 0
+        self._chunks = Chunks(file, name, limits)
         self._data_left = 0  # bytes of the first IDAT chunk
+        found = file.read(len(SIGNATURE))
+        if found != SIGNATURE:
+            raise self._chunks.fail(f"not a PNG: starts with {shown(found)}")
         self.header = self._read_header()
-
-    # ---- chunks ----
-
-    def _fail(self, message: str) -> FileError:
-        return FileError(self._name, message)
-
-    def _exactly(self, count: int, place: str) -> bytes:
-        data = self._file.read(count)
-        if len(data) != count:
-            raise self._fail(f"the file ends inside {place}; found {len(data)} bytes, expected {count}")
-        return data
-
-    def _chunk_head(self) -> tuple[bytes, int]:
-        self._chunks += 1
-        if self._chunks > self._limits.chunks:
-            raise self._fail(f"more than {self._limits.chunks} chunks")
-        length, kind = struct.unpack(">I4s", self._exactly(8, "the head of a chunk"))
-        if not kind.isalpha() or length >= 1 << 31:
-            raise self._fail(f"chunk {self._chunks}: found type {shown(kind)}, length {length}; expected four letters")
-        return kind, length
-
-    def _body(self, kind: bytes, length: int) -> bytes:
-        if length > self._limits.chunk:
-            raise self._fail(f"chunk {kind.decode()}: found {length} bytes, expected at most {self._limits.chunk}")
-        data = self._exactly(length, f"chunk {kind.decode()}")
-        self._check(kind, isal_zlib.crc32(data, isal_zlib.crc32(kind)))
-        return data
-
-    def _check(self, kind: bytes, found: int) -> None:
-        (expected,) = struct.unpack(">I", self._exactly(4, f"the checksum of chunk {kind.decode()}"))
-        if found != expected:
-            raise self._fail(f"chunk {kind.decode()}: checksum found {found:08x}, expected {expected:08x}")
-
-    def _skip(self, kind: bytes, length: int) -> None:
-        left = length + 4
-        while left:
-            left -= len(self._exactly(min(left, PIECE), f"chunk {kind.decode()}"))
 
     # ---- the part before the image data ----
 
     def _read_header(self) -> Header:
-        found = self._file.read(8)
-        if found != SIGNATURE:
-            raise self._fail(f"not a PNG: starts with {shown(found)}")
-        kind, length = self._chunk_head()
+        kind, length = self._chunks.head()
         if kind != b"IHDR" or length != 13:
-            raise self._fail(f"chunk 1: found {shown(kind)} of {length} bytes, expected IHDR of 13")
-        width, height, depth, colour, method, filtering, interlace = struct.unpack(">IIBBBBB", self._body(kind, 13))
+            raise self._chunks.fail(f"chunk 1: found {shown(kind)} of {length} bytes, expected IHDR of 13")
+        width, height, depth, colour, method, filtering, interlace = struct.unpack(
+            ">IIBBBBB", self._chunks.body(kind, 13)
+        )
         self._check_size(width, height)
         if colour not in DEPTHS or depth not in DEPTHS[colour]:
-            raise self._fail(f"chunk IHDR: colour type {colour} with {depth} bits does not exist")
+            raise self._chunks.fail(f"chunk IHDR: colour type {colour} with {depth} bits does not exist")
         if method or filtering or interlace > 1:
-            raise self._fail(
+            raise self._chunks.fail(
                 f"chunk IHDR: compression {method}, filter {filtering}, interlace {interlace}; expected 0, 0, 0 or 1"
             )
         found_before = self._before_data(colour)
         palette, transparency = found_before.get(b"PLTE", b""), found_before.get(b"tRNS", b"")
         if colour == 3 and not palette:
-            raise self._fail("image data before the palette; expected chunk PLTE")
+            raise self._chunks.fail("image data before the palette; expected chunk PLTE")
         title = found_before.get(b"iCCP", b"sRGB").split(b"\0")[0]
         notes = () if b"sRGB" in title else (FOREIGN_PROFILE,)
         return Header(width, height, depth, colour, interlace == 1, palette, transparency, notes)
@@ -172,31 +139,31 @@ class PngReader:
     def _check_size(self, width: int, height: int) -> None:
         limits = self._limits
         if not (0 < width <= limits.side and 0 < height <= limits.side):
-            raise self._fail(f"chunk IHDR: {width} x {height} pixels; expected 1 to {limits.side} each way")
+            raise self._chunks.fail(f"chunk IHDR: {width} x {height} pixels; expected 1 to {limits.side} each way")
         if width * height > limits.pixels:
-            raise self._fail(f"chunk IHDR: {width} x {height} pixels; expected at most {limits.pixels} in all")
+            raise self._chunks.fail(f"chunk IHDR: {width} x {height} pixels; expected at most {limits.pixels} in all")
 
     def _before_data(self, colour: int) -> dict[bytes, bytes]:
         kept: dict[bytes, bytes] = {}
         while True:
-            kind, length = self._chunk_head()
+            kind, length = self._chunks.head()
             if kind == b"IDAT":
                 self._data_left = length
                 return kept
             if kind in (b"PLTE", b"tRNS"):
                 if kind in kept:
-                    raise self._fail(f"chunk {kind.decode()} twice")
-                kept[kind] = self._body(kind, length)
+                    raise self._chunks.fail(f"chunk {kind.decode()} twice")
+                kept[kind] = self._chunks.body(kind, length)
                 self._check_body(kind, kept[kind], colour)
             elif kind == b"IEND":
-                raise self._fail("no image data; expected chunk IDAT before IEND")
+                raise self._chunks.fail("no image data; expected chunk IDAT before IEND")
             elif not kind[0] & 0x20:
-                raise self._fail(f"chunk {kind.decode()}: a kind that must be understood, and is not known")
+                raise self._chunks.fail(f"chunk {kind.decode()}: a kind that must be understood, and is not known")
             else:
                 if kind == b"iCCP":
-                    kept[kind] = self._exactly(min(length, 80), "chunk iCCP")
+                    kept[kind] = self._chunks.exactly(min(length, 80), "chunk iCCP")
                     length -= len(kept[kind])
-                self._skip(kind, length)
+                self._chunks.skip(kind, length)
 
     def _check_body(self, kind: bytes, data: bytes, colour: int) -> None:
         if kind == b"PLTE":
@@ -204,32 +171,9 @@ class PngReader:
         else:
             good = {0: len(data) == 2, 2: len(data) == 6, 3: 0 < len(data) <= 256}.get(colour, False)
         if not good:
-            raise self._fail(f"chunk {kind.decode()}: {len(data)} bytes do not fit colour type {colour}")
+            raise self._chunks.fail(f"chunk {kind.decode()}: {len(data)} bytes do not fit colour type {colour}")
 
     # ---- the image data ----
-
-    def _pieces(self) -> Iterator[bytes]:
-        """The contents of the IDAT chunks; checksums are compared as each chunk ends."""
-        length = self._data_left
-        check = isal_zlib.crc32(b"IDAT")
-        while True:
-            while length:
-                piece = self._exactly(min(length, PIECE), "chunk IDAT")
-                check = isal_zlib.crc32(piece, check)
-                length -= len(piece)
-                yield piece
-            self._check(b"IDAT", check)
-            kind, length = self._chunk_head()
-            if kind != b"IDAT":
-                self._after_data(kind, length)
-                return
-            check = isal_zlib.crc32(b"IDAT")
-
-    def _after_data(self, kind: bytes, length: int) -> None:
-        while kind != b"IEND":
-            self._skip(kind, length)
-            kind, length = self._chunk_head()
-        self._body(kind, length)
 
     def strips(self) -> Iterator[np.ndarray]:
         """The rows from the top as uint8 or uint16 RGBA (n, width, 4), n as suits; interlaced images in one piece.
@@ -237,7 +181,7 @@ class PngReader:
         May be called once.  A fault in the file's last bytes comes after the last strip.
         """
         header = self.header
-        pieces = self._pieces()
+        pieces = self._chunks.data(self._data_left)
         data = Inflated(pieces)
         try:
             if header.interlaced:
@@ -249,9 +193,9 @@ class PngReader:
             for _ in pieces:  # whatever the stream did not need must still be whole
                 pass
         except DeflateError as error:
-            raise self._fail(f"chunk IDAT: damaged image data ({error})") from error
+            raise self._chunks.fail(f"chunk IDAT: damaged image data ({error})") from error
         if not complete:
-            raise self._fail("chunk IDAT: the image data ends without its checksum")
+            raise self._chunks.fail("chunk IDAT: the image data ends without its checksum")
 
     def _rows(self, data: Inflated, width: int, height: int) -> Iterator[np.ndarray]:
         """Unfiltered samples (n, width, channels) of one pass."""
@@ -265,10 +209,10 @@ class PngReader:
             filled = data.readinto(raw.reshape(-1).data)
             if filled != raw.size:
                 row = top + filled // (stride + 1)
-                raise self._fail(f"chunk IDAT: the image data ends in row {row} of {height}")
+                raise self._chunks.fail(f"chunk IDAT: the image data ends in row {row} of {height}")
             good = _unfilter(raw, above, step)
             if good != len(raw):
-                raise self._fail(f"row {top + good}: filter {raw[good, 0]}; expected 0 to 4")
+                raise self._chunks.fail(f"row {top + good}: filter {raw[good, 0]}; expected 0 to 4")
             above = raw[-1, 1:].copy()
             yield unpacked(raw[:, 1:], width, header)
 
