@@ -85,6 +85,8 @@ class Desk:
 
     def told(self, note: Note) -> None:
         self.say(note.text, note.bad)
+        if note.bad:
+            self.after_save = None
 
     def ask(self, name: str) -> None:
         """Opens a dialog by its name."""

@@ -49,7 +49,10 @@ class Dialogs:
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
         if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
-            if not dialog.draw(desk) or imgui.is_key_pressed(imgui.Key.escape):
+            given_up = imgui.is_key_pressed(imgui.Key.escape)
+            if given_up:
+                desk.after_save = None
+            if not dialog.draw(desk) or given_up:
                 imgui.close_current_popup()
                 self._open = None
             imgui.end_popup()

@@ -48,6 +48,8 @@ class SystemDialog:
             if self._saving and path.suffix.lower() not in self._endings:
                 path = path.with_name(path.name + self._endings[0])
             self._then(desk, path)
+        else:
+            desk.after_save = None
         return False
 
 

@@ -83,7 +83,9 @@ def slider(
     _hidden_frame(True, typing)
     imgui.set_next_item_width(width)
     flags = imgui.SliderFlags_.logarithmic if curved and lo > 0 else 0
-    changed, value = imgui.slider_float(f"##{label}", value, lo, hi, form if typing or imgui.get_io().key_ctrl else "", flags)
+    changed, value = imgui.slider_float(
+        f"##{label}", value, lo, hi, form if typing or imgui.get_io().key_ctrl else "", flags
+    )
     _hidden_frame(False, typing)
     if not typing:
         pad = imgui.get_style().frame_padding

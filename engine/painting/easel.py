@@ -145,9 +145,11 @@ class Easel:
         if rect.empty:
             return
         level = self.live.level
-        self._dirty = self._dirty.union(rect)
+        if not self._dirty.empty:  # one change for all points between two pictures
+            self._changes.pop()
+        self._dirty = dirty = self._dirty.union(rect)
         self.revision += 1
-        self._changes.append((self.revision, lambda n: [rect] if n == level else []))
+        self._changes.append((self.revision, lambda n: [dirty] if n == level else []))
         if self.live.full:
             stroke = self.live.to_command()
             self.finish()
@@ -156,11 +158,12 @@ class Easel:
     def finish(self) -> None:
         """The pen lifts."""
         live, self.live = self.live, None
+        self._dirty = Rect(0, 0, 0, 0)  # what is not sent yet comes with the tiles, which are all looked at again
         if live is None:
             return
         after = self.session.finish(live)
         other = areas(live.base, after)
-        # At the stroke's own level the preview, which is or will be on the screen, is what was committed.
+        # At the stroke's own level the preview is what was committed: nothing changes.
         self._changed(lambda level: [] if level == live.level else other(level))
         self._tell()
 
@@ -198,10 +201,8 @@ class Easel:
         """The part of the wanted tiles that the stroke in progress changed."""
         dirty, level, self._dirty = self._dirty, self._dirty_level, Rect(0, 0, 0, 0)
         for key, held in self._wanted.items():
-            if key[0] == level and held >= 0:
-                part = dirty.intersect(tile_rect(key))
-                if not part.empty:
-                    self._send_part(key, part)
+            if key[0] == level and held >= 0 and dirty.meets(tile_rect(key)):
+                self._bring_up_to_date(key)
 
     def _bring_up_to_date(self, key: Key) -> None:
         """Sends a wanted tile anew, or the parts of it that changed since the window's copy, or that it is good."""
@@ -302,11 +303,13 @@ class Easel:
             self.finish()
         painting = self.session.painting
         recording = self.session.recording() if self._known else None
+        serial = self._serial
 
         def write() -> None:
             documents.save(request.path, painting, recording)
-            self.path, self._saved = request.path, painting
-            self._tell()
+            if serial == self._serial:  # the same painting is still on the easel
+                self.path, self._saved = request.path, painting
+                self._tell()
             self.send(q.Saved(request.path))
 
         self._in_background(write)
