@@ -7,6 +7,7 @@ changes any more; finer levels keep the part A of their residuals, applied when 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -169,7 +170,7 @@ def _with_records(pyramid: Pyramid, level: int, rect: Rect, keeps: Keeps | None,
         _write(editable, keys, records)
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
-    after = Pyramid(levels, change, pyramid.uid, pyramid.settled)
+    after = replace(pyramid, levels=levels, last=change)
     return fold(after) if keeps and sum(1 for _ in after.waiting()) > _MOST_WAITING else after
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from engine.canvas.attenuate import effective
@@ -26,4 +28,4 @@ def fold(pyramid: Pyramid) -> Pyramid:
                 editable.set(place, smaller)
         finished = editable.finish()
         levels = levels.set(level, finished) if len(finished) else levels.delete(level)
-    return Pyramid(levels, pyramid.last, pyramid.uid, settled=pyramid.depth)
+    return replace(pyramid, levels=levels, settled=pyramid.depth)

@@ -324,7 +324,7 @@ def duplicate(root: Group, name: str, to: str) -> Group:
         number = next(ids)
         if isinstance(node, Layer):
             # Its own line of history from here on, so that caches keep both.
-            return replace(node, id=number, name=called, pyramid=Pyramid(node.pyramid.levels, node.pyramid.last))
+            return replace(node, id=number, name=called, pyramid=node.pyramid.branched())
         inside = tuple(copy(child, free(child.name)) for child in node.children)
         return replace(node, id=number, name=called, children=inside)
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import immutables
 import numpy as np
@@ -75,17 +75,28 @@ Level = immutables.Map[tuple[int, int], Record]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Ground:
+    """A picture laid down before anything was painted: its `rect` of level 0, the records that it made, and its
+    `pixels` as a PNG, from which they can be made again."""
+
+    rect: Rect
+    levels: immutables.Map[int, Level]
+    pixels: bytes
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Pyramid:
     """One state of a layer's canvas.
 
     `uid` names the layer's line of history, for caches.  `settled`: every attenuation of the commits up to this depth
-    has been applied to the records.
+    has been applied to the records.  `ground`: the picture that the layer began with, if it began with one.
     """
 
     levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
     last: Change | None = None
     uid: int = field(default_factory=lambda: next(_serials))
     settled: int = 0
+    ground: Ground | None = None
 
     @property
     def depth(self) -> int:
@@ -98,6 +109,10 @@ class Pyramid:
     @property
     def finest(self) -> int | None:
         return max(self.levels, default=None)
+
+    def branched(self) -> Pyramid:
+        """The same state at the start of a line of history of its own."""
+        return replace(self, uid=next(_serials))
 
     def waiting(self, since: int = 0) -> Iterator[Change]:
         """The commits whose attenuation has not been applied to a record stored at depth `since`, newest first."""

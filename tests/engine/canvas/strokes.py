@@ -75,6 +75,10 @@ def solid(width, height, colour, alpha=1.0):
     return np.full((height, width), 1 - a, np.float32), add
 
 
+def fill(level, x, y, width, height, colour=(0.6, 0.2, 0.4), alpha=1.0):
+    return ArrayEdit(level, x, y, *solid(width, height, colour, alpha))
+
+
 def random_stroke(rng, finest, half0, inks):
     """(level, x, y, A, B with a plane triple for every one of `inks`): hard, soft, textured, erasing or faint."""
     m = int(rng.integers(0, finest + 1))

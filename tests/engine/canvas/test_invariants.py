@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from strokes import ArrayEdit, Grain, random_stroke, solid, spread_planes
+from strokes import ArrayEdit, Grain, fill, random_stroke, spread_planes
 
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import TileCache, evaluate
@@ -30,10 +30,6 @@ def painted(seed, count=25, finest=4, half=12, inks=INKS):
 def around(pyramid, level, half=12, cache=None):
     h = half << max(level, 0)
     return spread_planes(evaluate(pyramid, level, Rect(-h, -h, h, h), cache), INKS)
-
-
-def fill(level, x, y, width, height, colour=(0.6, 0.2, 0.4), alpha=1.0):
-    return ArrayEdit(level, x, y, *solid(width, height, colour, alpha))
 
 
 def test_a_thousand_visits_with_evictions_change_nothing_and_store_nothing():
