@@ -192,16 +192,21 @@ class _Import:
         return tuple(self._notes[:NOTES]) + ((f"and {more} more like these",) if more > 0 else ())
 
     def _total(self) -> None:
-        """Adds up what all layers claim, before any is decoded."""
+        """Adds up what all layers claim, before any is decoded; those that show a picture again count by themselves."""
+        again = 0
+        seen: set[str] = set()
         for entry in self._image.root.layers():
             if self._usable(entry):
                 header = self._reader(entry).header
                 self._pixels += header.width * header.height
-        if self._pixels > self._limits.total_pixels:
-            raise FileError(
-                self._archive.name,
-                f"all layers together have {self._pixels} pixels; expected at most {self._limits.total_pixels}",
-            )
+                again += header.width * header.height if entry.src in seen else 0
+                seen.add(entry.src)
+        for what, found, most in (
+            ("all layers together have", self._pixels, self._limits.total_pixels),
+            ("layers that show one picture again have", again, self._limits.pixels),
+        ):
+            if found > most:
+                raise FileError(self._archive.name, f"{what} {found} pixels; expected at most {most}")
 
     def _usable(self, entry: LayerEntry) -> bool:
         return entry.src in self._archive and entry.src.lower().endswith(".png")

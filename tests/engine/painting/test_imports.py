@@ -162,6 +162,9 @@ HOSTILE = {
     "a small picture many times": (
         '<layer src="a.png"/>' * 1900, {"a.png": png(np.zeros((2000, 2000, 4), np.uint8))}, "all layers together"
     ),
+    "a picture 300 times": (
+        '<layer src="a.png"/>' * 300, {"a.png": png(np.zeros((2000, 1000, 4), np.uint8))}, "again have 598000000"
+    ),
 }  # fmt: skip
 
 
