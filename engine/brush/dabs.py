@@ -41,6 +41,10 @@ class Stroker:
         """
         points, dropped = cleaned(points)
         self.dropped += dropped
+        return self.walk(points)
+
+    def walk(self, points: np.ndarray) -> np.ndarray:
+        """As `add`, for points float64 (n, 6) that are known to be good (`cleaned` would leave them as they are)."""
         dabs = np.empty((4 * len(points) + 64, DAB))
         before = self._state.copy()
         count = _walk(points, self._state, *self._response, dabs)

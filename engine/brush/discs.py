@@ -18,6 +18,8 @@ CX, CY, ROUT, RIN2, SCALE, CEILING, RATE = range(7)  # a disc's columns; SCALE =
 DISC = 7
 
 _LANES = 16  # rows are worked on in whole groups of as many pixels, so that no scalar remainder is left
+_FEW = 64  # pairs that are sorted by insertion
+_LOW = (1 << 32) - 1
 HALF = 1 << 30  # added to tile coordinates, which stay below 2^25, so that codes are positive
 _INSIDE = -0.01  # u below which the whole profile is 1 whatever the rounding
 
@@ -57,6 +59,15 @@ def as_discs(dabs, shift_x, shift_y, bounds):
 
 
 @njit(cache=True, nogil=True)
+def highest(discs):
+    """The highest ceiling of discs (n, 7)."""
+    most = 0.0
+    for i in range(discs.shape[0]):
+        most = max(most, discs[i, CEILING])
+    return most
+
+
+@njit(cache=True, nogil=True)
 def list_pairs(discs, start, codes, which, inside):
     """The pairs (tile, disc) of the discs from `start` on, disc by disc, until the next might not fit.
 
@@ -84,6 +95,36 @@ def list_pairs(discs, start, codes, which, inside):
                         count += 1
         i += 1
     return count, i
+
+
+@njit(cache=True, nogil=True)
+def list_runs(discs, start, codes, which, inside, runs):
+    """As `list_pairs`, with the pairs of a tile brought together, tiles in order of their codes, discs in their own.
+
+    Writes a row of `runs`, int64 (n, 5), for each tile: its first pair and the one after its last, the tile's x and y,
+    and how many of its discs cover it in full.  Returns the number of rows and the next disc.
+    """
+    count, following = list_pairs(discs, start, codes, which, inside)
+    if count <= _FEW:
+        for i in range(1, count):  # insertion: stable, and nothing is faster for the few of a frame
+            code, disc, full = codes[i], which[i], inside[i]
+            k = i
+            while k > 0 and codes[k - 1] > code:
+                codes[k], which[k], inside[k] = codes[k - 1], which[k - 1], inside[k - 1]
+                k -= 1
+            codes[k], which[k], inside[k] = code, disc, full
+    else:
+        order = np.argsort(codes[:count], kind="mergesort")
+        codes[:count], which[:count], inside[:count] = codes[order], which[order], inside[order]
+    made = 0
+    for i in range(count):
+        if i == 0 or codes[i] != codes[i - 1]:
+            run = runs[made]
+            run[0], run[2], run[3], run[4] = i, (codes[i] & _LOW) - HALF, (codes[i] >> 32) - HALF, 0
+            made += 1
+        runs[made - 1, 1] = i + 1
+        runs[made - 1, 4] += inside[i]
+    return made, following
 
 
 @njit(inline="always")
@@ -125,17 +166,19 @@ def wiped(discs, which, inside, ceiling):
 
 
 @njit(cache=True, nogil=True)
-def lay(coverage, discs, which, left, top):
-    """Lays discs into one tile, in order: M' = M + max(0, ceiling - M) * rate * d(r).
+def lay(coverage, discs, which, first, last, left, top):
+    """Lays the discs which[first:last] into one tile, in order: M' = M + max(0, ceiling - M) * rate * d(r).
 
     `coverage`: M, float32 (128, 128), written; `left`, `top`: the tile's corner in px.
     """
     across = np.empty(TILE, np.float32)
-    for k in range(which.shape[0]):
+    for k in range(first, last):
         disc = discs[which[k]]
         cx, cy, outer, scale = disc[CX] - left, disc[CY] - top, disc[ROUT], disc[SCALE]
         ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
-        for x in range(TILE):
+        left_most = max(0, math.floor(cx - outer - 1.0)) // _LANES * _LANES
+        right_most = min(TILE, math.ceil(cx + outer + 1.0) + _LANES)
+        for x in range(left_most, right_most):
             across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
         for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
             dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)

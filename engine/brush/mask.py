@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +16,6 @@ from engine.numeric.grid import SNAP
 TILES_CAP = 1 << 15  # of one stroke: 2 GiB of coverage if none of them is flat
 _PAIRS = 1 << 17  # (tile, dab) pairs sorted at once
 _PAIRS_OF_ONE = 4608  # more tiles than the largest dab can meet
-_LOW = (1 << 32) - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,58 +85,50 @@ class StrokeMask:
         discs = kernels.as_discs(dabs, *self._shift, self._bounds)
         if not len(discs):
             return set()
-        self._ceiling = max(self._ceiling, float(discs[:, kernels.CEILING].max()))
+        self._ceiling = max(self._ceiling, kernels.highest(discs))
         room = max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs)))
         codes, which, inside = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.bool_)
+        runs = np.empty((room, 5), np.int64)
         touched: set[TileKey] = set()
         start = 0
         while start < len(discs):
-            count, start = kernels.list_pairs(discs, start, codes, which, inside)
-            order = np.argsort(codes[:count], kind="stable")
-            groups = list(self._by_tile(codes[order]))
-            self._make_room([key for key, *_ in groups])
-            sorted_which, sorted_inside = which[order], inside[order]
-            for key, place, part in groups:
-                if self._lay(key, place, discs, sorted_which[part], sorted_inside[part]):
+            count, start = kernels.list_runs(discs, start, codes, which, inside, runs)
+            listed = runs[:count].tolist()
+            keys = [TileKey(self.level, self._corner[0] + x, self._corner[1] + y) for _, _, x, y, _ in listed]
+            self._make_room(keys)
+            for key, run in zip(keys, listed, strict=True):
+                if self._lay(key, run, discs, which, inside):
                     touched.add(key)
         return touched
 
-    def _by_tile(self, codes: np.ndarray) -> Iterator[tuple[TileKey, tuple[int, int], slice]]:
-        """Runs of equal codes: the tile, its corner in px of the discs' coordinates, and the run."""
-        if not len(codes):
-            return
-        ends = [*(np.flatnonzero(codes[1:] != codes[:-1]) + 1).tolist(), len(codes)]
-        begin = 0
-        for end in ends:
-            code = int(codes[begin])
-            x, y = (code & _LOW) - kernels.HALF, (code >> 32) - kernels.HALF
-            key = TileKey(self.level, self._corner[0] + x, self._corner[1] + y)
-            yield key, (x * TILE, y * TILE), slice(begin, end)
-            begin = end
-
     def _make_room(self, keys: list[TileKey]) -> None:
-        total = len(self._tiles) + sum(key not in self._tiles for key in keys)
+        total = len(self._tiles) + len(keys)
+        if total > self._tiles_cap:
+            total = len(self._tiles) + sum(key not in self._tiles for key in keys)
         if total > self._tiles_cap:
             raise BrushError(
                 "stroke", f"one that meets {total} tiles", f"at most {self._tiles_cap} of {TILE} x {TILE} px"
             )
 
-    def _lay(
-        self, key: TileKey, place: tuple[int, int], discs: np.ndarray, which: np.ndarray, inside: np.ndarray
-    ) -> bool:
-        """Lays discs into one tile; False if that changes nothing."""
+    def _lay(self, key: TileKey, run: list[int], discs: np.ndarray, which: np.ndarray, inside: np.ndarray) -> bool:
+        """Lays a run of discs (`kernels.list_runs`) into their tile; False if that changes nothing."""
+        first, last, x, y, full = run
         old = self._tiles.get(key, 0.0)
-        if not isinstance(old, np.ndarray) or (inside.any() and kernels.wiped(discs, which, inside, self._ceiling)):
+        if not isinstance(old, np.ndarray) or (full and self._wiped(discs, which[first:last], inside[first:last])):
             start = 0.0 if isinstance(old, np.ndarray) else old
-            value, laid = kernels.lay_flat(discs, which, inside, np.float32(start), self._ceiling)
-            if laid == len(which):
+            part = slice(first, last)
+            value, laid = kernels.lay_flat(discs, which[part], inside[part], np.float32(start), self._ceiling)
+            first += laid
+            if first == last:
                 self._tiles[key] = float(value)
                 return isinstance(old, np.ndarray) or value != old
-            which = which[laid:]
             tile = np.full((TILE, TILE), value, np.float32)
         else:
             tile = old.copy() if key in self._lent else old
         self._lent.discard(key)
-        kernels.lay(tile, discs, which, place[0], place[1])
+        kernels.lay(tile, discs, which, first, last, x * TILE, y * TILE)
         self._tiles[key] = tile
         return True
+
+    def _wiped(self, discs: np.ndarray, which: np.ndarray, inside: np.ndarray) -> bool:
+        return kernels.wiped(discs, which, inside, self._ceiling)

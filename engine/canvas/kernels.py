@@ -144,6 +144,25 @@ def halve_marks(fine, out, top, left):
 
 
 @njit(cache=True, nogil=True)
+def marked(marks):
+    """The extent y0, y1, x0, x1 of what is set in `marks`, uint8 (h, w)."""
+    y0, y1, x0, x1 = marks.shape[0], 0, marks.shape[1], 0
+    columns = np.zeros(marks.shape[1], np.uint8)
+    for y in range(marks.shape[0]):
+        row = marks[y]
+        found = np.uint8(0)
+        for i in range(row.size):
+            columns[i] |= row[i]
+            found |= row[i]
+        if found:
+            y0, y1 = min(y0, y), y + 1
+    for x in range(columns.size):
+        if columns[x]:
+            x0, x1 = min(x0, x), x + 1
+    return y0, y1, x0, x1
+
+
+@njit(cache=True, nogil=True)
 def climb(below_old, below_new, keep, parents, old, new, changed):
     """Rule U: what a change of the level below does to this one.
 

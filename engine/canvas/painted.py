@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -13,9 +14,16 @@ from engine.canvas.evaluate import TileCache, evaluate_sparse, without_empty_ink
 from engine.canvas.front import Below, Front, Surroundings, lifted, widened
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.texture.planes import Planes, merged, plane_map
+from engine.texture.planes import COLOURS, Planes, merged, plane_map
 
-_BLANK = Planes(np.zeros((4, TILE, TILE), np.float32))
+
+@cache
+def _zeros(planes: int) -> np.ndarray:
+    """A blank tile; not to be written to."""
+    return np.zeros((planes, TILE, TILE), np.float32)
+
+
+_BLANK = Planes(_zeros(COLOURS))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -31,12 +39,12 @@ class Painted:
     @property
     def bounds(self) -> Rect:
         """The smallest rectangle of the level that holds every changed pixel."""
-        rows, columns = np.flatnonzero(self.changed.any(1)), np.flatnonzero(self.changed.any(0))
+        y0, y1, x0, x1 = kernels.marked(self.changed)
         x, y = self.key.x * TILE, self.key.y * TILE
-        return Rect(x + int(columns[0]), y + int(rows[0]), x + int(columns[-1]) + 1, y + int(rows[-1]) + 1)
+        return Rect(x + x0, y + y0, x + x1, y + y1)
 
 
-def tile_bounds(keys: Sequence[TileKey]) -> Rect:
+def tile_bounds(keys: Collection[TileKey]) -> Rect:
     """The smallest rectangle that holds all of some tiles of one level."""
     if not keys:
         return Rect(0, 0, 0, 0)
@@ -56,7 +64,7 @@ def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
     if stamp is None:
         return None
     inks = merged(() if old is None else old.inks, stamp.inks)
-    before = widened(_BLANK if old is None else old, inks)
+    before = Planes(_zeros(COLOURS + 3 * len(inks)), inks) if old is None else widened(old, inks)
     new, changed = np.empty_like(before.data), np.empty((TILE, TILE), np.uint8)
     if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, plane_map(stamp.inks, inks), new, changed):
         return None

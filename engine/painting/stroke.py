@@ -14,6 +14,7 @@ from engine.brush.record import Brush
 from engine.brush.stamp import Edit
 from engine.canvas import commit, evaluate, layers
 from engine.canvas.evaluate import TileCache
+from engine.canvas.painted import tile_bounds
 from engine.numeric.address import Rect
 from engine.painting.commands import Stroke
 from engine.painting.points import POINT_COLUMNS, REACH
@@ -78,11 +79,9 @@ class LiveStroke:
 
     def lay(self, points: np.ndarray) -> Rect:
         """As `add`, for points float64 (n, 6) that are known to be good."""
-        dirty = Rect(0, 0, 0, 0)
         if not len(points):
-            return dirty
-        for key in self._mask.paint(self._stroker.add(points)):
-            dirty = dirty.union(key.rect)
+            return Rect(0, 0, 0, 0)
+        dirty = tile_bounds(self._mask.paint(self._stroker.walk(points)))
         self._points.append(points)
         self._count += len(points)
         self._edit = None

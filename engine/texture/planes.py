@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -34,10 +35,13 @@ class Planes:
 
 def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
     """The union of several sets of ink instances, sorted by key."""
-    first, *rest = (tuple(s) for s in sets)
-    if all(s == first or not s for s in rest):
+    stacks = [s for s in map(tuple, sets) if s]
+    if not stacks:
+        return ()
+    first = stacks[0]
+    if all(s is first or s == first for s in stacks):
         return first
-    return tuple(sorted({ink for s in (first, *rest) for ink in s}, key=lambda ink: sort_key(ink.key)))
+    return tuple(sorted({ink for s in stacks for ink in s}, key=lambda ink: sort_key(ink.key)))
 
 
 def sort_key(key: object) -> tuple:
@@ -47,8 +51,16 @@ def sort_key(key: object) -> tuple:
     return (1, key) if isinstance(key, str) else (0, key)
 
 
+@cache
+def _all_planes(count: int) -> np.ndarray:
+    return np.arange(count, dtype=np.int64)  # writable all the same: kernels are compiled anew for arrays that are not
+
+
 def plane_map(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndarray:
-    """For each plane of a stack with the inks `into`, its index in a stack with `inks`, or -1: int64 (4 + 3n,)."""
+    """For each plane of a stack with the inks `into`, its index in a stack with `inks`, or -1: int64 (4 + 3n,), not to be
+    written to."""
+    if inks is into or inks == into:
+        return _all_planes(COLOURS + 3 * len(into))
     places = {ink: COLOURS + 3 * i for i, ink in enumerate(inks)}
     planes = list(range(COLOURS))
     for ink in into:
