@@ -1,0 +1,1 @@
+"""The bundled demo, part by part: each module paints one part of the landscape on an easel."""
