@@ -67,6 +67,27 @@ def glaze(weight, colours, add):
                 b[x] = snap(w[x] * p[x])
 
 
+@njit(cache=True, nogil=True)
+def load(keep, colours, amplitudes, add):
+    """B of textured paint in one pass, as `weigh`, `glaze` and `wash` make it: with M = 1 - A, add[0:3] = snap(M
+    colours), add[3] = M, add[4 + i] = snap(M amplitudes[i]).
+
+    `keep` float32 (h, w), `colours` (3, h, w), `amplitudes` (k,), `add` (4 + k, h, w).
+    """
+    for y in range(keep.shape[0]):
+        a, w = keep[y], add[3, y]
+        for x in range(a.shape[0]):
+            w[x] = _ONE - a[x]
+        for c in range(3):
+            p, b = colours[c, y], add[c, y]
+            for x in range(a.shape[0]):
+                b[x] = snap(w[x] * p[x])
+        for i in range(amplitudes.shape[0]):
+            value, b = amplitudes[i], add[4 + i, y]
+            for x in range(a.shape[0]):
+                b[x] = snap(w[x] * value)
+
+
 def local_mean(planes: np.ndarray, reach: int) -> np.ndarray:
     """The mean of each pixel's surroundings: two passes of a box of 2 reach + 1 px along each axis.
 

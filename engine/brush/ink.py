@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -50,6 +51,11 @@ class Ink:
     @property
     def inks(self) -> tuple[Instance, ...]:
         return tuple(part.instance for part in self.loaded)
+
+    @cached_property
+    def amplitudes(self) -> np.ndarray:
+        """Red, green and blue amplitude of every instance in turn: float32 (3n,)."""
+        return np.concatenate([part.amplitude for part in self.loaded]) if self.loaded else np.zeros(0, np.float32)
 
     def field(self, key: TileKey) -> np.ndarray:
         """The ink's colour over a tile of its own level: float32 (3, 128, 128), not to be written to."""

@@ -76,6 +76,9 @@ class Painting(_Covered):
             return None
         parts = self.ink.loaded
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
+        if parts and not self.locked:
+            coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
+            return Stamp(keep, add, self.ink.inks)
         weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
         if parts:
             coat.glaze(weight, self.ink.field(key), add[:_ALPHA])

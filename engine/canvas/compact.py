@@ -11,17 +11,33 @@ from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
 
-def compact(rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], depth: int) -> Record | None:
+Extent = tuple[int, int, int, int, int]
+
+
+def compact(
+    rect: Rect,
+    data: np.ndarray,
+    inks: tuple[Instance, ...],
+    depth: int,
+    measured: tuple[Extent, np.ndarray] | None = None,
+) -> Record | None:
     """A residual in int32 units of 2^-16 (4 + 3n, h, w) over `rect` of its tile, as a record: cropped to what is not
-    zero, without empty inks, in the smaller integer that holds it.  None where all is zero."""
-    largest, y0, y1, x0, x1 = kernels.extent(data)
-    if largest == 0:
+    zero, without empty inks, in the smaller integer that holds it.  None where all is zero.
+
+    `measured`: what `kernels.extent` tells of `data`, where that is known.
+    """
+    if measured is None:
+        used = np.empty(len(data), np.int32)
+        measured = kernels.extent(data, used), used
+    (bits, y0, y1, x0, x1), used = measured
+    if bits == 0:
         return None
-    kept = [i for i in range(len(inks)) if data[COLOURS + 3 * i : COLOURS + 3 * i + 3].any()]
+    filled = used.tolist()
+    kept = [i for i in range(len(inks)) if any(filled[COLOURS + 3 * i : COLOURS + 3 * i + 3])]
     if len(kept) < len(inks):
         planes = [*range(COLOURS), *(COLOURS + 3 * i + c for i in kept for c in range(3))]
         data, inks = data[planes], tuple(inks[i] for i in kept)
-    smaller = np.int16 if largest < 1 << 15 else np.int32
-    cropped = np.ascontiguousarray(data[:, y0:y1, x0:x1], smaller)
+    smaller = np.int16 if bits < 1 << 15 else np.int32
+    cropped = data[:, y0:y1, x0:x1].astype(smaller)
     cropped.flags.writeable = False
     return Record(Rect(rect.x0 + x0, rect.y0 + y0, rect.x0 + x1, rect.y0 + y1), cropped, inks, depth)

@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.grid import snap
+from engine.numeric.pyramid import blend_rows, expand_row
 
 _UNIT = np.float32(2.0**-16)
 _COUNT = np.float32(2.0**16)
@@ -248,23 +249,72 @@ def residual(value, predicted, touched, top, left, out):
 
 
 @njit(cache=True, nogil=True)
-def extent(data):
-    """Of int32 (C, h, w): the largest absolute value, and the extent y0, y1, x0, x1 of what is not zero."""
-    largest = np.int32(0)
-    y0, y1, x0, x1 = data.shape[1], 0, data.shape[2], 0
-    columns = np.zeros(data.shape[2], np.int32)
-    for y in range(data.shape[1]):
-        row_largest = np.int32(0)
-        for c in range(data.shape[0]):
+def first_residual(value, coarse, top, left, planes, touched, out, used):
+    """The residual of a tile that had none, and what `extent` tells of it.
+
+    `value` float32 (C, 2h, 2w); the prediction is expand of `coarse`, placed and chosen as by `expand_into`; `touched`
+    uint8 (2h, 2w); `out` int32 (C, 2h, 2w) in units of 2^-16 is written everywhere, `used` (C,) as by `extent`.
+    """
+    n = touched.shape[1] // 2
+    t, predicted = np.empty(n + 2, np.float32), np.zeros(2 * n, np.float32)
+    columns, rows = np.zeros(2 * n, np.int32), np.zeros(touched.shape[0], np.int32)
+    for c in range(value.shape[0]):
+        source, found = planes[c], np.int32(0)
+        if source < 0:
+            predicted[:] = _ZERO
+        for y in range(touched.shape[0]):
+            if source >= 0:
+                row = top + 1 + y // 2
+                near = coarse[source, row][left : left + n + 2]
+                far = coarse[source, row + 2 * (y & 1) - 1][left : left + n + 2]
+                blend_rows(near, far, t)
+                expand_row(t, predicted)
+            v, k, o = value[c, y], touched[y], out[c, y]
+            bits = np.int32(0)
+            for i in range(2 * n):
+                new = np.int32((v[i] - predicted[i]) * _COUNT)
+                new = new if k[i] else np.int32(0)
+                o[i] = new
+                size = abs(new)
+                columns[i] |= size
+                bits |= size
+            rows[y] |= bits
+            found |= bits
+        used[c] = found
+    return _span(rows, columns)
+
+
+@njit(cache=True, nogil=True)
+def extent(data, used):
+    """Of int32 (C, h, w): the bits of all absolute values, and the extent y0, y1, x0, x1 of what is not zero.
+
+    `used`, int32 (C,), gets the bits of each plane.
+    """
+    columns, rows = np.zeros(data.shape[2], np.int32), np.zeros(data.shape[1], np.int32)
+    for c in range(data.shape[0]):
+        found = np.int32(0)
+        for y in range(data.shape[1]):
             row = data[c, y]
+            bits = np.int32(0)
             for i in range(row.size):
                 size = abs(row[i])
                 columns[i] |= size
-                row_largest = max(row_largest, size)
-        if row_largest > 0:
+                bits |= size
+            rows[y] |= bits
+            found |= bits
+        used[c] = found
+    return _span(rows, columns)
+
+
+@njit(inline="always")
+def _span(rows, columns):
+    bits = np.int32(0)
+    y0, y1, x0, x1 = rows.size, 0, columns.size, 0
+    for y in range(rows.size):
+        if rows[y]:
             y0, y1 = min(y0, y), y + 1
-            largest = max(largest, row_largest)
+            bits |= rows[y]
     for x in range(columns.size):
         if columns[x]:
             x0, x1 = min(x0, x), x + 1
-    return largest, y0, y1, x0, x1
+    return bits, y0, y1, x0, x1

@@ -95,15 +95,18 @@ def _value(pyramid: Pyramid, front: Front, part: Rect, above: Surroundings) -> P
 
 def _pasted(around: Surroundings, front: Front | None) -> Planes:
     """Old values with a front's new ones in their place."""
-    rect = around.rect
-    whole = around.planes if around.planes is not None else Planes.empty(rect.height, rect.width)
+    rect, whole = around.rect, around.planes
     common = Rect(0, 0, 0, 0) if front is None else front.rect.intersect(rect)
     if front is None or common.empty:
-        return whole
-    inks = merged(whole.inks, front.new.inks)
-    out = widened(whole, inks)
-    if out is whole or out.data is whole.data:
-        out = Planes(whole.data.copy(), inks)
+        return whole if whole is not None else Planes.empty(rect.height, rect.width)
+    if whole is None:
+        inks = front.new.inks
+        out = Planes(np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32), inks)
+    else:
+        inks = merged(whole.inks, front.new.inks)
+        out = widened(whole, inks)
+        if out.data is whole.data:
+            out = Planes(whole.data.copy(), inks)
     rows, columns = common.slices(rect)
     out.data[:, rows, columns] = widened(front.new.cut(*common.slices(front.rect)), inks).data
     return out
@@ -123,6 +126,8 @@ def _record(pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarra
     stored = pyramid.levels.get(key.level)
     old = stored.get((key.x, key.y)) if stored is not None else None
     at, inks = part, merged(value.inks, parents.after.inks)
+    if old is None and all(key.level <= ink.base for ink in inks):
+        return _first_record(pyramid, key, part, widened(value, inks), touched, parents)
     if old is not None:
         old = effective(pyramid, key, old)
         at, inks = part.union(placed(key, old.rect)), merged(inks, old.inks)
@@ -138,6 +143,21 @@ def _record(pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarra
         return _SAME
     x, y = key.x * TILE, key.y * TILE
     return compact(Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y), data, inks, pyramid.depth + 1)
+
+
+def _first_record(pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents):
+    """As `_record` where none was, and where no ink adds texture: nothing has to be made but the residual itself."""
+    corner, above = part.parents(), parents.before.rect
+    planes = plane_map(parents.after.inks, value.inks)
+    data, used = np.empty(value.data.shape, np.int32), np.empty(len(value.data), np.int32)
+    extent = kernels.first_residual(
+        value.data, parents.after.data, corner.y0 - above.y0, corner.x0 - above.x0, planes, touched, data, used
+    )
+    if extent[0] == 0:
+        return _SAME
+    x, y = key.x * TILE, key.y * TILE
+    inside = Rect(part.x0 - x, part.y0 - y, part.x1 - x, part.y1 - y)
+    return compact(inside, data, value.inks, pyramid.depth + 1, (extent, used))
 
 
 def _predicted(parents: Parents, part: Rect, value: Planes, level: int) -> np.ndarray:

@@ -18,13 +18,14 @@ _QUARTER = np.float32(0.25)
 
 
 @njit(cache=True, nogil=True)
-def _blend_rows(near, far, out):
+def blend_rows(near, far, out):
+    """3 near + far: a row halfway between two coarse rows, times 4."""
     for i in range(out.size):
         out[i] = _THREE * near[i] + far[i]
 
 
 @njit(cache=True, nogil=True)
-def _expand_row(t, out):
+def expand_row(t, out):
     """`t` (n + 2,) to `out` (2n,): along a row, and the division by 16 of both axes."""
     n = out.size // 2
     left, mid, right = t[0:n], t[1 : n + 1], t[2 : n + 2]
@@ -52,8 +53,8 @@ def expand_into(coarse, top, left, planes, out, first, last):
             row = top + 1 + y // 2
             near = coarse[source, row][left : left + n + 2]
             far = coarse[source, row + 2 * (y & 1) - 1][left : left + n + 2]
-            _blend_rows(near, far, t)
-            _expand_row(t, out[c, y])
+            blend_rows(near, far, t)
+            expand_row(t, out[c, y])
 
 
 def expand(coarse: np.ndarray) -> np.ndarray:

@@ -57,8 +57,10 @@ def _all_planes(count: int) -> np.ndarray:
 
 
 def plane_map(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndarray:
-    """For each plane of a stack with the inks `into`, its index in a stack with `inks`, or -1: int64 (4 + 3n,), not to be
-    written to."""
+    """For each plane of a stack with the inks `into`, its index in a stack with `inks`, or -1: int64 (4 + 3n,).
+
+    The array is not to be written to.
+    """
     if inks is into or inks == into:
         return _all_planes(COLOURS + 3 * len(into))
     places = {ink: COLOURS + 3 * i for i, ink in enumerate(inks)}
