@@ -10,7 +10,6 @@ from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
-
 Extent = tuple[int, int, int, int, int]
 
 
