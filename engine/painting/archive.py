@@ -7,6 +7,7 @@ same painting gives the same bytes.  A save takes a frozen snapshot, so it can r
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
 from collections import deque
@@ -26,9 +27,10 @@ from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted
-from engine.painting import pictures
+from engine.painting import grounds, pictures
 from engine.painting.atomic import replacing
 from engine.painting.fault import FileError, WriteError
+from engine.painting.grounds import GroundEntry
 from engine.painting.limits import LIMITS
 from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Pack, PictureEntry, manifest_json
 from engine.painting.packing import Tile, encoded_size, grouped, pack
@@ -172,18 +174,27 @@ class Plan:
         self._packs: dict[int, list[Pack]] = {}
         self._places: dict[int, Rect] = {}
         self._pictures: list[PictureEntry] = []
+        self._grounds: dict[int, GroundEntry] = {}
         for layer in layers.layers(painting.root):
             self._places[layer.id] = self._place(layer)
+        laid = [job for layer in layers.layers(painting.root) for job in self._ground_jobs(layer)]
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
         told = [] if recording is None else [Job(RECORDING, lambda: _told(recording), deflate=True)]
-        self.jobs = [*stored, *seen, *told]
+        self.jobs = [*laid, *stored, *seen, *told]
         self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
 
     # ---- pictures for other programs ----
 
+    def _is_ground(self, layer: Layer) -> bool:
+        """Whether the picture that a layer began with is its picture still."""
+        return self._level == 0 and grounds.whole(layer, self._frame)
+
     def _place(self, layer: Layer) -> Rect:
+        if self._is_ground(layer):
+            assert layer.pyramid.ground is not None
+            return layer.pyramid.ground.rect
         place = reach(layer.pyramid, self._level, self._frame)
         return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
@@ -193,19 +204,29 @@ class Plan:
         files: dict[str, _Png] = {}
         try:
             for layer in layers.layers(root):
-                files[_png_name(layer)] = _Png(places[layer.id], len(self._shown))
+                if not self._is_ground(layer):
+                    files[_png_name(layer)] = _Png(places[layer.id], len(self._shown))
             files[MERGED] = _Png(self._frame, len(self._shown))
             for known, merged in sheets(root, level, self._frame, places, self._cancelled):
                 for layer in layers.layers(root):
-                    if layer.id in known:
+                    if layer.id in known and _png_name(layer) in files:
                         files[_png_name(layer)].rows(known[layer.id])
                 files[MERGED].rows(merged)
             files[THUMB] = self._thumbnail()
-            return [(Job(name, bytes), png.finished()) for name, png in files.items()]
+            drawn = [(Job(name, bytes), png.finished()) for name, png in files.items()]
+            return [*self._grounds_shown(), *drawn]
         except BaseException:
             for png in files.values():
                 png.file.close()
             raise
+
+    def _grounds_shown(self) -> list[tuple[Job, IO[bytes]]]:
+        """The pictures of layers that nobody has painted on: those they began with."""
+        shown: list[tuple[Job, IO[bytes]]] = []
+        for layer in layers.layers(self._painting.root):
+            if self._is_ground(layer) and layer.pyramid.ground is not None:
+                shown.append((Job(_png_name(layer), bytes), io.BytesIO(layer.pyramid.ground.pixels)))
+        return shown
 
     def _thumbnail(self) -> _Png:
         """At most 256 x 256: the level that is just large enough, reduced by exact area means."""
@@ -250,8 +271,20 @@ class Plan:
 
     # ---- our own members ----
 
+    def _ground_jobs(self, layer: Layer) -> Iterator[Job]:
+        ground = layer.pyramid.ground
+        if ground is None:
+            return
+        shared = self._is_ground(layer)
+        name = _png_name(layer) if shared else f"inkfall/layers/{layer.id}/ground.png"
+        found = grounds.entry(layer.pyramid, name)
+        assert found is not None
+        self._grounds[layer.id] = found
+        if not shared:
+            yield Job(name, lambda: ground.pixels)
+
     def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
-        tiles = list(layer.pyramid.all_records())
+        tiles = grounds.painted_since(layer.pyramid)
         self._packs[layer.id] = []
         yield from _pack_jobs(f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id])
 
@@ -269,7 +302,7 @@ class Plan:
         text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
         writer.add("stack.xml", text, deflate=True)
         members = {name: (entry.size, entry.sha256) for name, entry in writer.written.items()}
-        told = manifest_json(self._painting, self._packs, self._pictures, members)
+        told = manifest_json(self._painting, self._packs, self._grounds, self._pictures, members)
         writer.add(MANIFEST, dumps(told).encode(), deflate=True)
 
 

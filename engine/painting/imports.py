@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import PurePath
 from typing import Any
 
@@ -19,6 +20,7 @@ from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
+from engine.painting import grounds
 from engine.painting.fault import FileError, shown
 from engine.painting.images import read_image
 from engine.painting.limits import LIMITS, Limits, memory_cap
@@ -83,7 +85,23 @@ class Pasted:
 
 
 def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) -> Pyramid:
-    """A pyramid of the rows that `bands` give, uint8 or uint16 RGBA (n, w, 4), from (x, y) of level 0 on."""
+    """A pyramid of the rows that `bands` give, uint8 or uint16 RGBA (n, w, 4), from (x, y) of level 0 on.
+
+    They are laid down at once and remembered as the layer's ground, if they are not too many.
+    """
+    held: list[np.ndarray] = []
+    count = 0
+    for band in bands:
+        check(cancelled)
+        held.append(band)
+        count += band.shape[0] * band.shape[1]
+        if count > grounds.LAID:
+            return _committed(chain(held, bands), x, y, cancelled)
+    return grounds.lay(held[0] if len(held) == 1 else np.concatenate(held), x, y) if held else Pyramid()
+
+
+def _committed(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop) -> Pyramid:
+    """The same, part by part."""
     pyramid = Pyramid()
     for rows in _regrouped(bands, y):
         check(cancelled)

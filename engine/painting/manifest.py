@@ -16,7 +16,9 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect
+from engine.painting import grounds
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
+from engine.painting.grounds import GroundEntry
 from engine.painting.recording import SIDE_LIMIT
 from engine.painting.strictjson import Fields, FormatError
 from engine.painting.textures import Texture
@@ -59,6 +61,7 @@ class Manifest:
     active: str | None
     root: Group
     packs: Mapping[int, tuple[Pack, ...]]
+    grounds: Mapping[int, GroundEntry]  # of the layers that began with a picture
     textures: Mapping[str, tuple[str, Map, str | None]]  # name -> kind, parameters, sha of its picture
     pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
     members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
@@ -84,6 +87,7 @@ class Manifest:
 def manifest_json(
     painting: Painting,
     packs: Mapping[int, list[Pack]],
+    laid: Mapping[int, GroundEntry],
     pictures: list[PictureEntry],
     members: Mapping[str, tuple[int, str]],
 ) -> dict[str, Any]:
@@ -95,7 +99,7 @@ def manifest_json(
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
         "active": painting.active,
-        "layers": [_node_json(node, packs) for node in painting.root.children],
+        "layers": [_node_json(node, packs, laid) for node in painting.root.children],
         "textures": {
             name: {
                 "kind": t.kind,
@@ -115,7 +119,7 @@ def _pack_json(pack: Pack) -> list[Any]:
     return [pack.member, pack.tiles, pack.plain]
 
 
-def _node_json(node: Node, packs: Mapping[int, list[Pack]]) -> dict[str, Any]:
+def _node_json(node: Node, packs: Mapping[int, list[Pack]], laid: Mapping[int, GroundEntry]) -> dict[str, Any]:
     common = {
         "id": node.id,
         "name": node.name,
@@ -126,8 +130,9 @@ def _node_json(node: Node, packs: Mapping[int, list[Pack]]) -> dict[str, Any]:
     }
     if isinstance(node, Layer):
         stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
-        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored}
-    children = [_node_json(child, packs) for child in node.children]
+        ground = {"ground": grounds.to_json(laid[node.id])} if node.id in laid else {}
+        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored, **ground}
+    children = [_node_json(child, packs, laid) for child in node.children]
     return {"kind": "group", **common, "isolated": node.isolated, "children": children}
 
 
@@ -147,7 +152,8 @@ def parse_manifest(value: Any) -> Manifest:
     if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
         raise members.fault("frame", "a width and height from 1 to 2^40")
     packs: dict[int, tuple[Pack, ...]] = {}
-    nodes = tuple(_node(v, f"layers[{i}]", packs, 0) for i, v in enumerate(_list(members, "layers")))
+    laid: dict[int, GroundEntry] = {}
+    nodes = tuple(_node(v, f"layers[{i}]", packs, laid, 0) for i, v in enumerate(_list(members, "layers")))
     root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
@@ -158,6 +164,7 @@ def parse_manifest(value: Any) -> Manifest:
         active,
         root,
         packs,
+        laid,
         {name: _texture(v, f"textures.{name}") for name, v in _object(members, "textures").items()},
         {sha: _picture(sha, v) for sha, v in _object(members, "pictures").items()},
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
@@ -178,7 +185,7 @@ def _object(members: Fields, name: str) -> dict[str, Any]:
     return value
 
 
-def _node(value: Any, where: str, packs: dict[int, tuple[Pack, ...]], depth: int) -> Node:
+def _node(value: Any, where: str, packs: dict[int, tuple[Pack, ...]], laid: dict[int, GroundEntry], depth: int) -> Node:
     members = Fields(value, where)
     kind = members.take("kind", expected='"layer" or "group"')
     if kind not in ("layer", "group") or depth > layers.MAX_DEPTH + 1:
@@ -193,9 +200,12 @@ def _node(value: Any, where: str, packs: dict[int, tuple[Pack, ...]], depth: int
     }
     if kind == "layer":
         packs[common["id"]] = _packs(members)
+        ground = members.take("ground", None)
+        if ground is not None:
+            laid[common["id"]] = grounds.parse(ground, f"{where}.ground")
         return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=Pyramid())
     inside = _list(members, "children")
-    children = tuple(_node(v, f"{where}.children[{i}]", packs, depth + 1) for i, v in enumerate(inside))
+    children = tuple(_node(v, f"{where}.children[{i}]", packs, laid, depth + 1) for i, v in enumerate(inside))
     return Group(**common, isolated=members.flag("isolated"), children=children)
 
 

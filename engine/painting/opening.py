@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import os
+import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -15,8 +16,8 @@ from immutables import Map
 
 from engine.canvas import layers
 from engine.canvas.layers import LayerError
-from engine.canvas.store import Level, Pyramid, Record
-from engine.painting import pictures
+from engine.canvas.store import Pyramid, Record
+from engine.painting import grounds, pictures
 from engine.painting.fault import FileError, shown
 from engine.painting.imports import STACK, Opened, read_raster
 from engine.painting.limits import LIMITS, Limits, memory_cap
@@ -73,6 +74,7 @@ class _Opening:
         self._cancelled = cancelled
         self._total = 1
         self._done = 0
+        self._reading = threading.Lock()  # the file has one position
 
     def run(self) -> Opened:
         try:
@@ -136,23 +138,40 @@ class _Opening:
             raise FileError(self._archive.name, f"its paint takes {self._total >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
         root = manifest.root
-        for layer in list(layers.layers(root)):
-            pyramid = self._pyramid(manifest.packs[layer.id], manifest, sources)
-            root = layers.with_pyramid(root, layer.name, pyramid)
+        with ThreadPoolExecutor(WORKERS, "lay") as pool:
+            laid = {number: pool.submit(self._ground, number, manifest) for number in manifest.grounds}
+            for layer in list(layers.layers(root)):
+                check(self._cancelled)
+                levels = self._levels(manifest.packs[layer.id], manifest, sources)
+                if layer.id in laid:
+                    pyramid = grounds.with_tiles(laid.pop(layer.id).result(), levels)
+                else:
+                    pyramid = grounds.with_tiles(Pyramid(), levels)
+                root = layers.with_pyramid(root, layer.name, pyramid)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
         return Opened(painting, notes, True, recording, Map(sources))
 
-    def _pyramid(self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]) -> Pyramid:
+    def _ground(self, number: int, manifest: Manifest) -> Pyramid:
+        """The picture that a layer began with, laid down again."""
+        found = manifest.grounds[number]
+        if found.member not in manifest.members:
+            raise FileError(self._archive.name, f"{MANIFEST}: {shown(found.member)} is not among the members")
+        with self._reading:
+            png = self._archive.read(found.member, manifest.members[found.member][0])
+        return grounds.restored(found, png, f"{self._archive.name}: member {shown(found.member)}", self._limits)
+
+    def _levels(
+        self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]
+    ) -> dict[int, dict[tuple[int, int], Record]]:
         levels: dict[int, dict[tuple[int, int], Record]] = {}
         for key, record in self._tiles(packs, manifest, sources):
             level = levels.setdefault(key.level, {})
             if (key.x, key.y) in level:
                 raise FileError(self._archive.name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
             level[key.x, key.y] = record
-        stored: dict[int, Level] = {level: Map(tiles) for level, tiles in levels.items()}
-        return Pyramid(Map(stored))
+        return levels
 
     def _picture(self, entry: PictureEntry, manifest: Manifest) -> ImageSource:
         parts = list(self._tiles(entry.packs, manifest, {}))
@@ -186,7 +205,8 @@ class _Opening:
         size, sha = manifest.members.get(pack.member, (-1, ""))
         if size < 0:
             raise FileError(self._archive.name, f"{MANIFEST}: {shown(pack.member)} is not among the members")
-        return self._archive.read(pack.member, size), sha
+        with self._reading:
+            return self._archive.read(pack.member, size), sha
 
     def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Tile]:
         data, sha = stored

@@ -63,6 +63,7 @@ def test_pasted_in_bands_is_pasted_at_once(monkeypatch):
     pixels = image(400, 64)
     whole = pasted(iter([pixels]), 5, -70)
     monkeypatch.setattr("engine.painting.imports.PIXELS", 64 * 100)
+    monkeypatch.setattr("engine.painting.grounds.LAID", 64 * 20)
     parts = pasted(iter(np.array_split(pixels, 40)), 5, -70)
     assert parts.last.depth > 2
     rect = Rect.at(5, -70, 64, 400)
