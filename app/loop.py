@@ -1,204 +1,83 @@
-"""The window: one frame after another, drawn when there is something new to see.
+"""Opens the window and runs it.
 
-Until the first frame is on the screen nothing of the engine is loaded; it then loads on the worker's thread.
+Until the first frame is on the screen nothing of the engine is loaded; it then loads on the worker's thread.  The
+window's own modules load while the window system and the graphics driver set up, which needs no interpreter.
 """
 
 from __future__ import annotations
 
-import ctypes
+import contextlib
+import importlib
 import os
 import sys
-import time
+import threading
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from imgui_bundle import imgui  # before glfw, so that both use one libglfw
+import imgui_bundle  # before glfw, so that both use one libglfw
 
 import glfw  # isort: skip
-import moderngl
-from imgui_bundle.imgui import backends
 
-from app import cursor, theme
-from app.actions import close
-from app.desk import Desk
-from app.input.choose import pen_source
-from app.input.events import PointerSource
-from app.input.glfw_events import GlfwPointer
-from app.news import News
-from app.panels.layout import Layout
-from app.router import Router
-from app.screen import Screen
 from app.trace import trace
-from app.view import Place, View
-from engine.painting.requests import Open
-from engine.painting.worker import Worker
 
+if TYPE_CHECKING:
+    from app.window import Window
+
+assert imgui_bundle
 WIDTH, HEIGHT = 1280, 800
-LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
-IDLE = 5.0  # seconds to wait for an event when nothing moves
-PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
 
 
-class Window:
-    """The GLFW window, its context and imgui; everything happens on the thread that made it."""
+class WindowError(RuntimeError):
+    """The window cannot be opened; one line that says why."""
 
-    def __init__(self) -> None:
-        self.handle = _open_window()
-        self.ctx = moderngl.create_context(require=330)
-        imgui.create_context()
-        io = imgui.get_io()
-        io.set_ini_filename("")
-        io.config_flags |= imgui.ConfigFlags_.no_mouse_cursor_change
-        self.scale = max(0.75, glfw.get_window_content_scale(self.handle)[0])
-        theme.load_fonts(io)
-        theme.apply(self.scale)
-        width, height = glfw.get_framebuffer_size(self.handle)
-        self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, self.scale)
-        self.layout = Layout()
-        self.router = Router(self.desk, self.layout)
-        self.mouse: PointerSource = GlfwPointer(self.handle)
-        self.pen: PointerSource | None = None
-        self._callbacks()
-        address = ctypes.cast(self.handle, ctypes.c_void_p).value or 0
-        backends.glfw_init_for_opengl(address, False)
-        backends.opengl3_init("#version 330")
-        self._address = address
-        self.screen = Screen(self.ctx)
-        self.news = News(self.desk, self.screen, self.ctx)
-        self._keys: list[tuple[int, int, int, int]] = []
-        self._cursors: dict[int, Any] = {}
-        self._cursor = 0
-        self._last = time.monotonic()
-        self._busy_until = 0.0
-        self._title = ""
 
-    def _not_yet(self, _request: Any) -> None:
-        self.desk.say("The paint engine is still loading")
+def run(path: str | None = None, play: str | None = None) -> int:
+    """Opens the window, on a file if there is one; `play`: a recording that is replayed live.  The exit status.
 
-    def _callbacks(self) -> None:
-        """Keys and text go to imgui and to the router; focus and size only mark the frame as old."""
-        w = self.handle
-        glfw.set_key_callback(w, self._key)
-        glfw.set_char_callback(w, lambda _, c: backends.glfw_char_callback(self._address, c))
-        glfw.set_window_focus_callback(w, self._focus)
-        glfw.set_cursor_enter_callback(w, self._entered)
-        glfw.set_window_refresh_callback(w, lambda _: self._wake())
-        glfw.set_framebuffer_size_callback(w, lambda *_: self._wake())
-        drop: Any = self._dropped  # gets a list of names
-        glfw.set_drop_callback(w, drop)
+    WindowError if there is no display or no OpenGL 3.3.
+    """
+    window = opened()
+    window.frame()
+    trace("first frame")
+    sys.setswitchinterval(0.0005)
+    worker = _worker(window)
+    for name, live in ((path, False), (play, True)):
+        if name is not None:
+            window.open(Path(name), live)
+    try:
+        while not window.closed():
+            window.wait(window.frame())
+    finally:
+        worker.close()
+        window.close()
+    return 0
 
-    def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
-        self._wake()
-        backends.glfw_key_callback(self._address, key, scancode, action, mods)
-        self._keys.append((key, scancode, action, mods))
 
-    def _focus(self, _w: Any, focused: int) -> None:
-        self._wake()
-        backends.glfw_window_focus_callback(self._address, focused)
-        if not focused:
-            self.router.lost_focus()
+def opened() -> Window:
+    """The window, nothing drawn yet.  WindowError if there is no display, no OpenGL 3.3, or a library is missing."""
+    rest = threading.Thread(target=_load, args=("app.window",))
+    rest.start()
+    handle = _open_window()
+    rest.join()
+    try:
+        from app.window import Window
+    except ImportError as error:
+        raise WindowError(f"its libraries cannot be loaded: {error}") from None
+    return Window(handle)
 
-    def _entered(self, _w: Any, entered: int) -> None:
-        self._wake()
-        if not entered:
-            self.router.left()
 
-    def _dropped(self, _w: Any, paths: Any) -> None:
-        self._wake()
-        if paths and self.desk.ready:
-            self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
+def _load(name: str) -> None:
+    """Loads a module ahead of its use, which will tell what is wrong if that fails."""
+    with contextlib.suppress(ImportError):
+        importlib.import_module(name)
 
-    def _wake(self) -> None:
-        self._busy_until = time.monotonic() + LINGER
 
-    def connect(self, worker: Worker) -> None:
-        """From now on pens are heard, and requests go to the engine's thread."""
-        self.pen = pen_source(self.handle)
-        self.desk.post = worker.post
-        self.news.worker = worker
+def _worker(window: Window) -> Any:
+    from engine.painting.worker import Worker
 
-    def frame(self) -> bool:
-        """Takes in what happened and draws; True while something still moves."""
-        now = time.monotonic()
-        seconds, self._last = min(0.1, now - self._last), now
-        self._resize()
-        for source in (self.pen, self.mouse):
-            for event in source.events() if source is not None else ():
-                self._wake()
-                self.router.pointer(event)
-        keys, self._keys = self._keys, []
-        for key in keys:  # after the pointer: a stroke ends before what a key does to it
-            self.router.key(*key)
-        if self.news.take(now):
-            self._busy_until = max(self._busy_until, now + 0.05)
-        moving = self.desk.glide.moving
-        self.desk.view = self.desk.glide.step(self.desk.view, seconds)
-        self._panels()
-        fading = self.screen.draw(self.desk.view, self.desk.frame, now, self.desk.insets)
-        imgui.render()
-        backends.opengl3_render_draw_data(imgui.get_draw_data())
-        self.news.ask(now)
-        self._show_cursor()
-        glfw.swap_buffers(self.handle)
-        return moving or fading
-
-    def _resize(self) -> None:
-        width, height = glfw.get_framebuffer_size(self.handle)
-        view = self.desk.view
-        if (width, height) != (view.width, view.height) and width > 0 and height > 0:
-            self.desk.view = view.resized(width, height)
-            self.ctx.screen.viewport = (0, 0, width, height)
-            self.ctx.viewport = (0, 0, width, height)
-
-    def _panels(self) -> None:
-        backends.opengl3_new_frame()
-        backends.glfw_new_frame()
-        imgui.new_frame()
-        cursor.draw_frame(self.desk)
-        cursor.draw_outline(self.desk)
-        self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
-        self.router.hover()
-        if self.news.first_layout():
-            self.desk.fit()
-
-    def _show_cursor(self) -> None:
-        wanted = cursor.shape(self.desk, self.router.panning_key)
-        if wanted != self._cursor:
-            self._cursor = wanted
-            if wanted not in self._cursors:
-                self._cursors[wanted] = glfw.create_standard_cursor(wanted)
-            glfw.set_cursor(self.handle, self._cursors[wanted])
-        title = f"{'*' if self.desk.modified else ''}{self.desk.path.name if self.desk.path else 'Untitled'} - Inkfall"
-        if title != self._title:
-            self._title = title
-            glfw.set_window_title(self.handle, title)
-
-    def wait(self, moving: bool) -> None:
-        """Sleeps until there is something to do, at most one frame while something moves."""
-        now = time.monotonic()
-        if moving or now < self._busy_until:
-            rest = PACE - (now - self._last)
-            glfw.wait_events_timeout(rest) if rest > 0 else glfw.poll_events()
-        else:
-            glfw.wait_events_timeout(0.3 if imgui.get_io().want_text_input else IDLE)
-            self._last = min(self._last + IDLE, time.monotonic() - PACE)
-
-    def closed(self) -> bool:
-        """Whether the window is to go; asks about unsaved changes first."""
-        if glfw.window_should_close(self.handle):
-            glfw.set_window_should_close(self.handle, False)
-            close(self.desk)
-        return self.desk.quit
-
-    def close(self) -> None:
-        self.router.cancel()
-        if self.pen is not None:
-            self.pen.close()
-        backends.opengl3_shutdown()
-        backends.glfw_shutdown()
-        imgui.destroy_context()
-        glfw.destroy_window(self.handle)
-        glfw.terminate()
+    worker = Worker(glfw.post_empty_event)
+    window.connect(worker)
+    return worker
 
 
 def _open_window() -> Any:
@@ -226,37 +105,7 @@ def _open_window() -> Any:
     return handle
 
 
-class WindowError(RuntimeError):
-    """The window cannot be opened; one line that says why."""
-
-
 def _glfw_error(code: int, text: Any) -> None:
     """GLFW's errors are of no use to the artist; the call that failed says so itself."""
     if os.environ.get("INKFALL_TRACE_GLFW"):
         print(f"glfw {code}: {text!r}", file=sys.stderr)
-
-
-def run(path: str | None = None, play: str | None = None) -> int:
-    """Opens the window, on a file if there is one; `play`: a recording that is replayed live.  The exit status."""
-    window = Window()
-    window.frame()
-    trace("first frame")
-    sys.setswitchinterval(0.0005)
-    worker = Worker(glfw.post_empty_event)
-    window.connect(worker)
-    if path is not None:
-        worker.post(Open(Path(path)))
-    if play is not None:
-        worker.post(Open(Path(play), live=True))
-    try:
-        _frames(window)
-    finally:
-        worker.close()
-        window.close()
-    return 0
-
-
-def _frames(window: Window) -> None:
-    while not window.closed():
-        moving = window.frame()
-        window.wait(moving)

@@ -127,6 +127,7 @@ class News:
             if self._serial is not None or scene.path is not None:
                 self.desk.fit()
             self._serial = scene.serial
+            trace(f"painting {scene.serial} shown")
 
     def _saved(self, r: q.Saved, _now: float) -> None:
         self.desk.say(f"Saved {Path(r.path).name}")

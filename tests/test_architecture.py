@@ -28,6 +28,7 @@ ORDER = (
     ("app.actions", "app.tools"),
     ("app.panels",),
     ("app.router", "app.cursor", "app.news"),
+    ("app.window",),
     ("app.loop",),
     ("app.bench",),
     ("app.cli",),

@@ -12,9 +12,10 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from app.loop import Window  # first: it imports imgui before glfw
+from app.loop import opened  # first: it imports imgui before glfw
 from app.screen import cells
 from app.view import Place
+from app.window import Window
 
 import glfw  # isort: skip
 
@@ -27,7 +28,7 @@ SMOOTH = 0.016
 
 
 def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float) -> dict:
-    window = Window()
+    window = opened()
     window.frame()
     sys.setswitchinterval(0.0005)
     worker = Worker(glfw.post_empty_event)

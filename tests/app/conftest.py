@@ -75,7 +75,7 @@ class Program:
         """The screen when it has not changed for a while."""
         end = time.monotonic() + seconds
         last, same = self.screen(), 0
-        while same < 3:
+        while same < 4:
             time.sleep(0.15)
             now = self.screen()
             same = same + 1 if np.array_equal(now, last) else 0

@@ -55,6 +55,7 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
     assert app.process.wait(15) == 0
 
     again = program(str(tmp_path / "picture.ora"))
+    again.wait_for("painting 1 shown")
     assert np.array_equal(again.canvas(), painted)
 
 

@@ -1,0 +1,198 @@
+"""The window: one frame after another, drawn when there is something new to see."""
+
+from __future__ import annotations
+
+import ctypes
+import time
+from pathlib import Path
+from typing import Any
+
+from imgui_bundle import imgui  # before glfw, so that both use one libglfw
+
+import glfw  # isort: skip
+import moderngl
+from imgui_bundle.imgui import backends
+
+from app import cursor, theme
+from app.actions import close
+from app.desk import Desk
+from app.input.choose import pen_source
+from app.input.events import PointerSource
+from app.input.glfw_events import GlfwPointer
+from app.news import News
+from app.panels.layout import Layout
+from app.router import Router
+from app.screen import Screen
+from app.view import Place, View
+from engine.painting.requests import Open
+from engine.painting.worker import Worker
+
+LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
+IDLE = 5.0  # seconds to wait for an event when nothing moves
+PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
+
+
+class Window:
+    """A GLFW window whose context is current, and imgui on it; everything happens on the thread that made it."""
+
+    def __init__(self, handle: Any) -> None:
+        self.handle = handle
+        self.ctx = moderngl.create_context(require=330)
+        imgui.create_context()
+        io = imgui.get_io()
+        io.set_ini_filename("")
+        io.config_flags |= imgui.ConfigFlags_.no_mouse_cursor_change
+        self.scale = max(0.75, glfw.get_window_content_scale(self.handle)[0])
+        theme.load_fonts(io)
+        theme.apply(self.scale)
+        width, height = glfw.get_framebuffer_size(self.handle)
+        self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, self.scale)
+        self.layout = Layout()
+        self.router = Router(self.desk, self.layout)
+        self.mouse: PointerSource = GlfwPointer(self.handle)
+        self.pen: PointerSource | None = None
+        self._callbacks()
+        address = ctypes.cast(self.handle, ctypes.c_void_p).value or 0
+        backends.glfw_init_for_opengl(address, False)
+        backends.opengl3_init("#version 330")
+        self._address = address
+        self.screen = Screen(self.ctx)
+        self.news = News(self.desk, self.screen, self.ctx)
+        self._keys: list[tuple[int, int, int, int]] = []
+        self._cursors: dict[int, Any] = {}
+        self._cursor = 0
+        self._last = time.monotonic()
+        self._busy_until = 0.0
+        self._title = ""
+
+    def _not_yet(self, _request: Any) -> None:
+        self.desk.say("The paint engine is still loading")
+
+    def _callbacks(self) -> None:
+        """Keys and text go to imgui and to the router; focus and size only mark the frame as old."""
+        w = self.handle
+        glfw.set_key_callback(w, self._key)
+        glfw.set_char_callback(w, lambda _, c: backends.glfw_char_callback(self._address, c))
+        glfw.set_window_focus_callback(w, self._focus)
+        glfw.set_cursor_enter_callback(w, self._entered)
+        glfw.set_window_refresh_callback(w, lambda _: self._wake())
+        glfw.set_framebuffer_size_callback(w, lambda *_: self._wake())
+        drop: Any = self._dropped  # gets a list of names
+        glfw.set_drop_callback(w, drop)
+
+    def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
+        self._wake()
+        backends.glfw_key_callback(self._address, key, scancode, action, mods)
+        self._keys.append((key, scancode, action, mods))
+
+    def _focus(self, _w: Any, focused: int) -> None:
+        self._wake()
+        backends.glfw_window_focus_callback(self._address, focused)
+        if not focused:
+            self.router.lost_focus()
+
+    def _entered(self, _w: Any, entered: int) -> None:
+        self._wake()
+        if not entered:
+            self.router.left()
+
+    def _dropped(self, _w: Any, paths: Any) -> None:
+        self._wake()
+        if paths and self.desk.ready:
+            self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
+
+    def open(self, path: Path, live: bool = False) -> None:
+        """Opens a file; `live`: a recording is seen as it grows."""
+        self.desk.post(Open(path, live))
+
+    def _wake(self) -> None:
+        self._busy_until = time.monotonic() + LINGER
+
+    def connect(self, worker: Worker) -> None:
+        """From now on pens are heard, and requests go to the engine's thread."""
+        self.pen = pen_source(self.handle)
+        self.desk.post = worker.post
+        self.news.worker = worker
+
+    def frame(self) -> bool:
+        """Takes in what happened and draws; True while something still moves."""
+        now = time.monotonic()
+        seconds, self._last = min(0.1, now - self._last), now
+        self._resize()
+        for source in (self.pen, self.mouse):
+            for event in source.events() if source is not None else ():
+                self._wake()
+                self.router.pointer(event)
+        keys, self._keys = self._keys, []
+        for key in keys:  # after the pointer: a stroke ends before what a key does to it
+            self.router.key(*key)
+        if self.news.take(now):
+            self._busy_until = max(self._busy_until, now + 0.05)
+        moving = self.desk.glide.moving
+        self.desk.view = self.desk.glide.step(self.desk.view, seconds)
+        self._panels()
+        fading = self.screen.draw(self.desk.view, self.desk.frame, now, self.desk.insets)
+        imgui.render()
+        backends.opengl3_render_draw_data(imgui.get_draw_data())
+        self.news.ask(now)
+        self._show_cursor()
+        glfw.swap_buffers(self.handle)
+        return moving or fading
+
+    def _resize(self) -> None:
+        width, height = glfw.get_framebuffer_size(self.handle)
+        view = self.desk.view
+        if (width, height) != (view.width, view.height) and width > 0 and height > 0:
+            self.desk.view = view.resized(width, height)
+            self.ctx.screen.viewport = (0, 0, width, height)
+            self.ctx.viewport = (0, 0, width, height)
+
+    def _panels(self) -> None:
+        backends.opengl3_new_frame()
+        backends.glfw_new_frame()
+        imgui.new_frame()
+        cursor.draw_frame(self.desk)
+        cursor.draw_outline(self.desk)
+        self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
+        self.router.hover()
+        if self.news.first_layout():
+            self.desk.fit()
+
+    def _show_cursor(self) -> None:
+        wanted = cursor.shape(self.desk, self.router.panning_key)
+        if wanted != self._cursor:
+            self._cursor = wanted
+            if wanted not in self._cursors:
+                self._cursors[wanted] = glfw.create_standard_cursor(wanted)
+            glfw.set_cursor(self.handle, self._cursors[wanted])
+        title = f"{'*' if self.desk.modified else ''}{self.desk.path.name if self.desk.path else 'Untitled'} - Inkfall"
+        if title != self._title:
+            self._title = title
+            glfw.set_window_title(self.handle, title)
+
+    def wait(self, moving: bool) -> None:
+        """Sleeps until there is something to do, at most one frame while something moves."""
+        now = time.monotonic()
+        if moving or now < self._busy_until:
+            rest = PACE - (now - self._last)
+            glfw.wait_events_timeout(rest) if rest > 0 else glfw.poll_events()
+        else:
+            glfw.wait_events_timeout(0.3 if imgui.get_io().want_text_input else IDLE)
+            self._last = min(self._last + IDLE, time.monotonic() - PACE)
+
+    def closed(self) -> bool:
+        """Whether the window is to go; asks about unsaved changes first."""
+        if glfw.window_should_close(self.handle):
+            glfw.set_window_should_close(self.handle, False)
+            close(self.desk)
+        return self.desk.quit
+
+    def close(self) -> None:
+        self.router.cancel()
+        if self.pen is not None:
+            self.pen.close()
+        backends.opengl3_shutdown()
+        backends.glfw_shutdown()
+        imgui.destroy_context()
+        glfw.destroy_window(self.handle)
+        glfw.terminate()
