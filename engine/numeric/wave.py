@@ -98,7 +98,7 @@ def folded(t: int, cell: int) -> tuple[int, int, int]:
     if cell <= FAR:
         return r, index & 1, cell
     if r <= cell - r:
-        return min(r, FAR // 2), index & 1, FAR
+        return min(r, FAR // 2 - 1), index & 1, FAR
     return FAR - min(cell - r, FAR // 2), index & 1, FAR
 
 

@@ -130,10 +130,13 @@ class Sawtooth(_Waves):
         up = wave.period.bit_length() - LONGEST.bit_length() + 1
         above = rect.zoomed(-up)
         ancestor = self.wave(level - up)
-        ramp = saw_wave(ancestor, above) - step_wave(ancestor, above)
+        saw, step = saw_wave(ancestor, above), step_wave(ancestor, above)
+        between = (np.abs(saw) < 0.5) & (np.abs(step) == 1.0)
         rows = [((rect.y0 + j) >> up) - above.y0 for j in range(rect.height)]
         columns = [((rect.x0 + i) >> up) - above.x0 for i in range(rect.width)]
-        return (step_wave(wave, rect) + ramp[rows][:, columns])[None]
+        saw, ramp, between = (a[rows][:, columns] for a in (saw, saw - step, between))
+        # Half way between two jumps it is open which of them is the nearest, and the two levels may not agree.
+        return np.where(between, saw, step_wave(wave, rect) + ramp)[None]
 
 
 @dataclass(frozen=True, slots=True)

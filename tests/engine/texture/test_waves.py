@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from engine.numeric.address import Rect
@@ -109,6 +109,8 @@ def test_any_rectangle_holds_the_same_values(kind, period, angle, phase, x, y, u
 
 @settings(deadline=None, max_examples=60)
 @given(st.sampled_from(KINDS), PERIODS, ANGLES, st.floats(0, 1), ORIGINS, ORIGINS, st.integers(1, 220))
+@example(Sawtooth, 2.0, 0.0, 0.0, 1 << 21, 0, 38)  # where the distance to a far edge is cut short
+@example(Sawtooth, 2.0, 45.0, 0.5, 0, 4, 39)  # half way between two jumps
 def test_bandpass_is_what_expand_leaves_out(kind, period, angle, phase, x, y, up):
     texture = kind(2, period, angle, phase)
     rect = Rect.at(x, y, 40, 36).evened()
