@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -361,7 +362,9 @@ def test_an_interrupt_is_one_line_and_leaves_nothing(tmp_path):
     path = tmp_path / "long.jsonl"
     stroke = '{"do": "stroke", "points": [[0, 0], [900, 700]], "brush": {"radius": 300}}\n'
     path.write_text(HEADER + stroke * 3000)
-    done = start("play", path, "--save", tmp_path / "o.ora", stdout=subprocess.DEVNULL)
+    # A test run started in the background hands down SIGINT ignored; a shell's foreground does not.
+    heard = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    done = start("play", path, "--save", tmp_path / "o.ora", stdout=subprocess.DEVNULL, preexec_fn=heard)
     time.sleep(3)
     done.send_signal(signal.SIGINT)
     told = done.communicate(timeout=60)[1]
