@@ -91,13 +91,13 @@ def photographs(side: int) -> Painting:
 def _bands(side: int, seed: int) -> Iterator[np.ndarray]:
     """Rock in three colours with the noise of a sensor, uint8 RGBA, in bands of rows."""
     rng = np.random.default_rng(seed)
-    rocks = [instance("rock", {"period": 900, "roughness": 0.6, "seed": 10 * seed + c}, 0, 0) for c in range(3)]
+    rocks = [instance("rock", {"period": 900, "roughness": 0.9, "seed": 10 * seed + c}, 0, 0) for c in range(3)]
     for y in range(0, side, 500):
         rect = Rect(0, y, side, min(y + 500, side))
         out = np.full((rect.height, rect.width, 4), 255, np.uint8)
         for c, rock in enumerate(rocks):
             grain = rng.standard_normal((rect.height, rect.width), np.float32)
-            out[..., c] = (128 + 90 * rock.appearance(0, rect)[0] + 1.2 * grain).clip(0, 255)
+            out[..., c] = (128 + 90 * rock.appearance(0, rect)[0] + 0.6 * grain).clip(0, 255)
         yield out
 
 

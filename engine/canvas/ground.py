@@ -16,7 +16,6 @@ from engine.canvas import kernels
 from engine.canvas.compact import compact
 from engine.canvas.store import Change, Ground, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.pyramid import expand_into
 
 Tile = Callable[[Rect], np.ndarray]
 _COLOURS = np.arange(4)
@@ -88,20 +87,18 @@ def _records(below: _Picture, above: _Dense, level: int) -> dict[tuple[int, int]
     """All residuals of a level: v - expand(v above), where a pixel or a parent of it is painted."""
     records = {}
     touched = np.ones((TILE, TILE), np.uint8)
+    data, used = np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32)
     for key in below.rect.grown(2).tiles(level):
-        at = key.rect
-        data = _residual(below.read(at), above.read(at.parents()), touched)
-        record = compact(_WHOLE, data, (), 1) if data is not None else None
+        value, at = np.ascontiguousarray(below.read(key.rect)), key.rect.parents()
+        if at.intersect(above.rect) == at:
+            coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
+        else:
+            coarse, top, left = np.ascontiguousarray(above.read(at)), 0, 0
+        extent = kernels.first_residual(value, coarse, top, left, _COLOURS, touched, data, used)
+        record = compact(_WHOLE, data, (), 1, (extent, used))
         if record is not None:
             records[key.x, key.y] = record
     return records
-
-
-def _residual(value: np.ndarray, parents: np.ndarray, touched: np.ndarray) -> np.ndarray | None:
-    predicted = np.empty((4, TILE, TILE), np.float32)
-    expand_into(np.ascontiguousarray(parents), 0, 0, _COLOURS, predicted, 0, TILE)
-    data = np.zeros((4, TILE, TILE), np.int32)
-    return data if kernels.residual(np.ascontiguousarray(value), predicted, touched, 0, 0, data) else None
 
 
 def unchanged(pyramid: Pyramid, key: TileKey, record: Record) -> bool:

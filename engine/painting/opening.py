@@ -35,6 +35,7 @@ from engine.texture.table import from_key
 WORKERS = 2
 AHEAD = 4  # packs being unpacked at a time
 PIECE = 1 << 20
+UNREAD = ("mergedimage", "Thumbnails")  # members that are for other programs alone
 LOST = "deep detail is missing: this file was saved by another program"
 CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
 NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is left out"
@@ -110,22 +111,30 @@ class _Opening:
         needed = [name for name in manifest.members if name.startswith("inkfall/")]
         if any(name not in self._archive for name in needed):
             return LOST
-        for name, (size, sha) in manifest.members.items():
-            if name.startswith(("mergedimage", "Thumbnails")):
-                continue  # nothing is read from these
+        read = {name: entry for name, entry in manifest.members.items() if not name.startswith(UNREAD)}
+        for name, (size, _) in read.items():
             if name not in self._archive or self._archive.members[name].size != size:
                 return CHANGED.format(what=shown(name))
-            if not name.endswith(".tiles") and self._sum(name) != sha:
-                return CHANGED.format(what=shown(name))
+        summed = [name for name in read if not name.endswith(".tiles")]
+        with ThreadPoolExecutor(WORKERS, "sum") as pool:
+            for name, sha in zip(summed, pool.map(self._sum, summed), strict=True):
+                if sha != read[name][1]:
+                    return CHANGED.format(what=shown(name))
         return ""
 
     def _sum(self, name: str) -> str:
         digest = hashlib.sha256()
-        stream = self._archive.open(name)
-        while piece := stream.read(PIECE):
+        with self._reading:
+            stream = self._archive.open(name)
+        while True:
             check(self._cancelled)
+            with self._reading:
+                piece = stream.read(PIECE)
+            if not piece:
+                break
             digest.update(piece)
-        stream.finish()
+        with self._reading:
+            stream.finish()
         return digest.hexdigest()
 
     # ---- our own ----
