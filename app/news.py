@@ -114,7 +114,7 @@ class News:
             desk.post(q.Swatch(f"preset {preset.name}", preset.brush, size))
 
     def _patch(self, r: q.Patch, now: float) -> None:
-        self.screen.upload(ScreenTile(*r.tile), r.area, r.pixels, r.revision, self.desk.view, now)
+        self.screen.upload(r, self.desk.view, now)
 
     def _same(self, r: q.Same, _now: float) -> None:
         for tile in r.tiles:

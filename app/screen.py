@@ -17,13 +17,16 @@ import numpy as np
 
 from app.view import View
 from engine.numeric.address import Rect
-from engine.painting.requests import SIDE
+from engine.painting.requests import SIDE, Patch
 
 FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show
 LIGHT, DARK = (0.955, 0.955, 0.955), (0.225, 0.225, 0.225)
-MINIFY_LINEAR = (moderngl.LINEAR, moderngl.LINEAR)
+SQUARE = 16  # side of the paper's squares, pixels of the view's level
 Insets = tuple[float, float, float, float]
+Row = tuple[float, ...]
+# Instance attributes that a program does not use are passed over.
+_SKIPPED = {"cell": "16x", "source": "16x", "span": "4x"}
 
 
 class ScreenTile(NamedTuple):
@@ -42,6 +45,18 @@ class _Held:
     layer: int
     revision: int
     born: float
+    opaque: bool = False  # covers the paper everywhere, as far as is known
+    empty: bool = True  # shows nothing, for certain
+
+
+@dataclass(slots=True)
+class _Plan:
+    """Cells of each pass: nine floats each, as canvas.vert reads them."""
+
+    paper: list[Row]
+    whole: list[Row]
+    fading: list[Row]
+    moving: bool = False
 
 
 def cells(view: View, level: int) -> list[ScreenTile]:
@@ -69,18 +84,40 @@ def shader_source(name: str) -> str:
     return (Path(__file__).resolve().parent.parent / "shaders" / name).read_text("utf-8")
 
 
-def _program(ctx: moderngl.Context, vertex: str, fragment: str) -> Any:
-    return ctx.program(vertex_shader=shader_source(vertex), fragment_shader=shader_source(fragment))
+class _Pass:
+    """One program over many cells: nine floats a cell, in a buffer that grows."""
+
+    def __init__(self, ctx: moderngl.Context, fragment: str) -> None:
+        self._ctx = ctx
+        self.program: Any = ctx.program(shader_source("canvas.vert"), shader_source(fragment))
+        self._room_for(128)
+
+    def _room_for(self, rows: int) -> None:
+        self._most = rows
+        self._buffer = self._ctx.buffer(reserve=36 * rows)
+        names = [name for name in ("cell", "source", "span") if name in self.program]
+        sizes = {"cell": "4f", "source": "4f", "span": "1f"}
+        layout = " ".join(sizes[n] if n in names else _SKIPPED[n] for n in sizes) + "/i"
+        self._cells = self._ctx.vertex_array(self.program, [(self._buffer, layout, *names)])
+
+    def draw(self, rows: list[Row]) -> None:
+        if not rows:
+            return
+        if len(rows) > self._most:
+            self._room_for(2 * len(rows))
+        self._buffer.orphan()
+        self._buffer.write(np.array(rows, np.float32))
+        self._cells.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(rows))
 
 
 class Screen:
-    """Tiles held on the card, and the pass that draws them.  All calls from the thread that owns the context."""
+    """Tiles held on the card, and the passes that draw them.  All calls from the thread that owns the context."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
-        self._paper = _program(ctx, "paper.vert", "paper.frag")
-        self._paper_quad = ctx.vertex_array(self._paper, [])
-        self._tiles: Any = None
+        self._paper = _Pass(ctx, "paper.frag")
+        self._whole = _Pass(ctx, "tile.frag")
+        self._fading = _Pass(ctx, "fade.frag")
         self._array: Any = None
         self._held: OrderedDict[ScreenTile, _Held] = OrderedDict()
         self._free: list[int] = []
@@ -90,34 +127,34 @@ class Screen:
         across = [math.ceil(n / (SIDE * 0.7)) + 2 for n in (view.width, view.height)]
         most = self.ctx.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]
         layers = min(most, max(192, 3 * across[0] * across[1]))
-        self._tiles = _program(self.ctx, "tiles.vert", "tiles.frag")
         self._array = self.ctx.texture_array((SIDE, SIDE, layers), 4)
-        self._array.filter = MINIFY_LINEAR
         self._array.repeat_x = self._array.repeat_y = False
         self._free = list(range(layers))[::-1]
-        self._buffer = self.ctx.buffer(reserve=36 * layers * 4)
-        self._quads = self.ctx.vertex_array(self._tiles, [(self._buffer, "4f 4f 1f/i", "cell", "source", "span")])
 
     def revision(self, tile: ScreenTile) -> int:
         """The revision of the painting that a tile shows; -1 where it is not held."""
         held = self._held.get(tile)
         return held.revision if held else -1
 
-    def upload(self, tile: ScreenTile, area: Rect, pixels: np.ndarray, revision: int, view: View, now: float) -> None:
-        """Pixels uint8 (h, w, 4), premultiplied, of the rectangle `area` inside a tile (0..256).
+    def upload(self, patch: Patch, view: View, now: float) -> None:
+        """Takes in a part of a tile, or a whole one.
 
         A part of a tile that is not held is dropped: the whole tile will be asked for.
         """
         if self._array is None:
             self._allocate(view)
+        tile, area = ScreenTile(*patch.tile), patch.area
         held = self._held.get(tile)
         whole = area.width == SIDE and area.height == SIDE
         if held is None:
             if not whole:
                 return
-            held = self._held[tile] = _Held(self._room(), revision, now)
-        self._array.write(pixels, viewport=(area.x0, area.y0, held.layer, area.width, area.height, 1))
-        held.revision = max(held.revision, revision)
+            held = self._held[tile] = _Held(self._room(), patch.revision, now)
+        self._array.write(patch.pixels, viewport=(area.x0, area.y0, held.layer, area.width, area.height, 1))
+        alpha = patch.pixels[..., 3]
+        held.opaque = bool(alpha.min() == 255) and (whole or held.opaque)
+        held.empty = not alpha.any() and (whole or held.empty)
+        held.revision = max(held.revision, patch.revision)
         self._held.move_to_end(tile)
 
     def confirm(self, tile: ScreenTile, revision: int) -> None:
@@ -142,64 +179,63 @@ class Screen:
 
         `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
         """
+        plan = self._plan(view, now)
+        self._set_uniforms(view, frame)
         self.ctx.viewport = (0, 0, view.width, view.height)
         self.ctx.scissor = _free(view, insets)
-        try:
-            self.ctx.disable(moderngl.BLEND)
-            self._draw_paper(view, frame)
-            return self._array is not None and self._draw_tiles(view, now)
-        finally:
-            self.ctx.scissor = None
+        self.ctx.disable(moderngl.BLEND)
+        self._paper.draw(plan.paper)
+        if self._array is not None:
+            exact = not view.fraction and not view.angle
+            self._array.filter = (moderngl.NEAREST, moderngl.NEAREST) if exact else (moderngl.LINEAR, moderngl.LINEAR)
+            self._array.use(0)
+            self.ctx.enable(moderngl.BLEND)
+            self.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            self._whole.draw(plan.whole)
+            self._fading.draw(plan.fading)
+        self.ctx.scissor = None
+        return plan.moving
 
-    def _draw_tiles(self, view: View, now: float) -> bool:
-        rows, fading = self._rows(view, now)
-        if not rows:
-            return fading
-        data = np.array(rows, np.float32)
-        self._buffer.orphan()
-        self._buffer.write(data)
-        self._tiles["size"] = (view.width, view.height)
-        self._tiles["turn"] = view.matrix()
-        self._array.filter = MINIFY_LINEAR if view.fraction or view.angle else (moderngl.NEAREST, moderngl.NEAREST)
-        self._array.use(0)
-        self.ctx.enable(moderngl.BLEND)
-        self.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        self._quads.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(rows))
-        return fading
-
-    def _draw_paper(self, view: View, frame: Rect | None) -> None:
-        p = self._paper
-        fine = [view.level + 1, view.level]
-        sides = [16 * view.scale(n) for n in (view.level, view.level + 1)]
+    def _set_uniforms(self, view: View, frame: Rect | None) -> None:
+        a, b, c, d = view.matrix()
+        for one in (self._paper, self._whole, self._fading):
+            one.program["size"], one.program["turn"] = (view.width, view.height), (a, b, c, d)
+        p = self._paper.program
+        levels = (view.level, view.level + 1)
         phase: list[float] = []
-        for level in reversed(fine):
+        for level in levels:
             x, y = view.centre.pixel(level)
             fx, fy = view.centre.offset(level, x, y)
-            phase += [(x % 32 + fx) / 16, (y % 32 + fy) / 16]
-        a, b, c, d = view.matrix()
-        p["size"], p["middle"] = (view.width, view.height), (view.width / 2, view.height / 2)
-        p["inverse"], p["cell"], p["phase"], p["blend"] = (a, c, b, d), tuple(sides), tuple(phase), view.fraction
-        p["frame"] = frame_on_screen(view, frame)
+            phase += [(x % (2 * SQUARE) + fx) / SQUARE, (y % (2 * SQUARE) + fy) / SQUARE]
+        p["inverse"], p["frame"] = (a, c, b, d), frame_on_screen(view, frame)
+        p["pitch"] = tuple(1 / (SQUARE * view.scale(level)) for level in levels)
+        p["phase"], p["blend"] = tuple(phase), view.fraction
         p["light"], p["dark"] = LIGHT, DARK
-        self._paper_quad.render(moderngl.TRIANGLES, vertices=3)
 
-    def _rows(self, view: View, now: float) -> tuple[list[tuple[float, ...]], bool]:
-        """What to draw, decided before anything is drawn: one row of nine floats a quad."""
-        level, rows, fading = view.shown_level, [], False
-        snap = not view.fraction and not view.angle
-        for tile in cells(view, level):
+    def _plan(self, view: View, now: float) -> _Plan:
+        """What to draw, decided before anything is drawn."""
+        plan = _Plan([], [], [])
+        exact = not view.fraction and not view.angle
+        for tile in cells(view, view.shown_level):
             held = self._touch(tile)
             up = next((n for n in range(1, ANCESTORS) if tile.ancestor(n) in self._held), 0)
-            if held is None and not up:
-                rows += self._descendants(view, tile, 2)
-                continue
             weight = 0.0 if held is None else min(1.0, (now - held.born) / FADE) if up else 1.0
-            fading |= held is not None and weight < 1.0
-            place = _ancestor_part(tile, up) if weight < 1.0 else (0.0, 0.0, 1.0)
-            above = self._touch(tile.ancestor(up)) if up and weight < 1.0 else None
-            layers = (held.layer if held else -1, above.layer if above else -1)
-            rows.append((*_corner(view, tile, snap), weight, *layers, *place))
-        return rows, fading
+            corner = _corner(view, tile, exact)
+            if held is None or not held.opaque or weight < 1.0:
+                plan.paper.append((*corner, 1.0, -1, -1, 0.0, 0.0, 1.0))
+            if held is not None and held.empty and weight == 1.0:
+                continue
+            if held is not None and weight == 1.0:
+                plan.whole.append((*corner, 1.0, held.layer, -1, 0.0, 0.0, 1.0))
+            elif up:
+                above = self._touch(tile.ancestor(up))
+                assert above is not None
+                layer = held.layer if held else -1
+                plan.fading.append((*corner, weight, layer, above.layer, *_ancestor_part(tile, up)))
+                plan.moving |= held is not None
+            else:
+                self._descendants(plan, view, tile, 2)
+        return plan
 
     def _touch(self, tile: ScreenTile) -> _Held | None:
         held = self._held.get(tile)
@@ -207,17 +243,15 @@ class Screen:
             self._held.move_to_end(tile)
         return held
 
-    def _descendants(self, view: View, tile: ScreenTile, depth: int) -> list[tuple[float, ...]]:
+    def _descendants(self, plan: _Plan, view: View, tile: ScreenTile, depth: int) -> None:
         """Finer tiles, shrunk, for a place left by zooming out."""
-        rows: list[tuple[float, ...]] = []
         for n in (0, 1, 2, 3):
             child = ScreenTile(tile.level + 1, tile.x * 2 + (n & 1), tile.y * 2 + (n >> 1))
             held = self._held.get(child)
             if held is not None:
-                rows.append((*_corner(view, child, False), 1.0, held.layer, -1, 0.0, 0.0, 1.0))
+                plan.whole.append((*_corner(view, child, False), 1.0, held.layer, -1, 0.0, 0.0, 1.0))
             elif depth > 1:
-                rows += self._descendants(view, child, depth - 1)
-        return rows
+                self._descendants(plan, view, child, depth - 1)
 
 
 def _free(view: View, insets: Insets) -> tuple[int, int, int, int]:
@@ -243,10 +277,8 @@ def frame_on_screen(view: View, frame: Rect | None) -> tuple[float, float, float
     """The level-0 frame seen from the view's centre: screen pixels before turning; everything when there is none."""
     if frame is None:
         return -1e9, -1e9, 1e9, 1e9
-    s, out = view.scale(0), []
-    level = view.shown_level
-    n = max(level, 0)
-    s = view.scale(n)
+    n = max(view.shown_level, 0)
+    s, out = view.scale(n), []
     for x, y in ((frame.x0, frame.y0), (frame.x1, frame.y1)):
         fx, fy = view.centre.offset(n, x << n, y << n)
         out += [max(-1e9, min(1e9, -fx * s)), max(-1e9, min(1e9, -fy * s))]

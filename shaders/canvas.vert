@@ -1,5 +1,5 @@
 #version 330 core
-// A tile on the screen; one instance a tile.
+// A cell of the canvas; one instance a cell.  Shared by the three passes: paper, whole tiles, tiles that fade.
 in vec4 cell;       // screen x, y of its corner; screen pixels along a side; weight of the tile over its ancestor
 in vec4 source;     // its layer in the array, the ancestor's, the tile's corner in the ancestor (0..1); layer < 0: none
 in float span;      // the tile's side in the ancestor, 0..1

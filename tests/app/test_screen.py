@@ -1,0 +1,162 @@
+"""The canvas on the card, drawn without any display: what covers what, and where."""
+
+import moderngl
+import numpy as np
+import pytest
+
+from app.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
+from app.view import Place, View
+from engine.numeric.address import Rect
+from engine.painting.requests import Patch
+
+SIZE = (640, 480)
+RED, GREEN, CLEAR = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 0, 0)
+FRAME = Rect(-100, -100, 100, 100)
+
+
+@pytest.fixture(scope="module")
+def context():
+    try:
+        ctx = moderngl.create_context(standalone=True, backend="egl")
+    except Exception as error:  # whatever the driver says: no GL here
+        pytest.skip(f"needs EGL: {error}")
+    yield ctx
+    ctx.release()
+
+
+@pytest.fixture
+def screen(context):
+    return Screen(context)
+
+
+def view(level=0, fraction=0.0, centre=Place(0, 0, 0)):  # noqa: B008  # frozen
+    return View(centre, level, fraction, *SIZE)
+
+
+def patch(tile, colour, revision=1, area=None):
+    area = area or Rect(0, 0, SIDE, SIDE)
+    pixels = np.empty((area.height, area.width, 4), np.uint8)
+    pixels[:] = colour
+    return Patch(tile, area, pixels, revision)
+
+
+def shown(screen, at, now=100.0, frame=FRAME, **insets):
+    """The picture, uint8 (480, 640, 3), and whether something still fades."""
+    target = screen.ctx.simple_framebuffer(SIZE)
+    target.use()
+    target.clear()
+    moving = screen.draw(at, frame, now, **insets)
+    picture = np.frombuffer(target.read(), np.uint8).reshape(SIZE[1], SIZE[0], 3)[::-1]
+    target.release()
+    return picture.astype(int), moving
+
+
+def test_a_tile_lies_where_its_pixels_do(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), RED), at, 0.0)
+    picture, moving = shown(screen, at)
+    assert (picture[240 : 240 + 200, 320 : 320 + SIDE] == RED[:3]).all()
+    assert (picture[:239, :319, 0] != 255).any()
+    assert tuple(picture[239, 319]) != RED[:3]
+    assert not moving
+
+
+def test_the_frame_is_light_paper_on_a_dark_desk(screen):
+    picture, _ = shown(screen, view())
+    assert picture[240, 320].min() > 255 * LIGHT[0] - 16
+    assert abs(picture[20, 20] - 255 * DARK[0]).max() < 3
+    assert len(np.unique(picture[150:330, 230:410])) > 1  # the squares
+
+
+def test_translucent_paint_lets_the_paper_through(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), (64, 0, 0, 128)), at, 0.0)
+    bare, _ = shown(Screen(screen.ctx), at)
+    picture, _ = shown(screen, at)
+    expected = 64 * np.array([1, 0, 0]) + bare[260, 340] * (127 / 255)
+    assert abs(picture[260, 340] - expected).max() <= 2
+
+
+def test_the_magnified_ancestor_shows_until_the_tile_has_come_then_it_fades_in(screen):
+    coarse, fine = view(0), view(1, centre=Place(32, 32, 0))
+    screen.upload(patch((0, 0, 0), GREEN), coarse, 0.0)
+    picture, moving = shown(screen, fine)
+    assert (picture[200:280, 300:340] == GREEN[:3]).all()
+    assert not moving
+    screen.upload(patch((1, 0, 0), RED), fine, 100.0)
+    picture, moving = shown(screen, fine, 100.0 + FADE / 2)
+    assert moving
+    assert abs(picture[240, 320] - (128, 128, 0)).max() <= 2
+    picture, moving = shown(screen, fine, 100.0 + 2 * FADE)
+    assert not moving
+    assert tuple(picture[240, 320]) == RED[:3]
+
+
+def test_finer_tiles_fill_the_place_after_zooming_out(screen):
+    near = view(1)
+    for x in (0, 1):
+        for y in (0, 1):
+            screen.upload(patch((1, x, y), RED), near, 0.0)
+    picture, _ = shown(screen, view(0))
+    assert (picture[242:470, 322:560] == RED[:3]).all()
+
+
+def test_a_part_of_a_tile_changes_that_part(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), RED), at, 0.0)
+    screen.upload(patch((0, 0, 0), GREEN, 2, Rect(10, 20, 30, 50)), at, 0.0)
+    picture, _ = shown(screen, at)
+    assert (picture[260:290, 330:350] == GREEN[:3]).all()
+    assert tuple(picture[259, 329]) == RED[:3]
+    assert screen.revision(ScreenTile(0, 0, 0)) == 2
+
+
+def test_a_part_of_a_tile_that_is_not_there_is_dropped(screen):
+    screen.upload(patch((0, 5, 5), RED, 3, Rect(0, 0, 8, 8)), view(), 0.0)
+    assert screen.revision(ScreenTile(0, 5, 5)) == -1
+
+
+def test_a_tile_that_becomes_transparent_shows_the_paper_again(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), RED), at, 0.0)
+    screen.upload(patch((0, 0, 0), CLEAR, 2), at, 0.0)
+    assert np.array_equal(shown(screen, at)[0], shown(Screen(screen.ctx), at)[0])
+
+
+def test_nothing_is_drawn_under_the_panels(screen):
+    screen.upload(patch((0, 0, 0), RED), view(), 0.0)
+    picture, _ = shown(screen, view(), insets=(100, 10, 50, 20))
+    assert not picture[:, :100].any()
+    assert not picture[:10].any()
+    assert picture[11, 101].any()
+
+
+def test_old_tiles_make_room(screen):
+    at = view()
+    for n in range(400):
+        screen.upload(patch((0, n, 0), RED), at, 0.0)
+    assert screen.revision(ScreenTile(0, 0, 0)) == -1
+    assert screen.revision(ScreenTile(0, 399, 0)) == 1
+
+
+def test_forgetting_drops_all(screen):
+    screen.upload(patch((0, 0, 0), RED), view(), 0.0)
+    screen.forget()
+    assert screen.revision(ScreenTile(0, 0, 0)) == -1
+
+
+def test_a_thousand_levels_deep_the_tile_is_where_it_should_be(screen):
+    centre = Place((1 << 1000) + 128, 128, 1000)
+    at = view(1000, centre=centre)
+    tile = (1000, (1 << 1000) // SIDE, 0)
+    screen.upload(patch(tile, RED), at, 0.0)
+    picture, _ = shown(screen, at)
+    assert (picture[240 - 127 : 240 + 127, 320 - 127 : 320 + 127] == RED[:3]).all()
+    assert tuple(picture[240, 320 - 130]) != RED[:3]
+
+
+def test_tiles_are_asked_for_from_the_pointer_outwards():
+    at = view()
+    ordered = near_first(at, cells(at, 0), 600, 440)
+    assert ordered[0] == ScreenTile(0, 1, 0)
+    assert set(ordered) == set(cells(at, 0))
