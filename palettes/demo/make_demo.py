@@ -11,7 +11,7 @@ import json
 import sys
 from pathlib import Path
 
-from scene import lake, land, mountains, sky, studio, town
+from scene import foreground, lake, land, mountains, sky, studio, town
 from scene.easel import HEIGHT, WIDTH, Easel
 
 FOLDER = Path(__file__).resolve().parent
@@ -26,6 +26,9 @@ def landscape(easel: Easel) -> None:
     for part in (sky, mountains, lake, land, town):
         part.paint(easel)
     studio.paint(easel, landscape)
+    foreground.paint(easel)
+    if not easel.sketch:
+        foreground.light(easel)
 
 
 def main() -> None:

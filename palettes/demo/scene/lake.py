@@ -15,7 +15,11 @@ def mirrored(x: float, y: float) -> str:
     """Colour of the water at a place: what stands above the far shore, cooler and darker towards us."""
     up = FAR_SHORE - 1.02 * (y - FAR_SHORE)
     main = mountains.MAIN
-    if up > main.ridge(x) and main.crest[0][0] < x < main.crest[-1][0]:
+    if up > 448 + 52 * min(max((x - 380) / 280, 0), 1):
+        seen = "#4d6a66"
+    elif up > 408 + 70 * min(max((x - 330) / 470, 0), 1):
+        seen = "#708a90"
+    elif up > main.ridge(x) and main.crest[0][0] < x < main.crest[-1][0]:
         seen = mix(main.colour(x, up), "#41607c", 0.3)
     else:
         seen = mix(sky.colour(x, up - 20), "#5f8aa8", 0.16)
@@ -24,14 +28,36 @@ def mirrored(x: float, y: float) -> str:
 
 def paint(easel: Easel) -> None:
     easel.layer("Lake")
-    for y in range(int(FAR_SHORE) + 4, 812, 12):
-        for x in range(-20, 1060, 270):
-            line = hand([(x, y), (x + 140, y + 1), (x + 280, y)], 60, 1.2, y + x)
-            tone = mix(sky.colour(x + 140, 2 * FAR_SHORE - y), "#35597a", 0.12 + 0.6 * (y - FAR_SHORE) / 300)
-            easel.stroke("Lake", 0, line, 9, tone, ROUND, _RIPPLES, hardness=0.4, dynamics={})
+    for y in range(int(FAR_SHORE) + 4, 812, 14):
+        tone = _water(420, y)
+        easel.stroke("Lake", 0, [(-20, y), (1040, y)], 11, tone, ROUND, _RIPPLES, hardness=0.4, dynamics={})
+    for y in range(int(FAR_SHORE) + 16, 812, 34):
+        for x in range(-100 + y % 7 * 30, 1000, 330):
+            line = hand([(x, y), (x + 180, y + 1), (x + 380, y)], 60, 2, y + x, 0.3)
+            easel.stroke("Lake", 0, line, 40, _water(x + 180, y), SOFT, _RIPPLES, opacity=0.9)
+    easel.stroke("Lake", 0, [(-20, 504), (560, 504), (700, 512)], 7, "#6d7f80", SOFT, opacity=0.5)
+    _masses(easel)
     _reflections(easel)
     _glitter(easel)
     _boat(easel, 610, 606)
+
+
+def _water(x: float, y: float) -> str:
+    """Colour of still water under the clear sky."""
+    return mix(sky.colour(x, 2 * FAR_SHORE - y), "#2f5578", 0.14 + 0.6 * (y - FAR_SHORE) / 300)
+
+
+def _masses(easel: Easel) -> None:
+    """The mountains upside down, in long soft strokes, before the ripples break them."""
+    heaps: dict[tuple[int, str], list[list[Point]]] = {}
+    for x in range(110, 1000, 13):
+        depth = (FAR_SHORE - mountains.MAIN.ridge(x)) / 1.02
+        y = FAR_SHORE + 4
+        while y < FAR_SHORE + depth - 12 and not dry(x, y + 20):
+            heaps.setdefault((5, mirrored(x, y + 14)), []).append([(x, y), (x + 1, y + 30)])
+            y += 26
+    for (_, tone), paths in _merged(heaps).items():
+        easel.touches("Lake", 0, paths, 11, tone, SOFT, opacity=0.5, flow=0.4)
 
 
 def _reflections(easel: Easel) -> None:
@@ -67,12 +93,12 @@ def _merged(heaps: dict[tuple[int, str], list[list[Point]]]) -> dict[tuple[int, 
 def _glitter(easel: Easel) -> None:
     """The sun's path on the left, and light caught by ripples everywhere."""
     chance = dice("glitter")
-    for tone, count, opacity in (("#ffd9a0", 220, 0.6), ("#fff3d4", 120, 0.85)):
+    for tone, count, opacity in (("#ffd9a0", 170, 0.6), ("#fff3d4", 100, 0.85)):
         paths = []
         for _ in range(count):
             near = chance.random() ** 1.5
             y = FAR_SHORE + 3 + 260 * near
-            x = chance.gauss(110, 60 + 60 * near) if chance.random() < 0.75 else chance.uniform(100, 900)
+            x = chance.gauss(166, 34 + 60 * near) if chance.random() < 0.75 else chance.uniform(100, 900)
             length = 3 + 16 * near * chance.random()
             if not dry(x + length, y):
                 paths.append([(x, y, 0.2), (x + length / 2, y + 0.3, 0.4 + 0.6 * near), (x + length, y, 0.1)])

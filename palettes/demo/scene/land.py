@@ -10,7 +10,7 @@ from scene.ground import FAR_SHORE, HILL, SHORE, along, dry, front, hilltop, on_
 from scene.noise import dice, fractal, value
 
 LEAVES = ("#2f4a3c", "#47663f", "#7d8a45", "#c7b25c")  # of foliage, from shade to sun
-TOWN = (985.0, 462.0, 112.0, 62.0)  # middle and half axes of the ground that the town takes
+TOWN = (988.0, 456.0, 110.0, 52.0)  # middle and half axes of the ground that the town takes
 
 
 def foliage(tone: str, light: float = 0.5) -> list[dict]:
@@ -20,6 +20,8 @@ def foliage(tone: str, light: float = 0.5) -> list[dict]:
 def paint(easel: Easel) -> None:
     easel.layer("Land")
     _woods(easel, "far woods", 96, -40, 900, (392, 436), 458, ("#66808c", "#7d9290", "#a3a58c", "#d3bb8c"), 3.0)
+    haze = [(x, 452 + 6 * fractal(68, x / 80)) for x in range(-40, 900, 60)]
+    easel.stroke("Land", 0, haze, 20, "#e6dcc6", SOFT, opacity=0.55)
     _woods(easel, "near woods", 97, -40, 700, (440, 474), 500, ("#45635f", "#5d7860", "#8b8f58", "#cbb068"), 3.4)
     _shoreline(easel)
     _hill(easel)
@@ -155,10 +157,10 @@ def clump(easel: Easel, layer: str, bushes: list[tuple[float, float, float]], na
     press = {"radius": [[0, 0], [1, 1]]}
     easel.touches(layer, 1, shadows, largest, "#33433c", SOFT, opacity=0.45, flow=0.5, dynamics=press)
     chance = dice(name)
-    for k, tone in enumerate(tones):
+    for k, tone in enumerate(tones[1:] if easel.sketch else tones):
         paths = []
         for x, y, r in bushes:
-            for _ in range((1, 2, 2, 1)[k] if easel.sketch else (2, 3, 3, 2)[k]):
+            for _ in range((1, 1, 1, 1)[k] if easel.sketch else (2, 3, 3, 2)[k]):
                 dx, dy = chance.gauss(0, 0.45) * r, chance.gauss(0, 0.4) * r
                 size = r * (0.75, 0.55, 0.36, 0.22)[k] * chance.uniform(0.7, 1.2) / largest
                 px, py = x + dx - (0, 0.15, 0.4, 0.55)[k] * r, y - r + dy - (0, 0.1, 0.35, 0.6)[k] * r
@@ -169,9 +171,9 @@ def clump(easel: Easel, layer: str, bushes: list[tuple[float, float, float]], na
 def _meadow(easel: Easel) -> None:
     """Grass in strokes that grow towards us, a path that leads to the town, flowers."""
     _grass(easel, 560, 700, (8, 2.0), ("#566a36", "#74833e", "#98984a", "#c2ad5a"), 800)
-    path = [(1010, 520), (1026, 548), (1068, 590), (1092, 628), (1066, 672), (1050, 716), (1092, 768), (1160, 830)]
+    path = [(1003, 492), (1010, 516), (1026, 548), (1068, 590), (1092, 628), (1066, 672), (1050, 716), (1092, 768), (1160, 830)]
     for k, (tone, size, shift) in enumerate((("#a98a5c", 1.0, 0), ("#d9b983", 0.8, -1), ("#efd6a4", 0.4, -4))):
-        line = hand([(x + shift * (y - 500) / 200, y, (0.12 + 0.88 * ((y - 515) / 300) ** 1.3)) for x, y in path], 9, 1.0, k)
+        line = hand([(x + shift * (y - 500) / 200, y, (0.12 + 0.88 * (max(0, y - 505) / 300) ** 1.3)) for x, y in path], 9, 1.0, k)
         easel.stroke("Land", 1, line, 24 * size, tone, ROUND, [rock("#7d6444", 0.5, 5, 0.25, seed=21)], dynamics={"radius": [[0, 0.02], [1, 1]]}, opacity=0.9)
     _grass(easel, 690, 815, (15, 2.8), ("#2f452c", "#465c33", "#6d7a3c", "#a8974b"), 650)
 
@@ -185,7 +187,7 @@ def _grass(easel: Easel, top: float, foot: float, size: Point, tones, count: int
     for _ in range(count):
         x, y = chance.uniform(380, 1290), top + (foot - top) * chance.random()
         near = (y - 540) / 260
-        if not dry(x - 14, y + 2) or abs(x - along_path(y)) < 6 + 26 * max(0, near):
+        if not dry(x - 14, y + 2) or abs(x - along_path(y)) < 5 + 24 * max(0, near):
             continue
         sun = 1.6 + 2.4 * fractal(71, x / 190, y / 42, 3) + chance.gauss(0, 0.35)
         tall = size[0] * (0.45 + near) * chance.uniform(0.6, 1.3)

@@ -51,24 +51,30 @@ class Range:
         bend = 22 * fractal(self.seed + 30, x / 80, y / 80, 2)
         return ridged(self.seed + 40, (x + bend) / 52, (y + 0.5 * bend) / 96, 3)
 
-    def stone(self, tone: str) -> tuple[str, dict, list[dict]]:
+    def snowy(self, x: float, y: float) -> bool:
+        light, depth = self.light(x, y), y - self.ridge(x)
+        cover = self.snowline + 26 * fractal(self.seed + 50, x / 30, y / 24, 3) - 34 * self._relief(x, y) * (light > 0)
+        return y < cover and depth < 95 * self.scale
+
+    def stone(self, tone: str, snow: bool = False) -> tuple[str, dict, list[dict]]:
         """Colour, brush and ink of a tone: rock from its darker to its lighter side, the same rock for all tones."""
-        dark, light = mix(tone, self.tones[0], self.contrast), mix(tone, "#fff0d4", 0.8 * self.contrast)
+        if snow:
+            return mix(tone, self.snow[0], 0.12), ROUND, [rock(mix(tone, "#ffffff", 0.7), 1.0, 28, 0.25, self.seed)]
+        dark, light = mix(tone, self.tones[0], self.contrast), mix(tone, "#ffe9c4", self.contrast)
         return dark, ROUND, [rock(light, 1.0, 28, 0.25, self.seed)]
 
     def colour(self, x: float, y: float) -> str:
         """Of a touch at a place, one of a few dozen: touches of one colour become one stroke."""
         light = min(max(self.light(x, y), -1), 1)
         depth = y - self.ridge(x)
-        cover = self.snowline + 26 * fractal(self.seed + 50, x / 30, y / 24, 3) - 34 * self._relief(x, y) * (light > 0)
-        if y < cover and depth < 95 * self.scale:
+        if self.snowy(x, y):
             tone = mix(self.snow[0], self.snow[1], round((0.5 + 0.9 * light) * 2) / 2)
         else:
-            at = round((light + 1) * (len(self.tones) - 1)) / 2
-            k = min(int(at), len(self.tones) - 2)
-            tone = mix(self.tones[k], self.tones[k + 1], at - k)
+            at = round((light * 1.15 + 1) * (len(self.tones) - 1) / 2)
+            at = min(max(at, 0), len(self.tones) - 1)
+            tone = self.tones[at]
         fall = min(max(depth / max(20, self.foot - self.ridge(x)), 0), 1)
-        return mix(tone, self.haze, self.fade * (round(fall * 2) / 2) ** 1.6)
+        return mix(tone, self.haze, self.fade * (int(fall * 2.5) / 2.5) ** 1.6)
 
 
 FAR = Range(
@@ -82,7 +88,7 @@ MAIN = Range(
     [(90, 470), (160, 402), (232, 330), (268, 318), (330, 262), (372, 205), (420, 128), (446, 112), (476, 150),
      (520, 196), (556, 226), (590, 212), (640, 262), (690, 246), (742, 204), (770, 196), (812, 250), (870, 322),
      (930, 356), (1010, 420), (1100, 470)],
-    492, ("#3f4a72", "#59618a", "#8f7f8e", "#cf9f80", "#f2c898"), ("#8ea3cf", "#fff0dc"), 262, "#c9b9b4", 0.7, 7,
+    492, ("#38446e", "#565f8c", "#927f8e", "#d8a17c", "#fbd09a"), ("#7f9ad0", "#fff4e2"), 262, "#c9b9b4", 0.7, 7,
 )  # fmt: skip
 
 
@@ -114,15 +120,16 @@ def _range(easel: Easel, range_: Range, radii: Sequence[float]) -> None:
                 places.append((x + chance.uniform(-1, 1) * gap / 2, y + chance.uniform(-1, 1) * gap / 2))
                 y += 2.4 * gap
             x += gap
-        heaps: dict[tuple[int, int, str], list[list[Point]]] = {}
+        heaps: dict[tuple[int, int, str, bool], list[list[Point]]] = {}
         for x, y in places:
             facet = _facet(range_, x, y, radius)
             if facet[-1][1] < range_.foot + 8:
-                heaps.setdefault((int(x // 400), int(y // 260), range_.colour(x, y)), []).append(facet)
+                key = (int(x // 400), int(y // 260), range_.colour(x, y), range_.snowy(x, y))
+                heaps.setdefault(key, []).append(facet)
         order = list(heaps)
         chance.shuffle(order)
         for key in order:
-            easel.touches("Mountains", 1, heaps[key], radius, *range_.stone(key[2]), opacity=0.92)
+            easel.touches("Mountains", 1, heaps[key], radius, *range_.stone(*key[2:]), opacity=0.92)
 
 
 def _facet(range_: Range, x: float, y: float, radius: float) -> list[Point]:

@@ -22,10 +22,10 @@ def paint(easel: Easel) -> None:
     easel.layer("Sky")
     for y in range(-10, 560, 40):
         easel.stroke("Sky", 0, [(-10, y), (1290, y)], 60, colour(500, y), FIRM, [_VEIL], hardness=0.3)
-    for y in range(-10, 540, 45):
-        for x in range(-60, 1320, 290):
-            line = hand([(x, y), (x + 145, y + 4), (x + 290, y)], 72, 3, x + y)
-            easel.stroke("Sky", 0, line, 75, colour(x + 145, y), SOFT, [_VEIL], opacity=0.8)
+    for y in range(-10, 540, 56):
+        for x in range(-60, 1300, 330):
+            line = hand([(x, y), (x + 165, y + 4), (x + 330, y)], 82, 3, x + y)
+            easel.stroke("Sky", 0, line, 92, colour(x + 165, y), SOFT, [_VEIL], opacity=0.8)
     _cirrus(easel)
     for name, x, y, width, height in _CUMULUS:
         _cumulus(easel, name, x, y, width, height)
@@ -44,7 +44,7 @@ def _cirrus(easel: Easel) -> None:
             strands.append(hand([*line, (x + dx + part * length, y + dy - 0.15 * part * length)], 22, 5, k, 0.5))
         lit = mix("#ffe9c8", "#e8ecea", x / 1100)
         size = chance.uniform(4, 9)
-        easel.touches("Clouds", 0, strands, size, lit, SOFT, flow=0.09, opacity=chance.uniform(0.15, 0.4))
+        easel.touches("Clouds", 0, strands, size, lit, SOFT, flow=0.09, opacity=chance.uniform(0.12, 0.32))
 
 
 _CUMULUS = (

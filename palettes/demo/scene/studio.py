@@ -11,7 +11,7 @@ from scene.colour import mix
 from scene.easel import FIRM, HAIR, ROUND, SOFT, Easel, Point, hand, hatch, rock, wave
 from scene.land import clump
 from scene.noise import dice
-from scene.town import STUDIO
+from scene.town import STUDIO, people
 
 X, FOOT = STUDIO
 EAVES, PEAK = FOOT - 11.5, FOOT - 21.5
@@ -36,6 +36,9 @@ def _box(left: float, top: float, right: float, foot: float) -> list[Point]:
 def paint(easel: Easel, scene: Callable[[Easel], None]) -> None:
     easel.layer("Studio")
     _square(easel)
+    if not easel.sketch:
+        behind = [(X - 9.6, FOOT - 2, 2.2), (X - 8.2, FOOT - 1, 1.5), (X - 8.9, FOOT - 5, 1.9), (X + 11.6, FOOT - 1.5, 1.6)]
+        clump(easel, "Studio", behind, "behind", fine=5)
     _front(easel)
     _timbers(easel)
     for left, top, lit in ((X - 5.6, 477.0, 0), (X - 1.0, 477.0, 1), (X + 3.5, 477.0, 0), (X + 1.2, 481.8, 1)):
@@ -47,6 +50,7 @@ def paint(easel: Easel, scene: Callable[[Easel], None]) -> None:
         return
     _door(easel)
     _garden(easel)
+    people(easel)
     _room(easel)
     easel.layer("Picture")
     scene(easel.within(DEEPER, CANVAS, "Picture"))
@@ -92,8 +96,6 @@ def _timbers(easel: Easel) -> None:
         [(X, 469.4), (X, PEAK + 1)],
         [(X - 5.9, EAVES), (X - 2.9, 470.6)],
         [(X + 5.9, EAVES), (X + 2.9, 470.6)],
-        [(LEFT + 0.4, 480.4), (X - 5.8, 476.0)],
-        [(RIGHT - 0.4, 480.4), (X + 5.9, 476.0)],
         [(X - 2.9, 470.4), (X - 2.9, EAVES)],
         [(X + 2.9, 470.4), (X + 2.9, EAVES)],
     ]
@@ -268,6 +270,11 @@ def _painter(easel: Easel) -> None:
     easel.stroke("Window", 10, [(head[0] - 0.005, head[1] - 0.02), (head[0] + 0.008, head[1] + 0.045)], 0.085, "#dba27c", FIRM)
     easel.stroke("Window", 10, hand([(head[0] + 0.085, head[1]), (head[0] + 0.105, head[1] + 0.02), (head[0] + 0.085, head[1] + 0.03)], 0.01), 0.014, "#dba27c", FIRM)
     easel.stroke("Window", 10, hand([(head[0] - 0.07, head[1] + 0.06), (head[0] - 0.085, head[1] - 0.03), (head[0] - 0.02, head[1] - 0.08)], 0.02), 0.035, "#5c3a30", ROUND, dynamics={})
+    easel.stroke("Window", 11, [(head[0] + 0.05, head[1] - 0.012), (head[0] + 0.052, head[1] - 0.01)], 0.008, "#3a2a2a", FIRM)
+    easel.stroke("Window", 11, hand([(head[0] + 0.035, head[1] - 0.03), (head[0] + 0.055, head[1] - 0.035), (head[0] + 0.07, head[1] - 0.028)], 0.01), 0.004, "#5c3a30", FIRM)
+    easel.stroke("Window", 11, hand([(head[0] + 0.05, head[1] + 0.055), (head[0] + 0.065, head[1] + 0.06), (head[0] + 0.08, head[1] + 0.052)], 0.01), 0.004, "#a85a4c", FIRM)
+    easel.stroke("Window", 10, [(head[0] + 0.02, head[1] + 0.035), (head[0] + 0.022, head[1] + 0.036)], 0.025, "#e8967c", SOFT, opacity=0.5, flow=0.5)
+    easel.stroke("Window", 11, hand([(head[0] - 0.025, head[1] - 0.005), (head[0] - 0.04, head[1] + 0.012), (head[0] - 0.022, head[1] + 0.03)], 0.01), 0.013, "#c88f6c", FIRM)
     beret = hand([(head[0] - 0.11, head[1] - 0.07), (head[0] - 0.02, head[1] - 0.115), (head[0] + 0.1, head[1] - 0.075)], 0.03)
     easel.stroke("Window", 10, beret, 0.045, "#8e2f34", FIRM, [rock("#d0605c", 0.7, 0.06, 0.3, 36)])
     easel.stroke("Window", 10, [(head[0], head[1] - 0.15), (head[0] + 0.012, head[1] - 0.18)], 0.011, "#8e2f34", FIRM)

@@ -16,6 +16,7 @@ _ROWS = (  # foot, left, right, width of a house
     (422, 946, 1026, 8.0), (433, 916, 1054, 9.0), (445, 898, 1070, 10.0), (458, 888, 1084, 11.5),
     (472, 886, 1090, 13.0), (487, 894, 1086, 14.5),
 )  # fmt: skip
+NEAR = 45.0  # houses so near to the painter's are looked at closely
 STUDIO = (1000.0, 486.0)  # foot of the painter's house, in the middle of the front row
 FINE = 4
 
@@ -57,14 +58,8 @@ def paint(easel: Easel) -> None:
 
 
 def _ground(easel: Easel) -> None:
-    x, y, across, down = TOWN
-    rows = []
-    for k in range(9):
-        v = k / 4 - 1
-        half = across * (1 - v * v * 0.8) ** 0.5 * 0.98
-        rows.append(hand([(x - half, y + v * down * 0.8), (x, y + v * down * 0.8 - 2), (x + half, y + v * down * 0.8)], 20, 1, k))
-    easel.touches("Town", 2, rows, 9, "#b59c6c", ROUND, [rock("#6f8248", 0.9, 12, 0.3, 24)], dynamics={"radius": [[0, 1], [1, 1]]}, opacity=0.9)
-    lanes = [[(x - 90, y + 27), (x, y + 26), (x + 95, y + 24)], [(x + 20, y + 50), (x + 14, y + 20), (x + 4, y - 25)]]
+    x, y, *_ = TOWN
+    lanes = [[(x - 92, 489), (x, 489.5), (x + 96, 488)], [(x + 16, 490), (x + 12, 476), (x + 2, 436)]]
     for lane in lanes:
         easel.stroke("Town", 3, hand(lane, 8, 0.8), 3.4, "#b9a07e", ROUND, [wave("squares", "#e6d2ac", 0.7, 1.5, 12)])
 
@@ -92,27 +87,30 @@ def _shadows(easel: Easel, houses: list[House]) -> None:
 def paint_house(easel: Easel, house: House) -> None:
     """Front, side and roof; the sun is on the left."""
     x, y, w = house.x, house.y, house.width
-    eaves = y - house.wall
+    eaves, peak, fine = y - house.wall, y - house.wall - house.roof, _fine(easel, y)
     grain = [rock(mix(house.plaster, "#6b5560", 0.6), 0.55, 2.5, 0.3, 25)]
     tiles = [wave("stripes", house.tiles[1], 0.7, 0.9, 90)]
     dim = mix(house.plaster, "#8d7480", 0.34)
     if house.gable:
-        peak = eaves - house.roof
         back = 0.42 * w
         slope = [(x + w / 2, peak), (x + w / 2 + back, peak - 0.06 * w), (x + w + back, eaves), (x + w, eaves)]
         side = [(x + w, eaves), (x + w + back, eaves - 0.4), (x + w + back, y - 0.8), (x + w, y)]
-        easel.stroke("Town", FINE - easel.sketch, hatch(side, 0.5, 1.55), 0.5, mix(dim, "#4c4660", 0.45), FIRM, grain)
-        easel.stroke("Town", FINE - easel.sketch, hatch(slope, 0.5, 1.55), 0.5, mix(house.tiles[0], "#3f3448", 0.35), FIRM, tiles)
-        easel.stroke("Town", FINE - easel.sketch, hatch(house.front, 0.5, 1.55), 0.5, mix(house.plaster, "#fff0c8", 0.2), FIRM, grain)
+        faces = [(side, mix(dim, "#4c4660", 0.45), grain), (slope, mix(house.tiles[0], "#3f3448", 0.35), tiles),
+                 (house.front, mix(house.plaster, "#fff0c8", 0.2), grain)]  # fmt: skip
     else:
-        ridge = eaves - house.roof
-        back = 0.2 * w
-        gable = [(x - back, y - 0.5), (x - back, eaves - 0.3), (x - 0.35 * back, ridge), (x, eaves), (x, y)]
-        easel.stroke("Town", FINE - easel.sketch, hatch(gable, 0.45, 1.5), 0.45, mix(house.plaster, "#fff2cc", 0.5), FIRM, grain)
-        easel.stroke("Town", FINE - easel.sketch, hatch(house.front, 0.5, 1.55), 0.5, dim, FIRM, grain)
-        over = 0.05 * w
-        slope = [(x - over, eaves + over), (x - 0.35 * back, ridge), (x + w - 0.35 * back, ridge), (x + w + over, eaves + over)]
-        easel.stroke("Town", FINE - easel.sketch, hatch(slope, 0.5, 1.55), 0.5, house.tiles[0], FIRM, tiles)
+        back, over = 0.2 * w, 0.05 * w
+        side = [(x - back, y - 0.5), (x - back, eaves - 0.3), (x - 0.35 * back, peak), (x, eaves), (x, y)]
+        left, right = x - 0.35 * back, x + w - 0.35 * back
+        slope = [(x - over, eaves + over), (left, peak), (right, peak), (x + w + over, eaves + over)]
+        faces = [(side, mix(house.plaster, "#fff2cc", 0.5), grain), (house.front, dim, grain),
+                 (slope, house.tiles[0], tiles)]  # fmt: skip
+    for corners, tone, ink in faces[easel.sketch :]:
+        easel.stroke("Town", fine, hatch(corners, 0.5, 1.55), 0.5, tone, FIRM, ink)
+
+
+def _fine(easel: Easel, y: float) -> int:
+    """Houses are painted finer towards the front."""
+    return 2 if easel.sketch else 3 if y < 452 else 4
 
 
 def _edges(easel: Easel, houses: list[House], chance: Random) -> None:
@@ -122,35 +120,82 @@ def _edges(easel: Easel, houses: list[House], chance: Random) -> None:
         eaves, w = h.y - h.wall, h.width
         peak = eaves - h.roof
         if h.gable:
-            boards.append([(h.x - 0.05 * w, eaves + 0.05 * w), (h.x + w / 2, peak - 0.2), (h.x + 1.04 * w, eaves + 0.03 * w)])
+            left, right = (h.x - 0.05 * w, eaves + 0.05 * w), (h.x + 1.04 * w, eaves + 0.03 * w)
+            boards.append([left, (h.x + w / 2, peak - 0.2), right])
         else:
             top = h.x + w * chance.uniform(0.2, 0.7)
             ridges.append([(h.x - 0.07 * w, peak), (h.x + 0.93 * w, peak)])
             chimneys.append([(top, peak + 0.8), (top, peak - 1.1)])
-    easel.touches("Town", FINE - easel.sketch, boards, 0.4, "#b5674c", FIRM)
-    easel.touches("Town", FINE - easel.sketch, ridges, 0.28, "#e8ac7c", FIRM)
-    easel.touches("Town", FINE - easel.sketch, chimneys, 0.5, "#8a6258", FIRM)
+    fine = _fine(easel, houses[0].y)
+    easel.touches("Town", fine, boards, 0.4, "#b5674c", FIRM)
+    easel.touches("Town", fine, ridges, 0.28, "#e8ac7c", FIRM)
+    easel.touches("Town", fine, chimneys, 0.5, "#8a6258", FIRM)
 
 
 def _windows(easel: Easel, houses: list[House], chance: Random) -> None:
-    """All windows of a row: panes dark or lit, bright frames, doors."""
-    dark, lit, frames, doors = [], [], [], []
+    """All windows of a row: panes dark or lit, bright frames, doors.  Near the painter's house, with more care."""
+    dark, lit, frames, doors, near = [], [], [], [], []
     for h in houses:
-        floors = 2 if h.wall > 0.78 * h.width else 1
+        floors = 2 if h.wall > 0.72 * h.width else 1
         count = 3 if h.width > 8 else 2
         for floor in range(floors):
-            y = h.y - h.wall * ((0.72, 0.3)[floor] if floors == 2 else 0.62)
+            y = h.y - h.wall * ((0.82, 0.36)[floor] if floors == 2 else 0.66)
             for k in range(count):
                 x = h.x + h.width * (k + 0.6) / (count + 0.2)
-                if floor == 1 and k == 1:
-                    doors.append([(x, h.y - 0.25), (x, h.y - 0.3 * h.wall)])
-                    continue
-                frames.append([(x, y), (x, y + 1.1)])
-                (lit if chance.random() < 0.22 else dark).append([(x, y + 0.1), (x, y + 1.0)])
-    easel.touches("Town", FINE - easel.sketch, frames, 0.48, "#f4e3c6", FIRM)
-    easel.touches("Town", FINE - easel.sketch, dark, 0.32, "#48526c", FIRM)
-    easel.touches("Town", FINE - easel.sketch, lit, 0.34, "#f6b95a", FIRM)
-    easel.touches("Town", FINE - easel.sketch, doors, 0.55, "#6e4436", FIRM)
+                if k == 1 and floor == floors - 1:
+                    doors.append([(x, h.y - 0.4), (x, h.y - 0.32 * h.wall)])
+                elif not easel.sketch and h.y > 465 and abs(x - STUDIO[0]) < NEAR:
+                    near.append((x, y, chance.random() < 0.3))
+                else:
+                    frames.append([(x, y), (x, y + 1.1)])
+                    (lit if chance.random() < 0.22 else dark).append([(x, y + 0.1), (x, y + 1.0)])
+    fine = _fine(easel, houses[0].y)
+    if not easel.sketch:
+        easel.touches("Town", fine, frames, 0.48, "#f4e3c6", FIRM)
+    easel.touches("Town", fine, dark, 0.32, "#48526c", FIRM)
+    easel.touches("Town", fine, lit, 0.34, "#f6b95a", FIRM)
+    easel.touches("Town", fine, doors, 0.62, "#6e4436", FIRM)
+    _near_windows(easel, near)
+
+
+def _near_windows(easel: Easel, near: list[tuple[float, float, bool]]) -> None:
+    """Windows with shutters, frames, bars and sills, in rectangles."""
+
+    def boxes(shift: float, half: float, top: float, foot: float, which=(True, False)) -> list[list[Point]]:
+        return [
+            hatch([(x + shift - half, y + top), (x + shift + half, y + top), (x + shift + half, y + foot),
+                   (x + shift - half, y + foot)], 0.14, 1.5)
+            for x, y, lit in near if lit in which
+        ]  # fmt: skip
+
+    easel.touches("Town", 5, boxes(-0.95, 0.32, 0, 1.9) + boxes(0.95, 0.32, 0, 1.9), 0.14, "#54716c", FIRM)
+    easel.touches("Town", 5, boxes(0, 0.62, -0.05, 1.95), 0.14, "#f6e8cd", FIRM)
+    easel.touches("Town", 5, boxes(0, 0.46, 0.1, 1.8, (False,)), 0.14, "#4d5b78", FIRM)
+    easel.touches("Town", 5, boxes(0, 0.46, 0.1, 1.8, (True,)), 0.14, "#f2b256", FIRM)
+    bars = [[(x, y + 0.1), (x, y + 1.8)] for x, y, _ in near]
+    bars += [[(x - 0.5, y + 0.75), (x + 0.5, y + 0.75)] for x, y, _ in near]
+    easel.touches("Town", 5, bars, 0.07, "#f6e8cd", FIRM)
+    easel.touches("Town", 5, [[(x - 0.9, y + 2.08), (x + 0.9, y + 2.08)] for x, y, _ in near], 0.13, "#c0a68a", FIRM)
+
+
+def people(easel: Easel) -> None:
+    """On the square before the painter's house: a well, and those who meet there."""
+    x, y = STUDIO[0] - 13.5, STUDIO[1] + 2.6
+    stone = [rock("#e8d8ba", 0.9, 2.5, 0.3, 25)]
+    basin = [(x - 2.2, y - 0.2), (x - 2.0, y + 1.0), (x + 2.0, y + 1.0), (x + 2.2, y - 0.2)]
+    easel.stroke("Studio", 5, hatch(basin, 0.25, 1.4), 0.25, "#8f8276", FIRM, stone)
+    easel.stroke("Studio", 5, [(x - 1.9, y - 0.15), (x + 1.9, y - 0.15)], 0.35, "#7fa5b4", FIRM)
+    easel.stroke("Studio", 5, [(x, y), (x, y - 3.0)], 0.35, "#a8988a", FIRM, stone)
+    easel.touches("Studio", 5, [hand([(x, y - 2.6), (x + s, y - 2.2), (x + 1.4 * s, y - 0.3)], 0.4) for s in (-1, 1)], 0.1, "#dcecef", FIRM)
+    folk = ((-6.2, 2.4, "#8e3f46", "#3a3444"), (-4.9, 2.7, "#4a6a88", "#e9d8b8"), (5.4, 2.2, "#c9963f", "#5a4038"),
+            (10.4, 3.4, "#5f7d54", "#3c3a4c"), (11.5, 3.2, "#e6d3b4", "#96503c"), (-9.6, 4.0, "#6b4f78", "#2e3040"))  # fmt: skip
+    for dx, dy, coat, skirt in folk:
+        fx, fy = STUDIO[0] + dx, STUDIO[1] + dy
+        easel.stroke("Studio", 4, [(fx + 0.2, fy), (fx + 1.5, fy + 0.25)], 0.3, "#5c4c56", SOFT, opacity=0.5, flow=0.6)
+        easel.stroke("Studio", 6, hatch([(fx - 0.18, fy - 1.0), (fx + 0.18, fy - 1.0), (fx + 0.38, fy), (fx - 0.38, fy)], 0.1, 1.4), 0.1, skirt, FIRM)
+        easel.stroke("Studio", 6, hatch([(fx - 0.28, fy - 1.55), (fx + 0.28, fy - 1.55), (fx + 0.2, fy - 0.8), (fx - 0.2, fy - 0.8)], 0.1, 1.4), 0.1, coat, FIRM)
+        easel.stroke("Studio", 6, [(fx, fy - 1.78), (fx + 0.02, fy - 1.8)], 0.2, "#e3b38e", FIRM)
+        easel.stroke("Studio", 6, hand([(fx - 0.2, fy - 1.88), (fx, fy - 2.0), (fx + 0.2, fy - 1.88)], 0.1), 0.1, mix(skirt, "#2a2026", 0.4), FIRM)
 
 
 def _gardens(easel: Easel, chance: Random, row: tuple[float, float, float, float]) -> None:
@@ -165,19 +210,19 @@ def _church(easel: Easel, x: float, y: float) -> None:
     paint_house(easel, nave)
     stone = [rock("#9a8478", 0.6, 2.5, 0.3, 25)]
     tower = [(x - 5, y), (x - 5, y - 30), (x + 4, y - 30), (x + 4, y)]
-    easel.stroke("Town", FINE - easel.sketch, hatch(tower, 0.5, 1.55), 0.5, "#e9d2ac", FIRM, stone)
+    easel.stroke("Town", _fine(easel, y), hatch(tower, 0.5, 1.55), 0.5, "#e9d2ac", FIRM, stone)
     shade = [(x + 0.6, y), (x + 0.6, y - 30), (x + 4, y - 30), (x + 4, y)]
-    easel.stroke("Town", FINE - easel.sketch, hatch(shade, 0.5, 1.55), 0.5, "#a18a8a", FIRM, stone)
+    easel.stroke("Town", _fine(easel, y), hatch(shade, 0.5, 1.55), 0.5, "#a18a8a", FIRM, stone)
     slate = [wave("stripes", "#9fb0b8", 0.6, 0.9, 90)]
     spire = [(x - 6, y - 29.5), (x - 0.5, y - 56), (x + 5, y - 29.5)]
-    easel.stroke("Town", FINE - easel.sketch, hatch(spire, 0.45, 1.5), 0.45, "#6c8088", FIRM, slate)
-    easel.stroke("Town", FINE - easel.sketch, hatch([(x + 0.8, y - 29.5), (x - 0.3, y - 55), (x + 5, y - 29.5)], 0.45, 1.5), 0.45, "#46566a", FIRM, slate)
-    easel.stroke("Town", FINE - easel.sketch, [(x - 0.5, y - 54), (x - 0.5, y - 60)], 0.22, "#e8c987", FIRM)
-    easel.stroke("Town", FINE - easel.sketch, [(x - 1.7, y - 58.3), (x + 0.7, y - 58.3)], 0.2, "#e8c987", FIRM)
-    easel.stroke("Town", FINE - easel.sketch, [(x - 5.3, y - 30), (x + 4.3, y - 30)], 0.5, "#f6e6c4", FIRM)
+    easel.stroke("Town", _fine(easel, y), hatch(spire, 0.45, 1.5), 0.45, "#6c8088", FIRM, slate)
+    easel.stroke("Town", _fine(easel, y), hatch([(x + 0.8, y - 29.5), (x - 0.3, y - 55), (x + 5, y - 29.5)], 0.45, 1.5), 0.45, "#46566a", FIRM, slate)
+    easel.stroke("Town", _fine(easel, y), [(x - 0.5, y - 54), (x - 0.5, y - 60)], 0.22, "#e8c987", FIRM)
+    easel.stroke("Town", _fine(easel, y), [(x - 1.7, y - 58.3), (x + 0.7, y - 58.3)], 0.2, "#e8c987", FIRM)
+    easel.stroke("Town", _fine(easel, y), [(x - 5.3, y - 30), (x + 4.3, y - 30)], 0.5, "#f6e6c4", FIRM)
     bells = [[(x - 2.6 + 3.4 * k, y - 26.5), (x - 2.6 + 3.4 * k, y - 23)] for k in (0, 1)]
-    easel.touches("Town", FINE - easel.sketch, bells, 0.75, "#3f3c4e", FIRM)
+    easel.touches("Town", _fine(easel, y), bells, 0.75, "#3f3c4e", FIRM)
     tall = [[(x + 7.5 + 4.2 * k, y - 8), (x + 7.5 + 4.2 * k, y - 4)] for k in range(4)]
-    easel.touches("Town", FINE - easel.sketch, tall, 0.7, "#4a5470", FIRM)
-    easel.touches("Town", FINE - easel.sketch, [[(x - 0.5, y - 18.2), (x - 0.45, y - 18.2)]], 1.6, "#f2e6cc", FIRM)
+    easel.touches("Town", _fine(easel, y), tall, 0.7, "#4a5470", FIRM)
+    easel.touches("Town", _fine(easel, y), [[(x - 0.5, y - 18.2), (x - 0.45, y - 18.2)]], 1.6, "#f2e6cc", FIRM)
     easel.touches("Town", 5, [[(x - 0.5, y - 18.2), (x - 0.5, y - 19.4)], [(x - 0.5, y - 18.2), (x + 0.4, y - 17.8)]], 0.14, "#3c3440", HAIR)
