@@ -82,7 +82,9 @@ class Window:
 
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
         self._wake()
-        backends.glfw_key_callback(self._address, key, scancode, action, mods)
+        typing = imgui.get_io().want_text_input or self.layout.dialogs.open
+        if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
+            backends.glfw_key_callback(self._address, key, scancode, action, mods)
         self._keys.append((key, scancode, action, mods))
 
     def _focus(self, _w: Any, focused: int) -> None:
