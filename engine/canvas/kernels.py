@@ -92,8 +92,10 @@ def apply_stamp(old, keep, add, planes, new, changed):
     found = np.int32(0)
     for y in range(keep.shape[0]):
         a, s = keep[y], changed[y]
+        marked = 0
         for i in range(width):
             marks[i] = np.int32(a[i] != _ONE)
+            marked += marks[i]
         for c in range(old.shape[0]):
             before, after = old[c, y], new[c, y]
             source = planes[c]
@@ -107,8 +109,9 @@ def apply_stamp(old, keep, add, planes, new, changed):
             if c == 3:
                 for i in range(width):
                     after[i] = min(max(after[i], _ZERO), _ONE)
-            for i in range(width):
-                marks[i] |= np.int32(before[i] != after[i])
+            if marked < width:
+                for i in range(width):
+                    marks[i] |= np.int32(before[i] != after[i])
         for i in range(width):
             found |= marks[i]
             s[i] = np.uint8(marks[i])
