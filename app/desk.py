@@ -61,10 +61,12 @@ class Desk:
     message: tuple[str, bool, float] = ("", False, 0.0)
     pending: int = 0
     files: int = 0
+    export_level: int = 0
     asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
     then: Callable[[Desk], None] | None = None  # goes on once unsaved changes are dealt with
     quit: bool = False
     after_save: Callable[[Desk], None] | None = None
+    awaited: str = ""  # a texture that was asked for: it joins the ink when the painting has it
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
 
     @property

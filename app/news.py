@@ -18,7 +18,7 @@ from app.panels.brush import THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
 from app.trace import trace
-from app.view import Place
+from app.view import SUBPIXEL, Place
 from engine.painting import requests as q
 from engine.painting.worker import Worker
 
@@ -154,18 +154,25 @@ class News:
 
     def _looked(self, r: q.Looked, _now: float) -> None:
         """A recording that plays shows where its artist looked."""
-        bits = 16
-        scale = 2.0 ** (bits - r.level % 1)
-        x, y = (round((o + s / 2) * scale) for o, s in zip(r.origin, r.size, strict=True))
+        x, y = (_middle(o, s, r.level % 1) for o, s in zip(r.origin, r.size, strict=True))
         x0, y0, x1, y1 = self.desk.free_area()
         zoom = r.level
         if r.size[0] > 0 and r.size[1] > 0:
             zoom += float(np.log2(min((x1 - x0) / r.size[0], (y1 - y0) / r.size[1])))
-        place = Place(x, y, int(r.level // 1) + bits)
+        place = Place(x, y, int(r.level // 1) + SUBPIXEL)
         self.desk.look_at(place, zoom, r.seconds)
 
     def _pending(self, r: q.Pending, _now: float) -> None:
         self.desk.pending, self.desk.files = r.tiles, r.files
+
+
+def _middle(origin: float, size: float, fraction: float) -> int:
+    """The middle of a span of pixels of a level and a fraction, in 2^-16 pixels of the whole level; exact for integers
+    of any size at a whole level."""
+    whole = int(origin // 1)
+    rest = round((origin - whole + size / 2) * 2.0 ** (SUBPIXEL - fraction))
+    scale = round(2.0 ** (64 - fraction))  # pixels of the finer level are smaller
+    return ((whole * scale) >> (64 - SUBPIXEL)) + rest
 
 
 def _ring(seen: list[ScreenTile]) -> list[ScreenTile]:

@@ -25,7 +25,7 @@ ORDER = (
     ("app.glide",),
     ("app.desk",),
     ("app.screen", "app.terrain", "app.solids"),
-    ("app.actions", "app.tools"),
+    ("app.actions", "app.tools", "app.pictured"),
     ("app.panels",),
     ("app.router", "app.cursor", "app.news"),
     ("app.window",),

@@ -16,6 +16,7 @@ from engine.numeric.address import Rect
 from engine.painting.requests import New
 
 MOST_SIDE = 1 << 20
+EXPORT_LEVELS = (-4, 8)
 _SIZES = (("Screen", 1280, 800), ("Square", 1024, 1024), ("Wide", 1920, 1080), ("A4, 150 dpi", 1240, 1754))
 
 
@@ -91,6 +92,27 @@ class NewPainting:
         return not w.text_button("Cancel", "Go back", width=em * 8)
 
 
+class ExportDepth:
+    """How deep the exported picture goes; then where it goes."""
+
+    title = "Export picture"
+
+    def draw(self, desk: Desk) -> bool:
+        em = imgui.get_font_size()
+        imgui.text_unformatted("Each level deeper doubles the picture, with new detail.")
+        imgui.set_next_item_width(em * 20)
+        _, desk.export_level = imgui.slider_int("Level", desk.export_level, EXPORT_LEVELS[0], EXPORT_LEVELS[1])
+        w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
+        size = desk.frame.zoomed(desk.export_level)
+        imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
+        imgui.spacing()
+        chosen = w.text_button("Choose file…", "Choose where to write it", width=em * 8)
+        if chosen:
+            desk.ask("export to")
+        imgui.same_line()
+        return not (w.text_button("Cancel", "Go back", width=em * 7) or chosen)
+
+
 class Unsaved:
     """Asks what is to become of changes before something replaces the painting."""
 
@@ -161,7 +183,9 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "new": lambda desk: NewPainting(),
     "open": files.opening,
     "save as": files.saving,
-    "export": files.exporting,
+    "export": lambda desk: ExportDepth(),
+    "export to": files.exporting,
+    "texture picture": files.choosing_texture,
     "unsaved": lambda desk: Unsaved(),
     "keys": lambda desk: Keys(),
     "about": lambda desk: About(),

@@ -12,12 +12,13 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle import portable_file_dialogs as pfd
 
-from app import icons, theme
+from app import icons, pictured, theme
 from app.desk import Desk
 from app.panels import widgets as w
 from engine.painting.requests import Export, Open, Save
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
+PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 SAVES = (".ora",)
 EXPORTS = (".png", ".tif")
 Then = Callable[[Desk, Path], None]
@@ -168,5 +169,9 @@ def saving(desk: Desk) -> SystemDialog | Browser:
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
     stem = desk.path.stem if desk.path else "untitled"
-    start = _folder(desk) / f"{stem}.png"
-    return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path)))
+    start, level = _folder(desk) / f"{stem}.png", desk.export_level
+    return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
+
+
+def choosing_texture(desk: Desk) -> SystemDialog | Browser:
+    return _chooser("Paint with a picture", _folder(desk), PICTURES, False, pictured.from_file)

@@ -7,7 +7,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import icons, theme
+from app import icons, pictured, theme
 from app.colours import to_hex
 from app.desk import Desk
 from app.panels import widgets as w
@@ -25,6 +25,7 @@ class InkPanel:
         if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):
             return
         self._picture(desk)
+        self._welcome(desk)
         removed = None
         for i, component in enumerate(desk.brush.ink):
             imgui.push_id(i)
@@ -70,7 +71,7 @@ class InkPanel:
         if rgb is not None:
             component = replace(component, colour=to_hex(rgb))
         imgui.same_line()
-        name = component.texture.capitalize()
+        name = _label(component.texture)
         room = imgui.get_content_region_avail().x - 2 * side - 2 * gap
         imgui.push_style_var(imgui.StyleVar_.cell_padding, ImVec2(0, 0))
         imgui.begin_child("amount", ImVec2(room, side))
@@ -90,10 +91,14 @@ class InkPanel:
         imgui.set_next_window_size(ImVec2(imgui.get_font_size() * 17, 0))
         if not imgui.begin_popup("settings"):
             return component
-        imgui.text_disabled(component.texture.capitalize())
-        for row in _parameters_of(desk, component.texture):
+        imgui.text_disabled(_label(component.texture))
+        rows = _parameters_of(desk, component.texture)
+        for row in rows:
             component = _parameter(component, row)
-        if w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
+        if not rows:
+            imgui.text_disabled("It has no settings")
+        seeded = any(row.name == "seed" for row in rows)
+        if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
             seed = int(component.parameters.get("seed", 0) or 0)
             component = replace(component, parameters=component.parameters.set("seed", (seed * 31 + 17) % 99991))
         imgui.end_popup()
@@ -111,21 +116,42 @@ class InkPanel:
         if not imgui.begin_popup("add texture"):
             return
         for name, hint in _textures(desk):
-            if imgui.selectable(name.capitalize(), False)[0]:
-                part = Component(name, 0.6, _COLOURS.get(name, to_hex(desk.other_colour)))
+            if imgui.selectable(_label(name), False)[0]:
+                part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
                 desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
             w.tooltip(hint)
+        imgui.separator()
+        if imgui.selectable("Picture from a file…", False)[0]:
+            desk.ask("texture picture")
+        w.tooltip("Paint with a PNG, JPEG or TIFF; it repeats, and shows its own detail as you zoom in")
+        if imgui.selectable("What is in view", False)[0]:
+            pictured.from_view(desk)
+        w.tooltip("Paint with what the canvas shows now, finer detail included")
         imgui.end_popup()
+
+    def _welcome(self, desk: Desk) -> None:
+        """A picture that was asked for is a texture now: it joins the ink."""
+        if not desk.awaited or desk.scene is None or desk.awaited not in desk.scene.textures:
+            return
+        part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
+        if len(desk.brush.ink) < COMPONENTS_CAP:
+            desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
 
 
 def _textures(desk: Desk) -> list[tuple[str, str]]:
     """Names and hints: those built in, then those that the painting defines."""
-    own = [(row.name, getattr(row, "tooltip", "")) for row in desk.kinds if row.name not in ("image", "canvas")]
+    own = [(row.name, row.tooltip) for row in desk.kinds if not row.pictured]
     return own + [(name, "A texture of this painting") for name in (desk.scene.textures if desk.scene else ())]
 
 
+def _label(texture: str) -> str:
+    return texture.capitalize() if texture in _COLOURS else texture
+
+
 def _parameters_of(desk: Desk, texture: str) -> tuple[Any, ...]:
-    return next((tuple(row.parameters) for row in desk.kinds if row.name == texture), ())
+    defined = dict(desk.scene.texture_kinds) if desk.scene else {}
+    kind = defined.get(texture, texture)
+    return next((tuple(row.parameters) for row in desk.kinds if row.name == kind), ())
 
 
 def _parameter(component: Component, row: Any) -> Component:
@@ -137,7 +163,8 @@ def _parameter(component: Component, row: Any) -> Component:
     label = row.name.capitalize()
     changed, value = w.slider(label, value, (lo, hi), row.tooltip, form=form, curved=row.name == "period")
     if changed:
-        value = min(max(round(value, 3), float(row.lo)), float(row.hi))
+        value = min(max(round(value, 0 if row.whole else 3), float(row.lo)), float(row.hi))
+        value = int(value) if row.whole else value
         component = replace(component, parameters=component.parameters.set(row.name, value))
     return component
 

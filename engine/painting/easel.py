@@ -191,6 +191,7 @@ class Easel:
                 modified=painting is not self._saved,
                 path=self.path,
                 textures=tuple(sorted(painting.textures)),
+                texture_kinds=tuple((name, texture.kind) for name, texture in painting.textures.items()),
                 serial=self._serial,
             )
         )

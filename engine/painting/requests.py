@@ -175,7 +175,8 @@ class Scene:
     can_redo: bool
     modified: bool
     path: Path | None
-    textures: tuple[str, ...] = ()
+    textures: tuple[str, ...] = ()  # names of those defined
+    texture_kinds: tuple[tuple[str, str], ...] = ()  # and the kind of each
     serial: int = 0  # another number: another painting
 
 
