@@ -24,4 +24,9 @@ def snap(value):
 
 def snapped(values: np.ndarray) -> np.ndarray:
     """The array rounded to the grid, as float32, clipped to |v| <= 16."""
+    if isinstance(values, np.ndarray) and values.dtype == np.float32:
+        out = np.clip(values, -LIMIT, LIMIT)
+        out += SNAP
+        out -= SNAP
+        return out
     return np.clip(np.rint(np.asarray(values, np.float64) / Q) * Q, -LIMIT, LIMIT).astype(np.float32)

@@ -12,15 +12,16 @@ import numpy as np
 from immutables import Map
 
 from engine.canvas import layers
-from engine.canvas.composite import Read, composite
-from engine.canvas.evaluate import TileCache, evaluate_sparse
-from engine.canvas.layers import Group, Layer
+from engine.canvas.evaluate import TileCache
+from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.numeric.colour import from_rgba8, from_rgba16
+from engine.numeric.grid import snapped
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, DefineTexture
 from engine.painting.fault import FileError
 from engine.painting.images import read_image
 from engine.painting.limits import LIMITS
+from engine.painting.rendering import strips
 from engine.painting.strictjson import Fields, FormatError
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
@@ -109,22 +110,14 @@ def _canvas(command: DefineTexture, root: Group, around: Around) -> Texture:
     name = members.text("layer", None)
     shown = root if name is None else layers.alone(layers.find(root, name))
     rect = Rect.at(x, y, width, height).zoomed(detail)
-    planes = composite(shown, level + detail, rect, _reader(around.cache))
+    planes = np.concatenate([strip.copy() for strip in strips(shown, level + detail, rect)], axis=1)
     given = command.arguments
     parameters = given if "period" in given else given.set("period", width)
-    return Texture("canvas", parameters, ImageSource.of(command.name, planes))
+    return Texture("canvas", parameters, ImageSource.of(command.name, snapped(planes)))
 
 
 def _listed(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value
-
-
-def _reader(cache: TileCache | None) -> Read:
-    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-        found = evaluate_sparse(layer.pyramid, level, rect, cache)
-        return None if found is None else found.rgba
-
-    return read
 
 
 Maker = Callable[[DefineTexture, Group, Around], Texture]
