@@ -11,13 +11,13 @@ import json
 import sys
 from pathlib import Path
 
-from scene import foreground, lake, land, mountains, sky, studio, town
+from scene import foreground, lake, land, mountains, sky, studio, town, window
 from scene.easel import HEIGHT, WIDTH, Easel
 
 FOLDER = Path(__file__).resolve().parent
 STOPS = (  # of the zoom series: level, middle in level-0 pixels
     (0, (640.0, 400.0)), (2, (1000.0, 470.0)), (4, (1000.0, 473.0)), (6, (1000.0, 473.6)), (8, (1000.0, 472.12)),
-    (10, (1000.42, 472.05)), (11, studio.MIDDLE), (13, studio.inside(1000.0, 470.0)),
+    (10, (1000.42, 472.05)), (12, window.inside(880.0, 420.0)),
 )  # fmt: skip
 
 

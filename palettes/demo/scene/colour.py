@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 
 def mix(a: str, b: str, t: float) -> str:
@@ -14,7 +15,7 @@ def mix(a: str, b: str, t: float) -> str:
 
 def ramp(stops: Sequence[tuple[float, str]], at: float) -> str:
     """The colour at a place of a gradient given by rising stops (place, colour)."""
-    for (low, a), (high, b) in zip(stops, stops[1:], strict=False):
+    for (low, a), (high, b) in pairwise(stops):
         if at <= high:
             return mix(a, b, (at - low) / (high - low))
     return stops[-1][1]

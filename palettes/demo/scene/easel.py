@@ -70,7 +70,7 @@ class Easel:
         if self.sketch:  # nothing beyond the picture's frame
             points = [(min(max(p[0], -40), WIDTH + 40), min(max(p[1], -40), HEIGHT + 40), *p[2:]) for p in points]
         corner = [math.floor((o + p) * scale) for o, p in zip(self.origin, points[0], strict=False)]
-        digits = 1 if radius * scale < 6 else None
+        digits = 1 if radius * scale < 3.5 else None
         placed = []
         for point in points:
             x, y = (round((o + p) * scale - c, digits) for o, p, c in zip(self.origin, point, corner, strict=False))

@@ -39,10 +39,16 @@ def _fir(easel: Easel, x: float, foot: float, top: float, breadth: float) -> Non
                 long = reach * chance.uniform(0.5, 1.15)
                 drop = 3 + long * chance.uniform(0.25, 0.5)
                 start = y + chance.uniform(-4, 4) - 2 * k
-                paths.append([(x, start, 0.3 + 0.3 * grown), (x + 0.55 * way * long, start + 0.35 * drop, 0.35 + 0.65 * grown), (x + way * long, start + drop, 0.1)])
+                paths.append(
+                    [
+                        (x, start, 0.3 + 0.3 * grown),
+                        (x + 0.55 * way * long, start + 0.35 * drop, 0.35 + 0.65 * grown),
+                        (x + way * long, start + drop, 0.1),
+                    ]
+                )
             y += (8 + 11 * grown) * (1, 1, 1.3, 1.6)[k] * (1.6 if easel.sketch else 1)
         size = (7.5, 6.0, 4.2, 2.6)[k] * breadth
-        easel.touches("Foreground", 1, paths, size, tone, HAIR, foliage(tone, 0.35), hardness=0.85)
+        easel.touches("Foreground", 1 - easel.sketch, paths, size, tone, HAIR, foliage(tone, 0.35), hardness=0.85)
 
 
 def _bank(easel: Easel) -> None:
@@ -73,7 +79,12 @@ def _bank(easel: Easel) -> None:
 
 def _flowers(easel: Easel) -> None:
     chance = dice("flowers")
-    for tone, count, size in (("#f3e7c8", 150, 1.9), ("#d9563f", 110, 2.3), ("#e9b53f", 110, 1.9), ("#8d78b8", 80, 2.0)):
+    for tone, count, size in (
+        ("#f3e7c8", 150, 1.9),
+        ("#d9563f", 110, 2.3),
+        ("#e9b53f", 110, 1.9),
+        ("#8d78b8", 80, 2.0),
+    ):
         spots: list[list[Point]] = []
         for _ in range(count):
             x, near = chance.uniform(470, 1280), chance.random() ** 0.8
@@ -98,4 +109,6 @@ def light(easel: Easel) -> None:
     easel.layer("Sun", blend="screen")
     for size, tone, opacity in ((150, "#ff9a3c", 0.3), (70, "#ffc068", 0.4), (26, "#ffe2a0", 0.6)):
         easel.stroke("Sun", 0, [(166, 336), (167, 336)], size, tone, SOFT, opacity=opacity, flow=0.5)
-    easel.stroke("Sun", 2, [(166, 336), (166.5, 336)], 13, mix("#fff3d0", "#ffffff", 0.3), ROUND, hardness=0.85, dynamics={})
+    easel.stroke(
+        "Sun", 2, [(166, 336), (166.5, 336)], 13, mix("#fff3d0", "#ffffff", 0.3), ROUND, hardness=0.85, dynamics={}
+    )

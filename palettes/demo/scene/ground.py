@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from scene.easel import Point
 from scene.noise import fractal
@@ -20,9 +21,7 @@ HILL: Sequence[Point] = (
 
 def along(line: Sequence[Point], x: float) -> float:
     """y of a line that runs from left to right."""
-    for (ax, ay), (bx, by) in zip(line, line[1:], strict=False):
-        if x <= bx:
-            break
+    (ax, ay), (bx, by) = next(((a, b) for a, b in pairwise(line) if x <= b[0]), (line[-2], line[-1]))
     return ay + (by - ay) * min(max((x - ax) / (bx - ax), 0), 1)
 
 

@@ -28,13 +28,13 @@ def mirrored(x: float, y: float) -> str:
 
 def paint(easel: Easel) -> None:
     easel.layer("Lake")
-    for y in range(int(FAR_SHORE) + 4, 812, 14):
+    for y in range(int(FAR_SHORE) + 4, 812, 24):
         tone = _water(420, y)
-        easel.stroke("Lake", 0, [(-20, y), (1040, y)], 11, tone, ROUND, _RIPPLES, hardness=0.4, dynamics={})
-    for y in range(int(FAR_SHORE) + 16, 812, 34):
+        easel.stroke("Lake", 0, [(-20, y), (1040, y)], 19, tone, ROUND, _RIPPLES, hardness=0.4, dynamics={})
+    for y in range(int(FAR_SHORE) + 16, 812, 48):
         for x in range(-100 + y % 7 * 30, 1000, 330):
             line = hand([(x, y), (x + 180, y + 1), (x + 380, y)], 60, 2, y + x, 0.3)
-            easel.stroke("Lake", 0, line, 40, _water(x + 180, y), SOFT, _RIPPLES, opacity=0.9)
+            easel.stroke("Lake", 0, line, 48, _water(x + 180, y), SOFT, _RIPPLES, opacity=0.9)
     easel.stroke("Lake", 0, [(-20, 504), (560, 504), (700, 512)], 7, "#6d7f80", SOFT, opacity=0.5)
     _masses(easel)
     _reflections(easel)
@@ -72,13 +72,22 @@ def _reflections(easel: Easel) -> None:
             length *= chance.uniform(0.6, 1.5)
             if not dry(x + length / 2, y) and not dry(x + length, y + 2):
                 tone = mirrored(x + length / 2 + 14 * near * fractal(81, y / 7, x / 90), y)
-                heaps.setdefault((int(y // 100), tone), []).append(
+                heaps.setdefault((6 if y < 600 else 8, tone), []).append(
                     [(x, y, 0.2), (x + length / 2, y + 0.8 * chance.gauss(0, 1), 1.0), (x + length, y, 0.2)]
                 )
             x += length * chance.uniform(1.3, 3.2)
         y += (1.9 + 4.2 * near) * (2.2 if easel.sketch else 1)
     for (band, tone), paths in _merged(heaps).items():
-        easel.touches("Lake", 1, paths, (2.2 if easel.sketch else 1.2) + 0.55 * (band - 5), tone, HAIR, _RIPPLES, opacity=0.75)
+        easel.touches(
+            "Lake",
+            1 - easel.sketch,
+            paths,
+            (2.2 if easel.sketch else 1.2) + 0.45 * (band - 5),
+            tone,
+            HAIR,
+            _RIPPLES,
+            opacity=0.75,
+        )
 
 
 def _merged(heaps: dict[tuple[int, str], list[list[Point]]]) -> dict[tuple[int, str], list[list[Point]]]:
@@ -107,7 +116,9 @@ def _glitter(easel: Easel) -> None:
 
 def _boat(easel: Easel, x: float, y: float) -> None:
     """A small sail on its way home."""
-    easel.stroke("Lake", 2, hatch([(x + 1, y + 5), (x + 17, y + 5), (x + 8, y + 40)], 1.2), 1.2, "#c9a98c", FIRM, opacity=0.4)
+    easel.stroke(
+        "Lake", 2, hatch([(x + 1, y + 5), (x + 17, y + 5), (x + 8, y + 40)], 1.2), 1.2, "#c9a98c", FIRM, opacity=0.4
+    )
     sail = [(x + 3, y - 4), (x + 4, y - 40), (x + 21, y - 6)]
     easel.stroke("Lake", 3, hatch(sail, 0.8), 0.8, "#e9d0ae", FIRM, [wave("stripes", "#fff6e4", 0.75, 3.0, 78)])
     easel.stroke("Lake", 3, hatch([(x + 1.5, y - 5), (x + 3, y - 35), (x - 8, y - 5)], 0.7), 0.7, "#fff0d2", FIRM)
@@ -116,5 +127,7 @@ def _boat(easel: Easel, x: float, y: float) -> None:
     easel.stroke("Lake", 3, hatch(hull, 0.8), 0.8, "#6b3d33", FIRM, [wave("stripes", "#a8654a", 0.6, 1.6, 88)])
     easel.stroke("Lake", 3, [(x - 11, y - 2.4, 0.7), (x + 6, y - 1.8), (x + 23, y - 3.2, 0.7)], 0.6, "#f0d2a2", FIRM)
     for k in range(3):
-        line = hand([(x - 14 - 9 * k, y + 5 + 3 * k), (x + 8, y + 6 + 3 * k), (x + 26 + 12 * k, y + 5 + 3 * k)], 6, 0.4, k, 0.5)
+        line = hand(
+            [(x - 14 - 9 * k, y + 5 + 3 * k), (x + 8, y + 6 + 3 * k), (x + 26 + 12 * k, y + 5 + 3 * k)], 6, 0.4, k, 0.5
+        )
         easel.stroke("Lake", 2, line, 0.9, mix("#fff0d4", "#7d94a6", 0.3 * k), SOFT, flow=0.6)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from scene.colour import mix
 from scene.easel import FIRM, HAIR, ROUND, SOFT, Easel, Point, hand, hatch, rock, wave
-from scene.ground import FAR_SHORE, HILL, SHORE, along, dry, front, hilltop, on_hill
+from scene.ground import FAR_SHORE, SHORE, along, dry, front, hilltop, on_hill
 from scene.noise import dice, fractal, value
 
 LEAVES = ("#2f4a3c", "#47663f", "#7d8a45", "#c7b25c")  # of foliage, from shade to sun
@@ -30,10 +31,12 @@ def paint(easel: Easel) -> None:
     _meadow(easel)
 
 
-def _woods(easel: Easel, name: str, seed: int, left: float, right: float, heights: Point, foot: float, tones, size: float) -> None:
+def _woods(
+    easel: Easel, name: str, seed: int, left: float, right: float, heights: Point, foot: float, tones, size: float
+) -> None:
     """A wooded ridge that sinks to the right: its mass first, then crowns lit from the left."""
     low, high = heights
-    size *= 1.7 if easel.sketch else 1
+    size *= 2.2 if easel.sketch else 1
 
     def top(x: float) -> float:
         t = (x - left) / (right - left)
@@ -44,7 +47,7 @@ def _woods(easel: Easel, name: str, seed: int, left: float, right: float, height
     while x < right:
         body += [(x, max(top(x), 0) + 4), (x + 4, foot + 4), (x + 8, foot + 4)]
         x += 8
-    easel.stroke("Land", 1, body, 6, tones[1], ROUND, foliage(tones[1], 0.2), dynamics={})
+    easel.stroke("Land", 0, body, 6, tones[1], ROUND, foliage(tones[1], 0.2), dynamics={})
     chance = dice(name)
     for k, tone in enumerate((tones[0], tones[1], tones[2], tones[3])):
         paths = []
@@ -58,8 +61,17 @@ def _woods(easel: Easel, name: str, seed: int, left: float, right: float, height
                     tall = size * chance.uniform(1.0, 2.0) * (1, 1, 0.8, 0.6)[k]
                     paths.append([(px, py - tall, 0.1), (px, py + 0.4 * tall, (1, 0.9, 0.7, 0.5)[k])])
                 y += (3.6 if easel.sketch else 2.8) * size
-            x += 1.75 * size
-        easel.touches("Land", 1, paths, size, tone, ROUND, foliage(tone), opacity=0.9)
+            x += 2.0 * size
+        easel.touches(
+            "Land",
+            0 if easel.sketch or name == "far woods" else 1,
+            paths,
+            size,
+            tone,
+            ROUND,
+            foliage(tone),
+            opacity=0.9,
+        )
 
 
 def _shoreline(easel: Easel) -> None:
@@ -73,14 +85,21 @@ def _hill(easel: Easel) -> None:
     body: list[Point] = []
     for x in range(560, 1310, 9):
         body += [(x, hilltop(x) + 6), (x + 4, front(x)), (x + 9, front(x))]
-    easel.stroke("Land", 1, body, 7, "#7f8f4c", ROUND, foliage("#7f8f4c", 0.4), dynamics={})
+    easel.stroke("Land", 1 - easel.sketch, body, 7, "#7f8f4c", ROUND, foliage("#7f8f4c", 0.4), dynamics={})
     lower = [(x, y) for x, y in SHORE[3:]]
     sweep: list[Point] = []
     for k, y in enumerate(range(548, 815, 9)):
-        x = next((ax + (bx - ax) * (y - ay) / (by - ay) for (ax, ay), (bx, by) in zip(lower, lower[1:], strict=False) if min(ay, by) <= y <= max(ay, by)), 360)
+        x = next(
+            (
+                ax + (bx - ax) * (y - ay) / (by - ay)
+                for (ax, ay), (bx, by) in pairwise(lower)
+                if min(ay, by) <= y <= max(ay, by)
+            ),
+            360,
+        )
         row = [(x + 8 + 2 * value(5, y / 9), y), (1300, y)]
         sweep += row if k % 2 else row[::-1]
-    easel.stroke("Land", 1, sweep, 8, "#66783c", ROUND, foliage("#66783c", 0.35), dynamics={})
+    easel.stroke("Land", 1 - easel.sketch, sweep, 8, "#66783c", ROUND, foliage("#66783c", 0.35), dynamics={})
 
 
 _CROPS = (
@@ -93,7 +112,7 @@ def _fields(easel: Easel) -> None:
     chance = dice("fields")
     rows = (0.04, 0.2, 0.4, 0.66, 0.98)
     crop = 0
-    for k, (v0, v1) in enumerate(zip(rows, rows[1:], strict=False)):
+    for k, (v0, v1) in enumerate(pairwise(rows)):
         u = 640.0 + 30 * k
         while u < 1260:
             width = chance.uniform(55, 105)
@@ -118,7 +137,8 @@ def _field(easel: Easel, corners: list[Point], crop: tuple[str, str], down: int,
     angle = math.degrees(math.atan2(end[1] - a[1], end[0] - a[0])) + 90
     furrows = wave("stripes", crop[1], 0.75, period, round(angle % 180 / 30) * 30 + 4)
     soil = foliage_of(crop)
-    easel.stroke("Land", 2, hatch(corners, 2.2, 1.2), 2.2, crop[0], FIRM, [furrows, soil])
+    near = abs(corners[0][0] - 960) < 150
+    easel.stroke("Land", 1 + (near and not easel.sketch), hatch(corners, 2.2, 1.2), 2.2, crop[0], FIRM, [furrows, soil])
 
 
 def foliage_of(crop: tuple[str, str]) -> dict:
@@ -135,29 +155,31 @@ def _hedges(easel: Easel) -> None:
             x, y = on_hill(u, v)
             if (dry(x, y + 1) or y < 520) and value(31, u / 45, v * 9) > -0.25 and _taken(x, y) > 1:
                 bushes.append((x, y, (1.5 + 1.9 * v) * chance.uniform(0.6, 1.5)))
-            u += chance.uniform(2.5, 8)
+            u += chance.uniform(3, 9)
     for _ in range(46):
         x, y = on_hill(chance.uniform(640, 1270), chance.random())
         if _taken(x, y) > 1.02 and dry(x, y):
             bushes.append((x, y, chance.uniform(3, 5.5)))
-    for x, y in [p[:2] for p in hand(SHORE[:6], 6)]:
+    for x, y in [p[:2] for p in hand(SHORE[:6], 7)]:
         if _taken(x, y) > 1.0 and chance.random() < 0.7:
             bushes.append((x, y - 1.5, chance.uniform(1.8, 4.2)))
     stands: dict[int, list[tuple[float, float, float]]] = {}
     for bush in sorted(bushes, key=lambda bush: bush[1]):
-        stands.setdefault(int(bush[0] // 130), []).append(bush)
+        stands.setdefault(int((bush[0] > 850) + (bush[0] > 1170)), []).append(bush)
     for k, stand in stands.items():
-        clump(easel, "Land", stand, f"hedge {k}")
+        clump(easel, "Land", stand, f"hedge {k}", fine=2 if k == 1 else 1)
 
 
-def clump(easel: Easel, layer: str, bushes: list[tuple[float, float, float]], name: str, tones=LEAVES, fine: int = 2) -> None:
+def clump(
+    easel: Easel, layer: str, bushes: list[tuple[float, float, float]], name: str, fine: int = 2, plain: bool = False
+) -> None:
     """Bushes at (x, y of the foot, radius): long shadows to the right, then crowns from shade to sun."""
     largest = max(r for *_, r in bushes)
     shadows = [[(x, y, 0.8 * r / largest), (x + 3.2 * r, y + 0.7 * r, 0.0)] for x, y, r in bushes]
     press = {"radius": [[0, 0], [1, 1]]}
-    easel.touches(layer, 1, shadows, largest, "#33433c", SOFT, opacity=0.45, flow=0.5, dynamics=press)
+    easel.touches(layer, max(fine - 2, 0), shadows, largest, "#33433c", SOFT, opacity=0.45, flow=0.5, dynamics=press)
     chance = dice(name)
-    for k, tone in enumerate(tones[1:] if easel.sketch else tones):
+    for k, tone in enumerate(LEAVES[1:] if easel.sketch else LEAVES):
         paths = []
         for x, y, r in bushes:
             for _ in range((1, 1, 1, 1)[k] if easel.sketch else (2, 3, 3, 2)[k]):
@@ -165,24 +187,58 @@ def clump(easel: Easel, layer: str, bushes: list[tuple[float, float, float]], na
                 size = r * (0.75, 0.55, 0.36, 0.22)[k] * chance.uniform(0.7, 1.2) / largest
                 px, py = x + dx - (0, 0.15, 0.4, 0.55)[k] * r, y - r + dy - (0, 0.1, 0.35, 0.6)[k] * r
                 paths.append([(px, py, min(1, size)), (px + 0.35 * r, py + 0.12 * r, 0.0)])
-        easel.touches(layer, fine - easel.sketch, paths, largest, tone, ROUND, foliage(tone), dynamics=press)
+        easel.touches(
+            layer,
+            min(fine, 1) if easel.sketch else fine,
+            paths,
+            largest,
+            tone,
+            ROUND,
+            [] if plain else foliage(tone),
+            dynamics=press,
+        )
 
 
 def _meadow(easel: Easel) -> None:
     """Grass in strokes that grow towards us, a path that leads to the town, flowers."""
-    _grass(easel, 560, 700, (8, 2.0), ("#566a36", "#74833e", "#98984a", "#c2ad5a"), 800)
-    path = [(1003, 492), (1010, 516), (1026, 548), (1068, 590), (1092, 628), (1066, 672), (1050, 716), (1092, 768), (1160, 830)]
+    _grass(easel, 560, 700, (8, 2.0), ("#566a36", "#74833e", "#98984a", "#c2ad5a"), 620)
+    path = [
+        (1003, 492),
+        (1010, 516),
+        (1026, 548),
+        (1068, 590),
+        (1092, 628),
+        (1066, 672),
+        (1050, 716),
+        (1092, 768),
+        (1160, 830),
+    ]
     for k, (tone, size, shift) in enumerate((("#a98a5c", 1.0, 0), ("#d9b983", 0.8, -1), ("#efd6a4", 0.4, -4))):
-        line = hand([(x + shift * (y - 500) / 200, y, (0.12 + 0.88 * (max(0, y - 505) / 300) ** 1.3)) for x, y in path], 9, 1.0, k)
-        easel.stroke("Land", 1, line, 24 * size, tone, ROUND, [rock("#7d6444", 0.5, 5, 0.25, seed=21)], dynamics={"radius": [[0, 0.02], [1, 1]]}, opacity=0.9)
-    _grass(easel, 690, 815, (15, 2.8), ("#2f452c", "#465c33", "#6d7a3c", "#a8974b"), 650)
+        line = hand(
+            [(x + shift * (y - 500) / 200, y, (0.12 + 0.88 * (max(0, y - 505) / 300) ** 1.3)) for x, y in path],
+            9,
+            1.0,
+            k,
+        )
+        easel.stroke(
+            "Land",
+            1,
+            line,
+            24 * size,
+            tone,
+            ROUND,
+            [rock("#7d6444", 0.5, 5, 0.25, seed=21)],
+            dynamics={"radius": [[0, 0.02], [1, 1]]},
+            opacity=0.9,
+        )
+    _grass(easel, 690, 815, (15, 2.8), ("#2f452c", "#465c33", "#6d7a3c", "#a8974b"), 540)
 
 
 def _grass(easel: Easel, top: float, foot: float, size: Point, tones, count: int) -> None:
     """Blades in drifts of sun and shade; each shorter and paler with distance."""
     chance = dice(f"grass {top}")
     if easel.sketch:
-        count, size = count // 3, (size[0], 1.7 * size[1])
+        count, size = count // 4, (size[0], 1.9 * size[1])
     drifts: list[list[list[Point]]] = [[] for _ in tones]
     for _ in range(count):
         x, y = chance.uniform(380, 1290), top + (foot - top) * chance.random()
@@ -195,12 +251,9 @@ def _grass(easel: Easel, top: float, foot: float, size: Point, tones, count: int
         blade = [(x, y, 0.9), (x + 0.4 * lean, y - 0.6 * tall, 0.6), (x + lean, y - tall, 0.0)]
         drifts[min(max(round(sun), 0), len(tones) - 1)].append(blade)
     for tone, blades in zip(tones, drifts, strict=True):
-        easel.touches("Land", 1, blades, size[1], tone, ROUND, foliage(tone, 0.4), opacity=0.85)
+        easel.touches("Land", 1 - easel.sketch, blades, size[1], tone, ROUND, foliage(tone, 0.4), opacity=0.85)
 
 
 def along_path(y: float) -> float:
     line = ((520, 1010), (548, 1026), (590, 1068), (628, 1092), (672, 1066), (716, 1050), (768, 1092), (830, 1160))
     return along(line, y)
-
-
-_ = (HILL,)

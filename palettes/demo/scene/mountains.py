@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from scene.colour import mix
 from scene.easel import ROUND, SOFT, Easel, Point, rock
+from scene.ground import along
 from scene.noise import dice, fractal, ridged, value
 
 
@@ -30,13 +31,8 @@ class Range:
 
     def ridge(self, x: float) -> float:
         """Height of the crest at x, as y downwards."""
-        line = self.crest
-        for (ax, ay), (bx, by) in zip(line, line[1:], strict=False):
-            if x <= bx:
-                break
-        t = min(max((x - ax) / (bx - ax), 0), 1)
         jag = 13 * fractal(self.seed, x / 46, 0, 5) + 5 * abs(value(self.seed + 9, x / 9))
-        return ay + (by - ay) * t + self.rough * jag
+        return along(self.crest, x) + self.rough * jag
 
     def light(self, x: float, y: float) -> float:
         """Of the face at a place, about -1..1: the sun stands low on the left."""
@@ -108,7 +104,9 @@ def _range(easel: Easel, range_: Range, radii: Sequence[float]) -> None:
     while x < right:
         body += [(x, range_.ridge(x) + 7), (x + 3, range_.ridge(x + 3) + 7), (x + 3, range_.foot), (x + 9, range_.foot)]
         x += 9
-    easel.stroke("Mountains", 1, body, 5, *range_.stone(mix(range_.tones[1], range_.haze, 0.2)), dynamics={})
+    easel.stroke(
+        "Mountains", 1 - easel.sketch, body, 5, *range_.stone(mix(range_.tones[1], range_.haze, 0.2)), dynamics={}
+    )
     chance = dice(range_.name)
     for radius in radii:
         gap = 2.0 * radius
@@ -120,16 +118,23 @@ def _range(easel: Easel, range_: Range, radii: Sequence[float]) -> None:
                 places.append((x + chance.uniform(-1, 1) * gap / 2, y + chance.uniform(-1, 1) * gap / 2))
                 y += 2.4 * gap
             x += gap
-        heaps: dict[tuple[int, int, str, bool], list[list[Point]]] = {}
+        heaps: dict[tuple[int, str, bool], list[list[Point]]] = {}
         for x, y in places:
             facet = _facet(range_, x, y, radius)
             if facet[-1][1] < range_.foot + 8:
-                key = (int(x // 400), int(y // 260), range_.colour(x, y), range_.snowy(x, y))
+                key = (int(x // 400) + 9 * int(y // 260), range_.colour(x, y), range_.snowy(x, y))
                 heaps.setdefault(key, []).append(facet)
         order = list(heaps)
         chance.shuffle(order)
         for key in order:
-            easel.touches("Mountains", 1, heaps[key], radius, *range_.stone(*key[2:]), opacity=0.92)
+            easel.touches(
+                "Mountains",
+                0 if easel.sketch or radius > 5 else 1,
+                heaps[key],
+                radius,
+                *range_.stone(*key[1:]),
+                opacity=0.92,
+            )
 
 
 def _facet(range_: Range, x: float, y: float, radius: float) -> list[Point]:

@@ -20,12 +20,12 @@ def colour(x: float, y: float) -> str:
 
 def paint(easel: Easel) -> None:
     easel.layer("Sky")
-    for y in range(-10, 560, 40):
-        easel.stroke("Sky", 0, [(-10, y), (1290, y)], 60, colour(500, y), FIRM, [_VEIL], hardness=0.3)
-    for y in range(-10, 540, 56):
+    for y in range(-10, 560, 80):
+        easel.stroke("Sky", 0, [(-10, y), (1290, y)], 110, colour(500, y), FIRM, [_VEIL], hardness=0.3)
+    for y in range(-10, 540, 78):
         for x in range(-60, 1300, 330):
             line = hand([(x, y), (x + 165, y + 4), (x + 330, y)], 82, 3, x + y)
-            easel.stroke("Sky", 0, line, 92, colour(x + 165, y), SOFT, [_VEIL], opacity=0.8)
+            easel.stroke("Sky", 0, line, 110, colour(x + 165, y), SOFT, [_VEIL], opacity=0.8)
     _cirrus(easel)
     for name, x, y, width, height in _CUMULUS:
         _cumulus(easel, name, x, y, width, height)
@@ -34,15 +34,16 @@ def paint(easel: Easel) -> None:
 def _cirrus(easel: Easel) -> None:
     easel.layer("Clouds", opacity=0.94)
     chance = dice("cirrus")
-    for k in range(12 if easel.sketch else 26):
-        x, y = chance.uniform(-60, 1200), 10 + 170 * chance.random() ** 1.2
-        length = chance.uniform(140, 380)
+    for k in range(4 if easel.sketch else 9):
         strands = []
-        for _ in range(5):
-            dx, dy, part = chance.gauss(0, 22), chance.gauss(0, 7), chance.uniform(0.4, 1)
-            line = [(x + dx, y + dy), (x + dx + 0.4 * part * length, y + dy - 0.1 * part * length)]
-            strands.append(hand([*line, (x + dx + part * length, y + dy - 0.15 * part * length)], 22, 5, k, 0.5))
-        lit = mix("#ffe9c8", "#e8ecea", x / 1100)
+        for _ in range(3):
+            x, y = chance.uniform(-60, 1200), 10 + 170 * chance.random() ** 1.2
+            length = chance.uniform(140, 380)
+            for _ in range(5):
+                dx, dy, part = chance.gauss(0, 22), chance.gauss(0, 7), chance.uniform(0.4, 1)
+                line = [(x + dx, y + dy), (x + dx + 0.4 * part * length, y + dy - 0.1 * part * length)]
+                strands.append(hand([*line, (x + dx + part * length, y + dy - 0.15 * part * length)], 26, 5, k, 0.5))
+        lit = mix("#ffe9c8", "#e8ecea", k / 9)
         size = chance.uniform(4, 9)
         easel.touches("Clouds", 0, strands, size, lit, SOFT, flow=0.09, opacity=chance.uniform(0.12, 0.32))
 
@@ -60,7 +61,7 @@ def _cumulus(easel: Easel, name: str, x: float, y: float, width: float, height: 
     """Heaps of puffs on a flat base: first all in shade, then lit from the left and above, the rims last."""
     chance = dice(name)
     puffs = []
-    for _ in range(int(width / (8 if easel.sketch else 4.5))):
+    for _ in range(int(width / (8 if easel.sketch else 5.2))):
         across = max(-1, min(1, chance.gauss(0, 0.4)))
         crown = height * (1 - across * across) * (0.55 + 0.45 * fractal(5, across * 2.2 + x, y))
         puffs.append((x + across * width / 2, y - crown * chance.random() ** 0.8, 0.1 * height + 0.17 * crown))
@@ -72,8 +73,8 @@ def _cumulus(easel: Easel, name: str, x: float, y: float, width: float, height: 
     passes = ((shade, 0.0, 1.3, 0.5), (body, 0.15, 1.0, 0.5), (lit, 0.4, 0.7, 0.5), (rim, 0.62, 0.4, 0.55))
     largest = max(r for *_, r in puffs)
     for tone, shift, size, opacity in passes:
-        for k in range(4):
-            chosen = [p for p in puffs[k::4] if tone == shade or p[1] < y - 0.1 * height]
+        for k in range(2):
+            chosen = [p for p in puffs[k::2] if tone == shade or p[1] < y - 0.1 * height]
             paths = [_puff(px - shift * r, py - shift * r, r, r / largest) for px, py, r in chosen]
             easel.touches("Clouds", 0, paths, size * largest, tone, SOFT, fluff, opacity=opacity, **_BILLOW)
     base = [(x + width * (0.47 * math.cos(math.pi * k / 6)), y + 3 * math.sin(2.1 * k)) for k in range(7)]
@@ -86,4 +87,4 @@ _BILLOW: dict = {"flow": 0.5, "hardness": 0.3, "dynamics": {"radius": [[0, 0], [
 
 
 def _puff(x: float, y: float, r: float, press: float) -> list[tuple[float, ...]]:
-    return [(x - 0.4 * r, y + 0.1 * r, 0.8 * press), (x, y - 0.12 * r, press), (x + 0.4 * r, y + 0.1 * r, 0.7 * press)]
+    return [(x - 0.25 * r, y, press), (x + 0.25 * r, y, 0.9 * press)]
