@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 
 from imgui_bundle import ImVec2, imgui
@@ -44,7 +45,7 @@ def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
         (pointer_name, "The device that last moved the pointer", 0.0),
     ]
     if view.angle or view.mirrored:
-        turned = f"{-_degrees(view.angle):.0f}°" if view.angle else ""
+        turned = f"{math.degrees(view.angle):.0f}°" if view.angle else ""
         out.append(
             (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0)
         )
@@ -53,7 +54,3 @@ def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
         (zoom_text(view.level, view.fraction), "How much the painting is magnified (F: fit, 1: one to one)", 6.5),
     ]
     return out
-
-
-def _degrees(angle: float) -> float:
-    return angle * 57.29577951308232

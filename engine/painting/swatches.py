@@ -18,6 +18,7 @@ from engine.painting.requests import Swatch
 from engine.painting.value import Painting
 
 _GROUND = "#5b6470"
+_BARS = 8  # of paint under a brush that takes paint away
 
 
 def painted(request: Swatch, of: Painting) -> np.ndarray:
@@ -56,9 +57,10 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
     if brush.mode == "paint":
         return [wave]
-    lines = [_points([[width * 0.08, height * k, 1.0], [width * 0.92, height * k, 1.0]]) for k in (0.3, 0.7)]
-    ground = Brush(radius=height * 0.24, hardness=0.7, colour=_GROUND)
-    return [*(c.Stroke(0, (0, 0), line, ground) for line in lines), wave]
+    ground = Brush(radius=width * 0.035, hardness=0.9, colour=_GROUND)
+    bars = [width * (0.1 + 0.8 * k / (_BARS - 1)) for k in range(_BARS)]
+    paint = [_points([[x, height * 0.14, 1.0], [x, height * 0.86, 1.0]]) for x in bars]
+    return [*(c.Stroke(0, (0, 0), points, ground) for points in paint), wave]
 
 
 def _points(rows: object) -> np.ndarray:

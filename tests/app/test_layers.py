@@ -1,0 +1,61 @@
+"""Dragging layers: the command that a drop means, and that it does what the artist sees."""
+
+import pytest
+
+from app.panels.layers import dropped
+from engine.canvas import layers
+from engine.painting import commands as c
+from engine.painting.easel import rows
+from engine.painting.painting import apply
+from engine.painting.value import Painting
+
+
+def painting(*names):
+    made = Painting()
+    for name in names:
+        made = apply(made, c.AddLayer(name, group=None))
+    made = apply(made, c.AddLayer("G", kind="group", group=None))
+    for name in ("In 1", "In 2"):
+        made = apply(made, c.AddLayer(name, group="G"))
+    return made
+
+
+def listed(made):
+    return [row.name for row in rows(made.root)]
+
+
+def drop(made, moved, onto, where):
+    """The list, top-most first, after a row was let go over another."""
+    table = tuple(rows(made.root))
+    by_name = {row.name: row for row in table}
+    command = dropped(table, by_name[moved], by_name[onto], where)
+    return None if command is None else listed(apply(made, command))
+
+
+START = ["G", "In 2", "In 1", "C", "B", "A"]
+
+
+def test_the_list_has_the_top_most_first():
+    assert listed(painting("A", "B", "C")) == START
+
+
+@pytest.mark.parametrize(
+    ("moved", "onto", "where", "after"),
+    [
+        ("A", "C", 0.1, ["G", "In 2", "In 1", "A", "C", "B"]),  # above C
+        ("A", "C", 0.9, ["G", "In 2", "In 1", "C", "A", "B"]),  # below C
+        ("C", "A", 0.9, ["G", "In 2", "In 1", "B", "A", "C"]),
+        ("C", "A", 0.1, ["G", "In 2", "In 1", "B", "C", "A"]),
+        ("A", "G", 0.5, ["G", "A", "In 2", "In 1", "C", "B"]),  # into the group, on top
+        ("A", "G", 0.1, ["A", "G", "In 2", "In 1", "C", "B"]),  # above the group
+        ("A", "In 1", 0.1, ["G", "In 2", "A", "In 1", "C", "B"]),
+        ("In 2", "B", 0.1, ["G", "In 1", "C", "In 2", "B", "A"]),  # out of the group
+        ("G", "A", 0.9, ["C", "B", "A", "G", "In 2", "In 1"]),
+        ("B", "B", 0.5, None),
+        ("G", "In 1", 0.1, None),  # not into itself
+    ],
+)
+def test_a_drop_puts_the_layer_where_it_was_let_go(moved, onto, where, after):
+    made = painting("A", "B", "C")
+    assert drop(made, moved, onto, where) == after
+    assert layers.has(made.root, moved)
