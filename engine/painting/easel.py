@@ -248,10 +248,18 @@ class Easel:
             )
         )
 
-    def picture(self, level: int, rect: Rect) -> np.ndarray:
-        """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
+    def picture(self, level: int, whole: Rect) -> np.ndarray:
+        """What is to be seen of the rectangle `whole`: float32 (4, h, w), premultiplied; with the stroke in progress."""
         root = self.live.base.root if self.live is not None else self.session.painting.root
-        return composite(root, level, rect, self._read)
+        known: dict[int, np.ndarray | None] = {}
+
+        def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+            if layer.id not in known:  # once for all blocks: they share most of what lies above them
+                known[layer.id] = self._read(layer, level, whole)
+            planes = known[layer.id]
+            return None if planes is None else planes[:, *rect.slices(whole)]
+
+        return composite(root, level, whole, read)
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self.live

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -44,6 +44,7 @@ def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
     return tuple(sorted({ink for s in stacks for ink in s}, key=lambda ink: sort_key(ink.key)))
 
 
+@lru_cache(4096)
 def sort_key(key: object) -> tuple:
     """Orders keys that mix strings, numbers and tuples."""
     if isinstance(key, tuple):
