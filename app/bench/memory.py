@@ -22,6 +22,7 @@ from engine.brush.record import Brush
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import layers
 from engine.painting.commands import Stroke
+from engine.painting.history import History
 from engine.painting.session import Session
 
 STROKES = 1000
@@ -48,7 +49,7 @@ def measure(small: bool = False) -> Iterator[Figure]:
 
 def paint(count: int) -> dict[str, int]:
     """Paints `count` strokes over a picture of 2048 x 1536; the bytes that then are held, by what holds them."""
-    session = Session(cache=TileCache(CACHE))
+    session = Session(cache=TileCache(CACHE), history=History())  # without its usual limit of bytes
     session.do(_stroke(0))  # kernels and libraries are loaded
     before, tiles = resident(), 0
     for number in range(1, count + 1):

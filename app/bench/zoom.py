@@ -50,6 +50,11 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
     note += f"{told['sharp'] * 1e3:.0f} ms after the zoom; {told['renderer']}"
     name = f"zoom, frames over {SMOOTH * 1e3:.0f} ms"
     yield Figure(name, late, "frames", f"all {count} frames", late / count, 0.01, note=note)
+    spent = told["spent"]
+    if spent:
+        note = "of the window's thread and the busiest of a software renderer, however long others held the processor"
+        name = "zoom, processor time of a frame"
+        yield Figure(name, spent * 1e3, "ms", f"{SMOOTH * 1e3:.0f} ms", spent / SMOOTH, 1.0, note=note)
 
 
 def _demo() -> tuple[Painting, Place]:

@@ -7,6 +7,7 @@ window takes where it is early.
 from __future__ import annotations
 
 import json
+import os
 import sys
 import time
 from dataclasses import replace
@@ -40,7 +41,10 @@ def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float)
         window.desk.view = replace(window.desk.view, centre=place, level=0, fraction=0.0)
         _until(window, lambda: sharp(window))
         _rest(window, 2.0)  # the presets' pictures are painted
-        times = _zoom(window, place, levels, duration)
+        before = processor_times()
+        times, frames = _zoom(window, place, levels, duration)
+        spent = {thread: after - before.get(thread, 0.0) for thread, after in processor_times().items()}
+        own = spent.pop(str(os.getpid()), 0.0)
         start = time.perf_counter()
         _until(window, lambda: sharp(window))
         after = time.perf_counter() - start
@@ -56,12 +60,24 @@ def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float)
         "worst": times[-1],
         "sharp": after,
         "renderer": renderer,
+        "spent": (own + max(spent.values(), default=0.0)) / frames,
     }
 
 
-def _zoom(window: Window, place: Place, levels: int, duration: float) -> list[float]:
-    """Zooms in evenly about the screen's middle, and tells how long each frame took."""
-    times = []
+def processor_times() -> dict[str, float]:
+    """Seconds of processor time of this thread, and of each thread of a software renderer; Linux only."""
+    times = {}
+    for task in Path("/proc/self/task").glob("*/stat"):
+        name, _, rest = task.read_text().partition("(")[2].rpartition(")")
+        if name.startswith("llvmpipe") or task.parent.name == str(os.getpid()):
+            fields = rest.split()
+            times[task.parent.name] = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return times
+
+
+def _zoom(window: Window, place: Place, levels: int, duration: float) -> tuple[list[float], int]:
+    """Zooms in evenly about the screen's middle; how long each frame took, and how many there were in all."""
+    times, frames = [], 0
     x, y = window.desk.view.width / 2, window.desk.view.height / 2
     first = window.desk.view
     start = time.perf_counter()
@@ -69,11 +85,12 @@ def _zoom(window: Window, place: Place, levels: int, duration: float) -> list[fl
         window.desk.view = first.zoomed(levels * (now - start) / duration).held(place, x, y)
         window.frame()
         taken = time.perf_counter() - now
+        frames += 1
         if now - start > min(WARM, duration / 4):
             times.append(taken)
         window.wait(True)
     window.desk.view = first.zoomed(levels).held(place, x, y)
-    return times
+    return times, frames
 
 
 def sharp(window: Window) -> bool:
