@@ -94,7 +94,7 @@ def _merged(heaps: dict[tuple[int, str], list[list[Point]]]) -> dict[tuple[int, 
     """Fewer colours: those that agree in the three upper bits of each channel become one."""
     found: dict[tuple, tuple[str, list[list[Point]]]] = {}
     for (band, tone), paths in heaps.items():
-        key = (band, *(int(tone[i : i + 2], 16) >> 4 for i in (1, 3, 5)))
+        key = (band, *(int(tone[i : i + 2], 16) >> 5 for i in (1, 3, 5)))
         found.setdefault(key, (tone, []))[1].extend(paths)
     return {(key[0], tone): paths for key, (tone, paths) in found.items()}
 

@@ -137,7 +137,7 @@ def _field(easel: Easel, corners: list[Point], crop: tuple[str, str], down: int,
     angle = math.degrees(math.atan2(end[1] - a[1], end[0] - a[0])) + 90
     furrows = wave("stripes", crop[1], 0.75, period, round(angle % 180 / 30) * 30 + 4)
     soil = foliage_of(crop)
-    near = abs(corners[0][0] - 960) < 150
+    near = abs(corners[0][0] - 960) < 80
     easel.stroke("Land", 1 + (near and not easel.sketch), hatch(corners, 2.2, 1.2), 2.2, crop[0], FIRM, [furrows, soil])
 
 

@@ -27,7 +27,7 @@ def paint(easel: Easel) -> None:
             line = hand([(x, y), (x + 165, y + 4), (x + 330, y)], 82, 3, x + y)
             easel.stroke("Sky", 0, line, 110, colour(x + 165, y), SOFT, [_VEIL], opacity=0.8)
     _cirrus(easel)
-    for name, x, y, width, height in _CUMULUS:
+    for name, x, y, width, height in _CUMULUS[: 3 if easel.sketch else None]:
         _cumulus(easel, name, x, y, width, height)
 
 

@@ -46,11 +46,11 @@ def paint(easel: Easel, scene: Callable[[Easel], None]) -> None:
 
 def _square(easel: Easel) -> None:
     """The paved place before the house."""
-    paving = [wave("squares", "#ecd8b2", 0.7, 0.8, 30), rock("#8f7458", 0.4, 3, 0.3, 25)]
+    paving = [wave("squares", "#ecd8b2", 0.7, 0.8, 30)]
     ground = [(X - 17, FOOT - 1.2), (X + 18, FOOT - 1.2), (X + 22, FOOT + 5), (X - 20, FOOT + 5)]
     easel.stroke("Studio", 4, hatch(ground, 0.6, 1.3), 0.6, "#bfa37c", FIRM, paving)
     edge = hand([(X - 20, FOOT + 5.1), (X, FOOT + 5.4), (X + 22, FOOT + 5.1)], 1.5, 0.15)
-    easel.stroke("Studio", 4, edge, 0.45, "#8a7a64", ROUND, [rock("#d8c8a4", 0.9, 3, 0.3, 25)])
+    easel.stroke("Studio", 4, edge, 0.45, "#8a7a64", ROUND)
     shade = hatch([(X + 7, FOOT), (X + 9, FOOT - 1), (X + 16, FOOT + 1.5), (X + 11, FOOT + 2)], 0.7)
     easel.stroke("Studio", 3, shade, 0.7, "#54486a", SOFT, opacity=0.5, flow=0.5)
 
@@ -157,11 +157,11 @@ def _door(easel: Easel) -> None:
 
 def _roof(easel: Easel) -> None:
     """The far slope, then barge boards over the gable."""
-    tiles = [wave("stripes", "#b9614a", 0.7, 0.6, 82), rock("#5a3038", 0.5, 1.5, 0.3, 27)]
+    tiles = [wave("stripes", "#b9614a", 0.7, 0.6, 82)]
     slope = [(X, PEAK - 0.5), (X + 4, PEAK - 1.0), (RIGHT + 4.4, EAVES + 0.2), (RIGHT + 0.9, EAVES + 1.0)]
     easel.stroke("Studio", 5, hatch(slope, 0.25, 1.3), 0.25, "#6f3a3c", FIRM, tiles)
     verge = [(LEFT - 1.0, EAVES + 1.2), (X, PEAK - 0.4), (RIGHT + 1.0, EAVES + 1.2)]
-    easel.stroke("Studio", 6, verge, 0.34, "#7a4638", FIRM, [rock("#a86a50", 0.8, 0.8, 0.3, 26)])
+    easel.stroke("Studio", 6, verge, 0.34, "#7a4638", FIRM)
     easel.stroke("Studio", 6, [(x - 0.16, y - 0.18) for x, y in verge[:2]], 0.11, "#f0b888", FIRM)
     easel.stroke("Studio", 6, [(x + 0.16, y - 0.22) for x, y in verge[1:]], 0.09, "#b87458", FIRM)
     teeth = []

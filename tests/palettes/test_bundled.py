@@ -1,0 +1,54 @@
+"""What is bundled: the demo's recording is what its script writes, and every brush preset can paint."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from engine.brush import kinds, presets
+from engine.painting import commands
+from engine.painting.recording import read
+
+PALETTES = Path(__file__).resolve().parents[2] / "palettes"
+DEMO = PALETTES / "demo"
+
+
+def test_demo_reads_and_is_small():
+    assert (DEMO / "demo.jsonl").stat().st_size <= 1_500_000
+    strokes = [c for c in read(DEMO / "demo.jsonl").commands if isinstance(c, commands.Stroke)]
+    assert min(s.level for s in strokes) < 0
+    assert max(s.level for s in strokes) >= 12
+
+
+def test_zoom_series_goes_ever_deeper():
+    places = json.loads((DEMO / "demo.json").read_text("utf-8"))["zoom"]
+    levels = [place[0] for place in places]
+    assert levels == sorted(set(levels))
+    assert levels[-1] >= 12
+    assert all(len(place) == 5 and min(place[3:]) > 0 for place in places)
+
+
+def test_script_writes_the_same_recording_again(tmp_path):
+    """The script run where nothing of the bundled files is."""
+    for file in [DEMO / "make_demo.py", *(DEMO / "scene").glob("*.py")]:
+        copy = tmp_path / file.relative_to(DEMO)
+        copy.parent.mkdir(exist_ok=True)
+        copy.write_bytes(file.read_bytes())
+    done = subprocess.run(
+        [sys.executable, tmp_path / "make_demo.py"], env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}, check=False
+    )
+    assert done.returncode == 0
+    for name in ("demo.jsonl", "demo.json"):
+        assert (tmp_path / name).read_bytes() == (DEMO / name).read_bytes()
+
+
+def test_presets_are_whole_and_can_paint():
+    found, faults = presets.load_folder(PALETTES / "brushes")
+    assert not faults
+    assert len(found) >= 16
+    assert len({p.name for p in found}) == len(found)
+    for preset in found:
+        kinds.check(preset.brush)
