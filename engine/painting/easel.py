@@ -249,7 +249,7 @@ class Easel:
         )
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
-        """What is to be seen of the rectangle `whole`: float32 (4, h, w), premultiplied; with the stroke in progress."""
+        """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         root = self.live.base.root if self.live is not None else self.session.painting.root
         known: dict[int, np.ndarray | None] = {}
 
