@@ -6,7 +6,6 @@ Tiles are functions of the painting alone.  Which of those on the screen are old
 from __future__ import annotations
 
 import threading
-from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -16,23 +15,21 @@ import numpy as np
 
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.layers import Group, Layer
-from engine.canvas.store import changed_rects
+from engine.canvas.layers import Layer
 from engine.numeric.address import Rect
 from engine.numeric.blend import BLENDS
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import documents, swatches
 from engine.painting import requests as q
+from engine.painting.difference import areas
+from engine.painting.outline import rows
 from engine.painting.points import rounded
 from engine.painting.session import Session
+from engine.painting.sight import Key, Sight, tile_rect
 from engine.painting.stroke import LiveStroke
 from engine.painting.value import Painting
 from engine.texture.table import KINDS
-
-Key = tuple[int, int, int]
-Areas = Callable[[int], "list[Rect] | None"]
-STEPS_KEPT = 64  # changes remembered: a tile older than all of them is made anew
 
 
 class Easel:
@@ -43,13 +40,10 @@ class Easel:
         self.session = Session()
         self.path: Path | None = None
         self.live: LiveStroke | None = None
-        self.revision = 0
+        self.sight = Sight()
         self.due: float | None = None  # when a recording that plays goes on
         self._serial = 0
         self._saved: Painting | None = self.session.painting
-        self._changes: deque[tuple[int, Areas]] = deque(maxlen=STEPS_KEPT)
-        self._wanted: dict[Key, int] = {}  # tile: revision that the window holds, -1 for none; in order of urgency
-        self._open: deque[Key] = deque()  # tiles to look at
         self._dirty = Rect(0, 0, 0, 0)  # pixels of the live stroke's level not sent yet
         self._dirty_level = 0
         self._script: documents.Playing | None = None
@@ -79,19 +73,23 @@ class Easel:
 
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
-        self._wanted = {(level, x, y): held for level, x, y, held in request.tiles}
-        self._open = deque(self._wanted)
+        self.sight.look(request)
+
+    @property
+    def revision(self) -> int:
+        """How often the picture has changed."""
+        return self.sight.revision
 
     @property
     def pending(self) -> int:
-        return len(self._open) + (not self._dirty.empty)
+        return len(self.sight.open) + (not self._dirty.empty)
 
     def step(self) -> bool:
         """The most urgent piece of open work: what the pen just painted, then tiles."""
         if not self._dirty.empty:
             self._send_dirty()
-        elif self._open:
-            self._bring_up_to_date(self._open.popleft())
+        elif self.sight.open:
+            self._bring_up_to_date(self.sight.open.popleft())
         else:
             return False
         return True
@@ -112,10 +110,10 @@ class Easel:
         self.session, self.path = session, path
         self._saved = session.painting
         self._serial += 1
-        self._changes.clear()
+        self.sight.forget()
         self._dirty = Rect(0, 0, 0, 0)
         self._tell()
-        self._changed(lambda level: None)
+        self.sight.changed(lambda level: None)
 
     def carry_out(self, command: c.Command) -> None:
         """A command; what it changed on the screen is brought up to date."""
@@ -124,7 +122,7 @@ class Easel:
         before = self.session.painting
         after = self.session.do(command)
         if after is not before:
-            self._changed(areas(before, after))
+            self.sight.changed(areas(before, after))
         self._tell()
 
     def _begin(self, request: q.Begin) -> None:
@@ -145,11 +143,9 @@ class Easel:
         if rect.empty:
             return
         level = self.live.level
-        if not self._dirty.empty:  # one change for all points between two pictures
-            self._changes.pop()
+        more = not self._dirty.empty  # one change for all points between two pictures
         self._dirty = dirty = self._dirty.union(rect)
-        self.revision += 1
-        self._changes.append((self.revision, lambda n: [dirty] if n == level else []))
+        self.sight.grew(lambda n: [dirty] if n == level else [], more)
         if self.live.full:
             stroke = self.live.to_command()
             self.finish()
@@ -164,20 +160,14 @@ class Easel:
         after = self.session.finish(live)
         other = areas(live.base, after)
         # At the stroke's own level the preview is what was committed: nothing changes.
-        self._changed(lambda level: [] if level == live.level else other(level))
+        self.sight.changed(lambda level: [] if level == live.level else other(level))
         self._tell()
 
     def _abandon(self) -> None:
         live, self.live = self.live, None
         if live is not None:
-            self._changed(lambda level: [live.rect] if level == live.level else [])
+            self.sight.changed(lambda level: [live.rect] if level == live.level else [])
             self._dirty = Rect(0, 0, 0, 0)
-
-    def _changed(self, where: Areas) -> None:
-        """The painting became another one, different in the areas that `where` gives for a level."""
-        self.revision += 1
-        self._changes.append((self.revision, where))
-        self._open = deque(self._wanted)
 
     def _tell(self) -> None:
         painting = self.session.painting
@@ -201,52 +191,24 @@ class Easel:
     def _send_dirty(self) -> None:
         """The part of the wanted tiles that the stroke in progress changed."""
         dirty, level, self._dirty = self._dirty, self._dirty_level, Rect(0, 0, 0, 0)
-        for key, held in self._wanted.items():
-            if key[0] == level and held >= 0 and dirty.meets(tile_rect(key)):
-                self._bring_up_to_date(key)
+        for key in self.sight.meeting(level, dirty):
+            self._bring_up_to_date(key)
 
     def _bring_up_to_date(self, key: Key) -> None:
-        """Sends a wanted tile anew, or the parts of it that changed since the window's copy, or that it is good."""
-        held = self._wanted.get(key)
-        if held is None or held == self.revision:
+        """Sends a wanted tile anew, or the part of it that changed since the window's copy, or that it is good."""
+        part = self.sight.old_part(key)
+        if part is None:
             return
-        whole = tile_rect(key)
-        parts = [whole] if held < 0 else self._old_parts(key[0], whole, held)
-        if not parts:
-            self._wanted[key] = self.revision
-            self.send(q.Same((key,), self.revision))
+        revision = self.sight.revision
+        if part.empty:
+            self.sight.sent(key)
+            self.send(q.Same((key,), revision))
             return
-        part = parts[0]
-        for other in parts[1:]:
-            part = part.union(other)
-        self._send_part(key, part)
-
-    def _old_parts(self, level: int, whole: Rect, held: int) -> list[Rect]:
-        """The parts of a rectangle that changed after revision `held`."""
-        if not self._changes or self._changes[0][0] > held + 1:
-            return [whole]
-        out = []
-        for revision, where in self._changes:
-            if revision <= held:
-                continue
-            changed = where(level)
-            if changed is None:
-                return [whole]
-            out += [r for r in (area.intersect(whole) for area in changed) if not r.empty]
-        return out
-
-    def _send_part(self, key: Key, part: Rect) -> None:
         tile = tile_rect(key)
         pixels = q.frozen(to_premul8(self.picture(key[0], part)))
-        self._wanted[key] = self.revision
-        self.send(
-            q.Patch(
-                key,
-                Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0),
-                pixels,
-                self.revision,
-            )
-        )
+        self.sight.sent(key)
+        inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
+        self.send(q.Patch(key, inner, pixels, revision))
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
@@ -345,74 +307,3 @@ class Easel:
         self._writers.append(threading.Thread(target=run, name="inkfall file", daemon=False))
         self.send(q.Pending(self.pending, 1))
         self._writers[-1].start()
-
-
-def tile_rect(key: Key) -> Rect:
-    _, x, y = key
-    return Rect.at(x * q.SIDE, y * q.SIDE, q.SIDE, q.SIDE)
-
-
-def areas(old: Painting, new: Painting) -> Areas:
-    """Where two paintings differ, by level; None for anywhere."""
-    pairs = _pairs(old.root, new.root)
-
-    def where(level: int) -> list[Rect] | None:
-        if pairs is None:
-            return None
-        return [rect for a, b in pairs for rect in changed_rects(a.pyramid, b.pyramid, level)]
-
-    return where
-
-
-def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
-    """Layers whose paint differs; None if the trees differ in anything else."""
-    if old is new:
-        return []
-    if len(old.children) != len(new.children) or _plain(old) != _plain(new):
-        return None
-    out = []
-    for a, b in zip(old.children, new.children, strict=True):
-        if isinstance(a, Group) and isinstance(b, Group):
-            inner = _pairs(a, b)
-            if inner is None:
-                return None
-            out += inner
-        elif isinstance(a, Layer) and isinstance(b, Layer) and _plain(a) == _plain(b):
-            if a.pyramid is not b.pyramid:
-                if a.pyramid.uid != b.pyramid.uid:
-                    return None
-                out.append((a, b))
-        else:
-            return None
-    return out
-
-
-def _plain(node: Layer | Group) -> tuple[Any, ...]:
-    """What of a node shows, besides its paint."""
-    return node.id, node.opacity, node.visible, node.blend, isinstance(node, Group) and node.isolated
-
-
-def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[q.LayerRow]:
-    """The tree as the panel lists it, top-most first."""
-    out = []
-    for position in reversed(range(len(group.children))):
-        node = group.children[position]
-        is_group = isinstance(node, Group)
-        alpha_locked = isinstance(node, Layer) and node.alpha_locked
-        out.append(
-            q.LayerRow(
-                node.name,
-                is_group,
-                depth,
-                parent,
-                position,
-                node.opacity,
-                node.visible,
-                node.blend,
-                node.locked,
-                alpha_locked,
-            )
-        )
-        if isinstance(node, Group):
-            out += rows(node, depth + 1, node.name)
-    return out

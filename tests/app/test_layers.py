@@ -5,7 +5,7 @@ import pytest
 from app.panels.layers import dropped
 from engine.canvas import layers
 from engine.painting import commands as c
-from engine.painting.easel import rows
+from engine.painting.outline import rows
 from engine.painting.painting import apply
 from engine.painting.value import Painting
 

@@ -10,8 +10,9 @@ from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import requests as q
-from engine.painting.easel import Easel, tile_rect
+from engine.painting.easel import Easel
 from engine.painting.painting import apply
+from engine.painting.sight import tile_rect
 
 
 class Window:
