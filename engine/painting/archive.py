@@ -206,7 +206,7 @@ class Plan:
             for layer in layers.layers(root):
                 if not self._is_ground(layer):
                     files[_png_name(layer)] = _Png(places[layer.id], len(self._shown))
-            files[MERGED] = _Png(self._frame, len(self._shown))
+            files[MERGED] = _Png(self._frame, len(self._shown), small=True)
             for known, merged in sheets(root, level, self._frame, places, self._cancelled):
                 for layer in layers.layers(root):
                     if layer.id in known and _png_name(layer) in files:
@@ -330,9 +330,9 @@ def shown_level(frame: Rect) -> int:
 class _Png:
     """An 8-bit PNG on its way into the file, in memory while it is small; `count` of them share that memory."""
 
-    def __init__(self, place: Rect, count: int) -> None:
+    def __init__(self, place: Rect, count: int, small: bool = False) -> None:
         self.file: IO[bytes] = tempfile.SpooledTemporaryFile(max(1 << 16, IN_MEMORY // count))  # noqa: SIM115
-        self._writer = PngWriter(self.file, place.width, place.height)  # type: ignore[arg-type]
+        self._writer = PngWriter(self.file, place.width, place.height, small=small)  # type: ignore[arg-type]
 
     def rows(self, planes: np.ndarray) -> None:
         self._writer.rows(to_rgba8(planes))

@@ -285,3 +285,21 @@ def test_extra_data_and_chunks_are_passed_over():
     data = png(2, 2, 8, 6, rows + bytes(1000), extra=chunk(b"tEXt", b"k\0v"))
     assert decoded(data).shape == (2, 2, 4)
     assert decoded(data + b"after the end").shape == (2, 2, 4)
+
+
+@pytest.mark.parametrize("grain", [0, 3])
+def test_small_files_hold_the_same_pixels(grain):
+    """Grainy pictures get smaller than by a search for matches, smooth ones do not get larger."""
+    rng = np.random.default_rng(1)
+    smooth = np.linspace(0, 255, 300 * 400 * 4).reshape(300, 400, 4)
+    pixels = np.clip(smooth + rng.normal(0, grain, smooth.shape).round(), 0, 255).astype(np.uint8)
+    sizes = []
+    for small in (False, True):
+        file = io.BytesIO()
+        writer = PngWriter(file, 400, 300, small=small)
+        writer.rows(pixels[:100])
+        writer.rows(pixels[100:])
+        writer.close()
+        assert (np.asarray(Image.open(io.BytesIO(file.getvalue()))) == pixels).all()
+        sizes.append(len(file.getvalue()))
+    assert sizes[1] < 0.98 * sizes[0] if grain else sizes[1] <= sizes[0]
