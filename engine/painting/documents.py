@@ -17,6 +17,7 @@ from engine.painting.imports import open_image
 from engine.painting.opening import open_painting
 from engine.painting.recording import Recording, read
 from engine.painting.session import Session
+from engine.painting.stroke import POINTS_CAP
 from engine.painting.value import Painting
 
 LIVE_SECONDS = 70.0  # that the strokes of a recording take at most when it plays live
@@ -57,6 +58,18 @@ class Playing:
             now = time.monotonic()
         return max(self._clock, now)
 
+    @property
+    def drawing(self) -> bool:
+        """Whether the stroke in progress is the recording's."""
+        return self._rest is not None
+
+    def complete(self, stage: Stage) -> None:
+        """The stroke that grows, to its end at once."""
+        assert self._rest is not None
+        rest, self._rest = self._rest, None
+        stage.extend(rest)
+        stage.finish()
+
     def _next(self, stage: Stage) -> bool:
         if self._rest is not None:
             self._grow(stage)
@@ -67,7 +80,7 @@ class Playing:
         if isinstance(command, c.View):
             stage.carry_out(command)
             self._look(stage, command)
-        elif isinstance(command, c.Stroke) and self._pace:
+        elif isinstance(command, c.Stroke) and self._pace and len(command.points) < POINTS_CAP:
             stage.begin(command)
             self._rest = command.points
         else:
@@ -86,11 +99,11 @@ class Playing:
         """The points that are due, one at least, all that would be late."""
         assert self._rest is not None
         due = max(1, int((time.monotonic() - self._clock + PIECE) / self._pace))
-        stage.extend(self._rest[:due])
-        self._clock += self._pace * min(due, len(self._rest))
-        self._rest = self._rest[due:]
-        if not len(self._rest):
-            self._rest = None
+        points, rest = self._rest[:due], self._rest[due:]
+        self._rest = rest if len(rest) else None
+        self._clock += self._pace * len(points)
+        stage.extend(points)
+        if self._rest is None:
             stage.finish()
 
 

@@ -6,6 +6,7 @@ Tiles are functions of the painting alone.  Which of those on the screen are old
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -69,6 +70,11 @@ class Easel:
 
     def do(self, request: q.Request) -> None:
         """Carries out a request that changes something; sends its results."""
+        if self._script is not None and self._script.drawing:
+            if isinstance(request, q.Points | q.Finish | q.Abandon):
+                return  # of a stroke that was refused
+            if isinstance(request, q.Begin | q.Do | q.Save):
+                self._script.complete(self)  # what is asked for comes after the recording's stroke, not into it
         self._handlers[type(request)](request)
 
     def look(self, request: q.Look) -> None:
@@ -133,6 +139,7 @@ class Easel:
         if self.live is not None:
             self.finish()
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed)
+        self.live.extra = stroke.extra
         self._dirty_level = stroke.level
 
     def extend(self, points: np.ndarray) -> None:
@@ -261,6 +268,9 @@ class Easel:
     def play(self) -> None:
         """The next piece of a recording that plays."""
         assert self._script is not None
+        if self.live is not None and not self._script.drawing:  # a hand draws: its stroke comes first
+            self.due = time.monotonic() + documents.PIECE
+            return
         self.due = self._script.advance(self)
         if self.due is None:
             self._script = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from immutables import Map
 
 from engine.brush import kinds
 from engine.brush.dabs import Stroker
@@ -29,7 +30,8 @@ class LiveStroke:
     """A stroke that still grows, on the painting as it was when the pen touched down.
 
     `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
-    points were no points (not finite, or too far away).  Refusal if the layer is locked or the brush cannot be used.
+    points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
+    Refusal if the layer is locked or the brush cannot be used.
     """
 
     def __init__(
@@ -48,6 +50,7 @@ class LiveStroke:
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
         self.cache = cache
         self.dropped = 0
+        self.extra: Map = Map()
         self._named = layer
         self._points: list[np.ndarray] = []
         self._count = 0
@@ -133,4 +136,4 @@ class LiveStroke:
             raise Refusal("stroke: found no point, expected one at least")
         points = np.concatenate(self._points)
         points.flags.writeable = False
-        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed)
+        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra)

@@ -1,5 +1,7 @@
 """The easel: whatever is done and looked at, the window ends up with the picture that the painting is."""
 
+import time
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -280,3 +282,54 @@ def test_a_recording_plays_to_the_same_painting_live_or_not(tmp_path):
         pictures.append(window.easel.picture(1, Rect(0, 0, 400, 400)))
     assert np.array_equal(*pictures)
     assert pictures[0][3].max() > 0.5
+
+
+LONG = (
+    '{"inkfall": 1, "frame": [0, 0, 200, 200], "seed": 3}\n'
+    '{"do": "stroke", "points": [[10, 10], [60, 90], [120, 40], [150, 150], [20, 120]], "brush": {}, "by": "x"}\n'
+)
+
+
+@pytest.fixture
+def half_played(tmp_path, monkeypatch):
+    """A window in which a recording plays, in the middle of its only stroke."""
+    monkeypatch.setattr("engine.painting.documents.PIECE", 1e-6)  # one point at a time
+    (tmp_path / "long.jsonl").write_text(LONG)
+    window = Window()
+    window.easel.do(q.Open(tmp_path / "long.jsonl", True))
+    window.easel.play()
+    assert window.easel.live is not None
+    return window
+
+
+def _played_out(window):
+    end = time.monotonic() + 5.0
+    while window.easel.due is not None:
+        assert time.monotonic() < end, "the recording does not end"
+        window.easel.play()
+    return [type(command) for command in window.easel.session.log]
+
+
+@pytest.mark.parametrize("request_", [q.Begin(0, (0, 0), Brush()), q.Do(c.AddLayer("New"))])
+def test_a_recordings_stroke_is_whole_though_the_artist_does_something_meanwhile(half_played, request_):
+    window = half_played
+    window.easel.do(request_)
+    stroke = window.easel.session.log[0]
+    assert len(stroke.points) == 5
+    assert dict(stroke.extra) == {"by": "x"}
+    if isinstance(request_, q.Begin):
+        window.easel.do(q.Points(line(3)))
+        for _ in range(5):
+            window.easel.play()  # the hand's stroke comes first
+        window.easel.do(q.Points(line(2)))
+        window.easel.do(q.Finish())
+        assert [len(command.points) for command in window.easel.session.log] == [5, 5]
+    assert len(_played_out(window)) == 2
+
+
+def test_points_of_a_stroke_that_was_refused_do_not_join_the_recordings(half_played):
+    window = half_played
+    window.easel.do(q.Points(line(3)))
+    window.easel.do(q.Abandon())
+    assert _played_out(window) == [c.Stroke]
+    assert len(window.easel.session.log[0].points) == 5
