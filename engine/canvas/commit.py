@@ -105,7 +105,7 @@ def _climb_to_the_top(
 def _by_slabs(pyramid, edit, keys, records, keeps, cache) -> Rect:
     """A large edit, square by square, so that memory does not grow with it.  Returns the bounds of what changed."""
     changed, tops = Rect(0, 0, 0, 0), []
-    for slab in _slabs(keys):
+    for slab in _slabs([key.rect for key in keys]):
         near = [key for key in keys if key.rect.meets(slab.grown(_MARGIN))]
         painted = paint(pyramid, edit, near, cache)
         if not painted:
@@ -116,10 +116,36 @@ def _by_slabs(pyramid, edit, keys, records, keeps, cache) -> Rect:
         top = _climb_slab(pyramid, front, levels, slab.zoomed(-1), records)
         if top is not None:
             tops.append(top)
+    while tops and _area(tops) > _AT_ONCE:
+        tops = _higher(pyramid, tops, records, cache)
     if tops:
         front = joined(pyramid, tops, cache)
         _climb_to_the_top(pyramid, front, climbs(pyramid, front.level, front.rect, cache), records)
     return changed
+
+
+def _area(fronts: Sequence[Front]) -> int:
+    """Pixels of the rectangle around some fronts."""
+    whole = Rect(0, 0, 0, 0)
+    for front in fronts:
+        whole = whole.union(front.rect)
+    return whole.area
+
+
+def _higher(pyramid: Pyramid, fronts: Sequence[Front], records: NewRecords, cache: TileCache | None) -> list[Front]:
+    """Fronts of one level, far apart, as those of a coarser one: square by square, as the edit itself."""
+    squares: dict[Rect, list[Front]] = {}
+    for front in fronts:
+        for slab in _slabs([front.rect]):
+            squares.setdefault(slab, []).append(front)
+    tops = []
+    for slab, near in squares.items():
+        front = joined(pyramid, near, cache)
+        levels = climbs(pyramid, front.level, front.rect, cache)
+        top = _climb_slab(pyramid, front, levels, slab, records)
+        if top is not None:
+            tops.append(top)
+    return tops
 
 
 def _climb_slab(pyramid, front: Front | None, levels, slab: Rect, records: NewRecords) -> Front | None:
@@ -135,11 +161,11 @@ def _climb_slab(pyramid, front: Front | None, levels, slab: Rect, records: NewRe
     return cut_front(front, slab.zoomed(1 - _SLAB_LEVELS))
 
 
-def _slabs(keys: Sequence[TileKey]) -> Iterator[Rect]:
+def _slabs(rects: Sequence[Rect]) -> Iterator[Rect]:
     """The squares of the fixed grid in which pixels can change at any of the levels a square deals with."""
     places = set()
-    for key in keys:
-        r = key.rect.grown(_MARGIN)
+    for rect in rects:
+        r = rect.grown(_MARGIN)
         for y in range(r.y0 // _SLAB, (r.y1 - 1) // _SLAB + 1):
             for x in range(r.x0 // _SLAB, (r.x1 - 1) // _SLAB + 1):
                 places.add((y, x))

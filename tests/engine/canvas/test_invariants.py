@@ -6,6 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strokes import ArrayEdit, Grain, fill, random_stroke, spread_planes
 
+from engine.brush.ink import resolve
+from engine.brush.kinds import edit as edit_of
+from engine.brush.mask import StrokeMask
+from engine.brush.record import Brush
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
@@ -206,8 +210,10 @@ def test_materialised_and_folded_records_change_nothing():
     assert all((around(folded, k) == v).all() for k, v in wanted.items())
 
 
-def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts():
-    """Large edits are worked on in squares; the pixels are those of one edit done at once."""
+@pytest.mark.parametrize("limit", [1 << 22, 1 << 14])
+def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, monkeypatch):
+    """Large edits are worked on in squares, very large ones in squares of squares; the pixels are those of one edit
+    done at once."""
     rng = np.random.default_rng(8)
     height, width = 2300, 2700
     alpha = np.zeros((height, width), np.float32)
@@ -217,17 +223,35 @@ def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts():
     add = np.rint(alpha * np.array([0.3, 0.9, 0.5, 1.0], np.float32)[:, None, None] * COUNT).astype(np.float32) / COUNT
     base = painted(9, inks=())
     edit = ArrayEdit(2, -1111, -903, 1 - alpha, add)
-    import engine.canvas.commit as module
-
+    monkeypatch.setattr("engine.canvas.commit._AT_ONCE", limit)
     by_slabs = commit(base, edit)
-    limit, module._AT_ONCE = module._AT_ONCE, 1 << 40
-    try:
-        at_once = commit(base, edit)
-    finally:
-        module._AT_ONCE = limit
+    monkeypatch.setattr("engine.canvas.commit._AT_ONCE", 1 << 40)
+    at_once = commit(base, edit)
     assert [(k, r.rect) for k, r in by_slabs.all_records()] == [(k, r.rect) for k, r in at_once.all_records()]
     pairs = zip(by_slabs.all_records(), at_once.all_records(), strict=True)
     assert all((a.data == b.data).all() for (_, a), (_, b) in pairs)
+
+
+def test_a_thin_stroke_across_a_wide_canvas_takes_memory_for_the_stroke_alone(monkeypatch):
+    """Where few tiles lie far apart, no level is held whole."""
+    import engine.canvas.commit as module
+
+    areas = []
+
+    def joined(pyramid, fronts, cache):
+        front = plain(pyramid, fronts, cache)
+        areas.append(front.rect.area)
+        return front
+
+    plain = module.joined
+    monkeypatch.setattr(module, "joined", joined)
+    mask = StrokeMask(0, (0, 0))
+    steps = np.linspace(0.0, 24_000.0, 2500)
+    mask.paint(np.stack([steps, steps, *(np.full(2500, v) for v in (16.0, 1.0, 1.0, 0.8))], axis=1))
+    brush = Brush(radius=16.0)
+    pyramid = commit(Pyramid(), edit_of(brush, mask, resolve(brush, {}, 0, 0)))
+    assert max(areas) <= module._AT_ONCE
+    assert (evaluate(pyramid, 0, Rect(12_000, 12_000, 12_001, 12_001)).data[3] == 1.0).all()
 
 
 def test_attenuation_waits_for_a_bounded_number_of_strokes():
