@@ -71,11 +71,11 @@ class Program:
         """What the screen shows, uint8 (800, 1280, 3)."""
         return np.asarray(ImageGrab.grab(xdisplay=self.display).convert("RGB"))
 
-    def settled(self, seconds: float = 20.0) -> np.ndarray:
-        """The screen when it has not changed for a while."""
+    def settled(self, seconds: float = 20.0, calm: int = 4) -> np.ndarray:
+        """The screen when it has not changed for a while: `calm` looks, 0.15 s apart."""
         end = time.monotonic() + seconds
         last, same = self.screen(), 0
-        while same < 4:
+        while same < calm:
             time.sleep(0.15)
             now = self.screen()
             same = same + 1 if np.array_equal(now, last) else 0
@@ -83,11 +83,19 @@ class Program:
             assert time.monotonic() < end, "the screen does not come to rest"
         return last
 
-    def canvas(self) -> np.ndarray:
+    def canvas(self, calm: int = 4) -> np.ndarray:
         """The middle of the settled screen, with the pointer parked so that no cursor or tooltip covers it."""
         self.do("mousemove", 700, 790)
         time.sleep(0.2)
-        return self.settled()[60:740, 270:970].astype(int)
+        return self.settled(calm=calm)[60:740, 270:970].astype(int)
+
+    def comes_to(self, picture: np.ndarray, seconds: float = 30.0) -> bool:
+        """Whether the canvas shows exactly this, at once or when slow work is done: kernels may still be compiled."""
+        end = time.monotonic() + seconds
+        while not np.array_equal(self.canvas(), picture):
+            if time.monotonic() > end:
+                return False
+        return True
 
     def close(self) -> None:
         self.process.terminate()

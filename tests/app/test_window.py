@@ -21,7 +21,7 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
     empty = app.canvas()
     app.keys("bracketright", "bracketright", "bracketright", "bracketright")
     app.stroke(*WAVE)
-    painted = app.canvas()
+    painted = app.canvas(calm=12)
     assert differing(empty, painted) > 1500
 
     # Twenty levels in and out about one point: exactly the same picture again.
@@ -33,13 +33,13 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
     app.wheel(-80)
     time.sleep(0.5)
     app.settled()
-    assert np.array_equal(app.canvas(), painted)
+    assert app.comes_to(painted)
 
     # A stroke at depth changes nothing where it is too small to be seen, and undo takes both back.
     app.keys("ctrl+z")
-    assert np.array_equal(app.canvas(), empty)
+    assert app.comes_to(empty)
     app.keys("ctrl+shift+z")
-    assert np.array_equal(app.canvas(), painted)
+    assert app.comes_to(painted)
 
     app.keys("ctrl+s")
     time.sleep(0.5)
@@ -50,13 +50,13 @@ def test_paint_zoom_undo_save_reopen(program, tmp_path):
     while not (tmp_path / "picture.ora").exists():
         assert time.monotonic() < end
         time.sleep(0.1)
-    assert np.array_equal(app.canvas(), painted)
+    assert app.comes_to(painted)
     app.keys("ctrl+q")
     assert app.process.wait(15) == 0
 
     again = program(str(tmp_path / "picture.ora"))
     again.wait_for("painting 1 shown")
-    assert np.array_equal(again.canvas(), painted)
+    assert again.comes_to(painted)
 
 
 def test_a_stroke_twenty_levels_deep_is_there_again_after_going_away(program):
@@ -71,7 +71,7 @@ def test_a_stroke_twenty_levels_deep_is_there_again_after_going_away(program):
     far = app.canvas()
     app.do("mousemove", 600, 400)
     app.wheel(80)
-    assert np.array_equal(app.canvas(), deep)
+    assert app.comes_to(deep)
     assert differing(far, deep) > 1500
 
 
@@ -83,7 +83,7 @@ def test_the_keys_for_the_view_and_the_panels(program):
     mirrored = app.canvas()
     assert differing(before, mirrored) > 300
     app.keys("m")
-    assert np.array_equal(app.canvas(), before)
+    assert app.comes_to(before)
     app.keys("Tab")
     hidden = app.settled()
     app.keys("Tab")
@@ -92,7 +92,7 @@ def test_the_keys_for_the_view_and_the_panels(program):
     app.keys("1")
     time.sleep(0.5)
     app.keys("f")
-    assert np.array_equal(app.canvas(), before)
+    assert app.comes_to(before)
 
 
 def test_an_idle_window_sleeps(program):
@@ -123,4 +123,4 @@ def test_escape_abandons_a_stroke(program):
     time.sleep(0.3)
     app.keys("Escape")
     app.do("mouseup", 1)
-    assert np.array_equal(app.canvas(), empty)
+    assert app.comes_to(empty)
