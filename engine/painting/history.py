@@ -100,6 +100,9 @@ def _only(one: Pyramid, other: Pyramid) -> Iterator[Record]:
         there = other.levels.get(level)
         if there is stored:
             continue
+        if one.settled != other.settled:  # folded in between: records changed wherever a stroke had waited
+            yield from (r for place, r in stored.items() if there is None or there.get(place) is not r)
+            continue
         for rect in changed_rects(other, one, level):
             for key, record in one.records(level, rect.grown(_AROUND)):
                 if there is None or there.get((key.x, key.y)) is not record:

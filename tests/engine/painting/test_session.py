@@ -318,3 +318,25 @@ def test_deep_and_far_places_are_painted_and_undone_exactly():
     assert_same(session.painting, before)
     session.do(c.Undo())
     assert not picture(session.painting, 200, rect).any()
+
+
+def test_history_counts_what_settling_many_strokes_replaced():
+    """Every so often the attenuation of earlier strokes is applied everywhere at once, not only under the last one."""
+    session = Session(cache=TileCache(16 << 20))
+    session.do(c.parse(FINE))
+    counted = real = 0
+    for n in range(40):
+        before, held = session.painting.root, session.history.held
+        coarse = {"do": "stroke", "origin": [n * 20, 0], "points": [[0, 0]], "brush": {"radius": 6, "opacity": 0.5}}
+        session.do(c.parse(coarse))
+        now = {id(r) for layer in layers.layers(session.painting.root) for _, r in layer.pyramid.all_records()}
+        old = [r for layer in layers.layers(before) for _, r in layer.pyramid.all_records()]
+        real += sum(r.nbytes for r in old if id(r) not in now)
+        counted += session.history.held - held - STEP_OVERHEAD
+    assert counted == real
+
+
+FINE = {
+    "do": "stroke", "level": 2, "origin": [0, 0], "points": [[0, 0], [3200, 0]],
+    "brush": {"radius": 30, "ink": [{"texture": "rock"}]},
+}  # fmt: skip
