@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _painting(options: argparse.Namespace, found: Opened) -> None:
     """As a painting: the frame is the smallest one that holds the rectangle; all detail goes along."""
-    from engine.canvas.layers import alone, find
+    from engine.canvas.layers import alone, find, layers
     from engine.painting.archive import Snapshot, save
 
     painting, recording = found.painting, found.recording
@@ -62,6 +62,7 @@ def _painting(options: argparse.Namespace, found: Opened) -> None:
         painting, recording = replace(painting, frame=rect.zoomed(-level)), None
     if options.layer is not None:
         root = alone(find(painting.root, options.layer))
-        painting, recording = replace(painting, root=root, active=options.layer), None
+        top = next((layer.name for layer in reversed(list(layers(root)))), None)
+        painting, recording = replace(painting, root=root, active=top), None
     with Progress("writing", 100) as tell:
         save(options.out, Snapshot(painting, recording), tell.part)

@@ -50,6 +50,7 @@ class Easel:
         self._script: documents.Playing | None = None
         self._known = True  # whether the session's log leads from nothing to the painting
         self._writers: list[threading.Thread] = []
+        self._telling = threading.Lock()
         self._handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open_file,
@@ -164,7 +165,11 @@ class Easel:
         self._dirty = Rect(0, 0, 0, 0)  # what is not sent yet comes with the tiles, which are all looked at again
         if live is None:
             return
-        after = self.session.finish(live)
+        try:
+            after = self.session.finish(live)
+        except Exception:
+            self._unsee(live)  # its preview is on the screen, and will not be paint
+            raise
         other = areas(live.base, after)
         # At the stroke's own level the preview is what was committed: nothing changes.
         self.sight.changed(lambda level: [] if level == live.level else other(level))
@@ -173,24 +178,32 @@ class Easel:
     def _abandon(self) -> None:
         live, self.live = self.live, None
         if live is not None:
-            self.sight.changed(lambda level: [live.rect] if level == live.level else [])
+            self._unsee(live)
             self._dirty = Rect(0, 0, 0, 0)
 
+    def _unsee(self, live: LiveStroke) -> None:
+        """The preview of a stroke that came to nothing goes from the screen."""
+        self.sight.changed(lambda level: [live.rect] if level == live.level else [])
+
     def _tell(self) -> None:
+        """Sends what the panels show.  Files that were written tell as well, from their own threads: in turn, so that
+        the last one sent is the newest."""
+        with self._telling:
+            self.send(self._scene())
+
+    def _scene(self) -> q.Scene:
         painting = self.session.painting
-        self.send(
-            q.Scene(
-                frame=painting.frame,
-                layers=tuple(rows(painting.root)),
-                active=painting.active,
-                can_undo=self.session.can_undo,
-                can_redo=self.session.can_redo,
-                modified=painting is not self._saved,
-                path=self.path,
-                textures=tuple(sorted(painting.textures)),
-                texture_kinds=tuple((name, texture.kind) for name, texture in painting.textures.items()),
-                serial=self._serial,
-            )
+        return q.Scene(
+            frame=painting.frame,
+            layers=tuple(rows(painting.root)),
+            active=painting.active,
+            can_undo=self.session.can_undo,
+            can_redo=self.session.can_redo,
+            modified=painting is not self._saved,
+            path=self.path,
+            textures=tuple(sorted(painting.textures)),
+            texture_kinds=tuple((name, texture.kind) for name, texture in painting.textures.items()),
+            serial=self._serial,
         )
 
     # --- tiles -------------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ import numpy as np
 from immutables import Map
 
 from engine.brush import kinds
+from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
@@ -81,14 +82,29 @@ class LiveStroke:
         return self.lay(self._fit(np.atleast_2d(np.asarray(points, np.float64))))
 
     def lay(self, points: np.ndarray) -> Rect:
-        """As `add`, for points float64 (n, 6) that are known to be good."""
+        """As `add`, for points float64 (n, 6) that are known to be good.
+
+        BrushError if they make the stroke too large: it is as it was before.
+        """
         if not len(points):
             return Rect(0, 0, 0, 0)
-        dirty = tile_bounds(self._mask.paint(self._stroker.walk(points)))
+        try:
+            dirty = tile_bounds(self._mask.paint(self._stroker.walk(points)))
+        except BrushError:
+            self._again()
+            raise
         self._points.append(points)
         self._count += len(points)
         self._edit = None
         return dirty
+
+    def _again(self) -> None:
+        """Lays the points that were kept, and nothing else."""
+        self._stroker = Stroker(self.brush)
+        self._mask = StrokeMask(self.level, self.origin)
+        self._edit = None
+        for points in self._points:
+            self._mask.paint(self._stroker.walk(points))
 
     def _fit(self, given: np.ndarray) -> np.ndarray:
         table = np.empty((len(given), len(POINT_COLUMNS)))

@@ -250,6 +250,19 @@ def test_a_rectangle_as_a_painting(saved, tmp_path, capsys):
     assert np.array_equal(pixels(whole), pixels(part))
 
 
+def test_a_group_as_a_painting_can_be_painted_on(tmp_path, capsys):
+    script, whole, part = (tmp_path / name for name in ("a.jsonl", "a.ora", "b.ora"))
+    script.write_text(
+        HEADER + '{"do": "layer", "add": "Both", "kind": "group"}\n'
+        '{"do": "layer", "add": "one", "group": "Both"}\n{"do": "stroke", "points": [[9, 9]], "brush": {}}\n'
+    )
+    assert main(["play", str(script), "--save", str(whole)]) == 0
+    assert main(["export", str(whole), str(part), "--layer", "Both"]) == 0
+    capsys.readouterr()
+    assert main(["info", str(part), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["active"] == "one"
+
+
 def test_info(saved, capsys):
     assert main(["info", str(saved), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

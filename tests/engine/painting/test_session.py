@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.brush.checks import BrushError
 from engine.brush.record import Brush
 from engine.canvas import layers
 from engine.canvas.composite import composite
@@ -340,3 +341,19 @@ FINE = {
     "do": "stroke", "level": 2, "origin": [0, 0], "points": [[0, 0], [3200, 0]],
     "brush": {"radius": 30, "ink": [{"texture": "rock"}]},
 }  # fmt: skip
+
+
+def test_points_that_make_a_stroke_too_large_leave_it_as_it_was():
+    brush = Brush(radius=300.0, colour="#204080")
+    live, plain = (LiveStroke(Painting(FRAME), 0, (0, 0), brush) for _ in "ab")
+    for stroke in (live, plain):
+        stroke.add(np.array([[0.0, 0.0], [40.0, 10.0]]))
+    live._mask._tiles_cap = 60
+    with pytest.raises(BrushError):
+        live.add(np.array([[9000.0, 0.0]]))
+    assert live.rect == plain.rect
+    for stroke in (live, plain):
+        stroke.add(np.array([[80.0, 60.0]]))
+    a, b = (stroke.commit() for stroke in (live, plain))
+    assert_same(a, b)
+    assert len(live.to_command().points) == 3
