@@ -6,7 +6,7 @@ from pathlib import Path
 import inputtest
 import numpy as np
 import pytest
-from xserver import need, started_server
+from xserver import lacking, need, started_server
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 UNITS_X, UNITS_Y = 65536 / 1280, 65536 / 800  # of the driver's axes in a pixel
@@ -18,7 +18,7 @@ def pen(tmp_path_factory):
     """(display, pen): an X server whose only pointer is a pen."""
     need("Xorg", "xdotool")
     if not list(Path("/usr/lib/xorg/modules").glob("**/dummy_drv.so")):
-        pytest.skip("needs xserver-xorg-video-dummy")
+        lacking("xserver-xorg-video-dummy")
     folder = tmp_path_factory.mktemp("pen")
     (folder / "pen.conf").write_text(inputtest.CONFIG.format(socket=folder / "socket"))
     switches = ["-noreset", "-nolisten", "tcp", "-novtswitch", "-sharevts", "-logfile", str(folder / "log")]

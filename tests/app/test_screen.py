@@ -3,6 +3,7 @@
 import moderngl
 import numpy as np
 import pytest
+from xserver import lacking
 
 from app.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
 from app.view import Place, View
@@ -19,7 +20,7 @@ def context():
     try:
         ctx = moderngl.create_context(standalone=True, backend="egl")
     except Exception as error:  # whatever the driver says: no GL here
-        pytest.skip(f"needs EGL: {error}")
+        lacking(f"EGL: {error}")
     yield ctx
     ctx.release()
 
