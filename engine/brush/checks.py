@@ -10,6 +10,8 @@ from typing import Any
 
 from immutables import Map
 
+from engine.texture.field_error import FieldError
+
 TEXT_CAP = 256  # characters of a name
 KNOTS_CAP = 64
 OUTPUT_CAP = 16.0  # the largest factor by which a curve may multiply a setting
@@ -20,15 +22,8 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f]")
 Knots = tuple[tuple[float, float], ...]
 
 
-class BrushError(ValueError):
+class BrushError(FieldError):
     """A brush, a pen point or a stroke that cannot be used: `str()` is one line."""
-
-    def __init__(self, place: str, found: str, expected: str) -> None:
-        self.place, self.found, self.expected = place, found, expected
-        super().__init__(f"{place}: found {found}, expected {expected}")
-
-    def __reduce__(self) -> tuple:
-        return type(self), (self.place, self.found, self.expected)
 
 
 def shown(value: Any, limit: int = 48) -> str:

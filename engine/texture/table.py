@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from engine.texture.field_error import FieldError
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
@@ -18,15 +19,8 @@ from engine.texture.rock import Rock
 DEEPEST = 1 << 16  # |level| up to which textures are made: a claim in a file beyond it is refused
 
 
-class TextureError(ValueError):
+class TextureError(FieldError):
     """A texture that cannot be made: `place` names the field.  `str()` is one line."""
-
-    def __init__(self, place: str, found: str, expected: str) -> None:
-        self.place, self.found, self.expected = place, found, expected
-        super().__init__(f"{place}: found {found}, expected {expected}")
-
-    def __reduce__(self) -> tuple:
-        return type(self), (self.place, self.found, self.expected)
 
 
 @dataclass(frozen=True, slots=True)
