@@ -1,0 +1,173 @@
+"""Shapes to begin a spectrum with: ring, wedge, grid of points, 1/f noise (Lewis 1984, section 5.1).
+
+Each is drawn as a centred amplitude spectrum, 0..1; frequencies are parts of the highest, half a cycle per pixel, so
+that a shape means the same texture on samples of any size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.numeric.spectra import frequencies, symmetric
+
+Numbers = Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number of a shape: `lo` <= value <= `hi`."""
+
+    name: str
+    default: float
+    lo: float
+    hi: float
+    unit: str
+    tooltip: str
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A row: `draw` makes the amplitudes, float32 (h, w), of ((h, w), the numbers by name)."""
+
+    name: str
+    label: str
+    tooltip: str
+    parameters: tuple[Quantity, ...]
+    draw: Callable[[tuple[int, int], Numbers], np.ndarray]
+
+
+def _polar(size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Frequency, 0..1.41, and the horizontal and vertical part of it."""
+    v, u = frequencies(*size)
+    return np.hypot(u, v), u, v
+
+
+def _bell(distance: np.ndarray, width: float) -> np.ndarray:
+    return np.exp(-0.5 * np.square(distance / np.float32(max(width, 1e-6))))
+
+
+def _step(size: tuple[int, int]) -> float:
+    """The width of one pixel of a spectrum: nothing narrower can be drawn."""
+    return 2.0 / max(*size, 1)
+
+
+def _ring(size: tuple[int, int], given: Numbers) -> np.ndarray:
+    f, _, _ = _polar(size)
+    return _bell(f - given["frequency"], max(given["width"], 0.4 * _step(size)))
+
+
+def _wedge(size: tuple[int, int], given: Numbers) -> np.ndarray:
+    f, u, v = _polar(size)
+    turn = np.radians(given["angle"])
+    along, across = u * np.cos(turn) + v * np.sin(turn), v * np.cos(turn) - u * np.sin(turn)
+    off = np.degrees(np.arctan2(np.abs(across), np.abs(along)))
+    soft = 0.5 * _step(size)
+    inside = 1.0 / (1.0 + np.exp(np.clip((np.abs(f - given["from"]) - (f - given["from"])) / soft, 0.0, 60.0)))
+    beyond = np.maximum(f - given["to"], 0.0)
+    fall = np.power(np.maximum(f, _step(size)) / _step(size), -given["slope"])
+    return 2.0 * inside * _bell(off, given["spread"]) * _bell(beyond, 2.0 * soft) * fall
+
+
+def _points(size: tuple[int, int], given: Numbers) -> np.ndarray:
+    v, u = frequencies(*size)
+    turn, spacing = np.radians(given["angle"]), given["spacing"]
+    total = np.zeros(size, np.float32)
+    reach = int(1.5 / spacing)
+    for j in range(-reach, reach + 1):
+        for i in range(-reach, reach + 1):
+            if (i, j) == (0, 0):
+                continue
+            x = (i * np.cos(turn) - j * np.sin(turn)) * spacing
+            y = (i * np.sin(turn) + j * np.cos(turn)) * spacing * given["aspect"]
+            if max(abs(x), abs(y)) > 1.0:
+                continue
+            strength = np.hypot(i, j) ** -given["fall"]
+            _add_bell(total, u[0], v[:, 0], (x, y, max(given["width"], 0.4 * _step(size)), strength))
+    return total
+
+
+def _add_bell(total: np.ndarray, u: np.ndarray, v: np.ndarray, bell: tuple[float, float, float, float]) -> None:
+    """Lays a bell (x, y, width, height) where it is not zero; the larger value stays."""
+    x, y, width, height = bell
+    rows = slice(*np.searchsorted(v, (y - 5.0 * width, y + 5.0 * width)))
+    columns = slice(*np.searchsorted(u, (x - 5.0 * width, x + 5.0 * width)))
+    part = total[rows, columns]
+    drawn = np.outer(_bell(v[rows] - y, width), _bell(u[columns] - x, width)) * height
+    np.maximum(part, drawn, out=part, casting="same_kind")
+
+
+def _noise(size: tuple[int, int], given: Numbers) -> np.ndarray:
+    f, _, _ = _polar(size)
+    low = max(given["from"], _step(size))
+    fall = np.power(np.maximum(f, low) / low, -given["b"])
+    below = _bell(np.maximum(given["from"] - f, 0.0), 0.5 * max(given["from"], _step(size)))
+    return fall * below * _bell(np.maximum(f - given["to"], 0.0), 2.0 * _step(size))
+
+
+_STRENGTH = Quantity("strength", 1.0, 0.0, 1.0, "", "How strongly the shape is laid into the spectrum")
+_ANGLE = Quantity("angle", 0.0, -180.0, 180.0, "degrees", "Direction of the frequencies, clockwise from rightwards")
+_LOW = Quantity("from", 0.02, 0.0, 1.0, "of the highest", "Frequencies below are left out: the largest features")
+_HIGH = Quantity("to", 1.0, 0.0, 1.5, "of the highest", "Frequencies above are left out: the finest features")
+_WIDTH = Quantity("width", 0.05, 0.0, 1.0, "of the highest", "Breadth: narrow is regular, wide is loose")
+
+_ROWS = (
+    Shape(
+        "ring",
+        "Ring",
+        "One size of feature in all directions: pebbles, sponge, orange peel",
+        (Quantity("frequency", 0.25, 0.0, 1.4, "of the highest", "Fineness of the features"), _WIDTH, _STRENGTH),
+        _ring,
+    ),
+    Shape(
+        "wedge",
+        "Wedge",
+        "Features drawn out across one direction: fur, wood, water, brushed metal",
+        (
+            _ANGLE,
+            Quantity("spread", 12.0, 0.5, 90.0, "degrees", "Opening: narrow is straight, wide is tousled"),
+            _LOW,
+            _HIGH,
+            Quantity("slope", 0.5, 0.0, 4.0, "", "How fast finer features fade"),
+            _STRENGTH,
+        ),
+        _wedge,
+    ),
+    Shape(
+        "points",
+        "Grid of points",
+        "A pattern that repeats: cloth, canvas, tiles, scales",
+        (
+            Quantity("spacing", 0.2, 0.02, 1.0, "of the highest", "Distance of the points: fineness of the pattern"),
+            _ANGLE,
+            Quantity("aspect", 1.0, 0.25, 4.0, "", "Vertical distance of the points to the horizontal"),
+            Quantity("fall", 1.0, 0.0, 4.0, "", "How fast the further points fade"),
+            Quantity("width", 0.0, 0.0, 0.5, "of the highest", "Breadth: narrow is regular, wide is loose"),
+            _STRENGTH,
+        ),
+        _points,
+    ),
+    Shape(
+        "noise",
+        "1/f noise",
+        "Features of all sizes: cloud, stone, smoke",
+        (Quantity("b", 1.5, 0.0, 4.0, "", "Amplitude falls as 1/f^b: 0 is white, 2 is smooth"), _LOW, _HIGH, _STRENGTH),
+        _noise,
+    ),
+)
+SHAPES: dict[str, Shape] = {row.name: row for row in _ROWS}
+
+
+def drawn(name: str, size: tuple[int, int], parameters: Numbers) -> np.ndarray:
+    """A shape's amplitudes, symmetric, 0 at zero frequency: float32 (h, w), 0..its strength.
+
+    Parameters that are missing take the row's default; values beyond their range its nearest end.
+    """
+    row = SHAPES[name]
+    given = {q.name: min(max(float(parameters.get(q.name, q.default)), q.lo), q.hi) for q in row.parameters}
+    out = symmetric(row.draw(size, given).astype(np.float32))
+    out[size[0] // 2, size[1] // 2] = 0.0
+    most = float(out.max())
+    return out * np.float32(given["strength"] / most) if most > 0.0 else out

@@ -1,0 +1,181 @@
+"""Spectrum painting: an amplitude spectrum and phases become a sample of texture, and back (Lewis 1984, section 5.1).
+
+Spectra are arrays (..., h, w) whose zero frequency lies in the middle, at [h // 2, w // 2]; row i, column j stand for
+(i - h // 2) / h and (j - w // 2) / w cycles per pixel.  Frequencies are given as parts of the highest, half a cycle
+per pixel.  Everything is float32 or complex64, of any size, odd ones included.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+
+from engine.numeric.hashing import fold_key, hash_plane
+
+SPREAD = 0.36  # standard deviation of a texture of nominal range -1..1: one pixel in 200 leaves it
+WINDOW = 0.22  # standard deviation of the radial window, in sides of the sample
+_DOMAIN = 0x73706563  # "spec": tells these hashes from those of other textures
+
+Phase = np.ndarray | int | None  # radians (..., h, w); the seed of random ones; zero everywhere
+_AXES = (-2, -1)
+
+
+def frequencies(height: int, width: int) -> tuple[np.ndarray, np.ndarray]:
+    """Vertical (h, 1) and horizontal (1, w) frequency in parts of the highest, -1..1; float32."""
+    v = (np.arange(height) - height // 2) * (2.0 / height)
+    u = (np.arange(width) - width // 2) * (2.0 / width)
+    return v.astype(np.float32)[:, None], u.astype(np.float32)[None]
+
+
+def radial_window(height: int, width: int | None = None, sigma: float = WINDOW) -> np.ndarray:
+    """The radial Gaussian that keeps a sample's edges out of the field: float32 (h, w), 1 in the middle.
+
+    `sigma` in sides of the sample.  What is left at the rim, half a side from the middle, is taken off, so that the
+    window ends at exactly zero (Lewis 1984, section 5.2).
+    """
+    width = height if width is None else width
+    y = (np.arange(height) + 0.5) / height - 0.5
+    x = (np.arange(width) + 0.5) / width - 0.5
+    squared = y[:, None] ** 2 + x[None] ** 2
+    rim = np.exp(-0.125 / sigma**2)
+    window = (np.exp(-0.5 * squared / sigma**2) - rim) / (1.0 - rim)
+    return np.maximum(window, 0.0).astype(np.float32)
+
+
+def opposite(spectrum: np.ndarray) -> np.ndarray:
+    """The values at the opposite frequency, F(-u, -v), at each place."""
+    rows, columns = ((2 * (n // 2) - np.arange(n)) % n for n in spectrum.shape[-2:])
+    return spectrum[..., rows[:, None], columns[None]]
+
+
+def symmetric(amplitude: np.ndarray) -> np.ndarray:
+    """Both halves of a spectrum of which either was painted: the larger of F(u, v) and F(-u, -v)."""
+    return np.maximum(amplitude, opposite(amplitude))
+
+
+@lru_cache(maxsize=2)
+def _random_phasors(height: int, width: int, seed: int) -> np.ndarray:
+    """Two independent sets of phases, each F(-u, -v) = F*(u, v), as e^(i p) + i e^(i q): complex64 (h, w).
+
+    The real and the imaginary part of the inverse transform are then two textures of the same amplitudes.
+    """
+    hashed = hash_plane(fold_key(_DOMAIN, seed), 0, 0, width, height)
+    out = np.zeros((height, width), np.complex64)
+    for shift, unit in ((8, 1.0), (40, 1.0j)):
+        turns = ((hashed >> np.uint64(shift)) & np.uint64(0xFFFFFF)).astype(np.float32)
+        # The difference of two even distributions on a circle is even again, and changes sign with the frequency.
+        angles = (turns - opposite(turns)) * np.float32(2.0 * np.pi / (1 << 24))
+        out += np.complex64(unit) * (np.cos(angles) + np.complex64(1j) * np.sin(angles))
+    out.flags.writeable = False
+    return out
+
+
+def inverse(amplitude: np.ndarray, phase: Phase = None) -> np.ndarray:
+    """The inverse transform of a centred amplitude spectrum: complex64 (..., h, w).
+
+    `phase`: radians, or the seed of random ones, or None for zero, which gathers all in the sample's middle.
+    """
+    spectrum: np.ndarray = np.asarray(amplitude, np.float32)
+    height, width = spectrum.shape[-2:]
+    if isinstance(phase, np.ndarray):
+        angles = phase.astype(np.float32, copy=False)
+        spectrum = spectrum * (np.cos(angles) + np.complex64(1j) * np.sin(angles))
+    elif phase is not None:
+        spectrum = spectrum * _random_phasors(height, width, int(phase))
+    sample = np.fft.ifft2(np.fft.ifftshift(spectrum, axes=_AXES), axes=_AXES)
+    if phase is None:
+        sample = np.fft.fftshift(sample, axes=_AXES)
+    return sample.astype(np.complex64, copy=False)
+
+
+def forward(image: np.ndarray) -> np.ndarray:
+    """The centred spectrum of real or complex pictures: complex64 (..., h, w).
+
+    Of a real, asymmetric pattern it is itself a texture (the forward variant of section 5.1).
+    """
+    found = np.fft.fftshift(np.fft.fft2(np.asarray(image), axes=_AXES), axes=_AXES)
+    return found.astype(np.complex64, copy=False)
+
+
+def _log(sample: np.ndarray) -> np.ndarray:
+    magnitude = np.abs(sample)
+    least = 1e-3 * float(magnitude.mean())
+    return np.log(magnitude + np.float32(least if least > 0.0 else 1.0))
+
+
+# What a texture takes of a complex sample: name -> complex64 (..., h, w) to float32.
+PARTS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "real": np.real,
+    "imaginary": np.imag,
+    "magnitude": np.abs,
+    "log": _log,
+    "phase": np.angle,
+}
+
+
+def normalised(values: np.ndarray) -> np.ndarray:
+    """Mean 0 (of each plane) and standard deviation SPREAD (of all planes together); float32, zeros if it is flat."""
+    out = np.asarray(values, np.float32)
+    out = out - out.mean(axis=_AXES, keepdims=True, dtype=np.float64).astype(np.float32)
+    size = float(np.abs(out).max(initial=0.0))
+    if not size > 0.0 or not np.isfinite(size):
+        return np.zeros_like(out)
+    out /= np.float32(size)  # so that no square leaves the range of float32
+    spread = float(np.sqrt(np.square(out).mean(dtype=np.float64)))
+    return out * np.float32(SPREAD / spread)
+
+
+def texture_of(amplitude: np.ndarray, phase: Phase = None, part: str = "real", forward: bool = False) -> np.ndarray:
+    """The texture whose spectrum was painted: float32 like `amplitude`, mean 0, standard deviation SPREAD.
+
+    It is not clipped to -1..1, and tiles without seams.  `part`: a row of PARTS.  With `forward`, `amplitude`
+    is a pattern, mean taken off, and the texture a part of its spectrum (times the phases, if any).
+    """
+    given = np.asarray(amplitude, np.float32)
+    if not forward:
+        return normalised(PARTS[part](inverse(given, phase)))
+    pattern = given - given.mean(axis=_AXES, keepdims=True)
+    return normalised(PARTS[part](np.conj(inverse(pattern, phase))))
+
+
+def image_spectrum(image: np.ndarray, window: bool = True) -> np.ndarray:
+    """The amplitude spectrum of pictures (..., h, w), means taken off: float32, centred.
+
+    With `window`, their edges are kept out of it.
+    """
+    values = np.asarray(image, np.float32)
+    if window:
+        weights = radial_window(*values.shape[-2:])
+        total = max(float(weights.sum()), 1e-9)
+        values = (values - (values * weights).sum(axis=_AXES, keepdims=True) / np.float32(total)) * weights
+    else:
+        values = values - values.mean(axis=_AXES, keepdims=True)
+    return np.abs(forward(values))
+
+
+def power(image: np.ndarray) -> np.ndarray:
+    """The power spectrum of pictures (..., h, w), means taken off: float64, centred; its mean is
+    their variance."""
+    values = np.asarray(image, np.float64)
+    values = values - values.mean(axis=_AXES, keepdims=True)
+    found = np.fft.fftshift(np.fft.fft2(values, axes=_AXES), axes=_AXES)
+    return np.square(np.abs(found)) / (values.shape[-2] * values.shape[-1])
+
+
+def radial_mean(spectrum: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(frequencies, means) of a centred spectrum (h, w) over rings one step of the longer side wide: float64 each.
+
+    Frequencies in cycles per pixel, from the first ring beyond zero to 1/2.
+    """
+    height, width = spectrum.shape
+    v, u = frequencies(height, width)
+    longer = max(height, width)
+    ring = np.rint(np.hypot(v, u) * (longer / 2.0)).astype(np.int64).ravel()
+    count = np.bincount(ring)
+    total = np.bincount(ring, weights=np.asarray(spectrum, np.float64).ravel())
+    last = max(longer // 2, 1)
+    rings = np.arange(1, last + 1)
+    rings = rings[(rings < count.size) & (count[np.minimum(rings, count.size - 1)] > 0)]
+    return rings / longer, total[rings] / count[rings]
