@@ -16,9 +16,10 @@ from engine.brush import coat
 from engine.brush.checks import BrushError, shown, thawed
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
-from engine.brush.record import Brush
+from engine.brush.record import Brush, to_json
 from engine.brush.stamp import Edit, Stamp
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.shaping import is_identity
 from engine.texture.planes import COLOURS, Planes
 
 Read = Callable[[Rect], Planes]
@@ -157,16 +158,13 @@ def check(brush: Brush, where: str = "brush") -> None:
         raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
     if brush.op != "toward":
         raise BrushError(f"{where}.op", shown(thawed(brush.op)), 'the one this version paints with, "toward"')
-    for name in ("density", "grain", "example", "depth"):
+    for name in ("density", "grain", "edge", "tip", "example", "depth"):
         if getattr(brush, name) is not None:
-            raise BrushError(
-                f"{where}.{name}", shown(thawed(getattr(brush, name))), "none: this version paints without"
-            )
-    if brush.shaping not in _IDENTITY:
+            raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
+    if brush.extent:
+        raise BrushError(f"{where}.extent", "true", "false: this version paints without")
+    if not is_identity(brush.shaping):
         raise BrushError(f"{where}.shaping", shown(brush.shaping), "none: this version paints without")
-
-
-_IDENTITY = (None, "identity", ((0.0, 0.0), (1.0, 1.0)))
 
 
 def edit(

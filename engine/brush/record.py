@@ -12,11 +12,14 @@ from typing import Any
 
 from immutables import Map
 
-from engine.brush import checks
+from engine.brush import checks, parts
 from engine.brush.checks import BrushError, Knots
+from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
+from engine.numeric.shaping import Shape
+
+__all__ = ["COMPONENTS_CAP", "SETTINGS", "Brush", "Component", "Curve", "Setting", "from_json", "to_json"]
 
 MODE_NAMES = ("paint", "erase", "smooth", "raster", "example")
-COMPONENTS_CAP = 8
 FORMULA_CAP = 4096
 
 Curve = str | Knots  # "pressure", or knots [in, out]
@@ -92,20 +95,6 @@ SETTINGS: dict[str, Setting] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Component:
-    """One texture of a brush's ink: how much of it, towards which colour, and its own parameters by name."""
-
-    texture: str
-    amount: float = 1.0
-    colour: str = "#ffffff"
-    parameters: Map[str, Any] = field(default_factory=Map)
-
-    @property
-    def rgb(self) -> tuple[float, float, float]:
-        return checks.rgb(self.colour)
-
-
-@dataclass(frozen=True, slots=True)
 class Brush:
     """A brush; immutable and hashable.  BrushError if a number is out of its range.
 
@@ -122,9 +111,12 @@ class Brush:
     colour: str = "#000000"
     ink: tuple[Component, ...] = ()
     op: str | Map[str, Any] = "toward"
-    density: Any = None
-    grain: Any = None
-    shaping: Curve | None = None
+    density: Surface | None = None
+    grain: Surface | None = None
+    shaping: Shape | None = None
+    edge: Edge | None = None
+    tip: Tip | None = None
+    extent: bool = False
     example: str | None = None
     depth: float | None = None
     dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
@@ -157,7 +149,7 @@ def to_json(brush: Brush) -> dict[str, Any]:
         value = getattr(brush, part.name)
         if part.name == "extra" or (part.name in _RARE and value == _RARE[part.name]):
             continue
-        data[part.name] = [_component_json(c) for c in value] if part.name == "ink" else checks.thawed(value)
+        data[part.name] = parts.WRITERS.get(part.name, checks.thawed)(value)
     return data | checks.thawed(brush.extra)
 
 
@@ -167,14 +159,12 @@ _RARE: dict[str, Any] = {
     "density": None,
     "grain": None,
     "shaping": None,
+    "edge": None,
+    "tip": None,
+    "extent": False,
     "example": None,
     "depth": None,
 }
-
-
-def _component_json(component: Component) -> dict[str, Any]:
-    own = {"texture": component.texture, "amount": component.amount, "colour": component.colour}
-    return own | checks.thawed(component.parameters)
 
 
 # ---- one reader a field: (value, place) -> what Brush holds ---------------------------------------------------------
@@ -189,23 +179,6 @@ def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
     return lambda value, place: None if value is None else read(value, place)
 
 
-def _ink(value: Any, place: str) -> tuple[Component, ...]:
-    if not isinstance(value, list | tuple) or len(value) > COMPONENTS_CAP:
-        raise BrushError(place, checks.shown(value), f"a list of at most {COMPONENTS_CAP} components")
-    return tuple(_component(part, f"{place}[{i}]") for i, part in enumerate(value))
-
-
-def _component(value: Any, place: str) -> Component:
-    if not isinstance(value, Mapping):
-        raise BrushError(place, checks.shown(value), 'an object {"texture": NAME, ...}')
-    return Component(
-        checks.text(value.get("texture"), f"{place}.texture", "a texture's name"),
-        checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0),
-        checks.colour(value.get("colour", "#ffffff"), f"{place}.colour"),
-        checks.frozen({k: v for k, v in value.items() if k not in ("texture", "amount", "colour")}),
-    )
-
-
 def _op(value: Any, place: str) -> str | Map[str, Any]:
     if isinstance(value, str):
         return checks.text(value, place, "a raster operation")
@@ -213,21 +186,6 @@ def _op(value: Any, place: str) -> str | Map[str, Any]:
         raise BrushError(place, checks.shown(value), 'a name or {"formula": "..."}')
     checks.text(value["formula"], f"{place}.formula", "a formula", FORMULA_CAP)
     return checks.frozen(value)
-
-
-def _textured(value: Any, place: str) -> Any:
-    """A texture's name, or an object that holds one and perhaps an amount."""
-    if isinstance(value, str):
-        return checks.text(value, place, "a texture's name")
-    if not isinstance(value, Mapping):
-        raise BrushError(place, checks.shown(value), 'a texture\'s name or {"texture": NAME, ...}')
-    checks.text(value.get("texture"), f"{place}.texture", "a texture's name")
-    checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0)
-    return checks.frozen(value)
-
-
-def _curve(value: Any, place: str) -> Curve:
-    return checks.text(value, place, "a curve's name") if isinstance(value, str) else checks.knots(value, place)
 
 
 def _dynamics(value: Any, place: str) -> Map[str, Any]:
@@ -250,11 +208,14 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     **{name: _setting(name) for name in SETTINGS},
     "mode": lambda value, place: checks.one_of(value, place, MODE_NAMES),
     "colour": checks.colour,
-    "ink": _ink,
+    "ink": parts.ink,
     "op": _op,
-    "density": _optional(_textured),
-    "grain": _optional(_textured),
-    "shaping": _optional(_curve),
+    "density": _optional(parts.surface),
+    "grain": _optional(parts.surface),
+    "shaping": parts.shaping,
+    "edge": _optional(parts.edge),
+    "tip": _optional(parts.tip),
+    "extent": parts.flag,
     "example": _optional(lambda value, place: checks.text(value, place, "an example's name")),
     "depth": _optional(lambda value, place: checks.number(value, place, -(2.0**31), 2.0**31)),
     "dynamics": _dynamics,

@@ -11,6 +11,7 @@ from immutables import Map
 
 from engine.brush.checks import BrushError
 from engine.brush.kinds import check
+from engine.brush.parts import Edge, Surface
 from engine.brush.record import SETTINGS, Brush, from_json, to_json
 
 EVERYTHING = {
@@ -21,11 +22,24 @@ EVERYTHING = {
     "spacing": 0.5,
     "mode": "example",
     "colour": "#a0b1c2",
-    "ink": [{"texture": "rock", "amount": 0.5, "colour": "#102030", "period": 64, "seed": 3, "new": [1, {"a": None}]}],
+    "ink": [
+        {
+            "texture": "rock",
+            "amount": 0.5,
+            "colour": "#102030",
+            "period": 64,
+            "seed": 3,
+            "shaping": "power",
+            "new": [1, {"a": None}],
+        }
+    ],
     "op": {"formula": "1 - pic"},
     "density": "paper",
-    "grain": {"texture": "canvas", "amount": 0.3},
+    "grain": {"texture": "canvas", "amount": 0.3, "level": 2, "shaping": "negate", "period": 40},
     "shaping": [[0, 1], [0.5, 0.25], [1, 0]],
+    "edge": {"curve": "worn", "width": 0.25, "amount": 0.5, "colour": "#102030"},
+    "tip": {"texture": "leaf", "from": "window", "shaping": [[0, 0], [1, 1]], "period": 12},
+    "extent": True,
     "example": "leaves",
     "depth": 2,
     "dynamics": {"radius": "pressure", "opacity": [[0, 0.1], [1, 1]], "sparkle": {"of": "later"}},
@@ -115,6 +129,27 @@ HOSTILE = [
     ({"grain": {"texture": "canvas", "amount": "much"}}, "brush.grain.amount"),
     ({"shaping": []}, "brush.shaping"),
     ({"shaping": [[0, 0], [0, 1]]}, "brush.shaping[1]"),
+    ({"shaping": [[0, 0], [1, 1.5]]}, "brush.shaping[1]"),
+    ({"shaping": [[i / 64, 0.5] for i in range(65)]}, "brush.shaping"),
+    ({"shaping": "bend"}, "brush.shaping"),
+    ({"shaping": 2}, "brush.shaping"),
+    ({"ink": [{"texture": "rock", "shaping": [[0.5, -1]]}]}, "brush.ink[0].shaping[0]"),
+    ({"density": {"texture": "rock", "shaping": "wet"}}, "brush.density.shaping"),
+    ({"grain": {"texture": "rock", "level": 0.5}}, "brush.grain.level"),
+    ({"grain": {"texture": "rock", "level": 10**9}}, "brush.grain.level"),
+    ({"grain": []}, "brush.grain"),
+    ({"edge": "negate"}, "brush.edge"),
+    ({"edge": {"curve": "negate"}}, "brush.edge.curve"),
+    ({"edge": {"width": 5}}, "brush.edge.width"),
+    ({"edge": {"amount": True}}, "brush.edge.amount"),
+    ({"edge": {"colour": "blue"}}, "brush.edge.colour"),
+    ({"edge": {"wide": 5}}, "brush.edge.wide"),
+    ({"edge": 0.5}, "brush.edge"),
+    ({"tip": 3}, "brush.tip"),
+    ({"tip": {"from": "sample"}}, "brush.tip.texture"),
+    ({"tip": {"texture": "a", "from": "field"}}, "brush.tip.from"),
+    ({"extent": 1}, "brush.extent"),
+    ({"extent": None}, "brush.extent"),
     ({"example": 3}, "brush.example"),
     ({"depth": "deep"}, "brush.depth"),
     ({"dynamics": []}, "brush.dynamics"),
@@ -160,8 +195,11 @@ def test_a_brush_made_in_the_program_is_checked_too():
         ({"op": "multiply"}, "brush.op"),
         ({"op": {"formula": "pic"}}, "brush.op"),
         ({"density": "rock"}, "brush.density"),
-        ({"grain": {"texture": "canvas"}}, "brush.grain"),
-        ({"shaping": "negation"}, "brush.shaping"),
+        ({"grain": {"texture": "canvas", "amount": 0.5}}, "brush.grain"),
+        ({"shaping": "negate"}, "brush.shaping"),
+        ({"edge": "wet"}, "brush.edge"),
+        ({"tip": "leaf"}, "brush.tip"),
+        ({"extent": True}, "brush.extent"),
         ({"example": "leaves"}, "brush.example"),
     ],
 )
@@ -179,6 +217,23 @@ def test_what_this_version_cannot_paint_is_kept_but_refused_at_use(data, place):
 )
 def test_ordinary_brushes_are_usable(data):
     check(from_json(data))
+
+
+def test_the_short_forms_and_the_defaults_left_out():
+    brush = from_json(
+        {
+            "density": {"texture": "rock", "amount": 1.0, "level": 0},
+            "grain": "paper",
+            "edge": {"curve": "dark"},
+            "tip": {"texture": "leaf", "from": "sample"},
+            "extent": False,
+            "shaping": None,
+        }
+    )
+    assert brush.density == Surface("rock")
+    assert brush.edge == Edge("dark", 0.5, 1.0, None)
+    written = {name: v for name, v in to_json(brush).items() if name not in to_json(Brush())}
+    assert written == {"density": "rock", "grain": "paper", "edge": "dark", "tip": "leaf"}
 
 
 def test_dynamics_given_replace_the_default_ones():
