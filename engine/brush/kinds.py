@@ -17,7 +17,7 @@ from engine.brush.checks import BrushError, shown, thawed
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.record import Brush, to_json
-from engine.brush.stamp import Edit, Stamp
+from engine.brush.stamp import WHOLE, Edit, Stamp
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.shaping import is_identity
 from engine.texture.planes import COLOURS, Planes
@@ -51,16 +51,21 @@ class _Covered:
     def rect(self) -> Rect:
         return self.coverage.rect
 
-    def _keep(self, key: TileKey) -> np.ndarray | None:
-        """A of a tile, or None where nothing is covered."""
+    @property
+    def spares_alpha(self) -> bool:
+        return self.locked
+
+    def _keep(self, key: TileKey) -> tuple[np.ndarray, np.ndarray] | None:
+        """A of a tile and the spans outside which it is 1 (`Stamp.spans`), or None where nothing is covered."""
         covered = self.coverage.tiles.get(key)
         if covered is None:
             return None
         keep = np.empty((TILE, TILE), np.float32)
         if not isinstance(covered, np.ndarray):
             keep[...] = 1.0 - np.rint(covered * 65536.0) / 65536.0
-            return keep if keep[0, 0] < 1.0 else None
-        return keep if coat.keep_of(covered, keep) else None
+            return (keep, WHOLE) if keep[0, 0] < 1.0 else None
+        spans = np.empty((TILE, 2), np.int32)
+        return (keep, spans) if coat.keep_of(covered, keep, spans) else None
 
 
 class Painting(_Covered):
@@ -72,33 +77,42 @@ class Painting(_Covered):
         alike = covered if isinstance(covered, float) and not self.ink.loaded and not self.locked else None
         if alike in self._flat:
             return self._flat[alike]
-        keep = self._keep(key)
-        if keep is None:
+        kept = self._keep(key)
+        if kept is None:
             return None
+        keep, spans = kept
         parts = self.ink.loaded
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
-        if parts and not self.locked:
-            coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
+        if self.locked:
+            self._glaze(keep, key, old, add)
             return Stamp(keep, add, self.ink.inks)
-        weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
         if parts:
-            coat.glaze(weight, self.ink.field(key), add[:_ALPHA])
+            coat.load(keep, spans, self.ink.field(key), self.ink.amplitudes, add)
         else:
-            coat.wash(weight, self.ink.base, add[:_ALPHA])
-        for i, part in enumerate(parts):
-            coat.wash(weight, part.amplitude, add[COLOURS + 3 * i : COLOURS + 3 * i + 3])
-        made = Stamp(keep, add, self.ink.inks)
+            coat.lay(keep, spans, self.ink.base, add)
+        made = Stamp(keep, add, self.ink.inks, spans)
         if alike is not None:
             self._flat[alike] = made
         return made
+
+    def _glaze(self, keep: np.ndarray, key: TileKey, old: Planes, add: np.ndarray) -> None:
+        """B under alpha lock: as `coat.load` and `coat.lay`, the paint weighed by the alpha that lies there."""
+        assert self.ink is not None
+        weight = coat.weigh(keep, old.data[_ALPHA], True, add[_ALPHA])
+        if self.ink.loaded:
+            coat.glaze(weight, self.ink.field(key), add[:_ALPHA])
+        else:
+            coat.wash(weight, self.ink.base, add[:_ALPHA])
+        for i, part in enumerate(self.ink.loaded):
+            coat.wash(weight, part.amplitude, add[COLOURS + 3 * i : COLOURS + 3 * i + 3])
 
 
 class Erasing(_Covered):
     """Takes away colour, alpha, ink and all finer detail.  Under alpha lock there is nothing it may take."""
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
-        keep = None if self.locked else self._keep(key)
-        return None if keep is None else Stamp(keep, _NOTHING)
+        kept = None if self.locked else self._keep(key)
+        return None if kept is None else Stamp(kept[0], _NOTHING, spans=kept[1])
 
 
 class Smoothing(_Covered):
@@ -110,9 +124,10 @@ class Smoothing(_Covered):
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
         assert self.read is not None
-        keep = self._keep(key)
-        if keep is None:
+        kept = self._keep(key)
+        if kept is None:
             return None
+        keep = kept[0]
         reach = min(max(round(self.brush.radius / 4.0), 1), REACH_CAP)
         around = self.read(key.rect.grown(2 * reach)).data[:COLOURS]
         mean = coat.local_mean(np.ascontiguousarray(around), reach)

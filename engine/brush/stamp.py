@@ -3,28 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 
-from engine.numeric.address import Rect, TileKey
+from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import Planes
 from engine.texture.record import Instance
+
+WHOLE = np.tile(np.array([0, TILE], np.int32), (TILE, 1))  # every column of every row; not to be written to
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stamp:
     """What an edit does to one tile; not to be written to (tiles with the same change share one stamp).
 
-    `keep`: A, float32 (128, 128) on the grid, 0..1: the part of every plane, and of all finer detail, that stays.
+    `keep`: A, float32 (128, 128) on the grid, -1..2: the part of every plane, and of all finer detail, that stays.
+    Paint has 0..1; more than 1 raises the contrast of what lies there, below 0 turns it round.  An edit whose A is not
+    within 0..1 sees to it that ink stays within -2..2.
     `add`: B, float32 (4 + 3n, 128, 128) on the grid: premultiplied R, G, B, A, then red, green and blue amplitude of
     each of the n `inks`, which are sorted by key.
+    `spans`: int32 (128, 2), the columns [first, last) of each row outside which nothing changes: A and B are not read
+    there, but A is to be 1.
     """
 
     keep: np.ndarray
     add: np.ndarray
     inks: tuple[Instance, ...] = ()
+    spans: np.ndarray = field(default_factory=lambda: WHOLE)
 
 
 class Edit(Protocol):
@@ -41,6 +48,11 @@ class Edit(Protocol):
     @property
     def rect(self) -> Rect:
         """A rectangle of pixels of `level` outside which nothing changes."""
+        ...
+
+    @property
+    def spares_alpha(self) -> bool:
+        """Whether alpha stays as it is at every level, whatever A is; B of alpha then counts for nothing."""
         ...
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:

@@ -1,6 +1,7 @@
 """Attenuation that still waits: strokes at coarser levels weaken the detail stored below them (rule of the pyramid).
 
-A finer record keeps the part 1 - alpha of itself for every later stroke above it.  The stroke's A is carried to the
+A finer record keeps the part A of itself for every later stroke above it: 1 - alpha where paint covers, more than 1
+or less than 0 where contrast is raised or colours are turned round.  The stroke's A is carried to the
 record's level by expand, and applied in the order of the commits when the record is next read.
 """
 
@@ -25,7 +26,7 @@ def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
         keep = attenuation(change, key.level, at)
         if keep is not None:
             out = np.empty(data.shape, np.int32)
-            kernels.attenuate(data, keep, out)
+            kernels.attenuate(data, keep, change.spares_alpha, out)
             data = out
     return record if data is record.data else Record(record.rect, data, record.inks, pyramid.depth)
 

@@ -60,7 +60,7 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
         changed = _by_slabs(pyramid, edit, keys, records, keeps, cache)
     if not records and not keeps:
         return pyramid
-    after = _with_records(pyramid, edit.level, changed, keeps or None, records)
+    after = _with_records(pyramid, edit, changed, keeps or None, records)
     if cache is not None:
         for tile in painted:  # they are on the screen
             cache.adopt(after, tile.key, tile.new)
@@ -182,10 +182,11 @@ def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
     )
 
 
-def _with_records(pyramid: Pyramid, level: int, rect: Rect, keeps: Keeps | None, records: NewRecords) -> Pyramid:
-    last = pyramid.last
+def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None, records: NewRecords) -> Pyramid:
+    last, depth = pyramid.last, pyramid.depth + 1
     attenuating = last if last is not None and last.keep is not None else (last.attenuating if last else None)
-    change = Change(level, rect, keeps, last, depth=pyramid.depth + 1, attenuating=attenuating)
+    spares = edit.spares_alpha
+    change = Change(edit.level, rect, keeps, last, depth=depth, attenuating=attenuating, spares_alpha=spares)
     by_level: dict[int, list[TileKey]] = {}
     for key in records:
         by_level.setdefault(key.level, []).append(key)

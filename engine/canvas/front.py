@@ -28,6 +28,7 @@ class Front:
     new: Planes
     keep: np.ndarray
     changed: np.ndarray
+    spares_alpha: bool = False  # whether the change leaves alpha alone, at all levels
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -110,19 +111,19 @@ def climbed(front: Front, above: Surroundings) -> Front | None:
     below = Below.blank(at, inks)
     top, left = (front.rect.y0 >> 1) - at.y0, (front.rect.x0 >> 1) - at.x0
     below.add(front.old, front.new, front.keep, front.changed, top, left)
-    return lifted(front.level - 1, at, below, above)
+    return lifted(front.level - 1, at, below, above, front.spares_alpha)
 
 
-def lifted(level: int, rect: Rect, below: Below, above: Surroundings) -> Front | None:
+def lifted(level: int, rect: Rect, below: Below, above: Surroundings, spares_alpha: bool) -> Front | None:
     """Rule U on `rect` of `level`, whose old values `above` holds; None when nothing changes."""
     if above.planes is None:
         before = Planes(np.zeros_like(below.old), below.inks)
     else:
         before = widened(above.planes.cut(*rect.slices(above.rect)), below.inks)
     new, changed = np.empty_like(before.data), np.empty_like(below.parents)
-    if not kernels.climb(below.old, below.new, below.keep, below.parents, before.data, new, changed):
+    if not kernels.climb(below.old, below.new, below.keep, below.parents, spares_alpha, before.data, new, changed):
         return None
-    return Front(level, rect, before, Planes(new, below.inks), below.keep, changed)
+    return Front(level, rect, before, Planes(new, below.inks), below.keep, changed, spares_alpha)
 
 
 def cut_front(front: Front, rect: Rect) -> Front | None:
@@ -134,7 +135,7 @@ def cut_front(front: Front, rect: Rect) -> Front | None:
     old = widened(front.old.cut(*window), front.old.inks)
     new = widened(front.new.cut(*window), front.new.inks)
     keep, changed = np.ascontiguousarray(front.keep[window]), np.ascontiguousarray(front.changed[window])
-    return Front(front.level, at, old, new, keep, changed)
+    return Front(front.level, at, old, new, keep, changed, front.spares_alpha)
 
 
 def joined(pyramid: Pyramid, fronts: Sequence[Front], cache: TileCache | None) -> Front:
@@ -153,4 +154,4 @@ def joined(pyramid: Pyramid, fronts: Sequence[Front], cache: TileCache | None) -
         rows, columns = front.rect.slices(rect)
         new[:, rows, columns] = widened(front.new, inks).data
         keep[rows, columns], changed[rows, columns] = front.keep, front.changed
-    return Front(level, rect, old, Planes(new, inks), keep, changed)
+    return Front(level, rect, old, Planes(new, inks), keep, changed, fronts[0].spares_alpha)

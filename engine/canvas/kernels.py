@@ -16,6 +16,7 @@ _QUARTER = np.float32(0.25)
 # A coarse pixel that differs from the mean of its children by no more than this is taken to equal it: the rounding
 # lag of many strokes, each below the grid at the coarse level, heals instead of adding up.
 _LAG = np.float32(2.0 * 2.0**-16)
+_STEEPEST = np.float32(8.0)  # the residual up to which strokes can amplify detail, again and again
 
 
 @njit(cache=True, nogil=True)
@@ -70,40 +71,53 @@ def add_texture(out, amplitudes, plane, detail, first):
 
 
 @njit(cache=True, nogil=True)
-def attenuate(data, keep, out):
-    """out = snap(data * keep) in units of 2^-16: `data` int (C, h, w), `keep` float32 (h, w), `out` int32 (C, h, w)."""
+def attenuate(data, keep, spares_alpha, out):
+    """out = snap(data * keep), within +-8, in units of 2^-16; alpha as it is if `spares_alpha`.
+
+    `data` int (C, h, w), `keep` float32 (h, w), `out` int32 (C, h, w).
+    """
     for c in range(data.shape[0]):
+        spared = spares_alpha and c == 3
         for y in range(data.shape[1]):
             for x in range(data.shape[2]):
-                value = snap(np.float32(data[c, y, x]) * _UNIT * keep[y, x])
-                out[c, y, x] = np.int32(value * _COUNT)
+                value = snap(np.float32(data[c, y, x]) * _UNIT * (_ONE if spared else keep[y, x]))
+                out[c, y, x] = np.int32(min(max(value, -_STEEPEST), _STEEPEST) * _COUNT)
 
 
 @njit(cache=True, nogil=True)
-def apply_stamp(old, keep, add, planes, new, changed):
-    """v' = snap(A v) + B over one tile, alpha clamped to [0, 1].
+def apply_stamp(old, keep, add, planes, spans, spares_alpha, new, changed):
+    """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
 
     Writes `new` (C, n, n) and `changed` (n, n) uint8, 1 where A != 1 or v' != v.  Returns whether any is.
 
-    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.
+    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.  `spans`, int32 (n, 2): the
+    columns of each row outside which v' = v; A and B are not read there.
     """
-    width = keep.shape[1]
-    marks = np.empty(width, np.int32)
+    marks = np.empty(keep.shape[1], np.int32)
     found = np.int32(0)
     for y in range(keep.shape[0]):
-        a, s = keep[y], changed[y]
+        first, last = spans[y, 0], spans[y, 1]
+        width = last - first
+        a, s = keep[y][first:last], changed[y]
+        s[:] = 0
+        s = s[first:last]
         marked = 0
         for i in range(width):
             marks[i] = np.int32(a[i] != _ONE)
             marked += marks[i]
         for c in range(old.shape[0]):
             before, after = old[c, y], new[c, y]
+            if width < before.size:
+                after[:first], after[last:] = before[:first], before[last:]
+            before, after = before[first:last], after[first:last]
             source = planes[c]
-            if source < 0:
+            if c == 3 and spares_alpha:
+                after[:] = before
+            elif source < 0:
                 for i in range(width):
                     after[i] = snap(a[i] * before[i])
             else:
-                b = add[source, y]
+                b = add[source, y][first:last]
                 for i in range(width):
                     after[i] = snap(a[i] * before[i]) + b[i]
             if c == 3:
@@ -167,12 +181,13 @@ def marked(marks):
 
 
 @njit(cache=True, nogil=True)
-def climb(below_old, below_new, keep, parents, old, new, changed):
+def climb(below_old, below_new, keep, parents, spares_alpha, old, new, changed):
     """Rule U: what a change of the level below does to this one.
 
     r = v - R v_below (zero where it is only lag);  v' = R v'_below + snap(A r) on `parents` of changed pixels, v
-    elsewhere.  `below_old`, `below_new` are R of the level below before and after, (C, h, w); `old` is v; `new` and
-    `changed` are written, and `keep`, A (h, w), set to 1 off `parents`.  Returns whether anything changed.
+    elsewhere, and everywhere for alpha if `spares_alpha`.  `below_old`, `below_new` are R of the level below before and
+    after, (C, h, w); `old` is v; `new` and `changed` are written, and `keep`, A (h, w), set to 1 off `parents`.
+    Returns whether anything changed.
     """
     width = keep.shape[1]
     marks = np.empty(width, np.int32)
@@ -184,6 +199,9 @@ def climb(below_old, below_new, keep, parents, old, new, changed):
             marks[i] = np.int32(a[i] != _ONE)
         for c in range(old.shape[0]):
             v, w, before, after = old[c, y], new[c, y], below_old[c, y], below_new[c, y]
+            if c == 3 and spares_alpha:
+                w[:] = v
+                continue
             for i in range(width):
                 r = v[i] - before[i]
                 r = _ZERO if abs(r) <= _LAG else r

@@ -35,6 +35,7 @@ class Painted:
     new: Planes
     keep: np.ndarray
     changed: np.ndarray
+    spares_alpha: bool
 
     @property
     def bounds(self) -> Rect:
@@ -66,9 +67,10 @@ def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
     inks = merged(() if old is None else old.inks, stamp.inks)
     before = Planes(_zeros(COLOURS + 3 * len(inks)), inks) if old is None else widened(old, inks)
     new, changed = np.empty_like(before.data), np.empty((TILE, TILE), np.uint8)
-    if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, plane_map(stamp.inks, inks), new, changed):
+    planes, spares = plane_map(stamp.inks, inks), edit.spares_alpha
+    if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.spans, spares, new, changed):
         return None
-    return Painted(key, None if old is None else before, Planes(new, inks), stamp.keep, changed)
+    return Painted(key, None if old is None else before, Planes(new, inks), stamp.keep, changed, spares)
 
 
 def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
@@ -103,4 +105,4 @@ def lift(painted: Iterable[Painted], above: Surroundings, level: int) -> Front |
     for tile in tiles:
         corner = tile.key.rect.zoomed(-1)
         below.add(tile.old, tile.new, tile.keep, tile.changed, corner.y0 - rect.y0, corner.x0 - rect.x0)
-    return lifted(level, rect, below, above)
+    return lifted(level, rect, below, above, tiles[0].spares_alpha)

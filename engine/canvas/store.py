@@ -48,8 +48,8 @@ class Record:
 class Change:
     """One commit, linked to the one before.
 
-    `level`, `rect`: where pixels changed.  `keep`: A = 1 - alpha at that level by tile, float32 (128, 128), 1
-    elsewhere; None when no finer tile was stored under the stroke, so that nothing waits for it.
+    `level`, `rect`: where pixels changed.  `keep`: A at that level by tile, float32 (128, 128), 1 elsewhere; None when
+    no finer tile was stored under the stroke, so that nothing waits for it.  `spares_alpha`: alpha keeps all of itself.
     """
 
     level: int
@@ -59,6 +59,7 @@ class Change:
     serial: int = field(default_factory=lambda: next(_serials))
     depth: int = 1
     attenuating: Change | None = None  # the newest change before this one that has a `keep`
+    spares_alpha: bool = False
 
     def reach(self, level: int) -> Rect:
         """The pixels of `level` whose value this change can alter (notes of the pyramid: locality)."""

@@ -65,6 +65,7 @@ class Pasted:
     pixels: np.ndarray  # uint8 or uint16 RGBA (h, w, 4)
     rect: Rect
     level: int = 0
+    spares_alpha: bool = False
 
     @property
     def tiles(self) -> Sequence[TileKey]:

@@ -102,8 +102,10 @@ class Dense:
         v[3] = np.clip(v[3], 0, 1)
         self.v[k] = v
 
-    def paint(self, m, x0, y0, keep, add):
-        """v' = snap(A v) + B at level m; keep (h, w), add (planes, h, w) on the grid."""
+    def paint(self, m, x0, y0, keep, add, spares_alpha=False):
+        """v' = snap(A v) + B at level m, but not of alpha if that is spared; keep (h, w), add (planes, h, w) on the
+        grid."""
+        residuals = {k: d[3].copy() for k, d in self.d.items()}
         h, (rows, columns) = self.half[m], keep.shape
         a = np.ones((2 * h, 2 * h))
         b = np.zeros((self.planes, 2 * h, 2 * h))
@@ -111,14 +113,14 @@ class Dense:
         b[:, y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = add
         old = {k: v.copy() for k, v in self.v.items()}
         new = product(np.broadcast_to(a, self.v[m].shape), self.v[m]) + b
-        new[3] = np.clip(new[3], 0, 1)
+        new[3] = old[m][3] if spares_alpha else np.clip(new[3], 0, 1)
         self.v[m] = new
         marks = {m: (a != 1) | (new != old[m]).any(0)}
         aj = a
         for j in range(m - 1, self.coarsest - 1, -1):
             if not marks[j + 1].any():
                 break
-            aj = self.climb(j, old, aj, marks)
+            aj = self.climb(j, old, aj, marks, spares_alpha)
         else:
             assert not marks[self.coarsest].any(), "the reference needs more coarse levels"
         for k in range(self.coarsest, m + 1):
@@ -126,17 +128,19 @@ class Dense:
         ak = a[None]
         for k in range(m + 1, self.finest + 1):
             ak = self.up(ak, k, 1.0)
-            self.d[k] = product(np.broadcast_to(ak, self.d[k].shape), self.d[k])
+            self.d[k] = np.clip(product(np.broadcast_to(ak, self.d[k].shape), self.d[k]), -8, 8)
+            if spares_alpha:
+                self.d[k][3] = residuals[k]
             self.settle(k)
 
-    def climb(self, j, old, keep, marks):
+    def climb(self, j, old, keep, marks, spares_alpha):
         above = reduce(self.down(keep[None], j, 1.0))[0]
         parents = cell(self.down(marks[j + 1], j, False))
         above = np.where(parents, above, 1.0)
         r = old[j] - reduce(self.down(old[j + 1], j))
         r = np.where(np.abs(r) <= 2 / COUNT, 0, r)
         new = reduce(self.down(self.v[j + 1], j)) + product(np.broadcast_to(above, r.shape), r)
-        new[3] = np.clip(new[3], 0, 1)
+        new[3] = old[j][3] if spares_alpha else np.clip(new[3], 0, 1)
         self.v[j] = np.where(parents, new, old[j])
         marks[j] = (above != 1) | (self.v[j] != old[j]).any(0)
         return above

@@ -47,6 +47,7 @@ class ArrayEdit:
     keep: np.ndarray
     add: np.ndarray
     inks: tuple = ()
+    spares_alpha: bool = False
 
     @property
     def rect(self):
@@ -105,6 +106,16 @@ def random_stroke(rng, finest, half0, inks):
         for c in range(3):
             add[4 + 3 * i + c] = np.rint(alpha * rng.uniform(0, 0.3) * COUNT) / COUNT
     return m, x, y, (1 - alpha).astype(np.float32), add.astype(np.float32)
+
+
+def as_raster_op(rng, keep, add):
+    """A stroke's (A, B) with the same coverage w as those of a raster-op of slope up to +-2: A = 1 + w f', B small."""
+    w = 1 - keep
+    gain = float(rng.choice([-2.0, -1.0, 0.25, 0.5]))
+    keep = np.rint((1 + w * gain) * COUNT) / COUNT
+    add = np.rint(add * 0.2 * COUNT) / COUNT
+    add[3:] = 0
+    return keep.astype(np.float32), add.astype(np.float32)
 
 
 def spread_planes(planes, inks):

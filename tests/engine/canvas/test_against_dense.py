@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from dense import Dense
-from strokes import ArrayEdit, Grain, random_stroke, spread_planes
+from strokes import ArrayEdit, Grain, as_raster_op, random_stroke, spread_planes
 
 from engine.canvas.commit import commit, preview
 from engine.canvas.evaluate import TileCache, evaluate
@@ -52,11 +52,14 @@ def test_every_level_equals_the_dense_reference(seed, inks):
             states, references, unvisited = states[:-back], references[:-back], unvisited[:-back]
             dense.restore(references[-1])
         m, x, y, keep, add = random_stroke(rng, FINEST, HALF, inks)
-        edit = ArrayEdit(m, x, y, keep, add, inks)
+        spares_alpha = bool(rng.random() < 0.2)
+        if spares_alpha:
+            keep, add = as_raster_op(rng, keep, add)
+        edit = ArrayEdit(m, x, y, keep, add, inks, spares_alpha)
         shown = preview(states[-1], edit, edit.rect, cache)
         states.append(commit(states[-1], edit, cache))
         unvisited.append(commit(unvisited[-1], edit))
-        dense.paint(m, x, y, keep, add)
+        dense.paint(m, x, y, keep, add, spares_alpha)
         references.append(dense.snapshot())
         committed = evaluate(states[-1], m, edit.rect, cache)
         np.testing.assert_array_equal(spread_planes(shown, inks), spread_planes(committed, inks))
