@@ -10,10 +10,10 @@ from typing import Any
 
 from immutables import Map
 
+from engine.numeric.shaping import KNOTS_CAP
 from engine.texture.field_error import FieldError
 
 TEXT_CAP = 256  # characters of a name
-KNOTS_CAP = 64
 OUTPUT_CAP = 16.0  # the largest factor by which a curve may multiply a setting
 
 _COLOUR = re.compile("#[0-9a-fA-F]{6}")

@@ -14,7 +14,7 @@ from immutables import Map
 
 from engine.brush import checks
 from engine.brush.checks import BrushError
-from engine.numeric.shaping import CURVES, EDGES, Shape
+from engine.numeric.curves import CURVES, EDGES, Shape
 
 COMPONENTS_CAP = 8
 LEVEL_LIMIT = 4096

@@ -15,7 +15,7 @@ from immutables import Map
 from engine.brush import checks, parts
 from engine.brush.checks import BrushError, Knots
 from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
-from engine.numeric.shaping import Shape
+from engine.numeric.curves import Shape
 
 __all__ = ["COMPONENTS_CAP", "SETTINGS", "Brush", "Component", "Curve", "Setting", "from_json", "to_json"]
 

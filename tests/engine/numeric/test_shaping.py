@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.numeric.shaping import CURVES, EDGES, is_identity, shape, shape_signed, table
+from engine.numeric.curves import CURVES, EDGES
+from engine.numeric.shaping import is_identity, shape, shape_signed, table
 
 T = np.linspace(0, 1, 1025)
 KNOTS = st.lists(st.integers(0, 64), min_size=1, max_size=64, unique=True).flatmap(

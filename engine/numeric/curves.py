@@ -1,0 +1,68 @@
+"""The named shaping curves (Lewis 1984, section 6.1), as rows: light to import, for brushes and for the window.
+
+Their tables and the kernel that looks values up are in `shaping`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+Knots = tuple[tuple[float, float], ...]
+Shape = str | Knots  # a name, or knots (in, out)
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A row: `of` takes float64 values 0..1 to values that are clipped to 0..1."""
+
+    name: str
+    label: str
+    tooltip: str
+    of: Callable[[np.ndarray], np.ndarray]
+
+
+def _smooth(t: np.ndarray) -> np.ndarray:
+    t = np.clip(t, 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+def _wet(t: np.ndarray) -> np.ndarray:
+    """Up within a tenth of the width, down to a third, and a little up again where the wash has settled."""
+    return np.interp(t, (0.0, 0.1, 0.3, 0.6, 1.0), (0.75, 1.0, 0.62, 0.38, 0.45))
+
+
+def _double(t: np.ndarray) -> np.ndarray:
+    return np.clip(1.5 * np.cos(np.clip(t * 2.0, 0.0, 1.5) * 2.0 * np.pi), 0.0, 1.0)
+
+
+def _rows(*rows: Curve) -> dict[str, Curve]:
+    return {row.name: row for row in rows}
+
+
+CURVES: dict[str, Curve] = _rows(
+    Curve("identity", "As it is", "Leaves the texture as it is", lambda t: t),
+    Curve("compress", "Compress", "Half the contrast, around the middle", lambda t: 0.25 + 0.5 * t),
+    Curve("stretch", "Stretch", "Twice the contrast; what leaves the range is cut", lambda t: 2.0 * t - 0.5),
+    Curve("negate", "Negate", "Dark for light: hills become hollows", lambda t: 1.0 - t),
+    Curve("rectify", "Rectify", "Folds the dark half over the light one: creases", lambda t: np.abs(2.0 * t - 1.0)),
+    Curve("clip", "Clip", "Keeps what is above the middle and cuts the rest", lambda t: 2.0 * t - 1.0),
+    Curve("threshold", "Threshold", "Islands with hard shores: all or nothing", lambda t: _smooth(4.0 * t - 1.5)),
+    Curve("power", "Power", "The square: peaks stand out", lambda t: t * t),
+    Curve("root", "Root", "The square root: hollows fill", np.sqrt),
+    Curve("gaps", "Gaps", "Covers all but the lowest hollows", lambda t: _smooth(3.0 * t - 0.6)),
+    Curve("steps", "Steps", "Five flat steps", lambda t: np.floor(np.minimum(t * 5.0, 4.0)) / 4.0),
+    Curve("bands", "Bands", "Three waves, like contour lines", lambda t: 0.5 - 0.5 * np.cos(6.0 * np.pi * t)),
+)
+
+# For the rim of a stroke: 0 at the rim itself, 1 a width inside it and beyond.
+EDGES: dict[str, Curve] = _rows(
+    Curve("wet", "Wet", "Pigment gathers at the rim and leaves the inside pale", _wet),
+    Curve("dark", "Dark", "A little darker along the rim", lambda t: 1.0 - 0.4 * _smooth(t)),
+    Curve("worn", "Worn", "The rim is rubbed thin", lambda t: 0.15 + 0.85 * _smooth(t)),
+    Curve("soft", "Soft", "Fades towards the rim", _smooth),
+    Curve("outline", "Outline", "The rim alone", lambda t: 1.0 - _smooth(2.5 * t - 1.0)),
+    Curve("double", "Double", "The rim, and a second line inside it", _double),
+)
