@@ -10,7 +10,7 @@ from typing import Any
 
 from immutables import Map
 
-from engine.numeric.shaping import KNOTS_CAP
+from engine.numeric.curves import KNOTS_CAP
 from engine.texture.field_error import FieldError
 
 TEXT_CAP = 256  # characters of a name

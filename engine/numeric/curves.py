@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+KNOTS_CAP = 64
+
 Knots = tuple[tuple[float, float], ...]
 Shape = str | Knots  # a name, or knots (in, out)
 

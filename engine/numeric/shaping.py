@@ -13,10 +13,11 @@ from functools import lru_cache
 import numpy as np
 from numba import njit
 
-from engine.numeric.curves import CURVES, EDGES, Curve, Shape
+from engine.numeric.curves import CURVES, EDGES, KNOTS_CAP, Curve, Shape
+
+__all__ = ["CURVES", "EDGES", "KNOTS_CAP", "Shape", "is_identity", "look_up", "shape", "shape_signed", "table"]
 
 STEPS = 1024
-KNOTS_CAP = 64
 
 _ZERO = np.float32(0.0)
 _HALF = np.float32(0.5)
