@@ -14,11 +14,12 @@ COMMANDS = {
     "play": "replay a recording without a window",
     "export": "write a painting, or a rectangle of it at any level, as a picture",
     "info": "tell what a painting holds",
+    "analyse": "tell what a picture is made of: spectra, colours, regions",
     "bench": "measure against the stated bounds",
     "doctor": "tell what Inkfall finds on this machine",
 }
 # Promised by the contract, not in this version.
-LATER = ("texture", "analyse")
+LATER = ("texture",)
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -142,7 +142,7 @@ WRONG = {
     "no such file": ["{dir}/none.ora"],
     "unknown bench": ["bench", "everything"],
     "texture": ["texture", "spectrum", "a.png"],
-    "analyse": ["analyse", "a.png"],
+    "analyse": ["analyse", "none.png"],
     "unknown option alone": ["--fast"],
 }
 

@@ -1,0 +1,131 @@
+"""What a picture is made of: power spectrum, autocorrelation, all-pole spectrum, distinct colours and their regions.
+
+Lewis 1984, figures 1 and 4.  Spectra are of the brightness (Rec. 709 weights on encoded values, times alpha), 0..1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from engine.numeric.prediction import Predictor, fit
+from engine.numeric.regions import colour_count, false_colours, packed, region_count
+from engine.numeric.spectra import radial_mean, radial_window
+
+SIDE = 1024  # pixels: of what is larger, the middle is looked at
+REACH = 4
+_WEIGHTS = (0.2126, 0.7152, 0.0722)
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """The facts of a picture, uint8 or uint16 RGBA (h, w, 4), not premultiplied; each is found when it is asked for."""
+
+    pixels: np.ndarray
+
+    @cached_property
+    def packed(self) -> np.ndarray:
+        return packed(self.pixels)
+
+    @cached_property
+    def colours(self) -> int:
+        """How many different colours there are."""
+        return colour_count(self.packed)
+
+    @cached_property
+    def regions(self) -> int:
+        """How many regions of one colour there are, pixels being neighbours left, right, above and below."""
+        return region_count(self.packed)
+
+    @cached_property
+    def false_coloured(self) -> np.ndarray:
+        """uint8 RGBA (h, w, 4)."""
+        return false_colours(self.packed)
+
+    @cached_property
+    def grey(self) -> np.ndarray:
+        """The brightness of the middle, at most SIDE x SIDE pixels of it: float32 (h, w)."""
+        return brightness(middle(self.pixels, SIDE))
+
+    @cached_property
+    def power(self) -> np.ndarray:
+        return power_spectrum(self.grey)
+
+    @cached_property
+    def autocorrelation(self) -> np.ndarray:
+        return autocorrelation(self.grey)
+
+    @cached_property
+    def predictor(self) -> Predictor:
+        """The all-pole filter fitted to the brightness."""
+        return fit(self.grey, REACH)
+
+    @cached_property
+    def all_pole(self) -> np.ndarray:
+        """The spectrum of that filter, as `power`."""
+        return self.predictor.spectrum(*self.grey.shape)[0]
+
+    @cached_property
+    def radial(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Frequencies in cycles per pixel, the mean power of each ring, and that of the all-pole spectrum."""
+        frequencies, means = radial_mean(self.power)
+        return frequencies, means, radial_mean(self.all_pole)[1]
+
+    @cached_property
+    def slope(self) -> float | None:
+        """The b of amplitudes that fall as 1/f^b, by least squares over the rings; None if there are too few."""
+        frequencies, means, _ = self.radial
+        good = means > 1e-14
+        if good.sum() < 4:
+            return None
+        x, y = np.log(frequencies[good]), np.log(means[good])
+        x = x - x.mean()
+        return float(-0.5 * (x * y).sum() / (x * x).sum())
+
+
+def middle(pixels: np.ndarray, side: int) -> np.ndarray:
+    """The middle of a picture (h, w, ...), at most `side` pixels along each side."""
+    top, left = (max(0, n - side) // 2 for n in pixels.shape[:2])
+    return pixels[top : top + side, left : left + side]
+
+
+def brightness(pixels: np.ndarray) -> np.ndarray:
+    """Luma times alpha, 0..1: float32 (h, w) of straight uint8 or uint16 RGBA (h, w, 4)."""
+    full = float(np.iinfo(pixels.dtype).max)
+    out = np.zeros(pixels.shape[:2], np.float32)
+    for c, weight in enumerate(_WEIGHTS):
+        out += pixels[..., c] * np.float32(weight / full)
+    return out * (pixels[..., 3] / np.float32(full))
+
+
+def power_spectrum(grey: np.ndarray) -> np.ndarray:
+    """The power spectrum of (h, w) under a radial window: float64 (h, w), zero frequency at [h // 2, w // 2].
+
+    It is scaled so that its mean is, as nearly as the window lets one tell, the variance.
+    """
+    window = radial_window(*grey.shape).astype(np.float64)
+    values = grey.astype(np.float64)
+    values -= (values * window).sum() / max(window.sum(), 1e-12)
+    found = np.fft.fftshift(np.abs(np.fft.fft2(values * window)) ** 2)
+    return found / max((window**2).sum(), 1e-12)
+
+
+def autocorrelation(grey: np.ndarray) -> np.ndarray:
+    """The correlation of a picture (h, w) with itself, displaced: float64 (h, w), the displacement (0, 0) at
+    [h // 2, w // 2], where it is 1; all 0 for a flat picture.
+
+    Each displacement's sum is divided by the number of pixels that overlap, so it does not fade with distance.
+    """
+    height, width = grey.shape
+    values = grey.astype(np.float64) - grey.mean(dtype=np.float64)
+    variance = float((values**2).mean())
+    if variance < 1e-14:
+        return np.zeros(grey.shape)
+    padded = np.fft.rfft2(values, (2 * height, 2 * width))
+    sums = np.fft.irfft2(np.abs(padded) ** 2, (2 * height, 2 * width))
+    dy = np.arange(height) - height // 2
+    dx = np.arange(width) - width // 2
+    overlap = (height - np.abs(dy))[:, None] * (width - np.abs(dx))[None]
+    return sums[dy][:, dx] / overlap / variance
