@@ -1,0 +1,172 @@
+"""Formulas compiled: the tree of `formula.parse` to a loop over pixels, by way of text that `formula.printed` makes.
+
+Every formula has a value everywhere: arithmetic is that of IEEE 754 in float64, roots and powers take the magnitude
+of what is below them, logarithms are of the magnitude plus 1e-300, exponents end at 700, and a result that is not
+finite counts as 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+from numba import njit
+from numba.core.types import Array, float32, float64, void
+
+from engine.numeric.formula import NAMES, Tree, printed
+from engine.numeric.hashing import place64
+
+MEMO = 64  # compiled formulas kept
+_WHOLE = 2.0**31  # beyond, `noise` has no places
+_KEY = np.uint64(0x6A09E667F3BCC908)
+
+_function = njit(cache=True, nogil=True, error_model="numpy")
+
+
+@_function
+def _sin(a):
+    return math.sin(a)
+
+
+@_function
+def _cos(a):
+    return math.cos(a)
+
+
+@_function
+def _tan(a):
+    return math.tan(a)
+
+
+@_function
+def _atan2(a, b):
+    return math.atan2(a, b)
+
+
+@_function
+def _sqrt(a):
+    return math.sqrt(abs(a))
+
+
+@_function
+def _abs(a):
+    return abs(a)
+
+
+@_function
+def _exp(a):
+    return math.exp(a if a < 700.0 or a != a else 700.0)
+
+
+@_function
+def _log(a):
+    return math.log(abs(a) + 1e-300)
+
+
+@_function
+def _floor(a):
+    return np.floor(a)
+
+
+@_function
+def _fract(a):
+    return a - np.floor(a)
+
+
+@_function
+def _min(a, b):
+    return a if a < b or a != a else b  # what is no number stays none
+
+
+@_function
+def _max(a, b):
+    return a if a > b or a != a else b
+
+
+@_function
+def _clamp(a, lo, hi):
+    return _min(_max(a, lo), hi)
+
+
+@_function
+def _mix(a, b, part):
+    return a + (b - a) * part
+
+
+@_function
+def _step(edge, a):
+    return 1.0 if a >= edge else 0.0
+
+
+@_function
+def _smoothstep(lo, hi, a):
+    s = _clamp((a - lo) / (hi - lo), 0.0, 1.0)
+    return s * s * (3.0 - 2.0 * s)
+
+
+@_function
+def _pow(a, b):
+    return abs(a) ** b
+
+
+@_function
+def _mod(a, b):
+    return a - b * np.floor(a / b)
+
+
+@_function
+def _noise(a, b):
+    """A random number of 0..1 for the unit square of the plane that (a, b) lies in."""
+    if not (abs(a) < _WHOLE and abs(b) < _WHOLE):
+        return 0.0
+    x, y = np.uint64(np.int64(np.floor(a)) & 0xFFFFFFFF), np.uint64(np.int64(np.floor(b)) & 0xFFFFFFFF)
+    return np.float64(place64(_KEY, x, y) >> np.uint64(11)) * 2.0**-53
+
+
+_ROWS = ("pic", "luma", "tex", "d", "pressure", "x", "y")  # one value a pixel
+_SCALARS = ("colour", "level")
+_SIGNATURE = void(
+    *[Array(float32, 1, "C", readonly=True)] * len(_ROWS), *[float64] * len(_SCALARS), Array(float32, 1, "C")
+)
+_TEMPLATE = """
+def kernel({arguments}, out):
+    for i in range(out.size):
+{rows}
+        value = {body}
+        out[i] = value if -1e6 < value < 1e6 else bounded(value)
+"""
+
+
+@_function
+def _bounded(value):
+    """What does not fit a pixel: 0 for what is no number, the nearest that fits for the others."""
+    return 0.0 if not np.isfinite(value) else (1e6 if value > 0.0 else -1e6)
+
+
+def source(tree: Tree) -> str:
+    """The text that is compiled for a checked tree: it holds names of this module, numbers and operators alone."""
+    rows = "\n".join(f"        {name} = np.float64({name}_row[i])" for name in _ROWS)
+    arguments = ", ".join([*(f"{name}_row" for name in _ROWS), *_SCALARS])
+    return _TEMPLATE.format(arguments=arguments, rows=rows, body=printed(tree))
+
+
+@lru_cache(MEMO)
+def kernel(tree: Tree) -> Callable[..., None]:
+    """The compiled loop of a checked tree: (pic, luma, tex, d, pressure, x, y, colour, level, out).
+
+    All but `colour` and `level`, which are floats, are C-contiguous float32 (n,); `out` is written: finite, within
+    -1e6..1e6.  Raises nothing.
+    """
+    scope = dict(_SCOPE)
+    exec(compile(source(tree), "<formula>", "exec"), scope)  # text printed here from a checked tree
+    return njit(_SIGNATURE, nogil=True, error_model="numpy")(scope["kernel"])
+
+
+_FUNCTIONS = (
+    _sin, _cos, _tan, _atan2, _sqrt, _abs, _exp, _log, _floor, _fract,
+    _min, _max, _clamp, _mix, _step, _smoothstep, _pow, _mod, _noise,
+)  # fmt: skip
+_SCOPE = {"__builtins__": {}, "range": range, "np": np, "bounded": _bounded} | {f.__name__: f for f in _FUNCTIONS}
+assert set(_ROWS) | set(_SCALARS) == set(NAMES)
