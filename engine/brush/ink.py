@@ -1,8 +1,9 @@
 """A brush's ink, resolved: its base colour, and the amplitude of every texture instance in it (features P3, P5).
 
 A component of amount a mixes the texture's value s, 0..1, of colour X into the brush's colour C: C + a s (X - C).
-With s = (S + 1)/2 for a procedural texture of nominal S in -1..1 that is linear in S: the constant parts gather in the
-base colour, and a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, sections 3.1 and 3.4).
+Curves of the component and of the brush change s first (`engine.texture.shaped`).  With s = (S + 1)/2 for a
+procedural texture of nominal S in -1..1 that is linear in S: the constant parts gather in the base colour, and
+a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, sections 3.1 and 3.4).
 """
 
 from __future__ import annotations
@@ -16,13 +17,16 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.brush.checks import BrushError
-from engine.brush.record import Brush, Component
-from engine.numeric.address import TileKey
+from engine.brush.parts import Component, Surface, Tip
+from engine.brush.record import Brush
+from engine.numeric.address import Rect, TileKey
 from engine.texture.image import Image, ImageSource
 from engine.texture.planes import sort_key
 from engine.texture.record import Instance
+from engine.texture.shaped import shaped
 from engine.texture.table import KINDS, TextureError, instance
 
+_PIXEL = Rect(0, 0, 1, 1)
 _MEMO = 96  # tiles of textured colour kept: 18 MB
 
 
@@ -87,16 +91,17 @@ def resolve(
         towards = component.amount * (np.array(component.rgb) - under)
         if component.amount == 0.0:
             continue
-        made = _instance(component, textures, level, seed, f"{where}.ink[{i}]")
-        if made.key[0] == "white":  # S = 1: plain colour, no planes
-            base += towards
+        own = named(component, textures, level, seed, f"{where}.ink[{i}]")
+        made = shaped(own, component.shaping, brush.shaping)
+        if own.key[0] == "white":  # S = 1: plain colour, no planes
+            base += towards * (made.appearance(level, _PIXEL).item() + 1.0) / 2.0
             continue
-        if isinstance(made, Image):  # premultiplied, 0..1: its own alpha hides the brush's colour
+        if isinstance(own, Image):  # premultiplied, 0..1: its own alpha hides the brush's colour
             found[made] += component.amount * np.array(component.rgb)
-            if made.cover is None:
+            if own.cover is None:
                 base -= component.amount * under
             else:
-                found[made.cover] -= component.amount * under
+                found[own.cover] -= component.amount * under
         else:
             found[made] += towards / 2.0
             base += towards / 2.0
@@ -108,18 +113,19 @@ def resolve(
     return Ink(base.astype(np.float32), tuple(loaded))
 
 
-def _instance(
-    component: Component, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
+def named(
+    part: Component | Surface | Tip, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
 ) -> Instance:
-    name = component.texture
+    """The texture that a part of a brush names, bound to `level`.  BrushError at `where` and the field."""
+    name = part.texture
     try:
         defined = textures.get(name)
         if isinstance(defined, ImageSource):
-            return instance("image", component.parameters, level, seed, defined)
+            return instance("image", part.parameters, level, seed, defined)
         if defined is not None:
-            return defined.instance(component.parameters, level, seed)
+            return defined.instance(part.parameters, level, seed)
         if name in KINDS:
-            return instance(name, component.parameters, level, seed)
+            return instance(name, part.parameters, level, seed)
     except TextureError as error:
         raise BrushError(f"{where}.{error.place}", error.found, error.expected) from None
     names = ", ".join([*(row.name for row in KINDS.values() if not row.pictured), *sorted(textures)[:20]])

@@ -19,7 +19,6 @@ from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.record import Brush, to_json
 from engine.brush.stamp import WHOLE, Edit, Stamp
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.shaping import is_identity
 from engine.texture.planes import COLOURS, Planes
 
 Read = Callable[[Rect], Planes]
@@ -178,8 +177,6 @@ def check(brush: Brush, where: str = "brush") -> None:
             raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
     if brush.extent:
         raise BrushError(f"{where}.extent", "true", "false: this version paints without")
-    if not is_identity(brush.shaping):
-        raise BrushError(f"{where}.shaping", shown(brush.shaping), "none: this version paints without")
 
 
 def edit(

@@ -5,18 +5,22 @@ One row makes the sliders, the entries of a brush's ink, the checks and the form
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.field_error import FieldError
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
 from engine.texture.rock import Rock
+from engine.texture.shaped import Shaped
 
 DEEPEST = 1 << 16  # |level| up to which textures are made: a claim in a file beyond it is refused
+SHAPED_CAP = 4  # curves, one after another
 
 
 class TextureError(FieldError):
@@ -118,6 +122,8 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     """
     if not isinstance(key, list | tuple) or len(key) < 2:
         raise TextureError("key", _shown(key), "[kind, base level, parameters ...]")
+    if key[0] == "shaped":
+        return _shaped_from_key(key, images)
     row = _COVER if key[0] == _COVER.name else _row(key[0])
     _check_level(key[1])
     count = 2 + len(row.parameters) + (2 if row.pictured else 0)
@@ -132,6 +138,40 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
             raise TextureError(field, _shown(text), "a string")
     known = images.get(sha)
     return row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
+
+
+def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
+    """A texture sent through a curve: ["shaped", base level, curve, key of the texture itself]."""
+    inner, deep = key, 0
+    while isinstance(inner, list | tuple) and len(inner) == 4 and inner[0] == "shaped":
+        inner, deep = inner[3], deep + 1
+    if not 0 < deep <= SHAPED_CAP:
+        raise TextureError("key", _shown(key), f'["shaped", base level, curve, key], nested {SHAPED_CAP} times at most')
+    made = from_key(key[3], images)
+    _check_level(key[1])
+    if made.base != key[1]:
+        raise TextureError("level", _shown(key[1]), f"{made.base}, that of the texture itself")
+    return Shaped(made, _curve(key[2]))
+
+
+def _curve(value: Any) -> Shape:
+    """A curve's name, or knots as a brush has them."""
+    if isinstance(value, str) and value in CURVES:
+        return value
+    pairs = value if isinstance(value, list | tuple) and 1 <= len(value) <= KNOTS_CAP else ()
+    knots = tuple((float(k[0]), float(k[1])) for k in pairs if _is_knot(k))
+    rising = all(a[0] < b[0] for a, b in itertools.pairwise(knots))
+    if not knots or len(knots) < len(pairs) or not rising:
+        raise TextureError("curve", _shown(value), f"1 to {KNOTS_CAP} knots [in, out] of 0..1, or a curve's name")
+    return knots
+
+
+def _is_knot(value: Any) -> bool:
+    return (
+        isinstance(value, list | tuple)
+        and len(value) == 2
+        and all(isinstance(v, int | float) and not isinstance(v, bool) and 0.0 <= v <= 1.0 for v in value)
+    )
 
 
 def _row(kind: object) -> Kind:

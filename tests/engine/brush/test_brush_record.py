@@ -196,7 +196,6 @@ def test_a_brush_made_in_the_program_is_checked_too():
         ({"op": {"formula": "pic"}}, "brush.op"),
         ({"density": "rock"}, "brush.density"),
         ({"grain": {"texture": "canvas", "amount": 0.5}}, "brush.grain"),
-        ({"shaping": "negate"}, "brush.shaping"),
         ({"edge": "wet"}, "brush.edge"),
         ({"tip": "leaf"}, "brush.tip"),
         ({"extent": True}, "brush.extent"),
@@ -213,7 +212,7 @@ def test_what_this_version_cannot_paint_is_kept_but_refused_at_use(data, place):
 
 
 @pytest.mark.parametrize(
-    "data", [{}, {"shaping": [[0, 0], [1, 1]]}, {"shaping": None, "op": "toward"}, {"mode": "erase"}]
+    "data", [{}, {"shaping": [[0, 0], [1, 1]]}, {"shaping": "negate", "op": "toward"}, {"mode": "erase"}]
 )
 def test_ordinary_brushes_are_usable(data):
     check(from_json(data))
