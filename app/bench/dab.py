@@ -71,7 +71,7 @@ def _textured(repeats: int) -> Figure:
             below = old.setdefault(key, Planes(np.full((7, 128, 128), 0.25, np.float32), ink.inks))
             stamp = edit.stamp(key, below)
             if stamp is not None:
-                kernels.apply_stamp(below.data, stamp.keep, stamp.add, planes, stamp.spans, False, new, changed)
+                kernels.apply_stamp(below.data, stamp.keep, stamp.add, planes, stamp.plain, False, new, changed)
 
     own()
     moved = len(old) * 128 * 128 * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

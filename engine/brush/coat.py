@@ -12,29 +12,15 @@ _ONE = np.float32(1.0)
 
 
 @njit(cache=True, nogil=True)
-def keep_of(coverage, keep, spans):
-    """A = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w).
-
-    `spans`, int32 (h, 2), gets the columns [first, last) of each row outside which A is 1.
-    """
-    some = False
+def keep_of(coverage, keep):
+    """A = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w)."""
+    covered = 0
     for y in range(coverage.shape[0]):
         m, a = coverage[y], keep[y]
-        covered = 0
         for x in range(m.shape[0]):
             a[x] = _ONE - snap(m[x])
             covered += a[x] < _ONE  # an integer sum vectorises, a float minimum does not
-        first, last = 0, m.shape[0]
-        if covered < last:
-            if covered == 0:
-                last = 0
-            while first < last and a[first] == _ONE:
-                first += 1
-            while last > first and a[last - 1] == _ONE:
-                last -= 1
-        spans[y, 0], spans[y, 1] = first, last
-        some |= covered > 0
-    return some
+    return covered > 0
 
 
 @njit(cache=True, nogil=True)
@@ -82,41 +68,37 @@ def glaze(weight, colours, add):
 
 
 @njit(cache=True, nogil=True)
-def lay(keep, spans, colour, add):
-    """B of plain paint in one pass: with M = 1 - A, add[0:3] = snap(M colour), add[3] = M; as `load`."""
+def lay(keep, colour, add):
+    """B of plain paint in one pass, as `weigh` and `wash` make it: with M = 1 - A, add[0:3] = snap(M colour), add[3] =
+    M.  `keep` float32 (h, w), `colour` (3,), `add` (4, h, w)."""
     for y in range(keep.shape[0]):
-        first, last = spans[y, 0], spans[y, 1]
-        width = last - first
-        a, w = keep[y][first:last], add[3, y][first:last]
-        for x in range(width):
+        a, w = keep[y], add[3, y]
+        for x in range(a.shape[0]):
             w[x] = _ONE - a[x]
         for c in range(3):
-            value, b = colour[c], add[c, y][first:last]
-            for x in range(width):
+            value, b = colour[c], add[c, y]
+            for x in range(a.shape[0]):
                 b[x] = snap(w[x] * value)
 
 
 @njit(cache=True, nogil=True)
-def load(keep, spans, colours, amplitudes, add):
+def load(keep, colours, amplitudes, add):
     """B of textured paint in one pass, as `weigh`, `glaze` and `wash` make it: with M = 1 - A, add[0:3] = snap(M
     colours), add[3] = M, add[4 + i] = snap(M amplitudes[i]).
 
-    `keep` float32 (h, w), `spans` as of `keep_of`, `colours` (3, h, w), `amplitudes` (k,), `add` (4 + k, h, w), written
-    within the spans only.
+    `keep` float32 (h, w), `colours` (3, h, w), `amplitudes` (k,), `add` (4 + k, h, w).
     """
     for y in range(keep.shape[0]):
-        first, last = spans[y, 0], spans[y, 1]
-        width = last - first
-        a, w = keep[y][first:last], add[3, y][first:last]
-        for x in range(width):
+        a, w = keep[y], add[3, y]
+        for x in range(a.shape[0]):
             w[x] = _ONE - a[x]
         for c in range(3):
-            p, b = colours[c, y][first:last], add[c, y][first:last]
-            for x in range(width):
+            p, b = colours[c, y], add[c, y]
+            for x in range(a.shape[0]):
                 b[x] = snap(w[x] * p[x])
         for i in range(amplitudes.shape[0]):
-            value, b = amplitudes[i], add[4 + i, y][first:last]
-            for x in range(width):
+            value, b = amplitudes[i], add[4 + i, y]
+            for x in range(a.shape[0]):
                 b[x] = snap(w[x] * value)
 
 

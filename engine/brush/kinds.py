@@ -17,7 +17,7 @@ from engine.brush.checks import BrushError, shown, thawed
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.record import Brush, to_json
-from engine.brush.stamp import WHOLE, Edit, Stamp
+from engine.brush.stamp import Edit, Stamp
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes
 
@@ -54,17 +54,16 @@ class _Covered:
     def spares_alpha(self) -> bool:
         return self.locked
 
-    def _keep(self, key: TileKey) -> tuple[np.ndarray, np.ndarray] | None:
-        """A of a tile and the spans outside which it is 1 (`Stamp.spans`), or None where nothing is covered."""
+    def _keep(self, key: TileKey) -> np.ndarray | None:
+        """A of a tile, or None where nothing is covered."""
         covered = self.coverage.tiles.get(key)
         if covered is None:
             return None
         keep = np.empty((TILE, TILE), np.float32)
         if not isinstance(covered, np.ndarray):
             keep[...] = 1.0 - np.rint(covered * 65536.0) / 65536.0
-            return (keep, WHOLE) if keep[0, 0] < 1.0 else None
-        spans = np.empty((TILE, 2), np.int32)
-        return (keep, spans) if coat.keep_of(covered, keep, spans) else None
+            return keep if keep[0, 0] < 1.0 else None
+        return keep if coat.keep_of(covered, keep) else None
 
 
 class Painting(_Covered):
@@ -76,20 +75,19 @@ class Painting(_Covered):
         alike = covered if isinstance(covered, float) and not self.ink.loaded and not self.locked else None
         if alike in self._flat:
             return self._flat[alike]
-        kept = self._keep(key)
-        if kept is None:
+        keep = self._keep(key)
+        if keep is None:
             return None
-        keep, spans = kept
         parts = self.ink.loaded
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
         if self.locked:
             self._glaze(keep, key, old, add)
-            return Stamp(keep, add, self.ink.inks)
+            return Stamp(keep, add, self.ink.inks, plain=True)
         if parts:
-            coat.load(keep, spans, self.ink.field(key), self.ink.amplitudes, add)
+            coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
         else:
-            coat.lay(keep, spans, self.ink.base, add)
-        made = Stamp(keep, add, self.ink.inks, spans)
+            coat.lay(keep, self.ink.base, add)
+        made = Stamp(keep, add, self.ink.inks, plain=True)
         if alike is not None:
             self._flat[alike] = made
         return made
@@ -110,8 +108,8 @@ class Erasing(_Covered):
     """Takes away colour, alpha, ink and all finer detail.  Under alpha lock there is nothing it may take."""
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
-        kept = None if self.locked else self._keep(key)
-        return None if kept is None else Stamp(kept[0], _NOTHING, spans=kept[1])
+        keep = None if self.locked else self._keep(key)
+        return None if keep is None else Stamp(keep, _NOTHING, plain=True)
 
 
 class Smoothing(_Covered):
@@ -123,10 +121,9 @@ class Smoothing(_Covered):
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
         assert self.read is not None
-        kept = self._keep(key)
-        if kept is None:
+        keep = self._keep(key)
+        if keep is None:
             return None
-        keep = kept[0]
         reach = min(max(round(self.brush.radius / 4.0), 1), REACH_CAP)
         around = self.read(key.rect.grown(2 * reach)).data[:COLOURS]
         mean = coat.local_mean(np.ascontiguousarray(around), reach)
@@ -137,7 +134,7 @@ class Smoothing(_Covered):
         coat.glaze(weight, mean[:_ALPHA], add[:_ALPHA])
         if not self.locked:
             coat.glaze(weight, mean[_ALPHA:], add[_ALPHA:])
-        return Stamp(keep, add)
+        return Stamp(keep, add, plain=True)
 
 
 _NOTHING = np.zeros((COLOURS, TILE, TILE), np.float32)

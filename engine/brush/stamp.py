@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import Planes
 from engine.texture.record import Instance
-
-WHOLE = np.tile(np.array([0, TILE], np.int32), (TILE, 1))  # every column of every row; not to be written to
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -24,14 +22,13 @@ class Stamp:
     within 0..1 sees to it that ink stays within -2..2.
     `add`: B, float32 (4 + 3n, 128, 128) on the grid: premultiplied R, G, B, A, then red, green and blue amplitude of
     each of the n `inks`, which are sorted by key.
-    `spans`: int32 (128, 2), the columns [first, last) of each row outside which nothing changes: A and B are not read
-    there, but A is to be 1.
+    `plain`: B is 0 wherever A is 1, so that A alone tells which pixels change.
     """
 
     keep: np.ndarray
     add: np.ndarray
     inks: tuple[Instance, ...] = ()
-    spans: np.ndarray = field(default_factory=lambda: WHOLE)
+    plain: bool = False
 
 
 class Edit(Protocol):

@@ -85,48 +85,48 @@ def attenuate(data, keep, spares_alpha, out):
 
 
 @njit(cache=True, nogil=True)
-def apply_stamp(old, keep, add, planes, spans, spares_alpha, new, changed):
+def apply_stamp(old, keep, add, planes, plain, spares_alpha, new, changed):
     """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
 
     Writes `new` (C, n, n) and `changed` (n, n) uint8, 1 where A != 1 or v' != v.  Returns whether any is.
 
-    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.  `spans`, int32 (n, 2): the
-    columns of each row outside which v' = v; A and B are not read there.
+    `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.  `plain`: B is 0 wherever A
+    is 1, so that v' need not be compared with v.
     """
-    marks = np.empty(keep.shape[1], np.int32)
-    found = np.int32(0)
-    for y in range(keep.shape[0]):
-        first, last = spans[y, 0], spans[y, 1]
-        width = last - first
-        a, s = keep[y][first:last], changed[y]
-        s[:] = 0
-        s = s[first:last]
-        marked = 0
-        for i in range(width):
-            marks[i] = np.int32(a[i] != _ONE)
-            marked += marks[i]
-        for c in range(old.shape[0]):
-            before, after = old[c, y], new[c, y]
-            if width < before.size:
-                after[:first], after[last:] = before[:first], before[last:]
-            before, after = before[first:last], after[first:last]
-            source = planes[c]
+    for c in range(old.shape[0]):
+        source = planes[c]
+        for y in range(keep.shape[0]):
+            a, before, after = keep[y], old[c, y], new[c, y]
             if c == 3 and spares_alpha:
                 after[:] = before
             elif source < 0:
-                for i in range(width):
+                for i in range(a.size):
                     after[i] = snap(a[i] * before[i])
             else:
-                b = add[source, y][first:last]
-                for i in range(width):
+                b = add[source, y]
+                for i in range(a.size):
                     after[i] = snap(a[i] * before[i]) + b[i]
             if c == 3:
-                for i in range(width):
+                for i in range(a.size):
                     after[i] = min(max(after[i], _ZERO), _ONE)
-            if marked < width:
-                for i in range(width):
+    return _mark(old, keep, plain, new, changed)
+
+
+@njit(cache=True, nogil=True)
+def _mark(old, keep, plain, new, changed):
+    """`changed` of `apply_stamp`, and whether any is set."""
+    marks = np.empty(keep.shape[1], np.int32)
+    found = np.int32(0)
+    for y in range(keep.shape[0]):
+        a, s = keep[y], changed[y]
+        for i in range(a.size):
+            marks[i] = np.int32(a[i] != _ONE)
+        if not plain:
+            for c in range(old.shape[0]):
+                before, after = old[c, y], new[c, y]
+                for i in range(a.size):
                     marks[i] |= np.int32(before[i] != after[i])
-        for i in range(width):
+        for i in range(a.size):
             found |= marks[i]
             s[i] = np.uint8(marks[i])
     return found != 0

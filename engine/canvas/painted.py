@@ -68,7 +68,7 @@ def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
     before = Planes(_zeros(COLOURS + 3 * len(inks)), inks) if old is None else widened(old, inks)
     new, changed = np.empty_like(before.data), np.empty((TILE, TILE), np.uint8)
     planes, spares = plane_map(stamp.inks, inks), edit.spares_alpha
-    if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.spans, spares, new, changed):
+    if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, changed):
         return None
     return Painted(key, None if old is None else before, Planes(new, inks), stamp.keep, changed, spares)
 

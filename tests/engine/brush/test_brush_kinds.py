@@ -37,14 +37,7 @@ def painted(brush, dabs=SOFT, locked=False, read=None, seed=7, textures=None):
 
 def after(stamp, old):
     """v' = snap(A v) + B of the colour planes."""
-    return snapped(stamp.keep * old.data[:4]) + added(stamp)[:4]
-
-
-def added(stamp):
-    """B, zero outside the spans, where nobody reads it."""
-    columns = np.arange(TILE)
-    inside = (columns >= stamp.spans[:, :1]) & (columns < stamp.spans[:, 1:])
-    return np.where(inside, stamp.add, np.float32(0))
+    return snapped(stamp.keep * old.data[:4]) + stamp.add[:4]
 
 
 def on_grid(array):
@@ -60,12 +53,12 @@ def test_paint_is_over():
     stamp = made.stamp(KEY, old_values())
     assert (stamp.keep == 1 - m).all()
     colour = np.array([1, 128 / 255, 0, 1], np.float32)[:, None, None]
-    np.testing.assert_allclose(added(stamp), m * colour, atol=2**-16)
-    assert (added(stamp)[3] == m).all()
+    np.testing.assert_allclose(stamp.add, m * colour, atol=2**-16)
+    assert (stamp.add[3] == m).all()
     assert stamp.inks == ()
-    assert stamp.keep.dtype == added(stamp).dtype == np.float32
+    assert stamp.keep.dtype == stamp.add.dtype == np.float32
     assert on_grid(stamp.keep)
-    assert on_grid(added(stamp))
+    assert on_grid(stamp.add)
 
 
 def test_an_edit_tells_where_it_is():
@@ -96,7 +89,7 @@ def test_erase_takes_everything_away():
     made, m = painted({"mode": "erase"})
     stamp = made.stamp(KEY, old)
     assert (stamp.keep == 1 - m).all()
-    assert not added(stamp).any()
+    assert not stamp.add.any()
     assert (after(stamp, old)[:, m == 1] == 0).all()
 
 
@@ -118,10 +111,10 @@ def test_alpha_lock_keeps_alpha_bit_for_bit(mode, ink, seed):
     assert new[3].tobytes() == old.data[3].tobytes()
     assert (new[:, old.data[3] == 0] == 0).all()
     assert (stamp.keep == 1 - m).all()
-    assert on_grid(added(stamp))
+    assert on_grid(stamp.add)
     if mode == "paint":
         field = resolve(made.brush, {}, 0, 7).field(KEY)
-        np.testing.assert_allclose(added(stamp)[:3], m * field * old.data[3], atol=3e-5)
+        np.testing.assert_allclose(stamp.add[:3], m * field * old.data[3], atol=3e-5)
 
 
 def test_erasing_under_alpha_lock_does_nothing():
@@ -135,7 +128,7 @@ def test_flat_tiles_share_one_stamp_and_equal_painted_ones():
     a, b = made.stamp(KEY, old_values()), made.stamp(TileKey(0, 2, 1), old_values(3))
     assert a is b
     assert (a.keep == 1 - m).all()
-    np.testing.assert_allclose(added(a)[:3, 0, 0], 0.63 * np.array([0x33, 0x66, 0x99]) / 255, atol=2e-5)
+    np.testing.assert_allclose(a.add[:3, 0, 0], 0.63 * np.array([0x33, 0x66, 0x99]) / 255, atol=2e-5)
     locked, _ = painted({"colour": "#336699"}, huge, True)
     assert locked.stamp(KEY, old_values()) is not locked.stamp(KEY, old_values(3))
 
@@ -145,7 +138,7 @@ def test_the_same_key_and_values_give_the_same_stamp():
     made, _ = painted(brush)
     again, _ = painted(brush)
     a, b, c = (e.stamp(KEY, old_values()) for e in (made, made, again))
-    assert added(a).tobytes() == added(b).tobytes() == added(c).tobytes()
+    assert a.add.tobytes() == b.add.tobytes() == c.add.tobytes()
     assert a.inks == c.inks
 
 
@@ -154,9 +147,9 @@ def test_a_later_dab_does_not_change_an_edit():
     mask.paint(SOFT[:1])
     brush = from_json({})
     made = edit(brush, mask, resolve(brush, {}, 0, 1))
-    before = added(made.stamp(KEY, old_values())).copy()
+    before = made.stamp(KEY, old_values()).add.copy()
     mask.paint(SOFT)
-    assert (added(made.stamp(KEY, old_values())) == before).all()
+    assert (made.stamp(KEY, old_values()).add == before).all()
 
 
 # ---- ink ------------------------------------------------------------------------------------------------------------
@@ -212,11 +205,11 @@ def test_painting_with_texture_lays_amplitudes():
     brush = {"colour": "#000000", "ink": [{"texture": "squares", "amount": 0.5, "colour": "#ffffff", "period": 9}]}
     made, m = painted(brush)
     stamp = made.stamp(KEY, old_values())
-    assert added(stamp).shape == (7, TILE, TILE)
-    np.testing.assert_allclose(added(stamp)[4:], np.broadcast_to(m * 0.25, (3, TILE, TILE)), atol=2**-16)
+    assert stamp.add.shape == (7, TILE, TILE)
+    np.testing.assert_allclose(stamp.add[4:], np.broadcast_to(m * 0.25, (3, TILE, TILE)), atol=2**-16)
     s = stamp.inks[0].appearance(0, KEY.rect)[0]
-    np.testing.assert_allclose(added(stamp)[0], m * (0.25 + 0.25 * s), atol=2**-15)
-    assert on_grid(added(stamp))
+    np.testing.assert_allclose(stamp.add[0], m * (0.25 + 0.25 * s), atol=2**-15)
+    assert on_grid(stamp.add)
 
 
 def test_equal_instances_are_one():

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from engine.brush import coat, discs
-from engine.brush.stamp import WHOLE
 from engine.numeric.grid import SNAP
 
 
@@ -41,29 +40,13 @@ def test_textured_paint_in_one_pass():
     colours = rng.normal(0.5, 0.4, (3, 128, 128)).astype(np.float32)
     amplitudes = rng.normal(0, 0.3, 6).astype(np.float32)
     add = np.empty((10, 128, 128), np.float32)
-    coat.load(keep, WHOLE, colours, amplitudes, add)
+    coat.load(keep, colours, amplitudes, add)
     weight = np.float32(1) - keep
     snapped = lambda values: (values + SNAP) - SNAP  # noqa: E731
     assert np.array_equal(add[3], weight)
     assert np.array_equal(add[:3], snapped(weight * colours))
     assert np.array_equal(add[4:], snapped(weight * amplitudes[:, None, None]))
     plain = np.empty((4, 128, 128), np.float32)
-    coat.lay(keep, WHOLE, colours[:, 5, 7].copy(), plain)
+    coat.lay(keep, colours[:, 5, 7].copy(), plain)
     assert np.array_equal(plain[3], weight)
     assert np.array_equal(plain[:3], snapped(weight * colours[:, 5, 7, None, None]))
-
-
-def test_spans_hold_all_that_a_stroke_covers_and_no_more():
-    rng = np.random.default_rng(4)
-    coverage = (rng.random((128, 128)) * (rng.random((128, 128)) < 0.02)).astype(np.float32)
-    coverage[:3] = 0
-    coverage[3] = 1
-    coverage[4] = 1e-7  # less than the grid shows
-    keep, spans = np.empty((128, 128), np.float32), np.empty((128, 2), np.int32)
-    assert coat.keep_of(coverage, keep, spans)
-    for row, (first, last) in zip(keep, spans, strict=True):
-        covered = np.flatnonzero(row != 1)
-        assert (first, last) == ((covered[0], covered[-1] + 1) if len(covered) else (first, first))
-    assert spans[3].tolist() == [0, 128]
-    assert spans[4, 0] == spans[4, 1]
-    assert not coat.keep_of(np.zeros((128, 128), np.float32), keep, spans)
