@@ -119,10 +119,10 @@ def fit(sample: np.ndarray, reach: int = 3) -> Predictor:
     reach = _affordable(reach, *planes.shape[1:])
     offsets = half_plane(reach)
     mean = planes.mean(axis=(1, 2), dtype=np.float64)
-    shifted = [_shifted(planes - mean[:, None, None], reach, dy, dx) for dy, dx in [(0, 0), *offsets]]
-    coefficients = np.stack([_least_squares([s[c] for s in shifted]) for c in range(len(planes))])
+    centred = planes - mean[:, None, None]
+    coefficients = np.stack([_least_squares(plane, reach, offsets) for plane in centred])
     fitted = Predictor(planes, reach, offsets, coefficients, mean, np.zeros((len(mean), len(mean))), 0.0, 1.0)
-    return _with_errors(_stabilised(fitted), shifted)
+    return _with_errors(_stabilised(fitted), centred)
 
 
 def half_plane(reach: int) -> np.ndarray:
@@ -157,6 +157,22 @@ def _continue(memory, reach, mask, steps, taps, mean, errors):
                 for k in range(steps.size):
                     total += taps[k] * (np.float64(flat[row + x + steps[k]]) - mean)
                 flat[row + x] = np.float32(total)
+
+
+@njit(cache=True, nogil=True)
+def _add_products(plane, reach, steps, out):
+    """Adds v(p + step_i) v(p + step_j), j <= i, of all pixels p whose memory lies in the plane."""
+    height, width = plane.shape
+    flat = plane.reshape(-1)
+    values = np.empty(steps.size)
+    for y in range(reach, height):
+        for x in range(reach, width - reach):
+            for k in range(steps.size):
+                values[k] = flat[y * width + x + steps[k]]
+            for i in range(steps.size):
+                row, value = out[i, : i + 1], values[i]
+                for j in range(row.size):
+                    row[j] += value * values[j]
 
 
 @njit(cache=True, nogil=True)
@@ -205,16 +221,16 @@ def _shifted(planes: np.ndarray, reach: int, dy: int, dx: int) -> np.ndarray:
     return planes[:, reach + dy : height + dy, reach + dx : width - reach + dx]
 
 
-def _least_squares(shifted: list[np.ndarray]) -> np.ndarray:
-    """Coefficients (n,) by which the first of n + 1 planes follows from the others.
+def _least_squares(plane: np.ndarray, reach: int, offsets: np.ndarray) -> np.ndarray:
+    """Coefficients (n,) by which a pixel of float64 (h, w), mean 0, follows from those at the offsets.
 
     Sums and the solution are made without BLAS, whose last digits depend on how many threads it has.
     """
-    n = len(shifted) - 1
-    normal = np.empty((n + 1, n + 1))
-    for i in range(n + 1):
-        for j in range(i + 1):
-            normal[i, j] = normal[j, i] = (shifted[i] * shifted[j]).mean()
+    n = len(offsets)
+    steps = np.concatenate([[0], offsets[:, 0] * plane.shape[1] + offsets[:, 1]])
+    normal = np.zeros((n + 1, n + 1))
+    _add_products(plane, reach, steps, normal)
+    normal /= max(1, (plane.shape[0] - reach) * (plane.shape[1] - 2 * reach))
     if not n or normal[0, 0] <= 1e-12:
         return np.zeros(n)
     inner = normal[1:, 1:] + np.eye(n) * (_RIDGE * normal[0, 0])
@@ -260,10 +276,10 @@ def _outermost(taps: np.ndarray) -> float:
     return float(np.abs(np.linalg.eigvals(companion)).max())
 
 
-def _with_errors(fitted: Predictor, shifted: list[np.ndarray]) -> Predictor:
-    errors = shifted[0].copy()
-    for k, plane in enumerate(shifted[1:]):
-        errors -= plane * fitted.coefficients[:, k, None, None]
+def _with_errors(fitted: Predictor, centred: np.ndarray) -> Predictor:
+    errors = _shifted(centred, fitted.reach, 0, 0).copy()
+    for (dy, dx), taps in zip(fitted.offsets, fitted.coefficients.T, strict=True):
+        errors -= _shifted(centred, fitted.reach, dy, dx) * taps[:, None, None]
     channels = range(len(errors))
     covariance = np.array([[(errors[i] * errors[j]).mean() for j in channels] for i in channels])
     return replace(fitted, mixing=_cholesky(covariance))

@@ -7,7 +7,6 @@ from numba import njit
 
 from engine.numeric.hashing import mix64
 
-_CHUNK = 1 << 22
 _MASK24 = np.uint32(0xFFFFFF)
 
 
@@ -28,11 +27,8 @@ def packed(pixels: np.ndarray) -> np.ndarray:
 
 def colour_count(colours: np.ndarray) -> int:
     """How many values there are in an array."""
-    flat = colours.reshape(-1)
-    found = flat[:0]
-    for start in range(0, flat.size, _CHUNK):
-        found = np.union1d(found, flat[start : start + _CHUNK])
-    return int(found.size)
+    ordered = np.sort(colours, axis=None)
+    return int(ordered.size > 0) + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
 
 
 def region_count(colours: np.ndarray) -> int:
