@@ -16,7 +16,7 @@ from app.glide import Glide
 from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
-from engine.painting.requests import Note, Request, Save, Scene
+from engine.painting.requests import CurveRow, Note, Request, Save, Scene
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
@@ -50,6 +50,9 @@ class Desk:
     stabiliser: float = 0.3  # 0..1: how much the path of a stroke is smoothed
     blends: tuple[tuple[str, str, str], ...] = ()  # name, title, hint; from the engine
     kinds: tuple[Any, ...] = ()  # rows of engine.texture.table
+    ops: tuple[Any, ...] = ()  # rows of engine.brush.ops
+    curves: tuple[CurveRow, ...] = ()  # that shape textures
+    edges: tuple[CurveRow, ...] = ()  # that shape the rim of a stroke
     presets: tuple[Any, ...] = ()  # app.presets.Preset
     scene: Scene | None = None
     ready: bool = False

@@ -14,17 +14,18 @@ from imgui_bundle import imgui
 from app import presets
 from app.colours import to_hex
 from app.desk import Desk
-from app.panels.brush import THUMB
+from app.panels.brush import PREVIEW, THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
 from app.trace import trace
 from app.view import SUBPIXEL, Place
+from engine.brush.record import Brush
 from engine.painting import requests as q
 from engine.painting.worker import Worker
 
 COARSER = 3  # levels: a coarse layer of tiles around the view is kept for when it moves
 PAPER = 244  # grey of the paper under swatches
-SETTLE = 0.12  # seconds without change before a swatch is painted anew
+SETTLE = 0.12  # seconds from one painting of the brush's swatches to the next
 
 
 class News:
@@ -36,7 +37,7 @@ class News:
         self._asked: tuple[Any, ...] = ()
         self._textures: dict[str, moderngl.Texture] = {}
         self._ink: Any = None
-        self._ink_since = 0.0
+        self._ink_since = self._ink_sent = 0.0
         self._serial: int | None = None
         self._laid_out = False
         self._handlers: dict[type, Callable[[Any, float], None]] = {
@@ -82,14 +83,16 @@ class News:
         self._ask_swatches(now)
 
     def _ask_swatches(self, now: float) -> None:
-        """The ink mixer's picture follows the brush, once it rests."""
-        brush = replace(self.desk.brush, colour=to_hex(self.desk.colour), radius=16.0)
+        """The stroke of the brush and the ink mixer's picture follow the brush, no faster than they can be seen."""
+        brush = replace(self.desk.brush, colour=to_hex(self.desk.colour))
         if brush != self._ink:
-            self._ink, self._ink_since = brush, now
-        if self._ink_since and now - self._ink_since >= SETTLE and self.worker:
-            self._ink_since = 0.0
-            size = (int(135 * self.desk.scale), int(SWATCH_HEIGHT * self.desk.scale))
-            plain = replace(brush, mode="paint")
+            self._ink, self._ink_since = brush, self._ink_since or max(now, self._ink_sent + SETTLE)
+        if self._ink_since and now >= self._ink_since and self.worker:
+            self._ink_since, self._ink_sent = 0.0, now
+            scale = self.desk.scale
+            self.worker.post(q.Swatch("brush", brush, (int(PREVIEW[0] * scale), int(PREVIEW[1] * scale))))
+            size = (int(135 * scale), int(SWATCH_HEIGHT * scale))
+            plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
             self.worker.post(q.Swatch("ink", plain, size, "fill"))
             self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER))
 
@@ -100,6 +103,7 @@ class News:
     def _ready(self, result: q.Ready, _now: float) -> None:
         desk = self.desk
         desk.ready, desk.blends, desk.kinds = True, result.blends, result.kinds
+        desk.ops, desk.curves, desk.edges = result.ops, result.curves, result.edges
         trace("engine ready")
         found, faults = presets.load(presets.bundled_folder())
         own, more = presets.load(presets.own_folder())

@@ -5,6 +5,8 @@ Pure: every function takes stops and gives new ones.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from app.colours import RGB, from_hex, to_hex
 
 Stops = tuple[tuple[float, str], ...]
@@ -20,7 +22,7 @@ def read(value: object) -> Stops:
         stops = tuple((float(place), to_hex(from_hex(colour))) for place, colour in value)  # type: ignore[attr-defined]
     except (TypeError, ValueError):
         return PLAIN
-    rising = all(a[0] < b[0] for a, b in zip(stops, stops[1:], strict=False))
+    rising = all(a[0] < b[0] for a, b in pairwise(stops))
     return stops if FEWEST <= len(stops) <= MOST and rising else PLAIN
 
 

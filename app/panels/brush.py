@@ -9,22 +9,37 @@ from imgui_bundle import ImVec2, imgui
 
 from app import actions, icons, theme
 from app.desk import LARGEST, SMALLEST, Desk
+from app.knots import at
 from app.panels import widgets as w
+from app.panels.curves import CurveEditor
+from app.panels.texturing import Texturing
 from app.presets import Preset
 from app.tools import TOOLS
 from engine.brush.record import SETTINGS
+from engine.painting.requests import CurveRow
 
 _MODES = (
-    ("paint", icons.BRUSH, "Paint"),
-    ("erase", icons.ERASER, "Erase: takes paint away, at all depths"),
-    ("smooth", icons.SMOOTH, "Smooth: softens the paint and takes away the detail that zooming would show"),
+    ("paint", "Paint", "Lays paint over what is there"),
+    ("erase", "Erase", "Takes paint away, at all depths"),
+    ("smooth", "Smooth", "Softens the paint and takes away the detail that zooming would show"),
+    ("raster", "Raster", "A raster operation: changes the colours that are there"),
 )
-_CURVES: tuple[tuple[str, str, Any], ...] = (
-    ("none", "Even", None),
-    ("pressure", "Pressure", "pressure"),
-    ("soft", "Soft pen", ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0))),
-    ("firm", "Firm pen", ((0.0, 0.0), (0.6, 0.25), (1.0, 1.0))),
+_PRESSURES: dict[str, Any] = {
+    "pressure": "pressure",
+    "soft": ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0)),
+    "firm": ((0.0, 0.0), (0.6, 0.25), (1.0, 1.0)),
+}
+_PRESSURE_ROWS = (
+    CurveRow("even", "Even", "The same whatever the pressure", (1.0, 1.0)),
+    CurveRow("pressure", "Pressure", "In proportion to the pressure", (0.0, 1.0)),
+    CurveRow(
+        "soft", "Soft pen", "Light touches count for more", tuple(at(_PRESSURES["soft"], i / 20) for i in range(21))
+    ),
+    CurveRow(
+        "firm", "Firm pen", "Light touches count for less", tuple(at(_PRESSURES["firm"], i / 20) for i in range(21))
+    ),
 )
+PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 THUMB = (104, 44)  # of a thumbnail, points
 ACROSS = 2
 
@@ -32,15 +47,33 @@ ACROSS = 2
 class BrushPanel:
     """Draws the left column."""
 
+    def __init__(self) -> None:
+        self._texturing, self._curves = Texturing(), CurveEditor()
+
     def draw(self, desk: Desk) -> None:
         self._tools(desk)
         if w.section("Brushes", "Presets: click to paint with one"):
             self._presets(desk)
         if w.section("Brush settings"):
+            self._preview(desk)
             self._modes(desk)
             self._settings(desk)
+        self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
             self._dynamics(desk)
+
+    def _preview(self, desk: Desk) -> None:
+        """A stroke of the brush as it is set now."""
+        width, height = imgui.get_content_region_avail().x, PREVIEW[1] * desk.scale
+        corner = imgui.get_cursor_screen_pos()
+        imgui.dummy(ImVec2(width, height))
+        w.tooltip("A stroke of this brush")
+        end, painter = ImVec2(corner.x + width, corner.y + height), imgui.get_window_draw_list()
+        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 4 * desk.scale)
+        picture = desk.pictures.get("brush")
+        if picture is not None:
+            white = theme.packed((1.0, 1.0, 1.0))
+            painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, 4 * desk.scale)
 
     def _tools(self, desk: Desk) -> None:
         side = imgui.get_font_size() * 2.1
@@ -78,7 +111,7 @@ class BrushPanel:
 
     def _room(self, desk: Desk) -> float:
         """The height that the settings below leave free."""
-        lines = len(SETTINGS) + 5
+        lines = len(SETTINGS) + 10
         return imgui.get_content_region_avail().y - lines * imgui.get_frame_height_with_spacing()
 
     def _preset(self, desk: Desk, preset: Preset, wide: float, tall: float) -> None:
@@ -115,14 +148,17 @@ class BrushPanel:
         painter.pop_clip_rect()
 
     def _modes(self, desk: Desk) -> None:
-        wide = (imgui.get_content_region_avail().x - 2 * imgui.get_style().item_spacing.x) / 3
+        """Buttons side by side, each as wide as its word asks for."""
+        gap = 3 * desk.scale
+        words = [imgui.calc_text_size(label).x for _, label, _ in _MODES]
+        spare = (imgui.get_content_region_avail().x - sum(words) - gap * (len(_MODES) - 1)) / len(_MODES)
         imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, 4) * desk.scale)
-        for i, (mode, icon, hint) in enumerate(_MODES):
+        for i, (mode, label, hint) in enumerate(_MODES):
             if i:
-                imgui.same_line()
+                imgui.same_line(0, gap)
             on = desk.brush.mode == mode
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
-            if w.text_button(f"{icon} {mode.capitalize()}", hint, width=wide):
+            if w.text_button(label, hint, width=words[i] + spare):
                 desk.brush = replace(desk.brush, mode=mode)
                 desk.tool, desk.erasing = "brush", False
             imgui.pop_style_color()
@@ -150,17 +186,10 @@ class BrushPanel:
             if not row.dynamic:
                 continue
             curve = desk.brush.dynamics.get(name)
-            current = next((key for key, _, value in _CURVES if value == curve), "own")
-            options = [(key, f"{row.label}: {text.lower()}") for key, text, _ in _CURVES]
-            if current == "own":
-                options.append(("own", f"{row.label}: own curve"))
-            hint = f"How the pen's pressure changes the {row.label.lower()}"
-            picked = w.choice(f"curve {name}", current, options, hint, imgui.get_content_region_avail().x)
-            if picked and picked != "own":
-                value = next(v for key, _, v in _CURVES if key == picked)
-                dynamics = desk.brush.dynamics
-                dynamics = dynamics.set(name, value) if value is not None else _without(dynamics, name)
-                desk.brush = replace(desk.brush, dynamics=dynamics)
+            hint = f"How the pen's pressure changes the {row.label.lower()}: left a light touch, right a firm one"
+            changed, drawn = self._curves.row(row.label, _shown(curve), _PRESSURE_ROWS, hint)
+            if changed:
+                desk.brush = replace(desk.brush, dynamics=_with(desk.brush.dynamics, name, drawn))
 
 
 def _height(presets: tuple[Preset, ...], row: float, heading: float) -> float:
@@ -171,8 +200,16 @@ def _height(presets: tuple[Preset, ...], row: float, heading: float) -> float:
     return sum(-(-n // ACROSS) * row + heading for n in groups.values())
 
 
-def _without(curves: Any, name: str) -> Any:
-    return curves.delete(name) if name in curves else curves
+def _shown(curve: Any) -> Any:
+    """A curve of pressure as the editor knows it: by its name if it is one of PRESSURE."""
+    return next((name for name, knots in _PRESSURES.items() if curve is not None and knots == curve), curve)
+
+
+def _with(dynamics: Any, name: str, curve: Any) -> Any:
+    """The dynamics with another curve for a setting, none if that is None."""
+    if curve is None:
+        return dynamics.delete(name) if name in dynamics else dynamics
+    return dynamics.set(name, _PRESSURES.get(curve, curve) if isinstance(curve, str) else curve)
 
 
 def _percent(value: float, form: str, lo: float, hi: float, unit: str) -> tuple[float, str, float, float]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, pictured, theme
 from app.colours import to_hex
 from app.desk import Desk
+from app.panels import textures
 from app.panels import widgets as w
+from app.panels.curves import CurveEditor
 from engine.brush.record import COMPONENTS_CAP, Component
 
 DEEPER = 4  # levels: how far the second half of the picture is zoomed in
@@ -20,6 +21,9 @@ _COLOURS = {"white": "#ffffff", "rock": "#7a6f63", "stripes": "#20242c", "sawtoo
 
 class InkPanel:
     """Ink is the brush's colour plus textures, each with an amount and a colour of its own."""
+
+    def __init__(self) -> None:
+        self._curves = CurveEditor()
 
     def draw(self, desk: Desk) -> None:
         if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):
@@ -37,6 +41,11 @@ class InkPanel:
                 desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:i], changed, *desk.brush.ink[i + 1 :]))
         if removed is not None:
             desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:removed], *desk.brush.ink[removed + 1 :]))
+        if desk.brush.ink:
+            hint = "A curve that all these textures go through: harder, softer, turned round"
+            reshaped, curve = self._curves.row("Shaping of all", desk.brush.shaping, desk.curves, hint)
+            if reshaped:
+                desk.brush = replace(desk.brush, shaping=curve)
         self._adder(desk)
 
     def _picture(self, desk: Desk) -> None:
@@ -71,7 +80,7 @@ class InkPanel:
         if rgb is not None:
             component = replace(component, colour=to_hex(rgb))
         imgui.same_line()
-        name = _label(component.texture)
+        name = textures.label(desk, component.texture)
         room = imgui.get_content_region_avail().x - 2 * side - 2 * gap
         imgui.push_style_var(imgui.StyleVar_.cell_padding, ImVec2(0, 0))
         imgui.begin_child("amount", ImVec2(room, side))
@@ -91,16 +100,14 @@ class InkPanel:
         imgui.set_next_window_size(ImVec2(imgui.get_font_size() * 17, 0))
         if not imgui.begin_popup("settings"):
             return component
-        imgui.text_disabled(_label(component.texture))
-        rows = _parameters_of(desk, component.texture)
-        for row in rows:
-            component = _parameter(component, row)
-        if not rows:
-            imgui.text_disabled("It has no settings")
-        seeded = any(row.name == "seed" for row in rows)
-        if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
-            seed = int(component.parameters.get("seed", 0) or 0)
-            component = replace(component, parameters=component.parameters.set("seed", (seed * 31 + 17) % 99991))
+        imgui.text_disabled(textures.label(desk, component.texture))
+        parameters = textures.sliders(desk, component.texture, component.parameters)
+        if parameters != component.parameters:
+            component = replace(component, parameters=parameters)
+        hint = "A curve that this texture's values go through: harder, softer, turned round"
+        changed, curve = self._curves.row("Shaping", component.shaping, desk.curves, hint)
+        if changed:
+            component = replace(component, shaping=curve)
         imgui.end_popup()
         return component
 
@@ -115,8 +122,8 @@ class InkPanel:
             imgui.open_popup("add texture")
         if not imgui.begin_popup("add texture"):
             return
-        for name, hint in _textures(desk):
-            if imgui.selectable(_label(name), False)[0]:
+        for name, hint in textures.names(desk):
+            if imgui.selectable(textures.label(desk, name), False)[0]:
                 part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
                 desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
             w.tooltip(hint)
@@ -136,37 +143,3 @@ class InkPanel:
         part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
         if len(desk.brush.ink) < COMPONENTS_CAP:
             desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
-
-
-def _textures(desk: Desk) -> list[tuple[str, str]]:
-    """Names and hints: those built in, then those that the painting defines."""
-    own = [(row.name, row.tooltip) for row in desk.kinds if not row.pictured]
-    return own + [(name, "A texture of this painting") for name in (desk.scene.textures if desk.scene else ())]
-
-
-def _label(texture: str) -> str:
-    return texture.capitalize() if texture in _COLOURS else texture
-
-
-def _parameters_of(desk: Desk, texture: str) -> tuple[Any, ...]:
-    defined = dict(desk.scene.texture_kinds) if desk.scene else {}
-    kind = defined.get(texture, texture)
-    return next((tuple(row.parameters) for row in desk.kinds if row.name == kind), ())
-
-
-def _parameter(component: Component, row: Any) -> Component:
-    if row.name == "seed":
-        return component
-    value = float(component.parameters.get(row.name, row.default))
-    lo, hi = float(row.lo), min(float(row.hi), _SLIDER_MOST.get(row.name, float(row.hi)))
-    form = "%.0f°" if row.unit in ("degrees", "°") else "%.1f px" if row.name == "period" else "%.2f"
-    label = row.name.capitalize()
-    changed, value = w.slider(label, value, (lo, hi), row.tooltip, form=form, curved=row.name == "period")
-    if changed:
-        value = min(max(round(value, 0 if row.whole else 3), float(row.lo)), float(row.hi))
-        value = int(value) if row.whole else value
-        component = replace(component, parameters=component.parameters.set(row.name, value))
-    return component
-
-
-_SLIDER_MOST = {"period": 512.0, "angle": 180.0}

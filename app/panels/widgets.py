@@ -65,6 +65,39 @@ def section(title: str, hint: str = "", *, opened: bool = True) -> bool:
     return shown
 
 
+def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
+    """A header with a switch at its right end; turning it on unfolds it.  (whether it is unfolded, whether on)"""
+    imgui.dummy(ImVec2(0, 1))
+    height, right = imgui.get_frame_height(), imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+    wide, tall = height * 1.15, height * 0.56
+    line = imgui.get_text_line_height()
+    at = ImVec2(right - wide, imgui.get_cursor_screen_pos().y + (line - tall) / 2)
+    mouse = imgui.get_io().mouse_pos
+    over = at.x - 4 <= mouse.x < right and abs(mouse.y - at.y - tall / 2) <= line / 2 and imgui.is_window_hovered()
+    pressed = over and imgui.is_mouse_clicked(imgui.MouseButton_.left)
+    if pressed:
+        on = not on
+        imgui.set_next_item_open(on)
+    imgui.push_style_color(Col.header_hovered, theme.vec(theme.RAISED, 0.5))
+    imgui.push_style_color(Col.header_active, theme.vec(theme.RAISED))
+    imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on else (0.70,) * 3))
+    shown = imgui.tree_node_ex(f"{title}##section", imgui.TreeNodeFlags_.no_tree_push_on_open)
+    imgui.pop_style_color(3)
+    tooltip(hint)
+    _switch(at, wide, tall, on, over)
+    return shown, on
+
+
+def _switch(at: ImVec2, wide: float, tall: float, on: bool, over: bool) -> None:
+    """A pill whose knob lies left (off) or right (on)."""
+    painter, radius = imgui.get_window_draw_list(), tall / 2
+    grey = theme.ACCENT_SOFT if on else theme.HOVER if over else theme.RAISED
+    painter.add_rect_filled(at, ImVec2(at.x + wide, at.y + tall), theme.packed(grey), radius)
+    x = at.x + wide - radius if on else at.x + radius
+    knob = theme.ACCENT if on else (0.45,) * 3
+    painter.add_circle_filled(ImVec2(x, at.y + radius), radius * 0.66, theme.packed(knob), 24)
+
+
 def slider(
     label: str, value: float, bounds: tuple[float, float], hint: str, *, form: str = "%.2f", curved: bool = False
 ) -> tuple[bool, float]:
@@ -149,8 +182,15 @@ def gradient_slider(
     return changed, value
 
 
-def choice(label: str, current: str, options: Sequence[tuple[str, str]], hint: str, width: float = 0.0) -> str | None:
-    """A drop-down of (value, shown text); the value chosen now, or None."""
+def choice(
+    label: str,
+    current: str,
+    options: Sequence[tuple[str, str]],
+    hint: str,
+    width: float = 0.0,
+    hints: Sequence[str] = (),
+) -> str | None:
+    """A drop-down of (value, shown text), each perhaps with a hint of its own; the value chosen now, or None."""
     shown = dict(options).get(current, current)
     picked = None
     if width:
@@ -159,9 +199,11 @@ def choice(label: str, current: str, options: Sequence[tuple[str, str]], hint: s
     if not opened:
         tooltip(hint)
         return None
-    for value, text in options:
+    for i, (value, text) in enumerate(options):
         if imgui.selectable(text, value == current)[0]:
             picked = value
+        if i < len(hints):
+            tooltip(hints[i])
     imgui.end_combo()
     return picked
 

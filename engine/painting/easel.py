@@ -18,7 +18,6 @@ from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.layers import Layer
 from engine.numeric.address import Rect
-from engine.numeric.blend import BLENDS
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import documents, swatches
@@ -26,11 +25,11 @@ from engine.painting import requests as q
 from engine.painting.difference import areas
 from engine.painting.outline import rows
 from engine.painting.points import rounded
+from engine.painting.ready import ready
 from engine.painting.session import Session
 from engine.painting.sight import Key, Sight, tile_rect
 from engine.painting.stroke import LiveStroke
 from engine.painting.value import Painting
-from engine.texture.table import KINDS
 
 
 class Easel:
@@ -64,7 +63,7 @@ class Easel:
             q.Swatch: self._swatch,
             q.Pick: self._pick,
         }
-        send(q.Ready(tuple((b.name, b.label, b.tooltip) for b in BLENDS.values()), tuple(KINDS.values())))
+        send(ready())
         self._tell()
 
     # --- requests ----------------------------------------------------------------------------------------------------

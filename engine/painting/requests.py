@@ -122,11 +122,25 @@ Request = New | Open | Save | Export | Do | Begin | Points | Finish | Abandon | 
 
 
 @dataclass(frozen=True, slots=True)
+class CurveRow:
+    """A named shaping curve as an editor shows it: outputs 0..1 at inputs spread evenly over 0..1."""
+
+    name: str
+    label: str
+    tooltip: str
+    heights: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Ready:
-    """The engine is loaded.  `blends`: name, title, hint of each blend mode; `kinds`: the rows of the texture table."""
+    """The engine is loaded.  `blends`: name, title, hint of each blend mode; `kinds`: the rows of the texture table;
+    `ops`: the rows of the table of raster operations; `curves`, `edges`: the named shaping curves."""
 
     blends: tuple[tuple[str, str, str], ...] = ()
     kinds: tuple[Any, ...] = ()
+    ops: tuple[Any, ...] = ()
+    curves: tuple[CurveRow, ...] = ()
+    edges: tuple[CurveRow, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

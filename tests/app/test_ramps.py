@@ -1,5 +1,7 @@
 """Ramps of colour edited by hand."""
 
+from itertools import pairwise
+
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -28,7 +30,7 @@ def test_any_editing_leaves_stops_in_order(gestures):
             stops = ramps.turned(stops)
         places = [p for p, _ in stops]
         assert ramps.FEWEST <= len(stops) <= ramps.MOST
-        assert all(a < b for a, b in zip(places, places[1:], strict=False))
+        assert all(a < b for a, b in pairwise(places))
         assert ramps.read(stops) == stops
         assert ramps.read([list(stop) for stop in stops]) == stops
 

@@ -1,0 +1,142 @@
+"""The sections of the brush panel in which textures thin the paint: dry brush, paper, edge, tip.
+
+Each is a switch: what was set is remembered while it is off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from imgui_bundle import imgui
+from immutables import Map
+
+from app.colours import to_hex
+from app.desk import Desk
+from app.panels import textures
+from app.panels import widgets as w
+from app.panels.curves import CurveEditor
+from engine.brush.parts import Edge, Surface, Tip
+
+SCALES = (-6, 6)  # levels of a grain that the slider offers
+_START: dict[str, Any] = {
+    "density": Surface("rock", 0.9, "threshold", parameters=Map({"period": 18.0, "roughness": 0.3})),
+    "grain": Surface("rock", 0.8, parameters=Map({"period": 6.0, "roughness": 0.6})),
+    "edge": Edge("wet", 0.5),
+    "tip": Tip("rock", "window", parameters=Map({"period": 24.0})),
+}
+
+
+class Texturing:
+    """Draws the four sections."""
+
+    def __init__(self) -> None:
+        self._curves = CurveEditor()
+        self._kept = dict(_START)
+
+    def draw(self, desk: Desk) -> None:
+        for name, title, hint, body in _SECTIONS:
+            held = getattr(desk.brush, name)
+            shown, on = w.switched_section(title, hint, held is not None)
+            if on != (held is not None):
+                held = self._start(desk, name) if on else None
+            if shown:
+                imgui.push_id(name)
+                imgui.begin_disabled(not on)
+                changed = body(self, desk, held if held is not None else self._kept[name])
+                imgui.end_disabled()
+                imgui.pop_id()
+                held = changed if on else None
+            if held is not None:
+                self._kept[name] = held
+            if held != getattr(desk.brush, name):
+                setting: dict[str, Any] = {name: held}
+                desk.brush = replace(desk.brush, **setting)
+
+    def _start(self, desk: Desk, name: str) -> Any:
+        """What it was before, unless that needs a texture of another painting."""
+        held = self._kept[name]
+        known = {texture for texture, _ in textures.names(desk)}
+        return held if getattr(held, "texture", None) in known | {None} else _START[name]
+
+    def _density(self, desk: Desk, part: Surface) -> Surface:
+        hint = "How much the texture thins the paint"
+        return self._shaped(desk, _amount(_texture(desk, part), hint))
+
+    def _grain(self, desk: Desk, part: Surface) -> Surface:
+        part = _amount(_texture(desk, part), "How deep the grain is: light touches reach its peaks alone")
+        hint = "The level in whose pixels the grain is measured; higher is finer. It stays on the canvas as you zoom"
+        changed, level = w.slider("Scale", float(part.level), SCALES, hint, form="level %.0f")
+        if changed:
+            part = replace(part, level=round(level))
+        return self._shaped(desk, part)
+
+    def _shaped(self, desk: Desk, part: Any) -> Any:
+        parameters = textures.sliders(desk, part.texture, part.parameters)
+        if parameters != part.parameters:
+            part = replace(part, parameters=parameters)
+        hint = "A curve that the texture's values go through"
+        changed, curve = self._curves.row("Shaping", part.shaping, desk.curves, hint)
+        return replace(part, shaping=curve) if changed else part
+
+    def _edge(self, desk: Desk, part: Edge) -> Edge:
+        hint = "Left: at the rim of the stroke; right: a width inside it. Up: more paint"
+        changed, curve = self._curves.row("Edge", part.curve, desk.edges, hint)
+        if changed:
+            part = replace(part, curve=curve if curve is not None else desk.edges[0].name)
+        rows = (
+            ("width", "Width", "How far it reaches inwards, in per cent of the radius", 200.0),
+            ("amount", "Amount", "How much of it", 100.0),
+        )
+        for name, title, hint, most in rows:
+            changed, value = w.slider(title, getattr(part, name) * 100, (0.0, most), hint, form="%.0f%%")
+            if changed:
+                setting: dict[str, Any] = {name: round(value / 100, 3)}
+                part = replace(part, **setting)
+        return _tint(desk, part)
+
+    def _tip(self, desk: Desk, part: Tip) -> Tip:
+        part = _texture(desk, part)
+        options = [("sample", "The sample itself"), ("window", "Another piece each time")]
+        hints = ["Every dab stamps the texture's own picture", "Every dab stamps another piece of the texture"]
+        source = w.choice("from", part.source, options, "What each dab stamps", -1, hints)
+        if source:
+            part = replace(part, source=source)
+        return self._shaped(desk, part)
+
+
+_SECTIONS: tuple[tuple[str, str, str, Callable[[Texturing, Desk, Any], Any]], ...] = (
+    ("density", "Dry brush", "A texture thins the paint: bristles, gaps", Texturing._density),
+    ("grain", "Paper", "The grain of what is painted on; light touches reach its peaks alone", Texturing._grain),
+    ("edge", "Edge", "What happens along the rim of a stroke: wet, dark, worn", Texturing._edge),
+    ("tip", "Tip", "Each dab is a piece of a texture", Texturing._tip),
+)
+
+
+def _texture(desk: Desk, part: Any) -> Any:
+    chosen = textures.chooser(desk, part.texture, "The texture")
+    return replace(part, texture=chosen, parameters=Map()) if chosen and chosen != part.texture else part
+
+
+def _amount(part: Surface, hint: str) -> Surface:
+    changed, value = w.slider("Amount", part.amount * 100, (0.0, 100.0), hint, form="%.0f%%")
+    return replace(part, amount=round(value / 100, 4)) if changed else part
+
+
+def _tint(desk: Desk, part: Edge) -> Edge:
+    """The colour at the rim, if it has one of its own."""
+    side = imgui.get_frame_height()
+    on = part.colour is not None
+    changed, on = imgui.checkbox("Tint", on)
+    w.tooltip("The paint turns to another colour at the rim")
+    if changed:
+        part = replace(part, colour=to_hex(tuple(v * 0.5 for v in desk.colour)) if on else None)  # type: ignore[arg-type]
+    if part.colour is not None:
+        imgui.same_line()
+        if w.swatch("tint", part.rgb, "The colour at the rim", (side * 2, side)):
+            imgui.open_popup("tint colour")
+        rgb = w.colour_popup("tint colour", part.rgb)
+        if rgb is not None:
+            part = replace(part, colour=to_hex(rgb))
+    return part
