@@ -17,6 +17,7 @@ from engine.brush.checks import BrushError, shown, thawed
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.record import Brush, to_json
+from engine.brush.relief import Relief
 from engine.brush.stamp import Edit, Stamp
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes
@@ -169,7 +170,7 @@ def check(brush: Brush, where: str = "brush") -> None:
         raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
     if brush.op != "toward":
         raise BrushError(f"{where}.op", shown(thawed(brush.op)), 'the one this version paints with, "toward"')
-    for name in ("density", "grain", "edge", "tip", "example", "depth"):
+    for name in ("edge", "tip", "example", "depth"):
         if getattr(brush, name) is not None:
             raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
     if brush.extent:
@@ -177,15 +178,22 @@ def check(brush: Brush, where: str = "brush") -> None:
 
 
 def edit(
-    brush: Brush, mask: StrokeMask | Coverage, ink: Ink | None, alpha_locked: bool = False, read: Read | None = None
+    brush: Brush,
+    mask: StrokeMask | Coverage,
+    ink: Ink | None,
+    alpha_locked: bool = False,
+    read: Read | None = None,
+    relief: Relief | None = None,
 ) -> Edit:
     """The edit that a stroke makes: `mask` as it is now, whatever is painted later.
 
     `ink` (`ink.resolve`) is needed to paint; `read`, which gives the old values of any rectangle of the stroke's
-    level, to smooth.  BrushError as `check`.
+    level, to smooth; `relief` (`relief.resolve`) thins the coverage.  BrushError as `check`.
     """
     check(brush)
     coverage = mask.coverage() if isinstance(mask, StrokeMask) else mask
+    if relief is not None:
+        coverage = relief.over(coverage)
     made = MODES[brush.mode].edit
     assert made is not None
     return made(coverage, brush, ink, alpha_locked, read)

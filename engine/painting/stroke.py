@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from immutables import Map
 
-from engine.brush import kinds
+from engine.brush import kinds, relief
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve
@@ -57,10 +57,9 @@ class LiveStroke:
         self._count = 0
         self._stroker = Stroker(brush)
         self._mask = StrokeMask(level, origin)
-        textured = brush.mode == "paint"
-        self._ink = (
-            resolve(brush, painting.textures, level, painting.seed if seed is None else seed) if textured else None
-        )
+        own = painting.seed if seed is None else seed
+        self._ink = resolve(brush, painting.textures, level, own) if brush.mode == "paint" else None
+        self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
         self._edit: Edit | None = None
 
     @property
@@ -127,7 +126,9 @@ class LiveStroke:
     def edit(self) -> Edit:
         """The edit of the layer that the points so far make."""
         if self._edit is None:
-            self._edit = kinds.edit(self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read)
+            self._edit = kinds.edit(
+                self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read, self._relief
+            )
         return self._edit
 
     def _read(self, rect: Rect) -> Planes:

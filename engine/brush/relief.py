@@ -1,0 +1,220 @@
+"""What thins a stroke's coverage: the density of a dry brush, the grain of the surface painted on, the stroke's rim.
+
+Lewis 1984, section 6.1: a second texture modulates the density of the first (dry brush), and a texture bound to the
+canvas is felt by every brush (virtual surface).  All of it is a function of the stroke's coverage M and of the place
+alone, so a stroke in progress looks as it will once it is done.  In order:
+
+* **Grain**: heights g, 0..1, of a surface that lies still under all strokes.  With amount a, the brush touches
+  where (M (1 + s)/a - (1 - g))/s, clipped to 0..1, is above zero, s = 0.35: a light touch meets only the peaks, M = a
+  fills the hollows too, and M = 1 whatever the amount.  What it touches it covers a little more: M + a M (1 - M).
+* **Density**: times 1 - a + a s, s being the texture's value.
+* **Rim**: times a curve of the distance to the stroke's rim (module `rim`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numba import njit
+
+from engine.brush.ink import Texture, named
+from engine.brush.mask import Coverage
+from engine.brush.parts import Surface
+from engine.brush.record import Brush
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.pyramid import reduce
+from engine.numeric.shaping import look_up, table
+from engine.texture.image import ImageSource
+from engine.texture.record import Instance
+
+SOFTNESS = 0.35  # of the line between what a brush touches and what it does not, in heights
+_MEMO = 192  # tiles of heights kept: 12 MB
+_AVERAGED = 3  # levels coarser than the grain's coarsest at which it is averaged; beyond, it is level
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
+
+_ZERO = np.float32(0.0)
+_ONE = np.float32(1.0)
+
+
+def grey(made: Instance, level: int, rect: Rect) -> np.ndarray:
+    """s of a texture as one number a pixel: float32 (h, w), nominal 0..1.
+
+    The mean of the channels; of a picture, its luminance, where it is transparent 0.
+    """
+    seen = made.appearance(level, rect)
+    if len(seen) == 4:
+        return np.einsum("chw,c->hw", seen[:3], _LUMINANCE)
+    mean = seen[0] if len(seen) == 1 else (seen[0] + seen[1] + seen[2]) * np.float32(1.0 / 3.0)
+    return mean * np.float32(0.5) + np.float32(0.5)
+
+
+@dataclass(frozen=True, eq=False)
+class Heights:
+    """A texture's values s after its curve, tile by tile, at any level.
+
+    `base`: the level the texture is bound to; coarser than that it is averaged, and then level.
+    """
+
+    made: Instance
+    curve: np.ndarray
+    _memo: dict[TileKey, np.ndarray] = field(default_factory=dict, repr=False)
+
+    def plane(self, key: TileKey) -> np.ndarray:
+        """float32 (128, 128), 0..1, not to be written to."""
+        known = self._memo.get(key)
+        if known is None:
+            known = np.ascontiguousarray(self._values(key.level, key.rect))
+            look_up(known.reshape(-1), self.curve, _ONE, _ZERO)
+            while len(self._memo) >= _MEMO:
+                self._memo.pop(next(iter(self._memo)), None)
+            self._memo[key] = known
+        return known
+
+    def _values(self, level: int, rect: Rect) -> np.ndarray:
+        above = self.made.base - level
+        if above <= 0:
+            return grey(self.made, level, rect)
+        if above > _AVERAGED:
+            return np.full((rect.height, rect.width), self._mean, np.float32)
+        values = grey(self.made, self.made.base, rect.zoomed(above))[None]
+        for _ in range(above):
+            values = reduce(values)
+        return values[0]
+
+    @cached_property
+    def _mean(self) -> float:
+        return float(grey(self.made, self.made.base, Rect(0, 0, 2 * TILE, 2 * TILE)).mean(dtype=np.float64))
+
+
+def _heights(
+    part: Surface | None, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
+) -> Heights | None:
+    if part is None or part.amount == 0.0:
+        return None
+    return Heights(named(part, textures, level, seed, where), table(part.shaping or "identity"))
+
+
+def _ground(
+    part: Surface | None, textures: Mapping[str, Texture | ImageSource], seed: int, where: str
+) -> Heights | None:
+    """The grain, bound to the coarsest level at which its period still has two pixels, so that all levels, finer and
+    coarser than its own, see one and the same surface."""
+    found = _heights(part, textures, part.level if part else 0, seed, where)
+    if part is None or found is None:
+        return None
+    period = getattr(found.made, "period", None)
+    if period is None:
+        return found
+    above = max(0, math.floor(math.log2(period / 2.0)))
+    if isinstance(period, int):  # pictures come in whole pixels
+        above = min(above, (period & -period).bit_length() - 1)
+    if above == 0:
+        return found
+    smaller = period >> above if isinstance(period, int) else period / (1 << above)
+    bound = Surface(part.texture, parameters=part.parameters.set("period", smaller))
+    return Heights(named(bound, textures, part.level - above, seed, where), found.curve)
+
+
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """What thins the coverage of a brush's strokes at one level; nothing if every part is None."""
+
+    density: Heights | None = None
+    grain: Heights | None = None
+    amounts: tuple[float, float] = (1.0, 1.0)  # of density and grain
+    _done: dict[TileKey, tuple[object, np.ndarray | float]] = field(default_factory=dict, repr=False)
+
+    def over(self, coverage: Coverage) -> Coverage:
+        """The coverage as this relief thins it; its tiles are made when they are asked for."""
+        if self.density is None and self.grain is None:
+            return coverage
+        return Coverage(coverage.level, _Thinned(self, coverage), coverage.rect)
+
+    def tile(self, coverage: Coverage, key: TileKey) -> np.ndarray | float:
+        """M of one tile, thinned."""
+        covered = coverage.tiles[key]
+        known = self._done.get(key)
+        if known is not None and known[0] is covered:  # tiles that a Coverage holds are never written to
+            return known[1]
+        made = self._made(covered, key)
+        self._done[key] = covered, made
+        return made
+
+    def _made(self, covered: np.ndarray | float, key: TileKey) -> np.ndarray | float:
+        if not isinstance(covered, np.ndarray):
+            if covered == 0.0:
+                return covered
+            covered = np.full((TILE, TILE), covered, np.float32)
+        out = np.empty_like(covered)
+        if self.grain is not None:
+            _dig(covered, self.grain.plane(key), np.float32(self.amounts[1]), out)
+        else:
+            out[...] = covered
+        if self.density is not None:
+            _thin(out, self.density.plane(key), np.float32(self.amounts[0]))
+        return out
+
+
+class _Thinned(Mapping[TileKey, "np.ndarray | float"]):
+    """The tiles of a coverage, thinned when they are asked for."""
+
+    def __init__(self, relief: Relief, coverage: Coverage) -> None:
+        self._relief, self._coverage = relief, coverage
+
+    def __getitem__(self, key: TileKey) -> np.ndarray | float:
+        return self._relief.tile(self._coverage, key)
+
+    def __iter__(self) -> Iterator[TileKey]:
+        return iter(self._coverage.tiles)
+
+    def __len__(self) -> int:
+        return len(self._coverage.tiles)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._coverage.tiles
+
+
+def resolve(
+    brush: Brush,
+    textures: Mapping[str, Texture | ImageSource],
+    level: int,
+    seeds: tuple[int, int],
+    where: str = "brush",
+) -> Relief:
+    """What thins the strokes of a brush at `level`.
+
+    `seeds`: of the stroke's textures, and of the painting, to which the grain belongs.  BrushError names the field.
+    """
+    density, grain = brush.density, brush.grain
+    return Relief(
+        _heights(density, textures, level, seeds[0], f"{where}.density"),
+        _ground(grain, textures, seeds[1], f"{where}.grain"),
+        (density.amount if density else 0.0, grain.amount if grain else 0.0),
+    )
+
+
+@njit(cache=True, nogil=True)
+def _dig(coverage, heights, amount, out):
+    """What of M touches the heights g: see the module's text.  All float32 (h, w), amount above 0."""
+    soft = np.float32(SOFTNESS)
+    gain = (_ONE + soft) / (soft * amount)
+    slope = _ONE / soft
+    for y in range(coverage.shape[0]):
+        row, g, o = coverage[y], heights[y], out[y]
+        for x in range(row.size):
+            m = row[x]
+            touch = min(max(m * gain - (_ONE - g[x]) * slope, _ZERO), _ONE)
+            o[x] = touch * (m + amount * m * (_ONE - m))
+
+
+@njit(cache=True, nogil=True)
+def _thin(coverage, values, amount):
+    """coverage (h, w) times 1 - amount + amount s, in place."""
+    for y in range(coverage.shape[0]):
+        m, s = coverage[y], values[y]
+        for x in range(m.size):
+            m[x] *= _ONE - amount + amount * s[x]
