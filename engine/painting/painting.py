@@ -13,9 +13,10 @@ from engine.brush.checks import BrushError
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, LayerError
 from engine.painting import commands as c
+from engine.painting.makers import define
 from engine.painting.strictjson import FormatError
 from engine.painting.stroke import LiveStroke
-from engine.painting.textures import Around, define
+from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, with_node
 from engine.texture.table import TextureError
 

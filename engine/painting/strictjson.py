@@ -136,6 +136,10 @@ class Fields:
     def __contains__(self, name: str) -> bool:
         return name in self._members
 
+    def all(self) -> Mapping[str, Any]:
+        """The whole object."""
+        return self._members
+
     def at(self, name: str) -> str:
         return f"{self.place}.{name}" if self.place else name
 

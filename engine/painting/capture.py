@@ -1,0 +1,68 @@
+"""The pictures that texture definitions name: files, and rectangles of the canvas."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from engine.brush.checks import thawed
+from engine.canvas import layers
+from engine.canvas.layers import Group
+from engine.numeric.address import Rect
+from engine.numeric.colour import from_rgba8, from_rgba16
+from engine.numeric.grid import snapped
+from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
+from engine.painting.fault import FileError
+from engine.painting.images import read_image
+from engine.painting.limits import LIMITS
+from engine.painting.rendering import strips
+from engine.painting.strictjson import Fields
+
+PIXELS_CAP = 1 << 26  # of a picture: 1 GiB as float32 planes
+DETAIL_CAP = 16  # finer levels that a captured rectangle may hold
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where pictures come from: files, paths starting from a folder; and the canvas."""
+
+    folder: Path | None
+    root: Group
+
+    def picture(self, members: Fields) -> np.ndarray:
+        """The picture that `path`, or else `rect` and `layer`, name: premultiplied RGBA, float32 (4, h, w)."""
+        if "path" in members and "rect" in members:
+            raise members.fault("rect", "either path or rect")
+        if "rect" in members:
+            return captured(members, self.root)
+        return read_picture(members.text("path", cap=4096), self.folder)
+
+    def shape(self, shape: Mapping[str, Any]) -> np.ndarray:
+        """The picture that a shape of a spectrum names."""
+        return self.picture(Fields(thawed(shape), "shapes"))
+
+
+def read_picture(path: str, folder: Path | None) -> np.ndarray:
+    """The planes of a picture file, float32 (4, h, w) on the grid.  A relative path starts from `folder`."""
+    where = Path(path) if folder is None else folder / path
+    if not os.path.isfile(where):  # also so that no pipe or device is opened
+        raise FileError(path, f"found no picture there, expected a PNG, JPEG or TIFF ({where})")
+    pixels, _ = read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))
+    return from_rgba16(pixels) if pixels.dtype == np.uint16 else from_rgba8(pixels)
+
+
+def captured(members: Fields, root: Group) -> np.ndarray:
+    """A rectangle of the canvas as a picture, float32 (4, h, w) on the grid."""
+    level, x, y, width, height = members.integers("rect", 5, limit=PLACE_LIMIT)
+    detail = members.integer("detail", 0, lo=0, hi=DETAIL_CAP)
+    if abs(level) > LEVEL_LIMIT or width < 1 or height < 1 or (width * height) << (2 * detail) > PIXELS_CAP:
+        raise members.fault("rect", f"[L, X, Y, W, H] of at most {PIXELS_CAP} pixels at the finest level")
+    name = members.text("layer", None)
+    shown = root if name is None else layers.alone(layers.find(root, name))
+    rect = Rect.at(x, y, width, height).zoomed(detail)
+    return snapped(np.concatenate([strip.copy() for strip in strips(shown, level + detail, rect)], axis=1))
