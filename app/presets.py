@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 import platformdirs
 
 from engine.brush import record
 from engine.brush.record import Brush
+from engine.painting.atomic import replacing
 
 BYTES_CAP = 1 << 20
-_GROUP_RANK = {"Basic": 0, "Own": 2}  # others lie between, by name
+NAME_CAP = 40  # characters
+OWN = "Own"  # the group of brushes that name none
+_GROUP_RANK = {"Basic": 0, OWN: 2}  # others lie between, by name
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +26,7 @@ class Preset:
     name: str
     brush: Brush
     path: Path | None = None
-    group: str = "Own"
+    group: str = OWN
 
 
 DEFAULT = Preset("Round", Brush(radius=12.0))
@@ -62,16 +66,44 @@ def _read(path: Path) -> Preset:
     if not isinstance(data, dict):
         raise ValueError("found no object, expected a brush")
     name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
-    group = str(data.pop("group", "Own"))
+    group = str(data.pop("group", OWN))
     brush = record.from_json(data.pop("brush", data))
     return Preset(str(name), brush, path, group)
 
 
+def free_name(name: str, presets: Iterable[Preset]) -> str:
+    """The name itself, or with a number, so that no bundled preset has it; one of the artist's own is replaced."""
+    name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"
+    taken = {p.name.lower() for p in presets if p.path is None or p.path.parent == bundled_folder()}
+    wanted, number = name, 1
+    while wanted.lower() in taken:
+        number += 1
+        wanted = f"{name} {number}"
+    return wanted
+
+
 def save(preset: Preset, folder: Path) -> Path:
-    """Writes a preset as a file of the user's folder."""
+    """Writes a preset as a file of the user's folder, in place of the one of that name."""
     folder.mkdir(parents=True, exist_ok=True)
-    stem = "".join(ch if ch.isalnum() else "-" for ch in preset.name.lower()).strip("-") or "brush"
-    path = folder / f"{stem}.json"
-    text = json.dumps({"name": preset.name, "brush": record.to_json(replace(preset.brush))}, indent=1)
-    path.write_text(text + "\n", "utf-8")
+    path = _own_path(preset.name, folder)
+    text = json.dumps({"name": preset.name, "brush": record.to_json(preset.brush)}, indent=1, ensure_ascii=False)
+    with replacing(path) as file:
+        file.write((text + "\n").encode("utf-8"))
     return path
+
+
+def _own_path(name: str, folder: Path) -> Path:
+    """The file of a name: another one where a brush of another name has it, such as "a b" and "a-b"."""
+    stem = "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"
+    path, number = folder / f"{stem}.json", 1
+    while path.exists() and _name_in(path) != name:
+        number += 1
+        path = folder / f"{stem}-{number}.json"
+    return path
+
+
+def _name_in(path: Path) -> str | None:
+    try:
+        return _read(path).name
+    except (OSError, ValueError):
+        return None

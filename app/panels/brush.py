@@ -12,6 +12,8 @@ from app.desk import LARGEST, SMALLEST, Desk
 from app.knots import at
 from app.panels import widgets as w
 from app.panels.curves import CurveEditor
+from app.panels.ops import Operations
+from app.panels.saving import SaveBrush
 from app.panels.texturing import Texturing
 from app.presets import Preset
 from app.tools import TOOLS
@@ -49,18 +51,26 @@ class BrushPanel:
 
     def __init__(self) -> None:
         self._texturing, self._curves = Texturing(), CurveEditor()
+        self._operations, self._saving = Operations(), SaveBrush()
+        self._below = 0.0  # the height of all that lies below the presets, in the last frame
 
     def draw(self, desk: Desk) -> None:
         self._tools(desk)
-        if w.section("Brushes", "Presets: click to paint with one"):
+        shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
+        self._saving.draw(desk)
+        if shown:
             self._presets(desk)
+        below = imgui.get_cursor_pos().y
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
+            if desk.brush.mode == "raster":
+                self._operations.draw(desk)
             self._settings(desk)
         self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
             self._dynamics(desk)
+        self._below = imgui.get_cursor_pos().y - below
 
     def _preview(self, desk: Desk) -> None:
         """A stroke of the brush as it is set now."""
@@ -93,9 +103,9 @@ class BrushPanel:
         gap, em = 5 * desk.scale, imgui.get_font_size()
         wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
         tall = wide * THUMB[1] / THUMB[0] + em + 4 * desk.scale
-        imgui.begin_child(
-            "presets", ImVec2(0, max(6 * em, min(_height(desk.presets, tall + gap, em + gap), self._room(desk))))
-        )
+        room = imgui.get_window_height() - imgui.get_cursor_pos().y - self._below - 2 * em
+        height = min(_height(desk.presets, tall + gap, em + gap), max(room, 2.6 * tall))
+        imgui.begin_child("presets", ImVec2(0, height))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         group, column = "", 0
         for preset in desk.presets:
@@ -108,11 +118,6 @@ class BrushPanel:
             self._preset(desk, preset, wide, tall)
         imgui.pop_style_var()
         imgui.end_child()
-
-    def _room(self, desk: Desk) -> float:
-        """The height that the settings below leave free."""
-        lines = len(SETTINGS) + 10
-        return imgui.get_content_region_avail().y - lines * imgui.get_frame_height_with_spacing()
 
     def _preset(self, desk: Desk, preset: Preset, wide: float, tall: float) -> None:
         corner = imgui.get_cursor_screen_pos()

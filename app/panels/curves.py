@@ -20,6 +20,7 @@ from engine.painting.requests import CurveRow
 Curve = str | Knots | None
 Rows = Sequence[CurveRow]
 
+SIDE = 15  # of the canvas, in heights of the font
 LINES = 4  # of the grid each way
 REACH = 0.045  # how near to a knot the pointer takes hold of it
 FINE = 0.004  # what a curve drawn by hand may lose when it becomes knots
@@ -57,12 +58,13 @@ class CurveEditor:
         text = title_of(curve, rows)
         at = ImVec2(picture[0].x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
         painter.add_text(at, theme.packed(theme.TEXT if curve is not None else theme.QUIET), text)
+        _beside(corner, end)
         return self._popup(label, curve, rows)
 
     def _popup(self, label: str, curve: Curve, rows: Rows) -> tuple[bool, Curve]:
         if not imgui.begin_popup(f"edit {label}"):
             return False, curve
-        before, side = curve, imgui.get_font_size() * 15
+        before, side = curve, imgui.get_font_size() * SIDE
         imgui.text_disabled(label.partition("##")[0])
         button, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
         named = w.choice(
@@ -140,6 +142,17 @@ class CurveEditor:
             lit = i == self._held or (self._held is None and i == near)
             painter.add_circle_filled(place, 5.5, theme.packed(theme.FIELD), 16)
             painter.add_circle_filled(place, 4.0, theme.packed((0.95,) * 3 if lit else theme.ACCENT), 16)
+
+
+def _beside(corner: ImVec2, end: ImVec2) -> None:
+    """Has the next pop-up open beside a row and not over it: towards the middle of the window, and inside it."""
+    room, em = imgui.get_io().display_size, imgui.get_font_size()
+    gap, high = em * 0.9, em * (SIDE + 7)
+    y = max(min(corner.y - em, room.y - high), 0.0)
+    if corner.x > room.x / 2:
+        imgui.set_next_window_pos(ImVec2(corner.x - gap, y), imgui.Cond_.appearing, ImVec2(1, 0))
+    else:
+        imgui.set_next_window_pos(ImVec2(end.x + gap, y), imgui.Cond_.appearing)
 
 
 def plot(corner: ImVec2, end: ImVec2, shape: Knots, thick: float, grid: bool = False) -> None:

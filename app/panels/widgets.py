@@ -50,9 +50,11 @@ def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0
     return pressed
 
 
-def section(title: str, hint: str = "", *, opened: bool = True) -> bool:
-    """A panel's header; a click folds it."""
+def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = False) -> bool:
+    """A panel's header; a click folds it.  `shared`: a button may lie on its right end."""
     imgui.dummy(ImVec2(0, 1))
+    if shared:
+        imgui.set_next_item_allow_overlap()
     flags = imgui.TreeNodeFlags_.default_open if opened else 0
     flags |= imgui.TreeNodeFlags_.no_tree_push_on_open | imgui.TreeNodeFlags_.span_avail_width
     imgui.push_style_color(Col.header, theme.vec(theme.PANEL, 0.0))
