@@ -3,7 +3,8 @@
 A component of amount a mixes the texture's value s, 0..1, of colour X into the brush's colour C: C + a s (X - C).
 Curves of the component and of the brush change s first (`engine.texture.shaped`).  With s = (S + 1)/2 for a
 procedural texture of nominal S in -1..1 that is linear in S: the constant parts gather in the base colour, and
-a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, sections 3.1 and 3.4).
+a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, sections 3.1 and 3.4).  A coloured texture, whose S has three
+channels, takes the place of the brush's colour: C + a (s X - C).
 """
 
 from __future__ import annotations
@@ -102,6 +103,9 @@ def resolve(
                 base -= component.amount * under
             else:
                 found[own.cover] -= component.amount * under
+        elif getattr(own, "coloured", False):  # its own colours, s X, in place of the brush's
+            found[made] += component.amount * np.array(component.rgb) / 2.0
+            base += component.amount * (np.array(component.rgb) / 2.0 - under)
         else:
             found[made] += towards / 2.0
             base += towards / 2.0

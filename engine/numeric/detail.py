@@ -81,3 +81,16 @@ def cut(planes: np.ndarray, rect: Rect, inside: Rect) -> np.ndarray:
         return planes
     rows, columns = rect.slices(inside)
     return np.ascontiguousarray(planes[:, rows, columns])
+
+
+@njit(cache=True, nogil=True)
+def add_expanded(fine, coarse):
+    """fine += E coarse, in place; shapes as for `subtract_expanded`."""
+    t, finer = np.empty(coarse.shape[2], np.float32), np.empty(fine.shape[2], np.float32)
+    for c in range(fine.shape[0]):
+        for y in range(fine.shape[1]):
+            row, out = 1 + y // 2, fine[c, y]
+            blend_rows(coarse[c, row], coarse[c, row + 2 * (y & 1) - 1], t)
+            expand_row(t, finer)
+            for i in range(out.size):
+                out[i] += finer[i]

@@ -15,7 +15,7 @@ import numpy as np
 from engine.numeric.hashing import fold_key, hash_plane
 
 SPREAD = 0.36  # standard deviation of a texture of nominal range -1..1: one pixel in 200 leaves it
-WINDOW = 0.22  # standard deviation of the radial window, in sides of the sample
+WINDOW = 0.28  # standard deviation of the radial window, in sides of the sample
 _DOMAIN = 0x73706563  # "spec": tells these hashes from those of other textures
 
 Phase = np.ndarray | int | None  # radians (..., h, w); the seed of random ones; zero everywhere

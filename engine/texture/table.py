@@ -18,6 +18,7 @@ from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
 from engine.texture.rock import Rock
 from engine.texture.shaped import Shaped
+from engine.texture.spectral import Sparse, Tiled
 
 DEEPEST = 1 << 16  # |level| up to which textures are made: a claim in a file beyond it is refused
 SHAPED_CAP = 4  # curves, one after another
@@ -74,6 +75,18 @@ _ROCK = (
 _IMAGE = (
     Parameter("period", 256, 1, 65536, "px", "Width of the picture, in pixels of the level painted on", whole=True),
 )
+_SAMPLE = (
+    Parameter("period", 256, 4, 65536, "px", "Width of the sample, in pixels of the level painted on", whole=True),
+    Parameter("roughness", 0.5, 0.0, 1.0, "", "Strength of each octave of detail that zooming in adds; 0 is smooth"),
+)
+_SPARSE = (
+    *_SAMPLE,
+    Parameter("density", 10.0, 0.5, 100.0, "", "Copies of the sample per area of it: few stay apart, many merge"),
+    Parameter("mean", 0.0, -1.0, 1.0, "", "Brightness around which the texture varies"),
+    Parameter("spread", 1.0, 0.0, 4.0, "", "Contrast"),
+    Parameter("quantise", 0, 0, 256, "", "How many different strengths the copies have; 0 is any", whole=True),
+    _ROCK[-1],
+)
 
 _ROWS = (
     Kind("white", (), White, "Plain paint of the ink's colour"),
@@ -83,6 +96,8 @@ _ROWS = (
     Kind("squares", _WAVE, Squares, "A checkerboard whose edges stay sharp at every depth"),
     Kind("image", _IMAGE, Image, "A picture, tiled; it shows its own detail as you zoom in", pictured=True),
     Kind("canvas", _IMAGE, Image, "A piece of the painting, tiled like a picture", pictured=True),
+    Kind("spectrum", _SAMPLE, Tiled, "A painted spectrum as texture, tiled", pictured=True),
+    Kind("sparse", _SPARSE, Sparse, "An endless field of scattered copies of a sample", pictured=True),
 )
 # Not for the brush to name: the alpha that an image brings along where it is translucent.
 _COVER = Kind("cover", _IMAGE, Cover, "", pictured=True)
@@ -95,8 +110,8 @@ def instance(
     """A texture bound to its base level `level`.
 
     Parameters that are missing take the row's default, those of other kinds are ignored; `seed` is for textures
-    whose parameters name none; `source` is the picture of an image, its width the default period.  TextureError
-    names the field.
+    whose parameters name none; `source` is the picture of an image or the sample of a spectral texture, its width the
+    default period.  TextureError names the field.
     """
     row = _row(kind)
     _check_level(level)
@@ -105,8 +120,8 @@ def instance(
         value = parameters.get(p.name)
         if value is None:
             value = seed if p.name == "seed" else p.default
-            if row.pictured and source is not None and source.width:
-                value = source.width
+            if row.pictured and p.name == "period" and source is not None and source.width:
+                value = min(max(source.width, int(p.lo)), int(p.hi))
         values.append(p.checked(value))
     if not row.pictured:
         return row.make(level, *values)

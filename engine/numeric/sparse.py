@@ -1,0 +1,207 @@
+"""Sparse convolution: an endless field of weighted, displaced copies of one impulse response (Lewis 1984, section 5.2).
+
+The points form a sparse white noise: square by square, a hash of (key, place) says how many there are, where they lie
+and what they weigh.  With weights of zero mean, independent of one another, the field has the expected spectrum of
+the impulse response.  Each pixel sums its points in the order of (row of cells, column of cells, number), so that any
+rectangle, made alone, holds the same bits as the whole.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.address import Rect
+from engine.numeric.hashing import MASK32, fold_key, mix64, place64
+
+_SMALLEST = 8  # pixels along a cell, which else is half as large as the sample: so it covers the plane evenly
+_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+_BITS20 = np.uint64(0xFFFFF)
+_1, _20, _40 = np.uint64(1), np.uint64(20), np.uint64(40)
+# Weights of either sign, evenly spread from half the standard deviation up: none of the points is lost.
+_LEAST = np.float32(0.5)
+_RANGE = np.float32((math.sqrt(11.25) - 1.5) / 2.0 / (1 << 23))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Impulse:
+    """An impulse response, seen `coarser` levels above the one on which its points lie.
+
+    `phases`: float32 (p, p, c, h, w), C-contiguous, p = 2^s: the response as it falls on the pixels when its corner
+    lies at the fraction (row, column)/p of one.  Plain: (1, 1, c, h, w).  `size`: (h, w) at the level of the points.
+    """
+
+    phases: np.ndarray
+    size: tuple[int, int]
+    coarser: int = 0
+
+    @classmethod
+    def of(cls, response: np.ndarray) -> Impulse:
+        """`response`: float32 (c, h, w)."""
+        return cls(np.ascontiguousarray(response[None, None], np.float32), response.shape[1:])
+
+    def seen(self, coarser: int, phases: int = 16) -> Impulse:
+        """The means over 2^coarser pixels squared; positions in steps of a pixel of the finer level, at least 1/16."""
+        assert self.phases.shape[:2] == (1, 1)
+        steps = min(coarser, phases.bit_length() - 1)
+        response = _pooled(self.phases[0, 0], 1 << (coarser - steps), (0, 0))
+        p = 1 << steps
+        rows = [[_pooled(response, p, (y, x)) for x in range(p)] for y in range(p)]
+        return Impulse(np.ascontiguousarray(rows, np.float32), self.size, coarser)
+
+
+def _pooled(planes: np.ndarray, p: int, at: tuple[int, int]) -> np.ndarray:
+    """Means over p x p pixels of `planes` (c, h, w) laid at `at` (< p) on zeros: (c, ceil(h + p - 1 / p), ...)."""
+    channels, height, width = planes.shape
+    rows, columns = (-(-(size + p - 1) // p) for size in (height, width))
+    laid = np.zeros((channels, rows * p, columns * p))
+    laid[:, at[0] : at[0] + height, at[1] : at[1] + width] = planes
+    return laid.reshape(channels, rows, p, columns, p).mean((2, 4)).astype(np.float32)
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """The sparse noise: `density` points per area of the sample; `levels`: weights are one of so many evenly spaced
+    values, 0 for any; `key`: 64 bits.  The weights have mean 0 and standard deviation 1."""
+
+    key: int
+    density: float
+    levels: int = 0
+
+
+def spread(response: np.ndarray, density: float) -> float:
+    """The standard deviation of the field of a response (c, h, w), over all channels, known before it is made."""
+    channels, height, width = response.shape
+    energy = float(np.square(response, dtype=np.float64).sum()) / channels
+    return math.sqrt(density * energy / (height * width))
+
+
+def reach(impulse: Impulse, rect: Rect) -> Rect:
+    """Where the points lie that can touch `rect`, in pixels of the rectangle's own level."""
+    m, points = impulse.coarser, _points(impulse, rect)
+    return Rect(points.x0 >> m, points.y0 >> m, (points.x1 - 1 >> m) + 1, (points.y1 - 1 >> m) + 1)
+
+
+def _points(impulse: Impulse, rect: Rect) -> Rect:
+    """The same in pixels of the points' level."""
+    m, (height, width) = impulse.coarser, impulse.phases.shape[3:]
+    down, right = impulse.size[0] // 2, impulse.size[1] // 2
+    left, top = (rect.x0 - width + 1 << m) + right, (rect.y0 - height + 1 << m) + down
+    return Rect(left, top, (rect.x1 << m) + right, (rect.y1 << m) + down)
+
+
+def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None = None) -> np.ndarray:
+    """The field over `rect`: float32 (c, h, w), of mean 0.
+
+    A copy of the response begins at pixel (x, y) - size // 2, where (x, y) is its point.  `within`: uint8 (h, w) over
+    `reach(impulse, rect)`; points where it is 0 are left out (the extent of section 5.2).
+    """
+    out = np.zeros((impulse.phases.shape[2], rect.height, rect.width), np.float32)
+    if rect.empty:
+        return out
+    m, (height, width) = impulse.coarser, impulse.size
+    cell_h, cell_w = max(_SMALLEST, height // 2), max(_SMALLEST, width // 2)
+    points = _points(impulse, rect)
+    x, y = points.x0 // cell_w, points.y0 // cell_h
+    columns, rows = (points.x1 - 1) // cell_w + 1 - x, (points.y1 - 1) // cell_h + 1 - y
+    around = reach(impulse, rect)
+    layout = _Layout(
+        (x & MASK32, y & MASK32, columns, rows, cell_w, cell_h),
+        # From here on places count from the rectangle's corner.
+        (x * cell_w - (rect.x0 << m), y * cell_h - (rect.y0 << m)),
+        (width // 2, height // 2, around.x0 - rect.x0, around.y0 - rect.y0),
+        m,
+    )
+    mean = noise.density * (cell_w * cell_h / (width * height))
+    inside = _EVERYWHERE if within is None else within
+    _fill(out, impulse.phases, _keys(noise.key, x >> 32, y >> 32), layout, (mean, noise.levels), inside)
+    return out
+
+
+class _Layout(NamedTuple):
+    """Where a rectangle's cells lie: (low halves of the first cell's column and row, their numbers, a cell's width and
+    height); the first cell's corner; half the response, and the corner of the points' reach; levels between."""
+
+    cells: tuple[int, int, int, int, int, int]
+    corner: tuple[int, int]
+    offsets: tuple[int, int, int, int]
+    coarser: int
+
+
+_EVERYWHERE = np.zeros((0, 0), np.uint8)
+
+
+@lru_cache(maxsize=1024)
+def _keys(key: int, high_x: int, high_y: int) -> np.ndarray:
+    """Keys of four squares of 2^32 cells: uint64 (2 rows, 2 columns)."""
+    squares = [[fold_key(key, high_x + i, high_y + j) for i in range(2)] for j in range(2)]
+    return np.array(squares, np.uint64)
+
+
+@njit(inline="always")
+def _weight(h, levels):
+    """A number of mean 0 and variance 1 from the upper 24 bits of a hash: any, or one of `levels` values."""
+    bits = h >> _40
+    if levels < 2:
+        size = _LEAST + np.float32(np.int32(bits >> _1)) * _RANGE
+        return size if bits & _1 else -size
+    step = np.float32(math.sqrt(12.0 / (levels * levels - 1.0)))
+    k = np.int32((bits * np.uint64(levels)) >> np.uint64(24))
+    return (np.float32(k) - np.float32(0.5) * np.float32(levels - 1)) * step
+
+
+@njit(cache=True, nogil=True)
+def _stamp(out, response, top, left, weight):
+    """out += weight * response (c, h, w), whose first pixel lies at (top, left) of `out`, inside or not."""
+    y0, y1 = max(0, top), min(out.shape[1], top + response.shape[1])
+    x0, x1 = max(0, left), min(out.shape[2], left + response.shape[2])
+    if x0 >= x1:
+        return
+    for c in range(out.shape[0]):
+        for y in range(y0, y1):
+            row, copied = out[c, y, x0:x1], response[c, y - top, x0 - left : x1 - left]
+            for i in range(row.size):
+                row[i] += weight * copied[i]
+
+
+@njit(cache=True, nogil=True)
+def _cell(out, phases, h, corner, layout, noise, within):
+    """Adds the points of one cell, whose hash is `h` and whose corner lies at (x, y) from that of `out`."""
+    cell_w, cell_h = np.uint64(layout.cells[4]), np.uint64(layout.cells[5])
+    m, last = layout.coarser, phases.shape[0] - 1
+    mean, levels = noise
+    rest = np.float64(mix64(h) >> _40) * 2.0**-24
+    for i in range(int(mean) + (1 if rest < mean - int(mean) else 0)):
+        g = mix64(h + np.uint64(i + 1) * _GOLDEN)
+        x = corner[0] + np.int64((g & _BITS20) * cell_w >> _20)
+        y = corner[1] + np.int64((g >> _20 & _BITS20) * cell_h >> _20)
+        if within.size and not _counts(within, (x >> m) - layout.offsets[2], (y >> m) - layout.offsets[3]):
+            continue
+        x, y = x - layout.offsets[0], y - layout.offsets[1]
+        left, top = x >> m, y >> m
+        if top >= out.shape[1] or top + phases.shape[3] <= 0:
+            continue
+        fine = phases[((y - (top << m)) * (last + 1)) >> m, ((x - (left << m)) * (last + 1)) >> m]
+        _stamp(out, fine, top, left, _weight(g, levels))
+
+
+@njit(inline="always")
+def _counts(within, x, y):
+    return 0 <= y < within.shape[0] and 0 <= x < within.shape[1] and within[y, x] != 0
+
+
+@njit(cache=True, nogil=True)
+def _fill(out, phases, keys, layout, noise, within):
+    """Adds all cells, row by row."""
+    x, y, columns, rows, cell_w, cell_h = layout.cells
+    for j in range(rows):
+        for i in range(columns):
+            key = keys[(y + j) >> 32, (x + i) >> 32]
+            h = place64(key, np.uint64((x + i) & MASK32), np.uint64((y + j) & MASK32))
+            corner = layout.corner[0] + i * cell_w, layout.corner[1] + j * cell_h
+            _cell(out, phases, h, corner, layout, noise, within)

@@ -1,0 +1,147 @@
+"""A sample of texture at its own resolution: its pyramid, its impulse response, and its finest octaves by themselves.
+
+Lewis 1984, sections 5.2 and 5.3.  A sample travels as a picture whose red, green and blue are s = (S + 1)/2; it is grey
+where the three are equal.  Its *native* level is the first on which it is no smaller than its own pixels.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from engine.numeric.pyramid import reduce
+from engine.numeric.sparse import Impulse
+from engine.numeric.spectra import frequencies, radial_window
+from engine.texture.image import ImageSource, stretched
+from engine.texture.octaves import Continuation
+
+LARGEST = 2048  # pixels along a side of an impulse response
+_SLIVER = 16  # a sample is not enlarged beyond so many times its pixels
+_FAINT = 1e-3  # an octave below this part of the strongest one's energy is empty
+
+
+@lru_cache(maxsize=64)
+def coloured(source: ImageSource) -> bool:
+    """Whether the picture's channels differ."""
+    data = source.data
+    return data is not None and not ((data[0] == data[1]).all() and (data[0] == data[2]).all())
+
+
+@lru_cache(maxsize=1024)
+def finer(source: ImageSource, period: int, largest: int | None = None) -> int:
+    """How many levels finer than one on which the sample is `period` pixels wide its native level is; or coarser, < 0.
+
+    `largest`: the native size is at most so many pixels along a side.
+    """
+    width, height = source.width, source.height
+    shape = height / width
+    n = 0
+    while _wide(period, n) < width and _wide(period, n + 1) ** 2 * shape <= _SLIVER * width * height:
+        n += 1
+    while _wide(period, n) >= 2 * width and _wide(period, n) > 2:
+        n -= 1
+    while largest is not None and max(1.0, shape) * _wide(period, n) > largest and _wide(period, n) > 2:
+        n -= 1
+    return n
+
+
+def _wide(period: int, n: int) -> int:
+    return period << n if n >= 0 else max(1, round(period / (1 << -n)))
+
+
+def _native(source: ImageSource, period: int, n: int) -> np.ndarray:
+    """S at the native level, `n` levels finer than the base: float32 (1 or 3, h, w); divisible as often as it must."""
+    width, shape = _wide(period, n), source.height / source.width
+    height = max(1, round(period * shape)) << n if n > 0 else max(1, round(width * shape))
+    planes = stretched(source, (height, width), np.arange(height), np.arange(width))
+    return 2.0 * planes[: 3 if coloured(source) else 1] - np.float32(1.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Tile:
+    """`mean`: of each channel, float32 (c, 1, 1); `levels`: S less that, from the base level to the native one (which
+    alone there is if it is the coarser one), float32 (c, h, w); `top`: its finest octaves."""
+
+    mean: np.ndarray
+    levels: tuple[np.ndarray, ...]
+    top: np.ndarray
+    form: Continuation
+
+
+@lru_cache(maxsize=8)
+def tile(source: ImageSource, period: int) -> Tile:
+    n = finer(source, period)
+    native = _native(source, period, n)
+    mean = _mean(native)
+    native = native - mean
+    levels = [native]
+    for _ in range(n):
+        levels.append(reduce(levels[-1]))
+    for plane in levels:
+        plane.flags.writeable = False
+    return Tile(mean, tuple(reversed(levels)), *_top(native))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Response:
+    """`mean`: the sample's, float32 (c, 1, 1); `own`: its impulse response, of energy 1 per channel and area of the
+    sample; `top`: the finest octaves of that, whose strength `form` tells; both at the native level."""
+
+    mean: np.ndarray
+    own: Impulse
+    top: Impulse
+    form: Continuation
+
+
+@lru_cache(maxsize=8)
+def response(source: ImageSource, period: int) -> Response:
+    """The zero-mean sample under the radial Gaussian window, and what is finest in it."""
+    native = _native(source, period, finer(source, period, LARGEST))
+    channels, height, width = native.shape
+    window = radial_window(height, width)
+    weight = np.float32(max(float(window.sum(dtype=np.float64)), 1e-9))
+    own = (native - (native * window).sum((1, 2), keepdims=True) / weight) * window
+    energy = float(np.square(own, dtype=np.float64).sum()) / (channels * height * width)
+    own *= np.float32(energy**-0.5 if energy > 1e-10 else 0.0)
+    top, form = _top(own)
+    held = float(np.square(top, dtype=np.float64).sum())
+    top = (top - (top * window).sum((1, 2), keepdims=True) / weight) * window
+    left = float(np.square(top, dtype=np.float64).sum())
+    top *= np.float32((held / left) ** 0.5 if left > 0.0 else 0.0)
+    return Response(_mean(native), Impulse.of(own), Impulse.of(top), form)
+
+
+@lru_cache(maxsize=32)
+def seen(source: ImageSource, period: int, coarser: int) -> Impulse:
+    """The impulse response some levels above the native one."""
+    return response(source, period).own.seen(coarser)
+
+
+def _mean(planes: np.ndarray) -> np.ndarray:
+    return planes.mean((1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
+
+
+def _top(planes: np.ndarray) -> tuple[np.ndarray, Continuation]:
+    """The octaves of (periodic) `planes` (c, h, w) from the finest down to the highest that is not empty.
+
+    Of 1/f noise that is the finest alone; of a ring at a period of 16 pixels, all down to the ring.
+    """
+    _, height, width = planes.shape
+    v, u = frequencies(height, width)
+    f = np.fft.ifftshift(np.hypot(u, v))
+    spectrum = np.fft.fft2(planes)
+    power = np.square(np.abs(spectrum)).sum(0, dtype=np.float64)
+    octave = np.ceil(np.log2(np.maximum(f, 1e-9))).clip(-40, 0)
+    held = np.array([float(power[octave == -i].sum()) for i in range(max(1, max(height, width).bit_length() - 1))])
+    lowest = int(np.argmax(held >= _FAINT * held.max()))
+    edge = 2.0 ** (-lowest - 1)  # passed from there on, half way at 1/1.2 of it, nothing below 1/1.44
+    passed = np.clip(1.0 + np.log(np.maximum(f, 1e-9) / edge) / np.log(1.44), 0.0, 1.0)
+    part = np.square(np.sin(0.5 * np.pi * passed)).astype(np.float32)
+    out = np.fft.ifft2(spectrum * part).real
+    whole = float(power.sum())
+    strength = float((power * np.square(part)).sum()) / whole if whole > 0.0 else 0.0
+    middle = float((held * np.arange(held.size)).sum()) / max(float(held.sum()), 1e-30)
+    form = Continuation(round(strength**0.5, 6), round(1.0 + middle, 3), 1.0 + lowest)
+    return np.ascontiguousarray(out, np.float32), form

@@ -1,0 +1,210 @@
+"""Spectral textures as ink: a sample tiled, or the endless field that it is the impulse response of (Lewis 1984, 5.2).
+
+Down to the sample's native level S is that of the tile or the field: S_k is the mean of S_(k+1) over 2 x 2 pixels.
+Beyond, it is continued by self-similar octaves: octave j is the sample's finest content (`sample.Tile.top`), laid at
+level native + j as it was at the native level, in other places and about r^j as strong, r being the roughness.  With E
+for expand and O_j for an octave (O_0: the texture itself, less its mean) the texture at depth d (level native + d) is
+
+    S_d = mean + sum over j <= d of  W(d, j) E^(d-j) O_j        with the weights of `engine.texture.octaves`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import ClassVar
+
+import numpy as np
+
+from engine.numeric import sparse
+from engine.numeric.address import Rect
+from engine.numeric.detail import add_expanded, cut, parents, subtract_expanded
+from engine.numeric.hashing import fold_key
+from engine.numeric.spectra import SPREAD
+from engine.texture import sample
+from engine.texture.image import ImageSource, tiled
+from engine.texture.octaves import Continuation, octave_changes, octave_weights
+
+_DOMAIN = 0x73706172  # "spar": tells these hashes from those of other textures
+
+
+class _Spectral:
+    """What both share.  `_own` gives the texture from its base to its native level, `_octave` what continues it; both
+    float32 (c, h, w), of mean zero."""
+
+    kind: ClassVar[str]
+    base: int
+    period: int
+    roughness: float
+    source: ImageSource
+
+    @property
+    def coloured(self) -> bool:
+        """Whether S has three channels."""
+        return sample.coloured(self.source)
+
+    @property
+    def native(self) -> int:
+        """The level of the sample's own pixels; it may be coarser than the base."""
+        raise NotImplementedError
+
+    @property
+    def centre(self) -> np.ndarray:
+        """Of each channel: float32 (c, 1, 1)."""
+        raise NotImplementedError
+
+    @property
+    def form(self) -> Continuation:
+        raise NotImplementedError
+
+    def _own(self, level: int, rect: Rect) -> np.ndarray:
+        raise NotImplementedError
+
+    def _octave(self, depth: int, rect: Rect) -> np.ndarray:
+        raise NotImplementedError
+
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        if level < self.base:
+            raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
+        if self.source.data is None:
+            return np.zeros((1, rect.height, rect.width), np.float32)
+        if level <= self.native:
+            return self._own(level, rect) + self.centre
+        factors = octave_weights(level - self.native, self.roughness, self.form)
+        return self._cascade(level - self.native, rect, factors) + self.centre
+
+    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        if level <= self.base or rect.empty or self.source.data is None:
+            return None
+        if level > self.native:
+            changes = octave_changes(level - self.native, self.roughness, self.form)
+            return self._cascade(level - self.native, rect, changes) if changes.size else None
+        even = rect.evened()
+        out = self._own(level, even)
+        return cut(out, rect, even) if subtract_expanded(out, self._own(level - 1, parents(even))) else None
+
+    def _cascade(self, depth: int, rect: Rect, factors: np.ndarray) -> np.ndarray:
+        """sum over m of factors[m] E^m O_(depth - m), over `rect`."""
+        places = [rect.evened()]
+        for _ in range(factors.size - 1):
+            places.append(parents(places[-1]).evened())
+        channels = 3 if self.coloured else 1
+        coarse: np.ndarray | None = None
+        for m in range(factors.size - 1, -1, -1):
+            even = places[m]
+            if factors[m] != 0.0:
+                out = self._own(self.native, even) if m == depth else self._octave(depth - m, even)
+                out *= factors[m]
+            else:
+                out = np.zeros((channels, even.height, even.width), np.float32)
+            if coarse is not None:
+                add_expanded(out, cut(coarse, parents(even), places[m + 1]))
+            coarse = out
+        assert coarse is not None
+        return cut(coarse, rect, places[0])
+
+
+@dataclass(frozen=True)
+class Tiled(_Spectral):
+    """The sample itself, repeated from pixel (0, 0) of the base level on.
+
+    `period`: its width in pixels of the base level; `roughness`: the strength of an octave to the one before, 0..1.
+    """
+
+    base: int
+    period: int
+    roughness: float
+    source: ImageSource
+
+    kind: ClassVar[str] = "spectrum"
+
+    @property
+    def key(self) -> tuple:
+        return (self.kind, self.base, self.period, self.roughness, self.source.name, self.source.sha)
+
+    @property
+    def native(self) -> int:
+        return self.base + sample.finer(self.source, self.period)
+
+    @property
+    def centre(self) -> np.ndarray:
+        return sample.tile(self.source, self.period).mean
+
+    @property
+    def form(self) -> Continuation:
+        return sample.tile(self.source, self.period).form
+
+    def _own(self, level: int, rect: Rect) -> np.ndarray:
+        levels = sample.tile(self.source, self.period).levels
+        return tiled(levels[level - self.native - 1], rect)
+
+    def _octave(self, depth: int, rect: Rect) -> np.ndarray:
+        """The tile's finest content, shifted elsewhere."""
+        top = sample.tile(self.source, self.period).top
+        h = fold_key(_DOMAIN, depth)
+        x, y = (h & 0xFFFFFFFF) % top.shape[2], (h >> 32) % top.shape[1]
+        return tiled(top, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))
+
+
+@dataclass(frozen=True)
+class Sparse(_Spectral):
+    """The endless field by sparse convolution with the windowed sample: S = mean + spread 0.36 F, F of variance 1.
+
+    `density`: points per area of the sample; `mean`, `spread`: of S (a coloured sample's own mean is added);
+    `quantise`: 0, or how many values the points' weights have; `seed`: another one, another field.
+    """
+
+    base: int
+    period: int
+    roughness: float
+    density: float
+    mean: float
+    spread: float
+    quantise: int
+    seed: int
+    source: ImageSource
+
+    kind: ClassVar[str] = "sparse"
+
+    @property
+    def key(self) -> tuple:
+        numbers = (self.roughness, self.density, self.mean, self.spread, self.quantise, self.seed)
+        return (self.kind, self.base, self.period, *numbers, self.source.name, self.source.sha)
+
+    @property
+    def native(self) -> int:
+        return self.base + sample.finer(self.source, self.period, sample.LARGEST)
+
+    @property
+    def centre(self) -> np.ndarray:
+        own = sample.response(self.source, self.period).mean if self.coloured else np.zeros((1, 1, 1), np.float32)
+        return own + np.float32(self.mean)
+
+    def impulse(self, level: int) -> sparse.Impulse:
+        """The impulse response at a level from the base to the native one."""
+        if level >= self.native:
+            return sample.response(self.source, self.period).own
+        return sample.seen(self.source, self.period, self.native - level)
+
+    @property
+    def form(self) -> Continuation:
+        return sample.response(self.source, self.period).form
+
+    def _own(self, level: int, rect: Rect) -> np.ndarray:
+        return self._field(self.impulse(level), 0, rect)
+
+    def _octave(self, depth: int, rect: Rect) -> np.ndarray:
+        return self._field(sample.response(self.source, self.period).top, depth, rect)
+
+    def _field(self, impulse: sparse.Impulse, octave: int, rect: Rect) -> np.ndarray:
+        key = _key(self.seed, self.base, self.native + octave)
+        out = sparse.field(impulse, sparse.Noise(key, self.density, self.quantise), rect)
+        # A response of energy 1 per area makes a field of variance `density`, whatever the sample.
+        out *= np.float32(self.spread * SPREAD / math.sqrt(self.density))
+        return out
+
+
+@lru_cache(maxsize=4096)
+def _key(seed: int, base: int, level: int) -> int:
+    return fold_key(_DOMAIN, seed, base, level)
