@@ -2,7 +2,7 @@
 
 A = 1 - M everywhere, M being the stroke's coverage on the grid.  Painting adds M times the ink, erasing nothing,
 smoothing M times the mean of what lies around.  Under alpha lock, colour is scaled by the alpha that lies there, and
-alpha itself stays as it is, bit for bit.
+alpha itself stays as it is, bit for bit.  Raster-ops, whose A is another, have a module of their own.
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from engine.brush import coat
-from engine.brush.checks import BrushError, shown, thawed
+from engine.brush.checks import BrushError, shown
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
+from engine.brush.raster import Raster, Scene
 from engine.brush.record import Brush, to_json
 from engine.brush.relief import Relief
 from engine.brush.stamp import Edit, Stamp
@@ -148,7 +149,7 @@ class Mode:
     name: str
     label: str
     tooltip: str
-    edit: type[Painting] | type[Erasing] | type[Smoothing] | None
+    edit: type[Painting] | type[Erasing] | type[Smoothing] | type[Raster] | None
 
 
 MODES: dict[str, Mode] = {
@@ -157,7 +158,7 @@ MODES: dict[str, Mode] = {
         Mode("paint", "Paint", "Lays paint over what is there", Painting),
         Mode("erase", "Erase", "Takes away paint and the detail under it", Erasing),
         Mode("smooth", "Smooth", "Blurs, and removes the detail that zooming in would show", Smoothing),
-        Mode("raster", "Raster operation", "Changes the colour that is there", None),
+        Mode("raster", "Raster operation", "Changes the colour that is there", Raster),
         Mode("example", "Example", "Grows a texture from an example", None),
     )
 }
@@ -168,8 +169,6 @@ def check(brush: Brush, where: str = "brush") -> None:
     usable = ", ".join(name for name, mode in MODES.items() if mode.edit is not None)
     if MODES[brush.mode].edit is None:
         raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
-    if brush.op != "toward":
-        raise BrushError(f"{where}.op", shown(thawed(brush.op)), 'the one this version paints with, "toward"')
     for name in ("edge", "tip", "example", "depth"):
         if getattr(brush, name) is not None:
             raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
@@ -184,11 +183,13 @@ def edit(
     alpha_locked: bool = False,
     read: Read | None = None,
     relief: Relief | None = None,
+    scene: Scene | None = None,
 ) -> Edit:
     """The edit that a stroke makes: `mask` as it is now, whatever is painted later.
 
     `ink` (`ink.resolve`) is needed to paint; `read`, which gives the old values of any rectangle of the stroke's
-    level, to smooth; `relief` (`relief.resolve`) thins the coverage.  BrushError as `check`.
+    level, to smooth; `relief` (`relief.resolve`) thins the coverage; a raster-op takes
+    `raster.mixture` for its ink, and looks at `scene`.  BrushError as `check`.
     """
     check(brush)
     coverage = mask.coverage() if isinstance(mask, StrokeMask) else mask
@@ -196,4 +197,6 @@ def edit(
         coverage = relief.over(coverage)
     made = MODES[brush.mode].edit
     assert made is not None
+    if made is Raster:
+        return Raster(coverage, brush, ink, alpha_locked, read, scene or Scene())
     return made(coverage, brush, ink, alpha_locked, read)

@@ -12,7 +12,7 @@ from typing import Any
 
 from immutables import Map
 
-from engine.brush import checks, parts
+from engine.brush import checks, ops, parts
 from engine.brush.checks import BrushError, Knots
 from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
 from engine.numeric.curves import Shape
@@ -20,7 +20,6 @@ from engine.numeric.curves import Shape
 __all__ = ["COMPONENTS_CAP", "SETTINGS", "Brush", "Component", "Curve", "Setting", "from_json", "to_json"]
 
 MODE_NAMES = ("paint", "erase", "smooth", "raster", "example")
-FORMULA_CAP = 4096
 
 Curve = str | Knots  # "pressure", or knots [in, out]
 
@@ -110,7 +109,7 @@ class Brush:
     mode: str = "paint"
     colour: str = "#000000"
     ink: tuple[Component, ...] = ()
-    op: str | Map[str, Any] = "toward"
+    op: ops.OpValue = "toward"
     density: Surface | None = None
     grain: Surface | None = None
     shaping: Shape | None = None
@@ -179,15 +178,6 @@ def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
     return lambda value, place: None if value is None else read(value, place)
 
 
-def _op(value: Any, place: str) -> str | Map[str, Any]:
-    if isinstance(value, str):
-        return checks.text(value, place, "a raster operation")
-    if not isinstance(value, Mapping) or "formula" not in value:
-        raise BrushError(place, checks.shown(value), 'a name or {"formula": "..."}')
-    checks.text(value["formula"], f"{place}.formula", "a formula", FORMULA_CAP)
-    return checks.frozen(value)
-
-
 def _dynamics(value: Any, place: str) -> Map[str, Any]:
     """Given dynamics replace the default ones; a null curve is none."""
     if not isinstance(value, Mapping):
@@ -209,7 +199,7 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "mode": lambda value, place: checks.one_of(value, place, MODE_NAMES),
     "colour": checks.colour,
     "ink": parts.ink,
-    "op": _op,
+    "op": ops.read,
     "density": _optional(parts.surface),
     "grain": _optional(parts.surface),
     "shaping": parts.shaping,

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from immutables import Map
 
-from engine.brush import kinds, relief
+from engine.brush import kinds, raster, relief
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve
@@ -20,6 +20,7 @@ from engine.canvas.painted import tile_bounds
 from engine.numeric.address import Rect
 from engine.painting.commands import Stroke
 from engine.painting.points import POINT_COLUMNS, REACH
+from engine.painting.scenery import Scenery
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.texture.planes import Planes
 
@@ -58,7 +59,9 @@ class LiveStroke:
         self._stroker = Stroker(brush)
         self._mask = StrokeMask(level, origin)
         own = painting.seed if seed is None else seed
-        self._ink = resolve(brush, painting.textures, level, own) if brush.mode == "paint" else None
+        inks = {"paint": resolve, "raster": raster.mixture}
+        self._ink = inks[brush.mode](brush, painting.textures, level, own) if brush.mode in inks else None
+        self._scenery = Scenery(brush, self.base.root, level, origin, cache) if brush.mode == "raster" else None
         self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
         self._edit: Edit | None = None
 
@@ -92,6 +95,8 @@ class LiveStroke:
         except BrushError:
             self._again()
             raise
+        if self._scenery is not None:
+            self._scenery.lay(points)
         self._points.append(points)
         self._count += len(points)
         self._edit = None
@@ -126,8 +131,9 @@ class LiveStroke:
     def edit(self) -> Edit:
         """The edit of the layer that the points so far make."""
         if self._edit is None:
+            scene = None if self._scenery is None else self._scenery.scene
             self._edit = kinds.edit(
-                self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read, self._relief
+                self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read, self._relief, scene
             )
         return self._edit
 

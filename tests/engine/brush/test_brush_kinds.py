@@ -338,6 +338,6 @@ def test_smoothing_reads_no_farther_than_its_cap():
 
 
 def test_an_edit_of_a_mode_of_a_later_version_is_refused():
-    brush = from_json({"mode": "raster"})
+    brush = from_json({"mode": "example"})
     with pytest.raises(BrushError, match=r"brush\.mode"):
         edit(brush, StrokeMask(0, (0, 0)), Ink(np.zeros(3, np.float32)))

@@ -215,9 +215,10 @@ def test_the_same_tree_is_compiled_once():
     assert kernel(parse("pic+1")) is kernel(parse(" pic  + 1.0 "))
 
 
-# ---- attempts to get out ---------------------------------------------------------------------------------------------
+# ---- attempts to get out ----
 
-WORDS = r"""if else + - * / % ** ( ) , < >= 1 .5 2e3 . : [ ] { } ' " = := ; @ # \ f' ... 5_0 0b1 1j _ __class__ __import__
+WORDS = r"""if else
++ - * / % ** ( ) , < >= 1 .5 2e3 . : [ ] { } ' " = := ; @ # \ f' ... 5_0 0b1 1j _ __class__ __import__
 lambda import eval exec os np range bounded out kernel _sin value i for in x_row while not and is None globals getattr
 __builtins__"""
 TOKENS = (*WORDS.split(), *NAMES, *CONSTANTS, *FUNCTIONS, " ", "\n", "\0", "\u212f")

@@ -103,8 +103,19 @@ REFUSED = {
     "group into itself": ([layer(add="g", kind="group"), layer(move="g", to=0, group="g")], "found itself"),
     "blend": ([layer(add="a"), layer(set="a", blend="burn")], "blend: found 'burn'"),
     "alpha lock of a group": ([layer(add="g", kind="group"), layer(set="g", alpha_locked=True)], "alpha_locked"),
-    "later mode": ([stroke(brush={"mode": "raster"})], "brush.mode"),
-    "later operation": ([stroke(brush={"op": "multiply"})], "brush.op"),
+    "later mode": ([stroke(brush={"mode": "example"})], "brush.mode"),
+    "clone of no layer": (
+        [stroke(brush={"mode": "raster", "op": {"name": "clone", "layer": "x"}})],
+        "brush.op.layer: found 'x', none of that name",
+    ),
+    "clone of a group": (
+        [
+            layer(add="a"),
+            layer(add="g", kind="group"),
+            stroke(brush={"mode": "raster", "op": {"name": "clone", "layer": "g"}}),
+        ],
+        "brush.op.layer: found 'g', a group",
+    ),
     "unknown texture": ([stroke(brush={"ink": [{"texture": "moss"}]})], "brush.ink[0].texture"),
     "texture's parameter": ([stroke(brush={"ink": [{"texture": "rock", "period": 0}]})], "brush.ink[0].period"),
     "a huge stroke": ([stroke(points=[[0, 0], [1e7, 1e7]], brush={"radius": 4000})], "tiles"),

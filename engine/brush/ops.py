@@ -1,0 +1,246 @@
+"""The raster-ops: what `mode` "raster" may do to the colour that is there, as one table (Lewis 1984, section 6.1).
+
+    pic += d tex f(pic, ...)
+
+d is how far the stroke covers a pixel, tex the brush's textures mixed (1 without), and f the row of the table, or a
+formula of the artist's own (`engine.numeric.formula`).  Each row says what it leaves of finer levels' detail, and what
+coarser levels show; how it is computed stands in `engine.brush.raster`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from immutables import Map
+
+from engine.brush import checks
+from engine.brush.checks import BrushError
+from engine.numeric.formula import FORMULA_CAP, FormulaError, Tree, parse
+
+STOPS_CAP = 8
+REACH_CAP = 32.0
+SHIFT_CAP = 64.0
+OFFSET_CAP = 2**31
+OpValue = str | Map[str, Any]
+
+_WASH = ((0.0, "#1b1033"), (0.5, "#c8553d"), (1.0, "#ffe9b0"))
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter of an op.  `kind`: number (of lo..hi), choice (of `choices`), ramp, layer or offset; a default of
+    None means that it has to be given."""
+
+    name: str
+    label: str
+    default: Any
+    tooltip: str
+    kind: str = "number"
+    lo: float = 0.0
+    hi: float = 1.0
+    slider: tuple[float, float] = (0.0, 1.0)
+    unit: str = ""
+    logarithmic: bool = False
+    choices: tuple[str, ...] = ()
+
+    def read(self, value: Any, place: str) -> Any:
+        """The checked, immutable value of a JSON one."""
+        if self.kind == "number":
+            return checks.number(value, place, self.lo, self.hi)
+        if self.kind == "choice":
+            return checks.one_of(value, place, self.choices)
+        if self.kind == "layer":
+            return checks.text(value, place, "a layer's name")
+        return _ramp(value, place) if self.kind == "ramp" else _offset(value, place)
+
+
+@dataclass(frozen=True, slots=True)
+class Op:
+    """A row of the table.  `finer`, `coarser`: what becomes of the detail of finer levels, and what coarser levels
+    show.  `code`: which loop of module `tones` computes it; 0 for those that look around or lay paint."""
+
+    name: str
+    label: str
+    tooltip: str
+    finer: str
+    coarser: str
+    parameters: tuple[Parameter, ...] = ()
+    code: int = 0
+    coloured: bool = False  # whether it uses the brush's colour
+
+
+def _amount(default: float, tooltip: str, lo: float = 0.0, hi: float = 1.0) -> Parameter:
+    return Parameter("amount", "Amount", default, tooltip, lo=lo, hi=hi, slider=(lo, hi))
+
+
+def _reach(tooltip: str) -> Parameter:
+    return Parameter("reach", "Reach", 4.0, tooltip, "number", 1.0, REACH_CAP, (1.0, REACH_CAP), "px", True)
+
+
+_BY = ("luminance", "texture")
+_FOLLOWS = "Coarser levels show the mean of the changed pixels."
+_SLOPE = "Finer detail is multiplied by the slope of the change at the colour under it"
+_GONE = "Finer detail fades as the stroke covers it"
+
+OPS: dict[str, Op] = {
+    row.name: row
+    for row in (
+        Op("toward", "Toward colour", "Sprays the brush's colour through its texture: a textured airbrush",
+           f"{_GONE}, as under paint; the texture goes on where the paint was opaque.", _FOLLOWS, coloured=True),
+        Op("multiply", "Multiply", "Darkens by the brush's colour, like ink on glass",
+           f"{_SLOPE}, which is the brush's colour.", _FOLLOWS, (), 1, True),
+        Op("screen", "Screen", "Lightens by the brush's colour, like a second projector",
+           f"{_SLOPE}, which is what the colour lacks to white.", _FOLLOWS, (), 2, True),
+        Op("overlay", "Overlay", "Multiplies the dark and screens the light, which raises contrast",
+           f"{_SLOPE}, up to twice as strong.", _FOLLOWS, (), 3, True),
+        Op("dodge", "Dodge", "Brightens towards burnt-out light, the brighter the brush's colour",
+           f"{_SLOPE}: stronger, and gone where it burns out.", _FOLLOWS, (), 4, True),
+        Op("burn", "Burn", "Darkens towards black, the darker the brush's colour",
+           f"{_SLOPE}: stronger, and gone where it is black.", _FOLLOWS, (), 5, True),
+        Op("add", "Add", "Adds the brush's colour as light",
+           "Finer detail stays as it is, and goes where it burns out.", _FOLLOWS, (), 6, True),
+        Op("subtract", "Subtract", "Takes the brush's colour away",
+           "Finer detail stays as it is, and goes where it is black.", _FOLLOWS, (), 7, True),
+        Op("difference", "Difference", "How far the picture is from the brush's colour",
+           "Finer detail stays, turned round where the picture is darker than the colour.", _FOLLOWS, (), 8, True),
+        Op("invert", "Invert", "Turns light into dark, each colour into its opposite",
+           "Finer detail is turned round: its light becomes its dark.", _FOLLOWS, (), 9),
+        Op("lighten", "Lighten", "Moves colours towards white",
+           f"{_SLOPE}: weaker by the amount.", _FOLLOWS, (_amount(0.5, "How far of the way to white"),), 10),
+        Op("darken", "Darken", "Moves colours towards black",
+           f"{_SLOPE}: weaker by the amount.", _FOLLOWS, (_amount(0.5, "How far of the way to black"),), 11),
+        Op("gamma", "Gamma", "Brightens or darkens the middle tones, black and white stay", f"{_SLOPE}.", _FOLLOWS,
+           (Parameter("gamma", "Gamma", 0.5, "Below 1 brightens, above 1 darkens", lo=0.1, hi=10.0,
+                      slider=(0.2, 5.0), logarithmic=True),), 12),
+        Op("contrast", "Contrast", "Spreads tones apart around a middle one, or draws them together",
+           f"{_SLOPE}: by the gain, at most twice as strong.", _FOLLOWS,
+           (Parameter("gain", "Gain", 1.5, "Above 1 for more contrast, below for less", hi=4.0, slider=(0.0, 4.0)),
+            Parameter("pivot", "Pivot", 0.5, "The tone that stays")), 13),
+        Op("posterise", "Posterise", "Leaves a few levels of each channel, with hard steps between", f"{_GONE}.",
+           _FOLLOWS, (Parameter("levels", "Levels", 4.0, "How many tones are left of each channel", lo=2.0, hi=64.0,
+                                slider=(2.0, 16.0)),), 14),
+        Op("saturate", "Saturate", "Makes colours stronger, or paler; their brightness stays",
+           "Finer light and dark stay; the colours in them stay as they are.", _FOLLOWS,
+           (_amount(1.5, "0 is grey, 1 leaves colours as they are", 0.0, 4.0),), 15),
+        Op("hue", "Turn hue", "Turns colours round the colour circle; their brightness stays",
+           "Finer light and dark stay; the colours in them stay as they are.", _FOLLOWS,
+           (Parameter("turn", "Turn", 60.0, "How far round the circle", lo=-360.0, hi=360.0, slider=(-180.0, 180.0),
+                      unit="degrees"),), 15),
+        Op("gradient", "Gradient map", "Colours from a ramp, by brightness or by the texture: a colour wash",
+           f"{_SLOPE} of the ramp; by texture it fades, and the texture's own detail takes its place.", _FOLLOWS,
+           (Parameter("ramp", "Ramp", _WASH, "Two to eight stops [place, colour], places rising from 0 to 1", "ramp"),
+            Parameter("by", "By", _BY[0], "What runs along the ramp", "choice", choices=_BY)), 16),
+        Op("smooth", "Smooth", "Evens colours out, keeping what is transparent as it is", f"{_GONE}.", _FOLLOWS,
+           (_reach("How far on each side it looks"),), 18),
+        Op("sharpen", "Sharpen", "Strengthens what differs from its surroundings",
+           "Finer detail is strengthened by the amount, at most twice.", _FOLLOWS,
+           (_amount(1.0, "How much of the difference is added", 0.0, 4.0), _reach("How wide surroundings are")), 19),
+        Op("displace", "Displace", "Shifts paint, along an angle or down the slopes of the texture", f"{_GONE}.",
+           _FOLLOWS, (Parameter("distance", "Distance", 8.0, "How far paint moves", lo=0.0, hi=SHIFT_CAP,
+                                slider=(0.0, SHIFT_CAP), unit="px"),
+                      Parameter("angle", "Angle", 0.0, "Where it moves to: 0 right, 90 down; turns slopes too",
+                                lo=-360.0, hi=360.0, slider=(-180.0, 180.0), unit="degrees"),
+                      Parameter("by", "By", "angle", "What tells the way", "choice", choices=("angle", "texture")))),
+        Op("clone", "Clone", "Copies what lies on a layer, of the same level, from some way off",
+           f"{_GONE}; textures of what is copied go on, strokes finer than this level are not copied.", _FOLLOWS,
+           (Parameter("layer", "Layer", None, "The layer that is copied; it may be the one painted on", "layer"),
+            Parameter("offset", "Offset", (0, 0), "From here to what is copied, in pixels", "offset", unit="px"))),
+        Op("erase", "Erase", "Takes paint away through the texture", f"{_GONE}.", _FOLLOWS),
+    )
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """What a brush's `op` says: the row (None for a formula), all its parameters by name, the formula's tree."""
+
+    row: Op | None
+    parameters: Mapping[str, Any]
+    tree: Tree | None = None
+
+    @property
+    def by_texture(self) -> bool:
+        """Whether the texture tells what is done, and not how strongly."""
+        return self.parameters.get("by") == "texture"
+
+
+def read(value: Any, place: str) -> OpValue:
+    """The checked value of a brush's `op`: a name, or an immutable object.  BrushError names what is wrong."""
+    if isinstance(value, str):
+        op = _row(value, place)
+        _missing(op, {}, place)
+        return value
+    if not isinstance(value, Mapping) or ("formula" in value) == ("name" in value):
+        raise BrushError(place, checks.shown(value), 'a name, {"name": NAME, ...} or {"formula": "..."}')
+    if "formula" in value:
+        _formula(value["formula"], f"{place}.formula")
+        _no_others(value, ("formula",), place)
+        return Map({"formula": value["formula"]})
+    op = _row(value["name"], f"{place}.name")
+    own = {part.name: part for part in op.parameters}
+    _no_others(value, ("name", *own), place)
+    _missing(op, value, place)
+    given = {name: own[name].read(part, f"{place}.{name}") for name, part in value.items() if name != "name"}
+    return Map({"name": op.name} | given)
+
+
+def chosen(op: OpValue, place: str = "brush.op") -> Chosen:
+    """What the op of a brush says, defaults filled in.  BrushError as `read`."""
+    op = read(checks.thawed(op), place)
+    if not isinstance(op, str) and "formula" in op:
+        return Chosen(None, {}, _formula(op["formula"], f"{place}.formula"))
+    row = OPS[op if isinstance(op, str) else op["name"]]
+    given = {} if isinstance(op, str) else op
+    return Chosen(row, {part.name: given.get(part.name, part.default) for part in row.parameters})
+
+
+def _row(name: Any, place: str) -> Op:
+    return OPS[checks.one_of(name, place, tuple(OPS))]
+
+
+def _no_others(value: Mapping[str, Any], known: tuple[str, ...], place: str) -> None:
+    for name in value:
+        if name not in known:
+            raise BrushError(f"{place}.{str(name)[:40]!a}", checks.shown(value[name]), f"only {', '.join(known)}")
+
+
+def _missing(op: Op, given: Mapping[str, Any], place: str) -> None:
+    for part in op.parameters:
+        if part.default is None and part.name not in given:
+            raise BrushError(f"{place}.{part.name}", "none", f"one: {part.tooltip[0].lower()}{part.tooltip[1:]}")
+
+
+def _formula(value: Any, place: str) -> Tree:
+    text = value
+    if not isinstance(text, str) or not 0 < len(text) <= FORMULA_CAP:
+        raise BrushError(place, checks.shown(value), f"a formula, a text of 1 to {FORMULA_CAP} characters")
+    try:
+        return parse(text)
+    except FormulaError as error:
+        raise BrushError(f"{place}, column {error.column}", error.found, error.expected) from None
+
+
+def _ramp(value: Any, place: str) -> tuple[tuple[float, str], ...]:
+    if not isinstance(value, list | tuple) or not 2 <= len(value) <= STOPS_CAP:
+        raise BrushError(place, checks.shown(value), f"a list of 2 to {STOPS_CAP} stops [place, colour]")
+    stops: list[tuple[float, str]] = []
+    for i, stop in enumerate(value):
+        at = f"{place}[{i}]"
+        if not isinstance(stop, list | tuple) or len(stop) != 2:
+            raise BrushError(at, checks.shown(stop), "a stop [place, colour]")
+        where = checks.number(stop[0], f"{at}[0]", 0.0, 1.0)
+        if stops and where <= stops[-1][0]:
+            raise BrushError(f"{at}[0]", checks.shown(stop[0]), f"a place above {stops[-1][0]:g}, that before")
+        stops.append((where, checks.colour(stop[1], f"{at}[1]")))
+    return tuple(stops)
+
+
+def _offset(value: Any, place: str) -> tuple[int, int]:
+    if not isinstance(value, list | tuple) or len(value) != 2:
+        raise BrushError(place, checks.shown(value), "a pair [dx, dy] of whole numbers")
+    for i, part in enumerate(value):
+        if checks.number(part, f"{place}[{i}]", -OFFSET_CAP, OFFSET_CAP) % 1:
+            raise BrushError(f"{place}[{i}]", checks.shown(part), "a whole number")
+    return int(value[0]), int(value[1])

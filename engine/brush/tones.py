@@ -1,0 +1,315 @@
+"""Kernels of the raster-ops that change the colour of a pixel: the table of channel functions, and one loop for all.
+
+Colours are straight (not premultiplied), encoded as the layer is, 0..1.  A function gives the target t of a channel
+and its slope t', so that a stroke of weight w makes c + w (t - c), and small grey detail 1 + w (t' - 1) of itself.  A
+target is brought into 0..1; where that cuts it off, the slope is 0.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numba.extending import register_jitable
+
+from engine.numeric.grid import snap
+
+_ZERO, _ONE, _TWO, _HALF = np.float32(0), np.float32(1), np.float32(2), np.float32(0.5)
+_TINY = np.float32(1e-6)
+_THIRD = np.float32(1 / 3)
+_OPAQUE = np.float32(1 - 1 / 256)
+_INK = np.float32(2)  # the largest amplitude that may come about by amplifying
+LUMA = (0.3, 0.59, 0.11)  # W3C, Compositing and Blending Level 1, section 10.2
+_RED, _GREEN, _BLUE = (np.float32(part) for part in LUMA)
+STEPS = 1024  # of a ramp's table
+
+_inlined = register_jitable(forceinline=True)
+
+
+# ---- channel functions: (channel, brush's colour, first and second parameter) -> target, slope ----------------------
+
+
+@_inlined
+def _multiply(c, p, a, b):
+    return c * p, p
+
+
+@_inlined
+def _screen(c, p, a, b):
+    return c + p - c * p, _ONE - p
+
+
+@_inlined
+def _overlay(c, p, a, b):
+    dark = c <= _HALF
+    return (_TWO * c * p if dark else _ONE - _TWO * (_ONE - c) * (_ONE - p)), (_TWO * p if dark else _TWO * (_ONE - p))
+
+
+@_inlined
+def _dodge(c, p, a, b):
+    gain = _ONE / max(_ONE - p, _TINY)
+    return c * gain, gain
+
+
+@_inlined
+def _burn(c, p, a, b):
+    gain = _ONE / max(p, _TINY)
+    return _ONE - (_ONE - c) * gain, gain
+
+
+@_inlined
+def _add(c, p, a, b):
+    return c + p, _ONE
+
+
+@_inlined
+def _subtract(c, p, a, b):
+    return c - p, _ONE
+
+
+@_inlined
+def _difference(c, p, a, b):
+    return abs(c - p), (_ONE if c >= p else -_ONE)
+
+
+@_inlined
+def _invert(c, p, a, b):
+    return _ONE - c, -_ONE
+
+
+@_inlined
+def _lighten(c, p, a, b):
+    return c + a * (_ONE - c), _ONE - a
+
+
+@_inlined
+def _darken(c, p, a, b):
+    return c * (_ONE - a), _ONE - a
+
+
+@_inlined
+def _gamma(c, p, a, b):
+    return c**a, a * max(c, _TINY) ** (a - _ONE)
+
+
+@_inlined
+def _contrast(c, p, a, b):
+    return b + a * (c - b), a
+
+
+@_inlined
+def _posterise(c, p, a, b):
+    return np.floor(min(c * a, a - _HALF)) / (a - _ONE), _ZERO
+
+
+def _separable(function):
+    """The loop over a row of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n)."""
+
+    @njit(cache=True, nogil=True)
+    def row(c, colour, parameters, t, s):
+        a, b = parameters[0], parameters[1]
+        for channel in range(3):
+            source, target, slope, p = c[channel], t[channel], s[channel], colour[channel]
+            for x in range(source.size):
+                value, steep = function(source[x], p, a, b)
+                target[x] = min(max(value, _ZERO), _ONE)
+                slope[x] = steep if _ZERO <= value <= _ONE else _ZERO
+
+    return row
+
+
+_rows = tuple(
+    _separable(function)
+    for function in (
+        _multiply, _screen, _overlay, _dodge, _burn, _add, _subtract, _difference, _invert, _lighten, _darken, _gamma,
+        _contrast, _posterise,
+    )
+)  # fmt: skip
+(_m1, _m2, _m3, _m4, _m5, _m6, _m7, _m8, _m9, _m10, _m11, _m12, _m13, _m14) = _rows
+
+MATRIX, RAMP, TEXTURE_RAMP, GIVEN, SHARPEN, FORMULA = 15, 16, 17, 18, 19, 20
+
+
+@njit(cache=True, nogil=True)
+def _matrix(c, matrix, t, s):
+    """Channels mixed by `matrix`, float32 (9,), whose rows sum to 1, so that grey detail stays."""
+    for channel in range(3):
+        m0, m1, m2 = matrix[3 * channel], matrix[3 * channel + 1], matrix[3 * channel + 2]
+        red, green, blue, target, slope = c[0], c[1], c[2], t[channel], s[channel]
+        for x in range(target.size):
+            value = m0 * red[x] + m1 * green[x] + m2 * blue[x]
+            target[x] = min(max(value, _ZERO), _ONE)
+            slope[x] = _ONE if -_TINY <= value <= _ONE + _TINY else _ZERO
+
+
+@njit(cache=True, nogil=True)
+def _ramp(index, table, t, s):
+    """The colours of `table`, float32 (1025, 3), at `index`, 0..1, and how fast they change along it."""
+    steps = np.float32(STEPS)
+    for x in range(index.size):
+        place = min(max(index[x], _ZERO), _ONE) * steps
+        i = min(int(place), STEPS - 1)
+        part = place - np.float32(i)
+        for channel in range(3):
+            step = table[i + 1, channel] - table[i, channel]
+            t[channel, x] = table[i, channel] + part * step
+            s[channel, x] = step * steps
+
+
+@njit(cache=True, nogil=True)
+def _sharpen(c, mean, amount, t, s):
+    for channel in range(3):
+        source, around, target, slope = c[channel], mean[channel], t[channel], s[channel]
+        for x in range(source.size):
+            value = source[x] + amount * (source[x] - around[x])
+            target[x] = min(max(value, _ZERO), _ONE)
+            slope[x] = _ONE + amount if _ZERO <= value <= _ONE else _ZERO
+
+
+@njit(cache=True, nogil=True)
+def luma(c, out):
+    """Brightness of straight colours `c`, float32 (3, n), into `out` (n,)."""
+    red, green, blue = c[0], c[1], c[2]
+    for x in range(out.size):
+        out[x] = _RED * red[x] + _GREEN * green[x] + _BLUE * blue[x]
+
+
+@njit(cache=True, nogil=True)
+def straight(v, out):
+    """Colour and alpha, float32 (4, n), to straight colours (3, n) within 0..1; black where nothing lies."""
+    alpha = v[3]
+    for channel in range(3):
+        source, target = v[channel], out[channel]
+        for x in range(alpha.size):
+            value = source[x] / max(alpha[x], _TINY)
+            target[x] = min(max(value, _ZERO), _ONE)
+
+
+@njit(cache=True, nogil=True)
+def weigh(coverage, texture, weight, free):
+    """w = M clamp(tex) into `weight`, M where the texture is not cut off into `free`; whether w reaches the grid.
+
+    All float32 (h, w); `free` is how strongly w follows the texture's finer detail.
+    """
+    least = np.float32(2.0**-17)
+    some = np.int32(0)
+    for y in range(coverage.shape[0]):
+        m, t, w, f = coverage[y], texture[y], weight[y], free[y]
+        for x in range(m.size):
+            w[x] = m[x] * min(max(t[x], _ZERO), _ONE)
+            f[x] = m[x] if _ZERO <= t[x] <= _ONE else _ZERO
+            some |= np.int32(w[x] > least)
+    return some != 0
+
+
+@njit(cache=True, nogil=True)
+def _targets(code, c, colour, p, table, index, given, t, s):
+    """Targets and slopes of a row by the op's code (`ops.Op`)."""
+    if code == 1:
+        _m1(c, colour, p, t, s)
+    elif code == 2:
+        _m2(c, colour, p, t, s)
+    elif code == 3:
+        _m3(c, colour, p, t, s)
+    elif code == 4:
+        _m4(c, colour, p, t, s)
+    elif code == 5:
+        _m5(c, colour, p, t, s)
+    elif code == 6:
+        _m6(c, colour, p, t, s)
+    elif code == 7:
+        _m7(c, colour, p, t, s)
+    elif code == 8:
+        _m8(c, colour, p, t, s)
+    elif code == 9:
+        _m9(c, colour, p, t, s)
+    elif code == 10:
+        _m10(c, colour, p, t, s)
+    elif code == 11:
+        _m11(c, colour, p, t, s)
+    elif code == 12:
+        _m12(c, colour, p, t, s)
+    elif code == 13:
+        _m13(c, colour, p, t, s)
+    elif code == 14:
+        _m14(c, colour, p, t, s)
+    elif code == MATRIX:
+        _matrix(c, p, t, s)
+    elif code == RAMP:
+        luma(c, index)
+        _ramp(index, table, t, s)
+    elif code == TEXTURE_RAMP:
+        _ramp(index, table, t, s)
+    elif code == SHARPEN:
+        _sharpen(c, given, p[0], t, s)
+    else:
+        t[:] = given[:3]
+        s[:] = _ZERO
+        if code == FORMULA:
+            s[:] = given[3:]
+
+
+@njit(cache=True, nogil=True)
+def change(code, old, planes, weight, free, colour, p, table, index, given, gains, keep, add):
+    """A and B of an op that changes colours and spares alpha: v' = v + w (alpha t - v), A = 1 + w (t' - 1) in -1..2.
+
+    `old` float32 (4 + 3m, h, w), premultiplied; `weight`, `free`, `index` (h, w), as of `weigh` and the texture;
+    `colour` (3,), `p` (9,) parameters, `table` (1025, 3); `given` (3 or 6, h, w): targets and slopes made elsewhere,
+    (6, 1, 1) if there are none.  `add` (4 + 3n, h, w), `keep` (h, w) are written.  `planes` int64 (3n,): where the
+    planes of the n inks are in `old`, -1 for none; `gains` (n,): what the op's own texture adds to each of them.
+
+    Where the layer is not opaque, finer detail is mostly that of its alpha, and keeps its colour if A is the ratio of
+    the new colour to the old.
+    """
+    width = weight.shape[1]
+    c, t, s = np.empty((3, width), np.float32), np.empty((3, width), np.float32), np.empty((3, width), np.float32)
+    along = np.empty(width, np.float32)
+    for y in range(weight.shape[0]):
+        straight(old[:4, y], c)
+        row = y if given.shape[1] > 1 else 0
+        along[:] = index[y]
+        _targets(code, c, colour, p, table, along, given[:, row], t, s)
+        w, a, alpha = weight[y], keep[y], old[3, y]
+        for x in range(width):
+            sum_c, sum_t = c[0, x] + c[1, x] + c[2, x], t[0, x] + t[1, x] + t[2, x]
+            slope = (s[0, x] + s[1, x] + s[2, x]) * _THIRD
+            slope = slope if code != TEXTURE_RAMP else _ZERO
+            ratio = min(max(sum_t / max(sum_c, _TINY), _ZERO), _TWO) if alpha[x] > _ZERO else _ONE
+            a[x] = snap(min(max(_ONE + w[x] * ((slope if alpha[x] >= _OPAQUE else ratio) - _ONE), -_ONE), _TWO))
+        for channel in range(3):
+            v, b, target = old[channel, y], add[channel, y], t[channel]
+            for x in range(width):
+                b[x] = snap(v[x] + w[x] * (alpha[x] * target[x] - v[x])) - snap(a[x] * v[x])
+        add[3, y] = _ZERO
+        _inks(code, old, planes, free, gains, y, t, s, a, add)
+
+
+@njit(cache=True, nogil=True)
+def _inks(code, old, planes, free, gains, y, t, s, a, add):
+    """B of the ink planes of a row: the op's own texture goes on in them, to one half at most; none passes 2."""
+    f, alpha = free[y], old[3, y]
+    for i in range(planes.size):
+        channel, gain = i % 3, gains[i // 3]
+        v, b, target, slope = old[channel, y], add[4 + i, y], t[channel], s[channel]
+        source = planes[i]
+        for x in range(f.size):
+            before = old[source, y, x] if source >= 0 else _ZERO
+            steep = alpha[x] * slope[x] if code == TEXTURE_RAMP else alpha[x] * target[x] - v[x]
+            left = snap(a[x] * before)
+            most = min(max(abs(left), _HALF), _INK)
+            b[x] = min(max(left + snap(f[x] * gain * steep), -most), most) - left
+
+
+@njit(cache=True, nogil=True)
+def moved(planes, right, down, out):
+    """`planes` float32 (4, h + 2 r, w + 2 r) at places (right, down) px from each pixel, float32 (h, w), |.| < r, by
+    bilinear interpolation, into `out` (4, h, w)."""
+    reach = (planes.shape[1] - out.shape[1]) // 2
+    for y in range(out.shape[1]):
+        for x in range(out.shape[2]):
+            px, py = np.float32(x + reach) + right[y, x], np.float32(y + reach) + down[y, x]
+            i, j = int(px), int(py)
+            u, v = px - np.float32(i), py - np.float32(j)
+            for channel in range(4):
+                upper, lower = planes[channel, j], planes[channel, j + 1]
+                top = upper[i] + u * (upper[i + 1] - upper[i])
+                out[channel, y, x] = top + v * (lower[i] + u * (lower[i + 1] - lower[i]) - top)
