@@ -102,6 +102,24 @@ def load(keep, colours, amplitudes, add):
                 b[x] = snap(w[x] * value)
 
 
+@njit(cache=True, nogil=True)
+def stain(part, colour, add):
+    """Turns some of the paint to another colour: B of `load`, `lay` or `wash`, float32 (4 + 3n, h, w), in place.
+
+    `part`: how much of it, 0..1, float32 (h, w); `colour` float32 (3,).  Ink of what turns is gone.
+    """
+    for y in range(part.shape[0]):
+        t, w = part[y], add[3, y]
+        for c in range(3):
+            value, b = colour[c], add[c, y]
+            for x in range(t.shape[0]):
+                b[x] = snap(b[x] + t[x] * (w[x] * value - b[x]))
+        for c in range(4, add.shape[0]):
+            b = add[c, y]
+            for x in range(t.shape[0]):
+                b[x] = snap(b[x] - t[x] * b[x])
+
+
 def local_mean(planes: np.ndarray, reach: int) -> np.ndarray:
     """The mean of each pixel's surroundings: two passes of a box of 2 reach + 1 px along each axis.
 

@@ -84,11 +84,14 @@ class Painting(_Covered):
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
         if self.locked:
             self._glaze(keep, key, old, add)
-            return Stamp(keep, add, self.ink.inks, plain=True)
-        if parts:
+        elif parts:
             coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
         else:
             coat.lay(keep, self.ink.base, add)
+        stain = self.coverage.stain
+        part = None if stain is None else stain.part(key)
+        if stain is not None and part is not None:
+            coat.stain(part, stain.colour, add)
         made = Stamp(keep, add, self.ink.inks, plain=True)
         if alike is not None:
             self._flat[alike] = made
@@ -169,7 +172,7 @@ def check(brush: Brush, where: str = "brush") -> None:
     usable = ", ".join(name for name, mode in MODES.items() if mode.edit is not None)
     if MODES[brush.mode].edit is None:
         raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
-    for name in ("edge", "tip", "example", "depth"):
+    for name in ("tip", "example", "depth"):
         if getattr(brush, name) is not None:
             raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
     if brush.extent:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -18,6 +19,17 @@ _PAIRS = 1 << 17  # (tile, dab) pairs sorted at once
 _PAIRS_OF_ONE = 4608  # more tiles than the largest dab can meet
 
 
+class Stain(Protocol):
+    """Another colour that some of the paint turns to: `colour`, float32 (3,), encoded sRGB."""
+
+    @property
+    def colour(self) -> np.ndarray: ...
+
+    def part(self, key: TileKey) -> np.ndarray | None:
+        """How much of a tile's paint turns to it, 0..1: float32 (128, 128); None where nothing does."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class Coverage:
     """A stroke's coverage at one moment; shares its tiles with the mask it was taken from, and never changes.
@@ -29,6 +41,7 @@ class Coverage:
     level: int
     tiles: Mapping[TileKey, np.ndarray | float]
     rect: Rect
+    stain: Stain | None = None
 
     @cached_property
     def keys(self) -> tuple[TileKey, ...]:

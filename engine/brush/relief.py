@@ -4,11 +4,11 @@ Lewis 1984, section 6.1: a second texture modulates the density of the first (dr
 canvas is felt by every brush (virtual surface).  All of it is a function of the stroke's coverage M and of the place
 alone, so a stroke in progress looks as it will once it is done.  In order:
 
+* **Rim**: times a curve of the distance to the stroke's rim (module `rim`).
 * **Grain**: heights g, 0..1, of a surface that lies still under all strokes.  With amount a, the brush touches
   where (M (1 + s)/a - (1 - g))/s, clipped to 0..1, is above zero, s = 0.35: a light touch meets only the peaks, M = a
   fills the hollows too, and M = 1 whatever the amount.  What it touches it covers a little more: M + a M (1 - M).
 * **Density**: times 1 - a + a s, s being the texture's value.
-* **Rim**: times a curve of the distance to the stroke's rim (module `rim`).
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from engine.brush.ink import Texture, named
 from engine.brush.mask import Coverage
 from engine.brush.parts import Surface
 from engine.brush.record import Brush
+from engine.brush.rim import Rim, Tiles
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table
@@ -119,63 +120,99 @@ def _ground(
     return Heights(named(bound, textures, part.level - above, seed, where), found.curve)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Made:
+    """A thinned tile, the coverage it was made of, and how deep inside the rim its pixels lie."""
+
+    sources: tuple[np.ndarray | float, ...]
+    tile: np.ndarray | float
+    depths: np.ndarray | None
+
+
 @dataclass(frozen=True, eq=False)
 class Relief:
     """What thins the coverage of a brush's strokes at one level; nothing if every part is None."""
 
     density: Heights | None = None
     grain: Heights | None = None
+    rim: Rim | None = None
     amounts: tuple[float, float] = (1.0, 1.0)  # of density and grain
-    _done: dict[TileKey, tuple[object, np.ndarray | float]] = field(default_factory=dict, repr=False)
+    _done: dict[TileKey, _Made] = field(default_factory=dict, repr=False)
+
+    @property
+    def reach(self) -> int:
+        """How far from a pixel whose coverage changes others may change too, in px."""
+        return self.rim.reach if self.rim else 0
 
     def over(self, coverage: Coverage) -> Coverage:
         """The coverage as this relief thins it; its tiles are made when they are asked for."""
-        if self.density is None and self.grain is None:
+        if self.density is None and self.grain is None and self.rim is None:
             return coverage
-        return Coverage(coverage.level, _Thinned(self, coverage), coverage.rect)
+        stain = None
+        if self.rim is not None and self.rim.colour is not None:
+            stain = _Stain(self, coverage.tiles, self.rim, self.rim.colour)
+        return Coverage(coverage.level, _Thinned(self, coverage.tiles), coverage.rect, stain)
 
-    def tile(self, coverage: Coverage, key: TileKey) -> np.ndarray | float:
-        """M of one tile, thinned."""
-        covered = coverage.tiles[key]
+    def made(self, tiles: Tiles, key: TileKey) -> _Made:
+        """One tile of a coverage, thinned."""
+        covered = tiles[key]
+        sources = self.rim.around(tiles, key) if self.rim else (covered,)
         known = self._done.get(key)
-        if known is not None and known[0] is covered:  # tiles that a Coverage holds are never written to
-            return known[1]
-        made = self._made(covered, key)
-        self._done[key] = covered, made
+        # Tiles that a Coverage holds are never written to: the same array holds the same values.
+        if known is not None and all(a is b for a, b in zip(known.sources, sources, strict=True)):
+            return known
+        depths = self.rim.depths(sources) if self.rim else None
+        made = self._done[key] = _Made(sources, self._tile(covered, key, depths), depths)
         return made
 
-    def _made(self, covered: np.ndarray | float, key: TileKey) -> np.ndarray | float:
+    def _tile(self, covered: np.ndarray | float, key: TileKey, depths: np.ndarray | None) -> np.ndarray | float:
         if not isinstance(covered, np.ndarray):
             if covered == 0.0:
                 return covered
+            if self.grain is None and self.density is None and depths is None:
+                return covered * self.rim.within if self.rim else covered
             covered = np.full((TILE, TILE), covered, np.float32)
-        out = np.empty_like(covered)
+        out = covered.copy()
+        if self.rim is not None:
+            out *= np.float32(self.rim.within) if depths is None else self.rim.factors(depths)
         if self.grain is not None:
-            _dig(covered, self.grain.plane(key), np.float32(self.amounts[1]), out)
-        else:
-            out[...] = covered
+            _dig(out, self.grain.plane(key), np.float32(self.amounts[1]), out)
         if self.density is not None:
             _thin(out, self.density.plane(key), np.float32(self.amounts[0]))
         return out
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Stain:
+    """The rim's colour in the paint (`mask.Stain`)."""
+
+    relief: Relief
+    tiles: Tiles
+    rim: Rim
+    colour: np.ndarray
+
+    def part(self, key: TileKey) -> np.ndarray | None:
+        depths = self.relief.made(self.tiles, key).depths
+        return None if depths is None else self.rim.stain(depths)
+
+
 class _Thinned(Mapping[TileKey, "np.ndarray | float"]):
     """The tiles of a coverage, thinned when they are asked for."""
 
-    def __init__(self, relief: Relief, coverage: Coverage) -> None:
-        self._relief, self._coverage = relief, coverage
+    def __init__(self, relief: Relief, tiles: Tiles) -> None:
+        self._relief, self._tiles = relief, tiles
 
     def __getitem__(self, key: TileKey) -> np.ndarray | float:
-        return self._relief.tile(self._coverage, key)
+        return self._relief.made(self._tiles, key).tile
 
     def __iter__(self) -> Iterator[TileKey]:
-        return iter(self._coverage.tiles)
+        return iter(self._tiles)
 
     def __len__(self) -> int:
-        return len(self._coverage.tiles)
+        return len(self._tiles)
 
     def __contains__(self, key: object) -> bool:
-        return key in self._coverage.tiles
+        return key in self._tiles
 
 
 def resolve(
@@ -193,6 +230,7 @@ def resolve(
     return Relief(
         _heights(density, textures, level, seeds[0], f"{where}.density"),
         _ground(grain, textures, seeds[1], f"{where}.grain"),
+        Rim.of(brush),
         (density.amount if density else 0.0, grain.amount if grain else 0.0),
     )
 

@@ -33,7 +33,7 @@ def _smooth(t: np.ndarray) -> np.ndarray:
 
 def _wet(t: np.ndarray) -> np.ndarray:
     """Up within a tenth of the width, down to a third, and a little up again where the wash has settled."""
-    return np.interp(t, (0.0, 0.1, 0.3, 0.6, 1.0), (0.75, 1.0, 0.62, 0.38, 0.45))
+    return np.interp(t, (0.0, 0.06, 0.22, 0.5, 1.0), (0.85, 1.0, 0.6, 0.4, 0.46))
 
 
 def _double(t: np.ndarray) -> np.ndarray:
@@ -63,7 +63,7 @@ CURVES: dict[str, Curve] = _rows(
 EDGES: dict[str, Curve] = _rows(
     Curve("wet", "Wet", "Pigment gathers at the rim and leaves the inside pale", _wet),
     Curve("dark", "Dark", "A little darker along the rim", lambda t: 1.0 - 0.4 * _smooth(t)),
-    Curve("worn", "Worn", "The rim is rubbed thin", lambda t: 0.15 + 0.85 * _smooth(t)),
+    Curve("worn", "Worn", "The rim is rubbed thin", lambda t: 0.08 + 0.92 * _smooth(t)),
     Curve("soft", "Soft", "Fades towards the rim", _smooth),
     Curve("outline", "Outline", "The rim alone", lambda t: 1.0 - _smooth(2.5 * t - 1.0)),
     Curve("double", "Double", "The rim, and a second line inside it", _double),

@@ -92,6 +92,7 @@ class LiveStroke:
             return Rect(0, 0, 0, 0)
         try:
             dirty = tile_bounds(self._mask.paint(self._stroker.walk(points)))
+            dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
         except BrushError:
             self._again()
             raise
