@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -52,7 +53,7 @@ class BrushPanel:
     def __init__(self) -> None:
         self._texturing, self._curves = Texturing(), CurveEditor()
         self._operations, self._saving = Operations(), SaveBrush()
-        self._below = 0.0  # the height of all that lies below the presets, in the last frame
+        self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
 
     def draw(self, desk: Desk) -> None:
         self._tools(desk)
@@ -60,17 +61,21 @@ class BrushPanel:
         self._saving.draw(desk)
         if shown:
             self._presets(desk)
-        below = imgui.get_cursor_pos().y
+        top = imgui.get_cursor_pos().y
+        unfolded = 0.0
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
-            if desk.brush.mode == "raster":
-                self._operations.draw(desk)
+            unfolded += _height_of(lambda: self._raster(desk))
             self._settings(desk)
-        self._texturing.draw(desk)
+        unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
-            self._dynamics(desk)
-        self._below = imgui.get_cursor_pos().y - below
+            unfolded += _height_of(lambda: self._dynamics(desk))
+        self._below = imgui.get_cursor_pos().y - top - unfolded
+
+    def _raster(self, desk: Desk) -> None:
+        if desk.brush.mode == "raster":
+            self._operations.draw(desk)
 
     def _preview(self, desk: Desk) -> None:
         """A stroke of the brush as it is set now."""
@@ -103,7 +108,7 @@ class BrushPanel:
         gap, em = 5 * desk.scale, imgui.get_font_size()
         wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
         tall = wide * THUMB[1] / THUMB[0] + em + 4 * desk.scale
-        room = imgui.get_window_height() - imgui.get_cursor_pos().y - self._below - 2 * em
+        room = imgui.get_window_height() - imgui.get_cursor_pos().y - self._below - em
         height = min(_height(desk.presets, tall + gap, em + gap), max(room, 2.6 * tall))
         imgui.begin_child("presets", ImVec2(0, height))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
@@ -195,6 +200,13 @@ class BrushPanel:
             changed, drawn = self._curves.row(row.label, _shown(curve), _PRESSURE_ROWS, hint)
             if changed:
                 desk.brush = replace(desk.brush, dynamics=_with(desk.brush.dynamics, name, drawn))
+
+
+def _height_of(draw: Callable[[], None]) -> float:
+    """Draws something; how high it is."""
+    top = imgui.get_cursor_pos().y
+    draw()
+    return imgui.get_cursor_pos().y - top
 
 
 def _height(presets: tuple[Preset, ...], row: float, heading: float) -> float:

@@ -25,10 +25,13 @@ GROUPS = (
     ("Other", ("clone", "erase")),
 )
 FORMULAS = (
-    ("Half way to the colour", "mix(pic, colour, 0.5)"),
-    ("Negative", "1 - pic"),
-    ("Two tones", "step(0.5, luma)"),
-    ("Ripples", "pic * (0.8 + 0.2 * sin(hypot))"),
+    ("Towards the colour", "colour - pic"),
+    ("Towards its opposite", "1 - 2 * pic"),
+    ("Two tones", "step(0.5, luma) - pic"),
+    ("Glow in the light", "luma ** 2 * colour"),
+    ("Ripples", "0.2 * sin(tau * (x + y) / 24)"),
+    ("Film grain", "0.4 * (noise(x, y) - 0.5)"),
+    ("Deeper with pressure", "-pic * pressure"),
 )
 
 
@@ -85,13 +88,13 @@ class Operations:
         imgui.separator()
         if imgui.selectable("Formula…", name == "formula")[0]:
             picked = "formula"
-        w.tooltip("Write what becomes of each channel")
+        w.tooltip("Write yourself what is added to each channel")
         imgui.end_combo()
         return picked
 
     def _parameter(self, desk: Desk, given: Map[str, Any], row: Any) -> Map[str, Any]:
         value = given.get(row.name, row.default)
-        new = _KINDS[row.kind](self, desk, row, value)
+        new = CONTROLS[row.kind](self, desk, row, value)
         return given if new == value else given.set(row.name, new)
 
     def _number(self, desk: Desk, row: Any, value: Any) -> Any:
@@ -151,7 +154,7 @@ class Operations:
             _mistake(self._text, self._fault)
 
 
-_KINDS: dict[str, Callable[[Operations, Desk, Any, Any], Any]] = {
+CONTROLS: dict[str, Callable[[Operations, Desk, Any, Any], Any]] = {
     "number": Operations._number,
     "choice": Operations._choice,
     "layer": Operations._layer,
@@ -159,7 +162,7 @@ _KINDS: dict[str, Callable[[Operations, Desk, Any, Any], Any]] = {
     "ramp": Operations._stops,
 }
 _VOCABULARY = (
-    "The new value of each channel, 0 to 1, from\n"
+    "f of pic + d tex f: what is added to each channel, from\n"
     + "\n".join(f"{name}: {meaning}" for name, meaning in NAMES.items())
     + "\n\nwith + - * / % **, comparisons, a if b else c, and\n"
     + ", ".join(FUNCTIONS)

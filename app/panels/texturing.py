@@ -35,24 +35,29 @@ class Texturing:
         self._curves = CurveEditor()
         self._kept = dict(_START)
 
-    def draw(self, desk: Desk) -> None:
+    def draw(self, desk: Desk) -> float:
+        """The height of what is unfolded of them."""
+        unfolded = 0.0
         for name, title, hint, body in _SECTIONS:
             held = getattr(desk.brush, name)
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
                 held = self._start(desk, name) if on else None
             if shown:
+                top = imgui.get_cursor_pos().y
                 imgui.push_id(name)
                 imgui.begin_disabled(not on)
                 changed = body(self, desk, held if held is not None else self._kept[name])
                 imgui.end_disabled()
                 imgui.pop_id()
                 held = changed if on else None
+                unfolded += imgui.get_cursor_pos().y - top
             if held is not None:
                 self._kept[name] = held
             if held != getattr(desk.brush, name):
                 setting: dict[str, Any] = {name: held}
                 desk.brush = replace(desk.brush, **setting)
+        return unfolded
 
     def _start(self, desk: Desk, name: str) -> Any:
         """What it was before, unless that needs a texture of another painting."""

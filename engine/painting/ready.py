@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from engine.brush.ops import OPS
 from engine.numeric.blend import BLENDS
 from engine.numeric.curves import CURVES, EDGES, Curve
 from engine.numeric.shaping import table
@@ -17,6 +18,7 @@ def ready() -> Ready:
     return Ready(
         tuple((row.name, row.label, row.tooltip) for row in BLENDS.values()),
         tuple(KINDS.values()),
+        ops=tuple(OPS.values()),
         curves=_rows(CURVES.values(), "shaping"),
         edges=_rows(EDGES.values(), "edge"),
     )
