@@ -14,12 +14,11 @@ COMMANDS = {
     "play": "replay a recording without a window",
     "export": "write a painting, or a rectangle of it at any level, as a picture",
     "info": "tell what a painting holds",
+    "texture": "make a texture from a spectrum, a sample or a photograph",
     "analyse": "tell what a picture is made of: spectra, colours, regions",
     "bench": "measure against the stated bounds",
     "doctor": "tell what Inkfall finds on this machine",
 }
-# Promised by the contract, not in this version.
-LATER = ("texture",)
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -46,10 +45,6 @@ def _dispatch(words: list[str]) -> int:
         from app.cli.arguments import run_option
 
         return run_option(words, COMMANDS)
-    if words and words[0] in LATER and not os.path.exists(words[0]):
-        from app.cli.outcome import Refused
-
-        raise Refused(f"{words[0]}: not in this version, it comes in a later release")
     return _open_window(words)
 
 

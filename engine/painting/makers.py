@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
 from engine.painting import samples
@@ -22,6 +24,8 @@ from engine.texture.table import KINDS
 
 LATER = ("match", "mix", "solid", "example")
 FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out, and the kind of texture that does it
+
+NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
 
 def define(command: DefineTexture, root: Group, around: Around) -> Texture:
@@ -68,7 +72,10 @@ def _sampled(make: samples.Maker, usual: str, command: DefineTexture, root: Grou
     if source is None:
         sample = make(members, Place(around.folder, root))
         parameters = sample.found.update(parameters)
-        source = _the_same(members, ImageSource.of(command.name, sample.rgba))
+        rgba = sample.rgba
+        if field == "tile" and rgba.shape[2] < NARROWEST:
+            rgba = np.tile(rgba, (1, 1, -(-NARROWEST // rgba.shape[2])))
+        source = _the_same(members, ImageSource.of(command.name, rgba))
     return Texture(FIELDS[field], parameters, source)
 
 

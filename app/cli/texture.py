@@ -1,0 +1,210 @@
+"""Make a texture and write a piece of it as a picture."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from app.cli.arguments import Parser, seed
+from app.cli.outcome import DONE, Refused
+from app.cli.output import checked_output
+from app.cli.progress import Progress
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from engine.numeric.address import Rect
+    from engine.painting.textures import Texture
+    from engine.texture.record import Instance
+
+SIDE = 1 << 20  # pixels each way
+ROWS, TOGETHER = 256, 1 << 25  # of a strip: rows, and pixels at most
+COLUMNS = 2048  # of the pieces in which a strip is made
+
+
+class Maker(NamedTuple):
+    """A row: what its picture is called, what it does, and the options that go to the maker by their names."""
+
+    picture: str
+    about: str
+    options: tuple[str, ...]
+
+
+MAKERS = {
+    "spectrum": Maker(
+        "AMPLITUDE",
+        "The inverse transform of an amplitude spectrum: a texture that tiles.  Brightness times alpha is the "
+        "logarithm of the amplitude, zero frequency in the middle; two quadrants are enough",
+        ("phase", "forward", "part"),
+    ),
+    "sparse": Maker(
+        "SAMPLE",
+        "Endless texture: copies of a sample, under a radial window, scattered at random places",
+        ("density", "mean", "spread", "quantise"),
+    ),
+    "impulse": Maker(
+        "PHOTO",
+        "Endless texture like a photograph: windows of it, averaged as spectra, are scattered at random places",
+        ("window", "average", "phase", "density", "mean", "spread", "quantise"),
+    ),
+}
+LATER = ("match", "mix", "solid", "example")
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("maker", metavar="MAKER", help=f"{', '.join(MAKERS)}; MAKER --help tells its options")
+    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="the maker's picture and options")
+
+
+def run(options: argparse.Namespace) -> int:
+    name = options.maker
+    if name not in MAKERS:
+        note = ", which comes in a later release" if name in LATER else ""
+        raise Refused(f"texture: found the maker {name[:40]!a}{note}, expected one of {', '.join(MAKERS)}")
+    given = _parser(name).parse_args(options.words)
+    checked_output(given.out, (".png",))
+    if os.path.exists(given.out) and os.path.exists(given.picture) and os.path.samefile(given.out, given.picture):
+        raise Refused(f"{given.out}: found the {MAKERS[name].picture.lower()} itself, expected another file")
+    texture = _defined(name, given)
+    assert texture.source is not None
+    size = given.size or (texture.source.width, texture.source.height)
+    instance = texture.instance({}, 0, 0)
+    channels = _write(given, instance, size)
+    _tell(given, texture, size, channels)
+    return DONE
+
+
+def _parser(name: str) -> Parser:
+    row = MAKERS[name]
+    parser = Parser(prog=f"inkfall texture {name}", description=row.about, allow_abbrev=False)
+    parser.add_argument("picture", metavar=row.picture, help="a PNG, JPEG or TIFF; grey, RGB or RGBA, 8 or 16 bit")
+    parser.add_argument("--out", metavar="P.png", required=True, help="where the texture goes")
+    parser.add_argument("--size", type=size, metavar="WxH", help="pixels (default: those of the sample)")
+    parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another texture (default 0)")
+    parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits; 16 for height fields")
+    if name != "spectrum":
+        parser.add_argument(
+            "--origin", type=place, default=(0, 0), metavar="X,Y", help="place of the window on the endless field"
+        )
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    declared: dict[str, dict[str, Any]] = {
+        "phase": {"metavar": "P", "help": _PHASES[name]},
+        "forward": {"action": "store_true", "help": "the picture is a pattern, the texture its spectrum"},
+        "part": {"choices": ("real", "imag", "magnitude", "log", "phase"), "help": "of the transform (default real)"},
+        "density": {"type": float, "metavar": "D", "help": "copies per area of the sample (default 10)"},
+        "mean": {"type": float, "metavar": "M", "help": "brightness around which it varies, -1 to 1 (default 0)"},
+        "spread": {"type": float, "metavar": "S", "help": "contrast, 0 to 4 (default 1; a coloured photo's own)"},
+        "quantise": {"type": int, "metavar": "N", "help": "how many different weights copies have (default: any)"},
+        "window": {"type": int, "metavar": "N", "help": "pixels along a window (default: chosen from the picture)"},
+        "average": {"type": int, "metavar": "N", "help": "how many windows are averaged (default 4)"},
+    }
+    for option in row.options:
+        parser.add_argument(f"--{option}", **declared[option])
+    return parser
+
+
+_PHASES = {
+    "spectrum": "random, zero, or a picture of phases, black to white for -180 to 180 degrees (default random)",
+    "sparse": "",
+    "impulse": "window: of the window in the middle; zero; random (default window)",
+}
+
+
+def size(text: str) -> tuple[int, int]:
+    """`WxH`."""
+    found = re.fullmatch(r"([0-9]{1,8})[x×]([0-9]{1,8})", text)
+    width, height = (int(part) for part in found.groups()) if found else (0, 0)
+    if not (1 <= width <= SIDE and 1 <= height <= SIDE):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected WxH, each from 1 to {SIDE} pixels")
+    return width, height
+
+
+def place(text: str) -> tuple[int, int]:
+    """`X,Y`: integers of any size."""
+    if not re.fullmatch(r"[+-]?[0-9]{1,2000},[+-]?[0-9]{1,2000}", text):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected X,Y: two integers")
+    x, y = text.split(",")
+    return int(x), int(y)
+
+
+def _defined(name: str, given: argparse.Namespace) -> Texture:
+    """The texture, by the same command as in a recording."""
+    from immutables import Map
+
+    from engine.canvas import layers
+    from engine.painting.commands import DefineTexture
+    from engine.painting.makers import define
+    from engine.painting.strictjson import FormatError
+    from engine.painting.textures import Around
+    from engine.texture.table import TextureError
+
+    told = {option: getattr(given, option) for option in MAKERS[name].options}
+    arguments = {option: value for option, value in told.items() if value is not None and value is not False}
+    command = DefineTexture(name, name, Map({"path": given.picture, "seed": given.seed, **arguments}))
+    try:
+        return define(command, layers.EMPTY, Around())
+    except (FormatError, TextureError) as error:
+        where = f"--{error.place}" if error.place in told or error.place == "seed" else given.picture
+        raise Refused(f"{where}: found {error.found}, expected {error.expected}") from None
+
+
+def _write(given: argparse.Namespace, instance: Instance, size: tuple[int, int]) -> int:
+    """Writes the texture strip by strip; gives its channels."""
+    from engine.numeric.address import Rect
+    from engine.painting.atomic import replacing
+    from engine.painting.pngstream import PngWriter
+
+    width, height = size
+    x, y = getattr(given, "origin", (0, 0))
+    channels = len(instance.appearance(0, Rect.at(x, y, 1, 1)))
+    with Progress("making", height) as tell, replacing(given.out) as file:
+        writer = PngWriter(file, width, height, channels, given.depth)
+        done = 0
+        for pixels in _strips(instance, Rect.at(x, y, width, height), given.depth):
+            writer.rows(pixels)
+            done += len(pixels)
+            tell(done)
+        writer.close()
+    return channels
+
+
+def _strips(instance: Instance, whole: Rect, depth: int) -> Iterator[np.ndarray]:
+    """Rows of the texture as pixels: uint8 or uint16 (n, w, channels)."""
+    import numpy as np
+
+    from engine.numeric.address import Rect
+
+    full, kind = (255, np.uint8) if depth == 8 else (65535, np.uint16)
+    rows = max(16, min(ROWS, TOGETHER // whole.width))
+    for y in range(whole.y0, whole.y1, rows):
+        pieces = []
+        for x in range(whole.x0, whole.x1, COLUMNS):
+            rect = Rect(x, y, min(x + COLUMNS, whole.x1), min(y + rows, whole.y1))
+            s = np.clip(0.5 + 0.5 * instance.appearance(0, rect).astype(np.float64), 0.0, 1.0)
+            pieces.append(np.moveaxis(np.floor(s * full + 0.5).astype(kind), 0, -1))
+        yield np.ascontiguousarray(np.concatenate(pieces, axis=1))
+
+
+def _tell(given: argparse.Namespace, texture: Texture, size: tuple[int, int], channels: int) -> None:
+    assert texture.source is not None
+    told: dict[str, Any] = {
+        "written": given.out,
+        "size": list(size),
+        "channels": channels,
+        "bits": given.depth,
+        "sample": [texture.source.width, texture.source.height],
+        "seed": given.seed,
+    }
+    told |= {name: texture.parameters[name] for name in ("window", "average") if name in texture.parameters}
+    if given.json:
+        print(json.dumps(told))
+        return
+    colours = "grey" if channels == 1 else "colour"
+    if "window" in told:
+        chosen = "" if given.window else ", chosen from the picture"
+        print(f"window of {told['window']} pixels{chosen}; {told['average']} averaged")
+    print(f"wrote {given.out}: {size[0]} x {size[1]} pixels, {colours}, {given.depth} bits")
