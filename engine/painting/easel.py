@@ -23,6 +23,8 @@ from engine.painting import commands as c
 from engine.painting import documents, swatches
 from engine.painting import requests as q
 from engine.painting.difference import areas
+from engine.painting.examine import Examiner
+from engine.painting.lab import Lab
 from engine.painting.outline import rows
 from engine.painting.points import rounded
 from engine.painting.ready import ready
@@ -63,6 +65,8 @@ class Easel:
             q.Swatch: self._swatch,
             q.Pick: self._pick,
         }
+        self.lab, self.examiner = Lab(self), Examiner(self)
+        self._handlers |= self.lab.handlers | self.examiner.handlers
         send(ready())
         self._tell()
 
@@ -88,14 +92,18 @@ class Easel:
 
     @property
     def pending(self) -> int:
-        return len(self.sight.open) + (not self._dirty.empty)
+        return len(self.sight.open) + (not self._dirty.empty) + self.lab.pending + self.examiner.pending
 
     def step(self) -> bool:
-        """The most urgent piece of open work: what the pen just painted, then tiles."""
+        """The most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, analysis."""
         if not self._dirty.empty:
             self._send_dirty()
+        elif self.lab.pending:
+            self.lab.step()
         elif self.sight.open:
             self._bring_up_to_date(self.sight.open.popleft())
+        elif self.examiner.pending:
+            self.examiner.step()
         else:
             return False
         return True
@@ -132,6 +140,7 @@ class Easel:
         self._tell()
 
     def _begin(self, request: q.Begin) -> None:
+        self.lab.settle()
         self.begin(c.Stroke(request.level, request.origin, np.empty((0, 6)), request.brush))
 
     def begin(self, stroke: c.Stroke) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from immutables import Map
 
 from engine.numeric.address import Rect
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from engine.brush.record import Brush
     from engine.painting.commands import Command
 
+NOTHING: Map[str, Any] = Map()
 SIDE = 256  # pixels along a side of a screen tile
 
 
@@ -115,7 +117,79 @@ class Pick:
     y: int
 
 
-Request = New | Open | Save | Export | Do | Begin | Points | Finish | Abandon | Look | Swatch | Pick
+@dataclass(frozen=True, slots=True)
+class LabSet:
+    """What the texture lab makes of the spectrum that is painted in it (`spectrum.Design`), and what of it is shown.
+
+    `sheet`: "amplitude" or "phase"; `field`: the members of the texture command besides the design's own.
+    """
+
+    size: tuple[int, int] = (256, 256)
+    shapes: tuple[Map[str, Any], ...] = ()
+    phase: str = "random"
+    seed: int = 0
+    part: str = "real"
+    forward: bool = False
+    field: Map[str, Any] = NOTHING
+    sheet: str = "amplitude"
+
+
+@dataclass(frozen=True, slots=True)
+class LabBegin:
+    """A stroke in the lab, on its sheet: `radius` of the brush and the points in pixels of the spectrum."""
+
+    brush: Brush
+
+
+@dataclass(frozen=True, slots=True)
+class LabPoints:
+    """More of it, as Points."""
+
+    points: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class LabEnd:
+    """The pen lifts; `kept` unless the stroke is to be dropped."""
+
+    kept: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class LabStep:
+    """Takes back strokes of the lab (`count` < 0), does them again (> 0), or takes all away (0)."""
+
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class LabRest:
+    """The lab has come to rest: a texture in use follows it; shows a stroke of `brush` with its texture in the ink,
+    pictures `size` (width, height) large."""
+
+    brush: Brush
+    size: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class LabUse:
+    """Defines the lab's texture under a name; from now on it follows the lab, until another name is used or none."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Analyse:
+    """Asks what the painting is made of, over a rectangle of a level.  The newest counts; None stops."""
+
+    level: int = 0
+    area: Rect | None = None
+
+
+LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
+Request = (
+    New | Open | Save | Export | Do | Begin | Points | Finish | Abandon | Look | Swatch | Pick | LabRequest | Analyse
+)
 
 
 # Results -------------------------------------------------------------------------------------------------------------
@@ -218,6 +292,35 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
+class LabScene:
+    """What the lab's panel shows besides the pictures "lab spectrum", "lab texture", "lab stroke", "lab near".
+
+    `shapes`: the rows of `shapes.SHAPES`; `silent`: nothing sounds, the texture is flat; `using`: the texture of the
+    painting that follows the lab; `version`: another number, and that texture has changed.
+    """
+
+    shapes: tuple[Any, ...]
+    strokes: int
+    can_undo: bool
+    can_redo: bool
+    silent: bool
+    using: str = ""
+    version: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A part of what Analyse asked for; those not found yet are missing.  `lines`: by name of the facts, how each
+    reads; `rings`: frequency in cycles per pixel, power and that of the all-pole model, of each ring; pictures come as
+    Picture, under the names in `pictures`."""
+
+    lines: Map[str, str]
+    rings: tuple[tuple[float, float, float], ...] = ()
+    pictures: tuple[str, ...] = ()
+    done: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Picked:
     """The colour under a Pick, straight sRGB and alpha 0..1."""
 
@@ -243,7 +346,7 @@ class Pending:
     files: int = 0
 
 
-Result = Ready | Patch | Same | Scene | Note | Saved | Picture | Picked | Looked | Pending
+Result = Ready | Patch | Same | Scene | Note | Saved | Picture | Picked | Looked | Pending | LabScene | Found
 
 
 def frozen(array: np.ndarray) -> np.ndarray:

@@ -22,6 +22,7 @@ from engine.painting.recording import Header, Recording
 from engine.painting.stroke import LiveStroke
 from engine.painting.textures import Around, recorded
 from engine.painting.value import Painting
+from engine.texture.image import ImageSource
 
 HISTORY_BYTES = 1 << 30
 SMALLEST_CACHE = 64 << 20
@@ -30,7 +31,8 @@ SMALLEST_CACHE = 64 << 20
 class Session:
     """One painting being worked on.  Not for several threads at once; the paintings it hands out are.
 
-    `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
+    `log`: commands that led to `painting`, if they are known; `lent`: a picture that the next definition may name by
+    its sha; `folder`: what paths in commands are relative to;
     `extra`: members of the recording's header that this version does not know.
     """
 
@@ -47,6 +49,7 @@ class Session:
         self.cache = cache if cache is not None else TileCache(cache_budget())
         self.folder = folder
         self.log: list[c.Command] = list(log)
+        self.lent: ImageSource | None = None
         self._history = history if history is not None else History(HISTORY_BYTES)
         self._extra = extra if extra is not None else Map()
 
@@ -93,12 +96,15 @@ class Session:
 
     def _around(self) -> Around:
         """Pictures of textures are known by their sha, wherever their files are now."""
-        sources = (texture.source for texture in self.painting.textures.values())
+        sources = (self.lent, *(texture.source for texture in self.painting.textures.values()))
         return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
 
     def _done(self, command: c.Command, after: Painting) -> Painting:
         if type(command) in STEPS:
             self._history.push(self.painting, after)
+        last = self.log[-1] if self.log else None
+        if isinstance(command, c.DefineTexture) and isinstance(last, c.DefineTexture) and last.name == command.name:
+            self.log.pop()  # nothing was done with that one
         self.log.append(command)
         self.painting = after
         return after

@@ -1,0 +1,112 @@
+"""What a part of the painting is made of, found piece by piece while nothing else waits (Lewis 1984, figures 1, 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol
+
+import numpy as np
+from immutables import Map
+
+from engine.numeric.address import Rect
+from engine.numeric.analysis import Analysis
+from engine.numeric.colour import to_rgba8
+from engine.painting import requests as q
+
+MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
+STRIP = 256  # rows read in one step
+_FLOOR = 60.0  # decibels below the loudest that are still told from silence
+_DARK, _MID, _LIGHT = (np.array(rgb, np.float32) for rgb in ((16, 16, 20), (196, 92, 58), (255, 244, 214)))
+
+
+class Host(Protocol):
+    """What the examiner needs of the easel."""
+
+    send: Callable[[q.Result], None]
+
+    def picture(self, level: int, whole: Rect) -> np.ndarray: ...
+
+
+class Examiner:
+    """All calls come from the engine's thread.  One step finds one fact; a newer request drops the older."""
+
+    def __init__(self, host: Host) -> None:
+        self.host = host
+        self._work: Iterator[q.Found] | None = None
+        self.handlers: dict[type, Callable[[Any], None]] = {q.Analyse: self._ask}
+
+    @property
+    def pending(self) -> bool:
+        return self._work is not None
+
+    def step(self) -> None:
+        found = None
+        try:
+            found = next(self._work) if self._work is not None else None
+        finally:
+            if found is None or found.done:
+                self._work = None
+        if found is not None:
+            self.host.send(found)
+
+    def _ask(self, request: q.Analyse) -> None:
+        self._work = None if request.area is None else self._found(request.level, request.area)
+
+    def _found(self, level: int, area: Rect) -> Iterator[q.Found]:
+        """Everything known so far, again and again."""
+        while area.area > MOST:
+            level, area = level - 1, area.zoomed(-1)
+        lines = {"Looked at": f"{area.width:,} × {area.height:,} px of level {level}"}
+        pictures: list[str] = []
+
+        def told(done: bool = False) -> q.Found:
+            return q.Found(Map(lines), rings, tuple(pictures), done)
+
+        rings: tuple[tuple[float, float, float], ...] = ()
+        pixels = np.empty((area.height, area.width, 4), np.uint8)
+        for top in range(0, area.height, STRIP):
+            strip = Rect(area.x0, area.y0 + top, area.x1, min(area.y0 + top + STRIP, area.y1))
+            pixels[top : top + STRIP] = to_rgba8(self.host.picture(level, strip))
+            yield told()
+        facts = Analysis(pixels)
+        lines["Colours"] = f"{facts.colours:,}"
+        yield told()
+        lines["Regions"] = f"{facts.regions:,}"
+        yield told()
+        self._send("analysis regions", facts.false_coloured[..., :3], pictures)
+        yield told()
+        self._send("analysis power", _heat(_decibels(facts.power)), pictures)
+        yield told()
+        self._send("analysis correlation", _heat(0.5 + 0.5 * _middle(facts.autocorrelation)), pictures)
+        yield told()
+        self._send("analysis poles", _heat(_decibels(facts.all_pole)), pictures)
+        rings = tuple(zip(*(column.tolist() for column in facts.radial), strict=True))
+        lines["Falls as"] = "—" if facts.slope is None else f"1/f^{facts.slope:.2f}"
+        yield told(done=True)
+
+    def _send(self, ident: str, rgb: np.ndarray, pictures: list[str]) -> None:
+        out = np.full((*rgb.shape[:2], 4), 255, np.uint8)
+        out[..., :3] = rgb
+        self.host.send(q.Picture(ident, q.frozen(out)))
+        pictures.append(ident)
+
+
+def _decibels(power: np.ndarray) -> np.ndarray:
+    """Power as brightness, 0..1: the loudest 1, what lies _FLOOR below it 0."""
+    most = float(power.max(initial=0.0))
+    if most <= 0.0:
+        return np.zeros(power.shape, np.float32)
+    return (1.0 + 10.0 / _FLOOR * np.log10(np.maximum(power / most, 1e-30))).clip(0.0, 1.0).astype(np.float32)
+
+
+def _middle(correlation: np.ndarray) -> np.ndarray:
+    """Displacements of up to a quarter of the sides: those beyond have too little overlap to mean much."""
+    height, width = correlation.shape
+    return correlation[height // 4 : height - height // 4, width // 4 : width - width // 4].clip(-1.0, 1.0)
+
+
+def _heat(values: np.ndarray) -> np.ndarray:
+    """Values 0..1 from dark over red to light: uint8 (h, w, 3)."""
+    t = values.astype(np.float32)[..., None]
+    low, high = _DARK + 2.0 * t * (_MID - _DARK), _MID + (2.0 * t - 1.0) * (_LIGHT - _MID)
+    return np.where(t < 0.5, low, high).astype(np.uint8)

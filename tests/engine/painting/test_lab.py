@@ -1,0 +1,220 @@
+"""The texture lab on the engine's thread: what it shows is what its command makes, undone and redone alike."""
+
+import numpy as np
+import pytest
+from immutables import Map
+
+from engine.brush.parts import Component
+from engine.brush.record import Brush
+from engine.numeric.address import Rect
+from engine.numeric.spectra import opposite
+from engine.painting import commands as c
+from engine.painting import requests as q
+from engine.painting.easel import Easel
+from engine.painting.painting import apply
+from engine.painting.recording import Recording
+from engine.painting.replay import replay
+from engine.painting.value import Painting
+
+RING = q.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
+WHITE = Brush(radius=5, colour="#ffffff")
+
+
+class Desk:
+    """An easel, and what it has sent."""
+
+    def __init__(self):
+        self.sent = []
+        self.easel = Easel(self.sent.append)
+
+    def ask(self, *requests):
+        for request in requests:
+            self.easel.do(request)
+        while self.easel.step():
+            pass
+
+    def picture(self, ident):
+        return next(r for r in reversed(self.sent) if isinstance(r, q.Picture) and r.ident == ident).pixels
+
+    @property
+    def scene(self):
+        return next(r for r in reversed(self.sent) if isinstance(r, q.LabScene))
+
+    def stroke(self, *points, brush=WHITE, kept=True):
+        rows = [np.array([[x, y, 1.0, 0, 0, 0]]) for x, y in points]
+        self.ask(q.LabBegin(brush), *map(q.LabPoints, rows), q.LabEnd(kept))
+
+    @property
+    def log(self):
+        return self.easel.session.log
+
+
+@pytest.fixture
+def desk():
+    one = Desk()
+    yield one
+    one.easel.close()
+
+
+def sample_of(command):
+    return apply(Painting(), command).textures[command.name].source
+
+
+def test_the_lab_shows_what_its_command_makes(desk):
+    desk.ask(RING)
+    desk.stroke((10, 12), (30, 20), (50, 14))
+    desk.ask(q.LabUse("Fur"))
+    command = desk.log[-1]
+    assert command.maker == "spectrum"
+    source = desk.easel.session.painting.textures["Fur"].source
+    assert source == sample_of(c.parse(c.to_json(command)))
+    shown = np.rint(source.data[0] * 255).astype(int)
+    assert np.abs(shown - desk.picture("lab texture")[..., 0]).max() <= 1  # halves may round either way
+    assert desk.scene.using == "Fur"
+
+
+def test_a_stroke_is_seen_at_both_frequencies_while_it_is_painted(desk):
+    desk.ask(q.LabSet((64, 64)))
+    assert desk.scene.silent
+    desk.ask(q.LabBegin(WHITE), q.LabPoints(np.array([[20.0, 22, 1, 0, 0, 0]])))
+    shown = desk.picture("lab spectrum")[..., 0]
+    assert shown[22, 20] == shown[42, 44] == 255
+    assert np.array_equal(opposite(shown), shown)
+    assert not desk.scene.silent
+    assert desk.scene.strokes == 0
+    desk.ask(q.LabEnd(kept=False))
+    assert desk.scene.silent
+
+
+def test_undo_redo_and_clear(desk):
+    desk.ask(RING)
+    seen = [desk.picture("lab texture")]
+    for x in (12, 26, 40):
+        desk.stroke((x, 10), (x, 20))
+        seen.append(desk.picture("lab texture"))
+    desk.ask(q.LabStep(-2))
+    assert np.array_equal(desk.picture("lab texture"), seen[1])
+    desk.ask(q.LabStep(1))
+    assert np.array_equal(desk.picture("lab texture"), seen[2])
+    desk.ask(q.LabStep(0))
+    assert np.array_equal(desk.picture("lab texture"), seen[0])
+    assert (desk.scene.strokes, desk.scene.can_undo, desk.scene.can_redo) == (0, True, False)
+    desk.ask(q.LabStep(-1))
+    assert np.array_equal(desk.picture("lab texture"), seen[2])
+    desk.ask(q.LabStep(9))
+    assert desk.scene.strokes == 0
+    desk.ask(q.LabStep(-5), q.LabStep(-1), q.LabStep(2))
+    assert np.array_equal(desk.picture("lab texture"), seen[2])
+
+
+def test_other_shapes_slide_under_the_strokes(desk):
+    desk.ask(RING)
+    desk.stroke((10, 12), (30, 20))
+    desk.stroke((10, 40), (30, 40))
+    desk.ask(q.LabSet((64, 64), (Map({"shape": "noise", "b": 1.0}),), seed=3))
+    changed = desk.picture("lab texture")
+    desk.ask(q.LabStep(-1), q.LabSet((64, 64), RING.shapes, seed=3), q.LabStep(1))
+    other = desk.picture("lab texture")
+    desk.ask(q.LabSet((64, 64), (Map({"shape": "noise", "b": 1.0}),), seed=3))
+    assert np.array_equal(desk.picture("lab texture"), changed)
+    assert not np.array_equal(other, changed)
+
+
+def test_a_texture_in_use_follows_the_lab_and_the_next_stroke_paints_with_it(desk):
+    desk.ask(RING, q.LabUse("Cloth"))
+    before = desk.easel.session.painting.textures["Cloth"].source.sha
+    version = desk.scene.version
+    desk.stroke((10, 12), (30, 20))
+    brush = Brush(radius=20, colour="#000000", ink=(Component("Cloth"),))
+    desk.ask(q.Begin(0, (0, 0), brush), q.Points(np.array([[50.0, 50, 1, 0, 0, 0], [90, 60, 1, 0, 0, 0]])), q.Finish())
+    painting = desk.easel.session.painting
+    assert painting.textures["Cloth"].source.sha != before
+    desk.ask(q.LabRest(WHITE, (80, 40)))
+    assert desk.scene.version == version + 1
+    assert desk.picture("lab stroke").shape == desk.picture("lab near").shape == (40, 80, 4)
+    again = replay(desk.easel.session.recording()).painting
+    assert again.textures["Cloth"].source == painting.textures["Cloth"].source
+    assert len(desk.log) == 2  # the definition that was painted with, and the stroke
+
+
+def test_definitions_that_nothing_was_painted_with_are_not_recorded(desk):
+    desk.ask(RING, q.LabUse("Cloth"))
+    for x in (12, 20, 30):
+        desk.stroke((x, 10), (x, 20))
+        desk.ask(q.LabRest(WHITE, (40, 20)))
+    assert len(desk.log) == 1
+    again = replay(desk.easel.session.recording()).painting
+    assert again.textures["Cloth"].source == desk.easel.session.painting.textures["Cloth"].source
+
+
+def test_a_texture_let_go_stays_as_it_is(desk):
+    desk.ask(RING, q.LabUse("Cloth"), q.LabUse(""))
+    desk.stroke((10, 12), (30, 20))
+    desk.ask(q.LabRest(WHITE, (40, 20)))
+    assert len(desk.log) == 1
+
+
+def test_the_spectrum_of_what_is_on_the_canvas(desk):
+    points = np.array([[x, 32.0, 1, 0, 0, 0] for x in range(4, 64, 8)])
+    brush = Brush(radius=100, ink=(Component("stripes", 1.0, "#ffffff", Map({"period": 8.0})),))
+    desk.ask(q.Begin(0, (0, 0), brush), q.Points(points), q.Finish())
+    desk.ask(q.LabSet((64, 64), (Map({"shape": "canvas", "rect": (0, 0, 0, 64, 64)}),)))
+    shown = desk.picture("lab spectrum")[32, :, 0].astype(int)
+    assert set(np.argsort(shown)[-2:]) == {24, 40}
+    desk.ask(q.LabUse("Seen"))
+    again = replay(desk.easel.session.recording()).painting
+    assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+
+
+def test_another_size_keeps_what_was_painted(desk):
+    desk.ask(q.LabSet((64, 64)))
+    desk.stroke((16, 16))
+    desk.ask(q.LabSet((128, 128)))
+    assert desk.picture("lab spectrum")[32, 32, 0] == 255
+
+
+def test_the_phase_has_a_sheet_of_its_own(desk):
+    desk.ask(RING)
+    random = desk.picture("lab texture")
+    desk.ask(q.LabSet((64, 64), RING.shapes, "painted", sheet="phase"))
+    flat = desk.picture("lab texture")
+    desk.stroke((10, 12), (30, 20))
+    assert not np.array_equal(desk.picture("lab texture"), flat)
+    assert not np.array_equal(flat, random)
+    assert desk.log == []
+
+
+def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
+    points = np.array([[32.0, 32.0, 1, 0, 0, 0]])
+    desk.ask(q.Begin(0, (0, 0), Brush(radius=10, hardness=1.0)), q.Points(points), q.Finish())
+    desk.easel.do(q.Analyse(0, Rect(0, 0, 64, 64)))
+    desk.easel.step()
+    desk.ask(q.Analyse(0, Rect(0, 0, 96, 64)))
+    found = [r for r in desk.sent if isinstance(r, q.Found)]
+    assert [r.done for r in found].count(True) == 1
+    assert found[-1].done
+    assert found[-1].lines["Looked at"].startswith("96 × 64")
+    assert int(found[-1].lines["Colours"]) >= 2
+    for ident in found[-1].pictures:
+        assert desk.picture(ident).shape[2] == 4
+    assert len(found[-1].pictures) == 4
+    assert found[-1].rings
+    desk.easel.do(q.Analyse(0, Rect(0, 0, 64, 64)))
+    desk.ask(q.Analyse())
+    assert [r for r in desk.sent if isinstance(r, q.Found)][-1] is found[-1]
+
+
+def test_analysis_of_nothing(desk):
+    desk.ask(q.Analyse(0, Rect(-3, 5, 30, 25)))
+    found = [r for r in desk.sent if isinstance(r, q.Found)][-1]
+    assert found.done
+    assert found.lines["Colours"] == "1"
+
+
+def test_a_recording_of_the_lab_replays_from_its_lines(desk):
+    desk.ask(RING)
+    desk.stroke((10, 12), (30, 20), brush=Brush(radius=4, colour="#ffffff", ink=(Component("rock"),)))
+    desk.ask(q.LabUse("A"))
+    kept = desk.easel.session.recording()
+    again = replay(Recording(kept.header, tuple(c.parse(c.to_json(x)) for x in kept.commands))).painting
+    assert again.textures["A"].source == desk.easel.session.painting.textures["A"].source
