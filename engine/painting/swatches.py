@@ -18,7 +18,8 @@ from engine.painting.requests import Swatch
 from engine.painting.value import Painting
 
 _GROUND = "#5b6470"
-_BARS = 8  # of paint under a brush that takes paint away
+_BARS = 8  # of paint under a brush that changes what is there
+_COLOURS = ("#23262e", "#7c2f3b", "#c8643c", "#e2b04a", "#6f9a4c", "#3d8f93", "#41609f", "#b9bfc9")  # to be changed
 
 
 def painted(request: Swatch, of: Painting) -> np.ndarray:
@@ -29,7 +30,7 @@ def painted(request: Swatch, of: Painting) -> np.ndarray:
         _fill(request.brush, width, height) if request.kind == "fill" else _thumbnail(request.brush, width, height)
     )
     for stroke in strokes:
-        painting = apply(painting, stroke)
+        painting = apply(painting, replace(stroke, brush=_at_home(stroke.brush, painting, width)))
     level = request.zoom
     middle = Rect.at((width << level) // 2 - width // 2, (height << level) // 2 - height // 2, width, height)
     return composite(painting.root, level, middle, _read)
@@ -57,10 +58,22 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
     if brush.mode == "paint":
         return [wave]
-    ground = Brush(radius=width * 0.035, hardness=0.9, colour=_GROUND)
-    bars = [width * (0.1 + 0.8 * k / (_BARS - 1)) for k in range(_BARS)]
-    paint = [_points([[x, height * 0.14, 1.0], [x, height * 0.86, 1.0]]) for x in bars]
-    return [*(c.Stroke(0, (0, 0), points, ground) for points in paint), wave]
+    raster = brush.mode == "raster"
+    bars = []
+    for k in range(_BARS):
+        across = width * (0.1 + 0.8 * k / (_BARS - 1))
+        ground = Brush(
+            radius=width * (0.055 if raster else 0.035), hardness=0.9, colour=_COLOURS[k] if raster else _GROUND
+        )
+        bars.append(c.Stroke(0, (0, 0), _points([[across, height * 0.14, 1.0], [across, height * 0.86, 1.0]]), ground))
+    return [*bars, wave]
+
+
+def _at_home(brush: Brush, painting: Painting, width: int) -> Brush:
+    """A brush that copies from a layer copies from this picture's own, half a bar away."""
+    if isinstance(brush.op, str) or "layer" not in brush.op or painting.active is None:
+        return brush
+    return replace(brush, op=brush.op.set("layer", painting.active).set("offset", (width // 9, 0)))
 
 
 def _points(rows: object) -> np.ndarray:
