@@ -1,0 +1,57 @@
+"""Spectral textures: a painted spectrum to its preview, and the endless field against convolving dense noise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from app.bench import Figure, Skipped
+from app.bench.clock import best
+from engine.numeric.address import Rect
+from engine.numeric.shapes import drawn
+from engine.numeric.sparse import Impulse, Noise, field
+from engine.numeric.spectra import radial_window, texture_of
+
+REPEATS = 15
+FRAME = 1.0 / 60.0
+SIDE = 256  # of the spectrum
+SAMPLE = 64
+DENSITY = 10.0
+TIMES_FASTER = {1024: 12.0, 128: 20.0}
+
+
+def measure(small: bool = False) -> Iterator[Figure | Skipped]:
+    yield _preview(1 if small else REPEATS)
+    for side, limit in TIMES_FASTER.items():
+        yield _field(side, limit, 1 if small else 2 * REPEATS)
+
+
+def _preview(repeats: int) -> Figure:
+    """An amplitude of 256 x 256 with random phases, as the bytes that the window shows."""
+    amplitude = drawn("ring", (SIDE, SIDE), {})
+
+    def own() -> np.ndarray:
+        grey = np.clip(texture_of(amplitude, 1) * 127.5 + 128.0, 0.0, 255.0).astype(np.uint8)
+        out = np.full((SIDE, SIDE, 4), 255, np.uint8)
+        out[..., :3] = grey[..., None]
+        return out
+
+    [taken] = best(repeats, own)
+    return Figure(f"spectrum preview {SIDE}", taken * 1e3, "ms", "a frame of 16.7 ms", taken / FRAME, 1.0)
+
+
+def _field(side: int, limit: float, repeats: int) -> Figure | Skipped:
+    """A grey field of 64 x 64 samples at 10 points an area, somewhere far out; theirs: dense noise, same size."""
+    name = f"endless field {side}"
+    try:
+        from scipy.signal import oaconvolve
+    except ImportError:
+        return Skipped(name, "scipy is not installed")
+    random = np.random.default_rng(1)
+    sample = random.standard_normal((SAMPLE, SAMPLE)).astype(np.float32) * radial_window(SAMPLE)
+    impulse, noise, rect = Impulse.of(sample[None]), Noise(5, DENSITY), Rect.at((1 << 40) + 77, -9000, side, side)
+    dense = random.standard_normal((side, side)).astype(np.float32)
+    taken, theirs = best(repeats, lambda: field(impulse, noise, rect), lambda: oaconvolve(dense, sample, mode="same"))
+    bound = f"scipy's oaconvolve of {side} x {side}"
+    return Figure(name, side * side / taken / 1e6, "Mpixel/s", bound, theirs / taken, limit, True)
