@@ -186,18 +186,18 @@ def straight(v, out):
 
 @njit(cache=True, nogil=True)
 def weigh(coverage, texture, weight, free):
-    """w = M clamp(tex) into `weight`, M where the texture is not cut off into `free`; whether w reaches the grid.
+    """w = M clamp(tex) into `weight`, M where the texture is not cut off into `free`; whether w is anything.
 
-    All float32 (h, w); `free` is how strongly w follows the texture's finer detail.
+    All float32 (h, w); M is rounded to the grid; `free` is how strongly w follows the texture's finer detail.
     """
-    least = np.float32(2.0**-17)
     some = np.int32(0)
     for y in range(coverage.shape[0]):
         m, t, w, f = coverage[y], texture[y], weight[y], free[y]
         for x in range(m.size):
-            w[x] = m[x] * min(max(t[x], _ZERO), _ONE)
-            f[x] = m[x] if _ZERO <= t[x] <= _ONE else _ZERO
-            some |= np.int32(w[x] > least)
+            covered = snap(m[x])
+            w[x] = covered * min(max(t[x], _ZERO), _ONE)
+            f[x] = covered if _ZERO <= t[x] <= _ONE else _ZERO
+            some |= np.int32(w[x] > _ZERO)
     return some != 0
 
 
