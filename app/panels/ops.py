@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -16,6 +17,7 @@ from app.panels.ramp import RampEditor
 from engine.numeric.formula import FORMULA_CAP, FUNCTIONS, NAMES, FormulaError, parse
 
 OFFSETS = (-512.0, 512.0)  # that the sliders offer
+REST = 0.4  # seconds without typing before a formula is taken: each is compiled
 ECHO = 13  # characters of a formula shown on each side of its mistake
 GROUPS = (
     ("With the colour", ("toward", "multiply", "screen", "overlay", "dodge", "burn", "add", "subtract", "difference")),
@@ -42,6 +44,7 @@ class Operations:
         self._ramp = RampEditor()
         self._text = ""
         self._known = ""  # the brush's formula when `_text` was last the same
+        self._typed = 0.0  # when it was last changed
         self._fault: FormulaError | None = None
 
     def draw(self, desk: Desk) -> None:
@@ -134,6 +137,7 @@ class Operations:
         side = imgui.get_frame_height()
         imgui.set_next_item_width(imgui.get_content_region_avail().x - side - imgui.get_style().item_spacing.x)
         changed, self._text = imgui.input_text("##formula", self._text)
+        left = imgui.is_item_deactivated()
         w.tooltip(_VOCABULARY)
         imgui.same_line()
         if w.icon_button("more formulas", icons.MORE, "Formulas to begin with"):
@@ -141,15 +145,16 @@ class Operations:
         if imgui.begin_popup("formulas"):
             for title, text in FORMULAS:
                 if imgui.selectable(f"{title}##{text}", False)[0]:
-                    self._text, changed = text, True
+                    self._text, changed, left = text, True, True
                 w.tooltip(text)
             imgui.end_popup()
+        now = time.monotonic()
         if changed:
             self._text = self._text[:FORMULA_CAP]
-            self._fault = fault(self._text)
-            if self._fault is None:
-                self._known = self._text
-                desk.brush = replace(desk.brush, op=Map({"formula": self._text}))
+            self._fault, self._typed = fault(self._text), now
+        if self._fault is None and self._text != self._known and (left or now - self._typed > REST):
+            self._known = self._text
+            desk.brush = replace(desk.brush, op=Map({"formula": self._text}))
         if self._fault is not None:
             _mistake(self._text, self._fault)
 
@@ -190,7 +195,7 @@ def _mistake(formula: str, error: FormulaError) -> None:
     """The place of the mistake in its surroundings, and what was expected there."""
     before, there, behind = around(formula, error.column)
     corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
-    x = corner.x + imgui.get_style().frame_padding.x
+    x = corner.x
     warn, quiet, height = theme.packed(theme.WARN), theme.packed((0.7,) * 3), imgui.get_text_line_height()
     for text, colour in ((before, quiet), (there, warn), (behind, quiet)):
         width = max(imgui.calc_text_size(text).x, 4.0)
@@ -199,9 +204,11 @@ def _mistake(formula: str, error: FormulaError) -> None:
             painter.add_rect_filled(ImVec2(x, corner.y + height), ImVec2(x + width, corner.y + height + 2), warn)
         x += width
     imgui.dummy(ImVec2(1, height + 2))
+    wanted = f"Column {error.column}: expected {error.expected.partition(':')[0]}"
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.vec(theme.WARN), f"Column {error.column}: found {error.found}, expected {error.expected}")
+    imgui.text_colored(theme.vec(theme.WARN), wanted)
     imgui.pop_text_wrap_pos()
+    w.tooltip(f"Found {error.found}, expected {error.expected}")
 
 
 def _told(row: Any) -> str:
