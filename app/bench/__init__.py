@@ -40,6 +40,7 @@ class Skipped:
 BENCHES = {
     "view": "a 1920 x 1080 view from its parent level, against copying the bytes that it moves",
     "dab": "soft dabs into the coverage of a stroke, and through texture into pixels",
+    "raster": "a soft dab of each raster-op through texture into pixels, against copying its bytes",
     "spectral": "a painted spectrum to its preview, and the endless field of sparse convolution",
     "stroke": "a stroke of 1,000 points to committed pixels at all levels",
     "zoom": "a continuous zoom through 40 levels at 1280 x 800: the engine's work, and the frames of a real window",
