@@ -172,7 +172,7 @@ def check(brush: Brush, where: str = "brush") -> None:
     usable = ", ".join(name for name, mode in MODES.items() if mode.edit is not None)
     if MODES[brush.mode].edit is None:
         raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
-    for name in ("tip", "example", "depth"):
+    for name in ("example", "depth"):
         if getattr(brush, name) is not None:
             raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
     if brush.extent:

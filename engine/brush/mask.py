@@ -11,6 +11,7 @@ import numpy as np
 
 from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
+from engine.brush.tip import Pattern
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import SNAP
 
@@ -61,12 +62,16 @@ class StrokeMask:
     """The coverage M of a stroke at `level`, grown dab by dab: M' = M + max(0, opacity - M) * flow * d(r).
 
     So a dab's opacity is a ceiling that no number of dabs passes, and flow the rate at which M comes up to it; d is
-    the profile of module `discs`.  `origin`: the stroke's origin, integers of any size.  Only touched tiles take
-    memory, and of those only the ones that are not of one value.
+    the profile of module `discs`, times what the pattern of `tip` has there, if there is one.  `origin`: the stroke's
+    origin, integers of any size.  Only touched tiles take memory, and of those only the ones that are not of one value.
     """
 
-    def __init__(self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP) -> None:
+    def __init__(
+        self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP, tip: Pattern | None = None
+    ) -> None:
         self.level = level
+        self._tip = tip
+        self._laid = 0  # dabs in all
         self.origin = origin
         self._tiles_cap = tiles_cap
         self._corner = origin[0] // TILE, origin[1] // TILE  # the tile of the origin
@@ -106,12 +111,15 @@ class StrokeMask:
         start = 0
         while start < len(discs):
             count, start = kernels.list_runs(discs, start, codes, which, inside, runs)
+            if self._tip is not None:  # such dabs fill no tile evenly
+                inside[:], runs[:count, 4] = False, 0
             listed = runs[:count].tolist()
             keys = [TileKey(self.level, self._corner[0] + x, self._corner[1] + y) for _, _, x, y, _ in listed]
             self._make_room(keys)
             for key, run in zip(keys, listed, strict=True):
                 if self._lay(key, run, discs, which, inside):
                     touched.add(key)
+        self._laid += len(discs)
         return touched
 
     def _make_room(self, keys: list[TileKey]) -> None:
@@ -139,7 +147,10 @@ class StrokeMask:
         else:
             tile = old.copy() if key in self._lent else old
         self._lent.discard(key)
-        kernels.lay(tile, discs, which, first, last, x * TILE, y * TILE)
+        if self._tip is None:
+            kernels.lay(tile, discs, which, first, last, x * TILE, y * TILE)
+        else:
+            self._tip.lay(tile, discs, which[first:last], self._laid, (x * TILE, y * TILE))
         self._tiles[key] = tile
         return True
 

@@ -29,28 +29,16 @@ from engine.brush.rim import Rim, Tiles
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table
+from engine.texture.grey import grey
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
 
 SOFTNESS = 0.35  # of the line between what a brush touches and what it does not, in heights
 _MEMO = 192  # tiles of heights kept: 12 MB
 _AVERAGED = 3  # levels coarser than the grain's coarsest at which it is averaged; beyond, it is level
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
 
 _ZERO = np.float32(0.0)
 _ONE = np.float32(1.0)
-
-
-def grey(made: Instance, level: int, rect: Rect) -> np.ndarray:
-    """s of a texture as one number a pixel: float32 (h, w), nominal 0..1.
-
-    The mean of the channels; of a picture, its luminance, where it is transparent 0.
-    """
-    seen = made.appearance(level, rect)
-    if len(seen) == 4:
-        return np.einsum("chw,c->hw", seen[:3], _LUMINANCE)
-    mean = seen[0] if len(seen) == 1 else (seen[0] + seen[1] + seen[2]) * np.float32(1.0 / 3.0)
-    return mean * np.float32(0.5) + np.float32(0.5)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from immutables import Map
 
-from engine.brush import kinds, raster, relief
+from engine.brush import kinds, raster, relief, tip
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve
@@ -57,8 +57,9 @@ class LiveStroke:
         self._points: list[np.ndarray] = []
         self._count = 0
         self._stroker = Stroker(brush)
-        self._mask = StrokeMask(level, origin)
         own = painting.seed if seed is None else seed
+        self._tip = tip.resolve(brush, painting.textures, level, own)
+        self._mask = StrokeMask(level, origin, tip=self._tip)
         inks = {"paint": resolve, "raster": raster.mixture}
         self._ink = inks[brush.mode](brush, painting.textures, level, own) if brush.mode in inks else None
         self._scenery = Scenery(brush, self.base.root, level, origin, cache) if brush.mode == "raster" else None
@@ -106,7 +107,7 @@ class LiveStroke:
     def _again(self) -> None:
         """Lays the points that were kept, and nothing else."""
         self._stroker = Stroker(self.brush)
-        self._mask = StrokeMask(self.level, self.origin)
+        self._mask = StrokeMask(self.level, self.origin, tip=self._tip)
         self._edit = None
         for points in self._points:
             self._mask.paint(self._stroker.walk(points))

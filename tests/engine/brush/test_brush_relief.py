@@ -9,11 +9,12 @@ from engine.brush.checks import BrushError
 from engine.brush.kinds import edit
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.record import from_json
-from engine.brush.relief import SOFTNESS, Heights, grey, resolve
+from engine.brush.relief import SOFTNESS, Heights, resolve
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import table
+from engine.texture.grey import grey
 from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
 from engine.texture.table import instance

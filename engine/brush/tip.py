@@ -1,0 +1,190 @@
+"""Small brushes: dabs in the shape of a texture (Lewis 1984, section 6.1).
+
+Either every dab is a stamp of the texture's own sample, laid out over the dab whatever its size, or every dab is
+another window into a field of the texture, chosen by the stroke's seed and the dab's number: a "brushful" of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, cast
+
+import numpy as np
+from numba import njit
+
+from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
+from engine.brush.ink import Texture, named
+from engine.brush.parts import Tip
+from engine.brush.record import Brush
+from engine.numeric.address import TILE, Rect
+from engine.numeric.curves import Shape
+from engine.numeric.hashing import fold_key, mix64
+from engine.numeric.pyramid import reduce
+from engine.numeric.shaping import look_up, table
+from engine.texture.grey import LUMINANCE, grey
+from engine.texture.image import ImageSource, stretched
+from engine.texture.record import Instance
+
+LARGEST = 512  # pixels along a side of a sample
+FIELD = 512  # and of the field that windows are cut from, or twice that for large dabs
+_WIDE = 96.0  # px: from this radius on dabs are large
+_SMALLEST = 4
+_DOMAIN = 0x746970  # "tip"
+
+_ZERO = np.float32(0.0)
+_ONE = np.float32(1.0)
+_TWO = np.float32(2.0)
+_THREE = np.float32(3.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pattern:
+    """What dabs are filled with.
+
+    `planes`: square planes of 0..1 one after the other, float32 (sum of their sizes squared,): the sample as wide as
+    the brush's dab, half as wide, and so on; or, if `windows`, one field in pixels of the stroke's level.
+    `sizes`: int64 (n,), how many pixels each is wide.  `key`: of the windows' places, a uint64.
+    """
+
+    planes: np.ndarray
+    sizes: np.ndarray
+    windows: bool
+    key: int
+
+    def lay(
+        self, coverage: np.ndarray, discs: np.ndarray, which: np.ndarray, number: int, corner: tuple[int, int]
+    ) -> None:
+        """Lays the discs `which` into a tile's coverage, in order, each filled with the pattern.
+
+        `number`: of the stroke's dab that is the first of `discs`; `corner`: left and top of the tile, px.
+        """
+        if self.windows:
+            _lay_windows(coverage, discs, which, number, np.uint64(self.key), *corner, self.planes, self.sizes[0])
+        else:
+            _lay_samples(coverage, discs, which, *corner, self.planes, self.sizes)
+
+
+def resolve(
+    brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str = "brush"
+) -> Pattern | None:
+    """The pattern of a brush's tip for a stroke at `level`; None if its dabs are plain.  BrushError names the field."""
+    tip = brush.tip
+    if tip is None:
+        return None
+    at = f"{where}.tip"
+    if tip.source == "window":
+        size = FIELD if brush.radius < _WIDE else 2 * FIELD
+        field = named(tip, textures, level, seed, at)
+        return Pattern(
+            _field(cast(Hashable, field), tip.shaping, size), np.array([size]), True, fold_key(_DOMAIN, seed)
+        )
+    size = min(max(1 << math.ceil(math.log2(max(2.0 * brush.radius, 1.0))), 2 * _SMALLEST), LARGEST)
+    made = _laid_out(tip, textures, level, seed, size, at)
+    return Pattern(*_sample(cast(Hashable, made), tip.shaping, size), False, 0)
+
+
+def _laid_out(
+    tip: Tip, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, size: int, where: str
+) -> Instance | ImageSource:
+    """The texture of a tip whose sample is `size` pixels wide, or the picture that is its sample."""
+    made = named(tip, textures, level, seed, where)
+    if "period" in tip.parameters or not hasattr(made, "period"):
+        return made
+    source = getattr(made, "source", None)
+    if isinstance(source, ImageSource) and source.data is not None:
+        return source
+    return named(replace(tip, parameters=tip.parameters.set("period", size)), textures, level, seed, where)
+
+
+@lru_cache(maxsize=8)
+def _field(made: Any, curve: Shape | None, size: int) -> np.ndarray:
+    return _curved(grey(made, made.base, Rect(0, 0, size, size)), curve).ravel()
+
+
+@lru_cache(maxsize=8)
+def _sample(made: Any, curve: Shape | None, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """The sample, of an Instance or an ImageSource, at its size, half of it, and so on, after its curve: `planes` and
+    `sizes` of a Pattern."""
+    values = _picture(made, size) if isinstance(made, ImageSource) else grey(made, made.base, Rect(0, 0, size, size))
+    levels = [_curved(values, curve)]
+    while len(levels[-1]) > _SMALLEST:
+        levels.append(reduce(levels[-1][None])[0])
+    return np.concatenate([plane.ravel() for plane in levels]), np.array([len(plane) for plane in levels])
+
+
+def _picture(source: ImageSource, size: int) -> np.ndarray:
+    """A picture's luminance, fitted into a square: float32 (size, size), 0 beside it."""
+    longest = max(source.width, source.height)
+    height, width = (max(1, round(side * size / longest)) for side in (source.height, source.width))
+    seen = stretched(source, (height, width), np.arange(height), np.arange(width))
+    out = np.zeros((size, size), np.float32)
+    top, left = (size - height) // 2, (size - width) // 2
+    out[top : top + height, left : left + width] = np.einsum("chw,c->hw", seen[:3], LUMINANCE)
+    return out
+
+
+def _curved(values: np.ndarray, curve: Shape | None) -> np.ndarray:
+    out = np.ascontiguousarray(values)
+    look_up(out.reshape(-1), table(curve or "identity"), _ONE, _ZERO)
+    return out
+
+
+@njit(inline="always")
+def _profile(dx2, dy2, inner, scale):
+    """d(r) of a disc (module `discs`)."""
+    v = _ONE - max(_ZERO, min(_ONE, np.float32((dx2 + dy2 - inner) * scale)))
+    return v * v * (_THREE - _TWO * v)
+
+
+@njit(cache=True, nogil=True)
+def _lay_windows(coverage, discs, which, number, key, left, top, field, n):
+    """M' = M + max(0, ceiling - M) rate d(r) t, t being a window of `field`, float32 (n n,), in whole pixels."""
+    for index in which:
+        disc = discs[index]
+        cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
+        ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
+        h = mix64(key ^ mix64(np.uint64(number + index)))
+        room = np.uint64(max(1, n - 2 * int(outer) - 3))
+        x0 = math.floor(cx - outer) - np.int64((h & np.uint64(0xFFFFFFFF)) % room)
+        y0 = math.floor(cy - outer) - np.int64((h >> np.uint64(32)) % room)
+        for y in range(max(0, math.floor(cy - outer)), min(TILE, math.ceil(cy + outer))):
+            dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)
+            row, seen = coverage[y], field[(y - y0) % n * n :]
+            for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer))):
+                d = _profile((x + 0.5 - cx) * (x + 0.5 - cx), dy2, disc[RIN2], disc[SCALE])
+                row[x] += max(_ZERO, ceiling - row[x]) * (rate * d * seen[(x - x0) % n])
+
+
+@njit(cache=True, nogil=True)
+def _lay_samples(coverage, discs, which, left, top, packed, sizes):
+    """As `_lay_windows`, t being the sample laid out over the disc's square, of the level that is about as wide as
+    the disc, with straight lines between its pixels."""
+    for index in which:
+        disc = discs[index]
+        cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
+        ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
+        radius = outer - 0.5
+        start, level = 0, 0
+        while level + 1 < sizes.size and sizes[level] > 2.5 * radius:
+            start += sizes[level] * sizes[level]
+            level += 1
+        n = sizes[level]
+        plane = packed[start : start + n * n].reshape(n, n)
+        step = n / (2.0 * radius)
+        for y in range(max(0, math.floor(cy - outer)), min(TILE, math.ceil(cy + outer))):
+            dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)
+            v = min(max((y + 0.5 - cy + radius) * step - 0.5, 0.0), n - 1.001)
+            j = int(v)
+            b = np.float32(v - j)
+            row, upper, lower = coverage[y], plane[j], plane[j + 1]
+            for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer))):
+                u = min(max((x + 0.5 - cx + radius) * step - 0.5, 0.0), n - 1.001)
+                i = int(u)
+                a = np.float32(u - i)
+                high = upper[i] + (upper[i + 1] - upper[i]) * a
+                low = lower[i] + (lower[i + 1] - lower[i]) * a
+                d = _profile((x + 0.5 - cx) * (x + 0.5 - cx), dy2, disc[RIN2], disc[SCALE])
+                row[x] += max(_ZERO, ceiling - row[x]) * (rate * d * (high + (low - high) * b))
