@@ -46,6 +46,7 @@ class InkPanel:
             reshaped, curve = self._curves.row("Shaping of all", desk.brush.shaping, desk.curves, hint)
             if reshaped:
                 desk.brush = replace(desk.brush, shaping=curve)
+        self._extent(desk)
         self._adder(desk)
 
     def _picture(self, desk: Desk) -> None:
@@ -110,6 +111,15 @@ class InkPanel:
             component = replace(component, shaping=curve)
         imgui.end_popup()
         return component
+
+    def _extent(self, desk: Desk) -> None:
+        """Scattered textures can keep their marks whole at the stroke's rim."""
+        kinds = dict(desk.scene.texture_kinds) if desk.scene else {}
+        if desk.brush.extent or any(kinds.get(part.texture) == "sparse" for part in desk.brush.ink):
+            changed, on = imgui.checkbox("Whole marks at the rim", desk.brush.extent)
+            w.tooltip("The rim of a stroke takes the shape of the texture's marks: none is cut")
+            if changed:
+                desk.brush = replace(desk.brush, extent=on)
 
     def _adder(self, desk: Desk) -> None:
         full = len(desk.brush.ink) >= COMPONENTS_CAP

@@ -34,6 +34,7 @@ class Texturing:
     def __init__(self) -> None:
         self._curves = CurveEditor()
         self._kept = dict(_START)
+        self._fresh = ""  # the section switched on just now
 
     def draw(self, desk: Desk) -> float:
         """The height of what is unfolded of them."""
@@ -42,7 +43,7 @@ class Texturing:
             held = getattr(desk.brush, name)
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
-                held = self._start(desk, name) if on else None
+                held, self._fresh = (self._start(desk, name), name) if on else (None, "")
             if shown:
                 top = imgui.get_cursor_pos().y
                 imgui.push_id(name)
@@ -52,12 +53,20 @@ class Texturing:
                 imgui.pop_id()
                 held = changed if on else None
                 unfolded += imgui.get_cursor_pos().y - top
+                self._show(name)
             if held is not None:
                 self._kept[name] = held
             if held != getattr(desk.brush, name):
                 setting: dict[str, Any] = {name: held}
                 desk.brush = replace(desk.brush, **setting)
         return unfolded
+
+    def _show(self, name: str) -> None:
+        """Scrolls to the end of a section that was switched on just now."""
+        if name == self._fresh:
+            self._fresh = ""
+            if imgui.get_cursor_screen_pos().y > imgui.get_window_pos().y + imgui.get_window_height():
+                imgui.set_scroll_here_y(1.0)
 
     def _start(self, desk: Desk, name: str) -> Any:
         """What it was before, unless that needs a texture of another painting."""
@@ -87,7 +96,7 @@ class Texturing:
 
     def _edge(self, desk: Desk, part: Edge) -> Edge:
         hint = "Left: at the rim of the stroke; right: a width inside it. Up: more paint"
-        changed, curve = self._curves.row("Edge", part.curve, desk.edges, hint)
+        changed, curve = self._curves.row("Curve", part.curve, desk.edges, hint)
         if changed:
             part = replace(part, curve=curve if curve is not None else desk.edges[0].name)
         rows = (
