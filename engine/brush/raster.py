@@ -220,26 +220,16 @@ class Raster:
     # ---- ops that lay or take paint ---------------------------------------------------------------------------------
 
     def _toward(self, key: TileKey, old: Planes, weight: np.ndarray, free: np.ndarray) -> Stamp | None:
-        paint = np.empty((COLOURS, TILE, TILE), np.float32)
-        paint[:_ALPHA], paint[_ALPHA] = self._colour[:, None, None], 1.0
-        stamp = self._lay(paint, (), old, weight)
-        if stamp is None or self.ink is None or not self.ink.loaded:
-            return stamp
-        inks = self.ink.inks
-        out = np.zeros((COLOURS + 3 * len(inks), TILE, TILE), np.float32)
-        out[:COLOURS] = stamp.add
-        lack = old.data[_ALPHA] * self._colour[:, None, None] - old.data[:_ALPHA]
-        planes = _where(old.inks, inks)
-        for i, gain in enumerate(self._gains(inks)):
-            for channel in range(3):
-                source = planes[3 * i + channel]
-                before = old.data[source] if source >= 0 else np.float32(0.0)
-                left = _snapped(stamp.keep * before)
-                most = np.clip(np.abs(left), 0.5, 2.0)
-                out[COLOURS + 3 * i + channel] = (
-                    np.clip(left + _snapped(free * gain * lack[channel]), -most, most) - left
-                )
-        return Stamp(stamp.keep, out, inks)
+        keep = np.empty_like(_ONES)
+        if not coat.keep_of(weight, keep):
+            return None
+        inks = () if self.ink is None else self.ink.inks
+        add = np.empty((COLOURS + 3 * len(inks), TILE, TILE), np.float32)
+        coat.wash(coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA]), self._colour, add[:_ALPHA])
+        if inks:
+            below = np.ascontiguousarray(old.data)
+            tones.spray(keep, free, self._colour, below, _where(old.inks, inks), self._gains(inks), add)
+        return Stamp(keep, add, inks)
 
     def _clone(self, key: TileKey, old: Planes, weight: np.ndarray, free: np.ndarray) -> Stamp | None:
         assert self.scene.source is not None
@@ -347,7 +337,3 @@ def _where(inks: tuple, into: tuple) -> np.ndarray:
     """For each of the 3n planes of the inks `into`, its place among the planes of a stack with `inks`, -1 for none."""
     places = {made: COLOURS + 3 * i for i, made in enumerate(inks)}
     return np.array([places[m] + c if m in places else -1 for m in into for c in range(3)], np.int64)
-
-
-def _snapped(values: np.ndarray) -> np.ndarray:
-    return (values.astype(np.float32) + np.float32(192.0)) - np.float32(192.0)

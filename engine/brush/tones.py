@@ -290,13 +290,30 @@ def _inks(code, old, planes, free, gains, y, t, s, a, add):
     for i in range(planes.size):
         channel, gain = i % 3, gains[i // 3]
         v, b, target, slope = old[channel, y], add[4 + i, y], t[channel], s[channel]
-        source = planes[i]
+        before = old[max(planes[i], 0), y]
+        there = _ONE if planes[i] >= 0 else _ZERO
         for x in range(f.size):
-            before = old[source, y, x] if source >= 0 else _ZERO
             steep = alpha[x] * slope[x] if code == TEXTURE_RAMP else alpha[x] * target[x] - v[x]
-            left = snap(a[x] * before)
+            left = snap(a[x] * before[x] * there)
             most = min(max(abs(left), _HALF), _INK)
             b[x] = min(max(left + snap(f[x] * gain * steep), -most), most) - left
+
+
+@njit(cache=True, nogil=True)
+def spray(keep, free, colour, old, planes, gains, add):
+    """B of the ink planes, add[4:], of paint of one `colour` (3,) laid through a texture, as `change` makes them where
+    the layer is opaque; where nothing lies there is nothing for the texture to stand out from."""
+    for y in range(keep.shape[0]):
+        a, f, alpha = keep[y], free[y], old[3, y]
+        for i in range(planes.size):
+            channel, gain, source = i % 3, gains[i // 3], planes[i]
+            v, b, p = old[channel, y], add[4 + i, y], colour[channel]
+            before = old[max(source, 0), y]
+            there = _ONE if source >= 0 else _ZERO
+            for x in range(a.size):
+                left = snap(a[x] * before[x] * there)
+                most = min(max(abs(left), _HALF), _INK)
+                b[x] = min(max(left + snap(f[x] * gain * (alpha[x] * p - v[x])), -most), most) - left
 
 
 @njit(cache=True, nogil=True)
