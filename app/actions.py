@@ -113,6 +113,18 @@ def _panels(desk: Desk) -> None:
     desk.panels = not desk.panels
 
 
+def _strip(name: str) -> Callable[[Desk], None]:
+    def toggle(desk: Desk) -> None:
+        desk.strip = "" if desk.strip == name else name
+        desk.panels = desk.panels or bool(desk.strip)
+
+    return toggle
+
+
+def _open(name: str) -> Check:
+    return lambda desk: desk.strip == name
+
+
 def _escape(desk: Desk) -> None:
     desk.erasing = False
     desk.tool = "brush"
@@ -204,6 +216,10 @@ ACTIONS: dict[str, Action] = {
     "upright": A("Upright", "View", ("5",), "Turn the view upright", _upright),
     "mirror": A("Mirror", "View", ("M",), "Mirror the view", _mirror, _always, lambda d: d.view.mirrored),
     "panels": A("Panels", "View", ("Tab",), "Show or hide the panels", _panels, _always, lambda d: d.panels),
+    "lab": A("Texture lab", "View", ("L",), "Paint a texture by its spectrum", _strip("lab"), _ready, _open("lab")),
+    "analysis": A(
+        "Analysis", "View", ("A",), "What the painting is made of", _strip("analysis"), _ready, _open("analysis")
+    ),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
     "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),
 }  # fmt: skip

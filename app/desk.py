@@ -13,10 +13,11 @@ from typing import Any
 
 from app.colours import RGB, to_hex
 from app.glide import Glide
+from app.lab import LabState
 from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
-from engine.painting.requests import CurveRow, Note, Request, Save, Scene
+from engine.painting.requests import CurveRow, Found, Note, Request, Save, Scene
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
@@ -70,6 +71,9 @@ class Desk:
     quit: bool = False
     after_save: Callable[[Desk], None] | None = None
     awaited: str = ""  # a texture that was asked for: it joins the ink when the painting has it
+    strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
+    lab: LabState = field(default_factory=LabState)
+    found: Found | None = None  # by the analysis
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
 
     @property

@@ -16,6 +16,7 @@ from app.colours import to_hex
 from app.desk import Desk
 from app.panels.brush import PREVIEW, THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
+from app.panels.lab import LAB_STROKE
 from app.screen import Screen, ScreenTile, cells, near_first
 from app.trace import trace
 from app.view import SUBPIXEL, Place
@@ -50,6 +51,8 @@ class News:
             q.Picture: self._picture,
             q.Picked: self._picked,
             q.Looked: self._looked,
+            q.LabScene: self._lab,
+            q.Found: self._found,
             q.Pending: self._pending,
         }
 
@@ -81,6 +84,7 @@ class News:
             wanted += _ring(seen)
             self.worker.post(q.Look(tuple((*t, self.screen.revision(t)) for t in wanted)))
         self._ask_swatches(now)
+        self._ask_lab(now)
 
     def _ask_swatches(self, now: float) -> None:
         """The stroke of the brush and the ink mixer's picture follow the brush, no faster than they can be seen."""
@@ -95,6 +99,13 @@ class News:
             plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
             self.worker.post(q.Swatch("ink", plain, size, "fill"))
             self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER))
+
+    def _ask_lab(self, now: float) -> None:
+        desk = self.desk
+        if desk.strip == "lab" and desk.panels:
+            brush = replace(desk.brush, colour=to_hex(desk.colour), radius=16.0, ink=(), mode="paint")
+            brush = replace(brush, opacity=1.0, flow=1.0)
+            desk.lab.ask(desk.post, now, brush, (round(LAB_STROKE[0] * desk.scale), round(LAB_STROKE[1] * desk.scale)))
 
     def waiting(self) -> bool:
         """Whether a swatch is about to be asked for."""
@@ -151,6 +162,14 @@ class News:
             old = self._textures[r.ident] = self.ctx.texture(size, 3, alignment=1)
             self.desk.pictures[r.ident] = imgui.ImTextureRef(old.glo)
         old.write(np.ascontiguousarray(flat), alignment=1)
+
+    def _lab(self, r: q.LabScene, _now: float) -> None:
+        before, self.desk.lab.scene = self.desk.lab.scene, r
+        if before is not None and before.version != r.version:
+            self._ink = None  # its pictures are of a texture that is another one now
+
+    def _found(self, r: q.Found, _now: float) -> None:
+        self.desk.found = r
 
     def _picked(self, r: q.Picked, _now: float) -> None:
         if r.alpha > 0.01:

@@ -17,7 +17,7 @@ NAME_LENGTH = 24
 
 def from_file(desk: Desk, path: Path) -> None:
     """Asks for a texture made of a picture file; it joins the ink as soon as it is there."""
-    name = _free_name(desk, path.stem)
+    name = free_name(desk, path.stem)
     _define(desk, DefineTexture(name, "image", Map({"path": str(path.absolute())})))
 
 
@@ -25,7 +25,7 @@ def from_view(desk: Desk) -> None:
     """Asks for a texture made of what the window shows of the canvas, at the level shown."""
     rect = seen(desk)
     arguments = {"rect": (desk.view.shown_level, rect.x0, rect.y0, rect.width, rect.height), "detail": DETAIL}
-    _define(desk, DefineTexture(_free_name(desk, "View"), "canvas", Map(arguments)))
+    _define(desk, DefineTexture(free_name(desk, "View"), "canvas", Map(arguments)))
 
 
 def seen(desk: Desk) -> Rect:
@@ -42,7 +42,7 @@ def _define(desk: Desk, command: DefineTexture) -> None:
     desk.post(Do(command))
 
 
-def _free_name(desk: Desk, stem: str) -> str:
+def free_name(desk: Desk, stem: str) -> str:
     """A name that no texture has yet."""
     stem = "".join(c for c in stem if c.isprintable())[:NAME_LENGTH].strip() or "Picture"
     taken = {row.name for row in desk.kinds} | set(desk.scene.textures if desk.scene else ())

@@ -12,7 +12,7 @@ from app.desk import Desk
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
-from app.tools import TOOLS, Gesture, pan, pick, turn, zoom
+from app.tools import TOOLS, Gesture, paint_lab, pan, pick, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
@@ -57,6 +57,11 @@ class Router:
             self.desk.glide.zoom(self.desk.view, event.dy * NOTCH, event.x, event.y)
 
     def _press(self, event: PenEvent, covered: bool) -> None:
+        if covered and event.button == LEFT and self.layout.paints(self.desk, event.x, event.y):
+            self._button = event.button
+            self.gesture = paint_lab(self.desk, event)
+            self._send(None)
+            return
         if covered:
             self._panel_buttons.add(event.button)
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
@@ -109,6 +114,8 @@ class Router:
         dialog = self.layout.dialogs.open or bool(self.desk.asked)
         busy = dialog or imgui.get_io().want_text_input
         found = by_key(keys)
+        if not busy and found is not None and self.layout.strip.takes(self.desk, found):
+            return
         if found is not None and (not busy or (keys in _TYPED_ANYWHERE and not dialog)):
             perform(self.desk, found)
 

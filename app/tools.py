@@ -12,11 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from app import icons
+from app.colours import to_hex
 from app.desk import Desk
 from app.input.events import PenEvent
 from app.view import Place, View
 from engine.brush.smoothing import Smoother
-from engine.painting.requests import Abandon, Begin, Finish, Pick, Points
+from engine.painting.requests import Abandon, Begin, Finish, LabBegin, LabEnd, LabPoints, Pick, Points
 
 Gesture = Generator[None, PenEvent, None]
 
@@ -61,10 +62,36 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         desk.use_colour()
 
 
-def _post(desk: Desk, points: np.ndarray) -> None:
+def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
+    """A stroke in the texture lab's spectrum."""
+    lab = desk.lab
+    built_in = frozenset(row.name for row in desk.kinds if not row.pictured)
+    brush = lab.brush(desk.brush, to_hex(desk.colour), first.eraser, built_in)
+    smoother = Smoother(desk.stabiliser)
+    desk.post(LabBegin(brush))
+    lab.painting = True
+    done = False
+    try:
+        event = first
+        while True:
+            if event.kind in ("down", "move"):
+                pressure = event.pressure if event.pen else 1.0
+                row = [*lab.place(event.x, event.y), pressure, event.tilt_x, event.tilt_y, event.time - first.time]
+                _post(desk, smoother.add(np.array([row])), LabPoints)
+            if event.kind == "up":
+                break
+            event = yield
+        _post(desk, smoother.finish(), LabPoints)
+        done = True
+    finally:
+        lab.painting = False
+        desk.post(LabEnd(done))
+
+
+def _post(desk: Desk, points: np.ndarray, form: type[Points] | type[LabPoints] = Points) -> None:
     if len(points):
         points.flags.writeable = False
-        desk.post(Points(points))
+        desk.post(form(points))
 
 
 def _locked_layer(desk: Desk) -> str | None:

@@ -186,6 +186,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "export": lambda desk: ExportDepth(),
     "export to": files.exporting,
     "texture picture": files.choosing_texture,
+    "lab picture": files.choosing_spectrum,
     "unsaved": lambda desk: Unsaved(),
     "keys": lambda desk: Keys(),
     "about": lambda desk: About(),

@@ -11,6 +11,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle import portable_file_dialogs as pfd
+from immutables import Map
 
 from app import icons, pictured, theme
 from app.desk import Desk
@@ -171,6 +172,13 @@ def exporting(desk: Desk) -> SystemDialog | Browser:
     stem = desk.path.stem if desk.path else "untitled"
     start, level = _folder(desk) / f"{stem}.png", desk.export_level
     return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
+
+
+def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:
+    def choose(d: Desk, path: Path) -> None:
+        d.lab.change(shapes=(Map({"shape": "image", "path": str(path.absolute())}),))
+
+    return _chooser("Begin with a picture's spectrum", _folder(desk), PICTURES, False, choose)
 
 
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:

@@ -14,6 +14,7 @@ from app.panels.colour import ColourPanel
 from app.panels.dialogs import Dialogs
 from app.panels.ink import InkPanel
 from app.panels.layers import LayersPanel
+from app.panels.strip import StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
 _FIXED = (
@@ -30,13 +31,17 @@ class Layout:
 
     def __init__(self) -> None:
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
-        self.dialogs = Dialogs()
+        self.dialogs, self.strip = Dialogs(), StripPanel()
         self._covered: list[tuple[float, float, float, float]] = []
-        self._popup = False
+        self._popup, self._strip = False, ""
 
     def covers(self, x: float, y: float) -> bool:
         """Whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
         return self._popup or any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self._covered)
+
+    def paints(self, desk: Desk, x: float, y: float) -> bool:
+        """Whether a press there begins a stroke in the texture lab."""
+        return not self._popup and self.strip.paints(desk, x, y)
 
     def draw(self, desk: Desk, pointer_name: str) -> None:
         self._covered = []
@@ -54,10 +59,26 @@ class Layout:
                 self.ink.draw(desk)
                 self.layers.draw(desk)
             imgui.end()
-        desk.insets = left, top, right, bottom
+        if desk.panels and desk.strip:
+            tall = min(self.strip.height(desk), 0.62 * height)
+            bottom += tall
+            imgui.push_style_color(imgui.Col_.window_bg, theme.vec((0.15,) * 3))
+            if self._begin("strip", (left, desk.view.height - bottom, desk.view.width - left - right, tall)):
+                self.strip.draw(desk)
+            imgui.end()
+            imgui.pop_style_color()
+        self._make_room(desk, (left, top, right, bottom))
         self.dialogs.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
+
+    def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:
+        """What was in the middle stays there when the strip opens or closes."""
+        x, y = desk.middle()
+        strip, self._strip = self._strip, desk.strip
+        desk.insets = insets
+        if strip != desk.strip and not desk.painting:
+            desk.view = desk.view.held(desk.view.to_canvas(x, y), *desk.middle())
 
     def _begin(self, name: str, box: tuple[float, float, float, float], flags: int = 0) -> bool:
         x, y, width, height = box

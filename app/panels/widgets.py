@@ -218,6 +218,62 @@ def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[fl
     return pressed
 
 
+def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
+    """A box to tick.  (changed, on)"""
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(3, 3))
+    changed, on = imgui.checkbox(label, on)
+    imgui.pop_style_var()
+    tooltip(hint)
+    return changed, on
+
+
+def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0) -> ImVec2:
+    """A picture in a frame of its own, or a dark field while there is none; its corner on the screen.  `tile`: the
+    width and height of each of its repeats; 0: it fills the frame."""
+    corner = imgui.get_cursor_screen_pos()
+    imgui.dummy(ImVec2(*size))
+    tooltip(hint)
+    painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size[0], corner.y + size[1])
+    rounding = imgui.get_style().frame_rounding
+    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+    if shown is None:
+        return corner
+    white, zero, one = theme.packed((1.0, 1.0, 1.0)), ImVec2(0, 0), ImVec2(1, 1)
+    if not tile:
+        painter.add_image_rounded(shown, corner, end, zero, one, white, rounding)
+        return corner
+    painter.push_clip_rect(corner, end, True)
+    for j in range(math.ceil(size[1] / tile)):
+        for i in range(math.ceil(size[0] / tile)):
+            at = ImVec2(corner.x + i * tile, corner.y + j * tile)
+            painter.add_image(shown, at, ImVec2(at.x + tile, at.y + tile), zero, one, white)
+    painter.pop_clip_rect()
+    return corner
+
+
+def lit_button(label: str, hint: str, on: bool, width: float = 0.0) -> bool:
+    """A button with a text, lit while `on`."""
+    imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
+    pressed = text_button(label, hint, width=width)
+    imgui.pop_style_color()
+    return pressed
+
+
+def segments(name: str, current: str, options: Sequence[tuple[str, str, str]], width: float = 0.0) -> str | None:
+    """Buttons side by side of which one is lit: (value, text, hint); the value chosen now, or None."""
+    gap = 2 * imgui.get_style().font_scale_dpi
+    width = ((width or imgui.get_content_region_avail().x) - gap * (len(options) - 1)) / len(options)
+    picked = None
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, imgui.get_style().frame_padding.y))
+    for i, (value, text, hint) in enumerate(options):
+        if i:
+            imgui.same_line(0, gap)
+        if lit_button(f"{text}##{name} {value}", hint, value == current, width):
+            picked = value
+    imgui.pop_style_var()
+    return picked
+
+
 def colour_popup(name: str, rgb: tuple[float, float, float]) -> tuple[float, float, float] | None:
     """A picker in a pop-up `name`; the colour while it changes, else None."""
     if not imgui.begin_popup(name):

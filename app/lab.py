@@ -1,0 +1,115 @@
+"""The texture lab as the window knows it: what is set, with which brush its spectrum is painted, what came back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from immutables import Map
+
+from engine.brush.parts import Component, Surface
+from engine.brush.record import Brush
+from engine.painting.requests import LabRest, LabScene, LabSet, LabUse, Request
+
+SETTLE = 0.15  # seconds without change before strokes are shown with the texture
+FIRST = Map({"shape": "noise", "b": 1.4})  # the shape of a lab just opened
+SIZES = (128, 256, 512)
+WHITE, BLACK = "#ffffff", "#000000"
+
+
+@dataclass(slots=True)
+class LabState:
+    """`radius`: of its brush, in pixels of a spectrum 256 wide; `spot`: corner and side of the spectrum on the screen,
+    framebuffer pixels, None while it is not to be seen."""
+
+    made: LabSet = field(default_factory=lambda: LabSet(shapes=(FIRST,)))
+    radius: float = 7.0
+    strength: float = 0.8
+    erasing: bool = False
+    coloured: bool = False
+    follow: bool = True  # a texture in use follows the lab
+    painting: bool = False
+    scene: LabScene | None = None
+    spot: tuple[float, float, float] | None = None
+    _posted: LabSet | None = None
+    _resting: tuple[Any, ...] = ()
+    _since: float = 0.0
+
+    def change(self, **changes: Any) -> None:
+        self.made = replace(self.made, **changes)
+
+    def shape(self, index: int, name: str, value: Any) -> None:
+        """Another number for one of the shapes."""
+        shapes = list(self.made.shapes)
+        shapes[index] = shapes[index].set(name, value)
+        self.change(shapes=tuple(shapes))
+
+    def field(self, name: str, value: Any) -> None:
+        """Another number of the texture; None for its default."""
+        held = self.made.field
+        without = held.delete(name) if name in held else held
+        self.change(field=without if value is None else held.set(name, value))
+
+    def over(self, x: float, y: float) -> bool:
+        """Whether a point of the screen is on the spectrum."""
+        if self.spot is None:
+            return False
+        left, top, side = self.spot
+        return left <= x < left + side and top <= y < top + side
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """A point of the screen in pixels of the spectrum."""
+        left, top, side = self.spot if self.spot is not None else (0.0, 0.0, 1.0)
+        return (x - left) / side * self.made.size[0], (y - top) / side * self.made.size[1]
+
+    def brush(self, brush: Brush, colour: str, eraser: bool, built_in: frozenset[str]) -> Brush:
+        """The artist's brush as it paints in the lab: its textures are those that every painting has (`built_in`)."""
+        parts: dict[str, Any] = {}
+        for name in ("density", "grain", "tip"):
+            held = getattr(brush, name)
+            parts[name] = held if held is not None and held.texture in built_in else None
+        colours = self.coloured and self.made.sheet == "amplitude"
+        ink = tuple(part for part in brush.ink if part.texture in built_in)
+        return replace(
+            brush,
+            radius=self.radius * self.made.size[0] / 256,
+            opacity=self.strength,
+            colour=colour if colours else WHITE,
+            mode="erase" if eraser or self.erasing else brush.mode if brush.mode in ("paint", "smooth") else "paint",
+            ink=ink if colours else tuple(replace(part, colour=BLACK) for part in ink),
+            op="toward",
+            edge=None,
+            **parts,
+        )
+
+    def ask(self, post: Callable[[Request], None], now: float, brush: Brush, size: tuple[int, int]) -> None:
+        """Posts what was set, at once, and a while after the last change, that the lab has come to rest."""
+        if self.made != self._posted:
+            self._posted = self.made
+            post(self.made)
+        state = self.made, brush, self.scene.strokes if self.scene else 0, self.scene.can_redo if self.scene else False
+        if state != self._resting or self.painting:
+            self._resting, self._since = state, now
+        if self._since and now - self._since >= SETTLE and not self.painting:
+            self._since = 0.0
+            post(LabRest(brush, size))
+
+    @property
+    def waiting(self) -> bool:
+        """Whether the lab is about to come to rest."""
+        return self._since > 0
+
+    def use(self, post: Callable[[Request], None], name: str) -> None:
+        """Makes the texture one of the painting; it follows the lab if it is to."""
+        post(LabUse(name))
+        if not self.follow:
+            post(LabUse(""))
+
+
+def with_texture(brush: Brush, how: str, texture: str) -> Brush:
+    """The brush with a texture in its ink, as its dry brush or as its paper."""
+    if how == "ink":
+        return replace(brush, ink=(Component(texture, 1.0, WHITE),), mode="paint")
+    surface: dict[str, Any] = {how: Surface(texture, 0.9)}
+    return replace(brush, **surface)

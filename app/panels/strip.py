@@ -1,0 +1,71 @@
+"""What opens below the canvas, between the panels: the texture lab, or the analysis of the picture."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+from imgui_bundle import imgui
+
+from app import icons, theme
+from app.actions import ACTIONS, Action
+from app.desk import Desk
+from app.panels import widgets as w
+from app.panels.analysis import AnalysisPanel
+from app.panels.lab import LabPanel
+from engine.painting.requests import LabStep
+
+
+class Panel(Protocol):
+    def draw(self, desk: Desk) -> None: ...
+
+    def bar(self, desk: Desk) -> None: ...
+
+
+class Strip(NamedTuple):
+    title: str
+    icon: str
+    hint: str
+    height: float  # points
+
+
+STRIPS = {
+    "lab": Strip("Texture lab", icons.FLASK, "Paint what sounds: coarse in the middle, fine at the rim", 356.0),
+    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 300.0),
+}
+
+
+class StripPanel:
+    """Draws the one that is open."""
+
+    def __init__(self) -> None:
+        self.lab = LabPanel()
+        self._panels: dict[str, Panel] = {"lab": self.lab, "analysis": AnalysisPanel()}
+
+    def height(self, desk: Desk) -> float:
+        """What it takes of the screen, framebuffer pixels."""
+        return STRIPS[desk.strip].height * desk.scale if desk.strip else 0.0
+
+    def draw(self, desk: Desk) -> None:
+        """Into the present window."""
+        row = STRIPS[desk.strip]
+        imgui.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
+        imgui.same_line(0, 14 * desk.scale)
+        imgui.text_disabled(row.hint)
+        self._panels[desk.strip].bar(desk)
+        imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
+        closed = w.icon_button("close", icons.CLOSE, f"Close  ({ACTIONS[desk.strip].keys[0]})")
+        self._panels[desk.strip].draw(desk)
+        if closed:
+            desk.strip = ""
+
+    def paints(self, desk: Desk, x: float, y: float) -> bool:
+        """Whether a press there is a stroke in the lab."""
+        return desk.strip == "lab" and desk.panels and desk.lab.over(x, y)
+
+    def takes(self, desk: Desk, action: Action) -> bool:
+        """Undo and redo over the lab's spectrum are the lab's."""
+        steps = {ACTIONS["undo"]: -1, ACTIONS["redo"]: 1}
+        if action not in steps or not self.paints(desk, desk.pointer.x, desk.pointer.y):
+            return False
+        desk.post(LabStep(steps[action]))
+        return True
