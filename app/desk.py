@@ -17,6 +17,7 @@ from app.lab import LabState
 from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
+from engine.painting.commands import DefineTexture
 from engine.painting.requests import CurveRow, Found, Note, Request, Save, Scene
 
 HISTORY = 24  # colours remembered
@@ -44,6 +45,8 @@ class Desk:
     tool: str = "brush"
     brush: Brush = field(default_factory=Brush)
     preset: str = ""
+    needs: tuple[DefineTexture, ...] = ()  # textures that the brush came with
+    provided: set[Any] = field(default_factory=set)  # those that were posted, with the painting that they are for
     erasing: bool = False
     colour: RGB = (0.11, 0.16, 0.24)
     other_colour: RGB = (1.0, 1.0, 1.0)

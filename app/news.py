@@ -11,7 +11,7 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from app import presets
+from app import palette, presets
 from app.colours import to_hex
 from app.desk import Desk
 from app.panels.brush import PREVIEW, THUMB
@@ -94,11 +94,13 @@ class News:
         if self._ink_since and now >= self._ink_since and self.worker:
             self._ink_since, self._ink_sent = 0.0, now
             scale = self.desk.scale
-            self.worker.post(q.Swatch("brush", brush, (int(PREVIEW[0] * scale), int(PREVIEW[1] * scale))))
+            lacking = palette.lacking(self.desk)
+            size = (int(PREVIEW[0] * scale), int(PREVIEW[1] * scale))
+            self.worker.post(q.Swatch("brush", brush, size, textures=lacking))
             size = (int(135 * scale), int(SWATCH_HEIGHT * scale))
             plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
-            self.worker.post(q.Swatch("ink", plain, size, "fill"))
-            self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER))
+            self.worker.post(q.Swatch("ink", plain, size, "fill", textures=lacking))
+            self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER, lacking))
 
     def _ask_lab(self, now: float) -> None:
         desk = self.desk
@@ -123,10 +125,10 @@ class News:
             desk.say(fault, bad=True)
         if not desk.preset:
             first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
-            desk.preset, desk.brush = first.name, first.brush
+            desk.preset, desk.brush, desk.needs = first.name, first.brush, first.textures
         size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
         for preset in desk.presets:
-            desk.post(q.Swatch(f"preset {preset.name}", preset.brush, size))
+            desk.post(q.Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
 
     def _patch(self, r: q.Patch, now: float) -> None:
         self.screen.upload(r, self.desk.view, now)

@@ -6,12 +6,15 @@ import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import platformdirs
 
 from engine.brush import record
 from engine.brush.record import Brush
+from engine.painting import definitions
 from engine.painting.atomic import replacing
+from engine.painting.commands import DefineTexture
 
 BYTES_CAP = 1 << 20
 NAME_CAP = 40  # characters
@@ -21,12 +24,13 @@ _GROUP_RANK = {"Basic": 0, OWN: 2}  # others lie between, by name
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """A brush under a name; presets of one `group` are listed together."""
+    """A brush under a name; presets of one `group` are listed together.  `textures`: definitions that it needs."""
 
     name: str
     brush: Brush
     path: Path | None = None
     group: str = OWN
+    textures: tuple[DefineTexture, ...] = ()
 
 
 DEFAULT = Preset("Round", Brush(radius=12.0))
@@ -67,8 +71,9 @@ def _read(path: Path) -> Preset:
         raise ValueError("found no object, expected a brush")
     name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
     group = str(data.pop("group", OWN))
+    textures = definitions.read(data.pop("textures", []), "textures", path.parent)
     brush = record.from_json(data.pop("brush", data))
-    return Preset(str(name), brush, path, group)
+    return Preset(str(name), brush, path, group, textures)
 
 
 def free_name(name: str, presets: Iterable[Preset]) -> str:
@@ -86,7 +91,10 @@ def save(preset: Preset, folder: Path) -> Path:
     """Writes a preset as a file of the user's folder, in place of the one of that name."""
     folder.mkdir(parents=True, exist_ok=True)
     path = _own_path(preset.name, folder)
-    text = json.dumps({"name": preset.name, "brush": record.to_json(preset.brush)}, indent=1, ensure_ascii=False)
+    told: dict[str, Any] = {"name": preset.name, "brush": record.to_json(preset.brush)}
+    if preset.textures:
+        told["textures"] = definitions.to_json(preset.textures)
+    text = json.dumps(told, indent=1, ensure_ascii=False)
     with replacing(path) as file:
         file.write((text + "\n").encode("utf-8"))
     return path

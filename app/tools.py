@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app import icons
+from app import icons, palette
 from app.colours import to_hex
 from app.desk import Desk
 from app.input.events import PenEvent
@@ -38,6 +38,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     if layer:
         desk.say(f"Layer “{layer}” is locked", bad=True)
         return
+    palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
     smoother = Smoother(desk.stabiliser)

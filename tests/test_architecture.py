@@ -25,7 +25,7 @@ ORDER = (
     ("app.view",),
     ("app.glide", "app.lab"),
     ("app.desk",),
-    ("app.screen", "app.terrain", "app.solids"),
+    ("app.screen", "app.terrain", "app.solids", "app.palette"),
     ("app.actions", "app.tools", "app.pictured"),
     ("app.panels",),
     ("app.router", "app.cursor", "app.news"),

@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import actions, icons, theme
+from app import actions, icons, palette, theme
 from app.desk import LARGEST, SMALLEST, Desk
 from app.knots import at
 from app.panels import widgets as w
@@ -128,7 +128,7 @@ class BrushPanel:
         corner = imgui.get_cursor_screen_pos()
         if imgui.invisible_button(preset.name, ImVec2(wide, tall)):
             radius = desk.brush.radius
-            desk.brush, desk.preset = preset.brush, preset.name
+            palette.take(desk, preset)
             if preset.brush.ink:  # its colours belong together
                 desk.colour = preset.brush.rgb
             desk.tool, desk.erasing = "brush", False

@@ -11,6 +11,7 @@ from app.colours import to_hex
 from app.desk import Desk
 from app.panels import widgets as w
 from app.presets import Preset
+from engine.painting.definitions import used
 from engine.painting.requests import Swatch
 
 PICTURE = (104, 44)  # of a thumbnail, points
@@ -55,7 +56,7 @@ class SaveBrush:
 
 
 def _save(desk: Desk, name: str) -> None:
-    preset = Preset(name, replace(desk.brush, colour=to_hex(desk.colour)))
+    preset = Preset(name, replace(desk.brush, colour=to_hex(desk.colour)), textures=used(desk.brush, desk.needs))
     try:
         path = presets.save(preset, presets.own_folder())
     except OSError as error:
@@ -65,5 +66,5 @@ def _save(desk: Desk, name: str) -> None:
     others = tuple(p for p in desk.presets if (p.name, p.group) != (name, presets.OWN))
     desk.presets, desk.preset = (*others, preset), name
     width, height = (int(points * desk.scale) for points in PICTURE)
-    desk.post(Swatch(f"preset {name}", preset.brush, (width, height)))
+    desk.post(Swatch(f"preset {name}", preset.brush, (width, height), textures=preset.textures))
     desk.say(f"Saved the brush “{name}”")

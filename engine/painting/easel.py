@@ -211,6 +211,7 @@ class Easel:
             path=self.path,
             textures=tuple(sorted(painting.textures)),
             texture_kinds=tuple((name, texture.kind) for name, texture in painting.textures.items()),
+            definitions=tuple((name, texture.kind, texture.parameters) for name, texture in painting.textures.items()),
             serial=self._serial,
         )
 

@@ -16,6 +16,7 @@ from engine.canvas.layers import Group
 from engine.painting import samples
 from engine.painting.capture import Place, captured, read_picture
 from engine.painting.commands import DefineTexture
+from engine.painting.definitions import FIELDS, USUAL, kind_of
 from engine.painting.fault import FileError
 from engine.painting.strictjson import Fields, FormatError
 from engine.painting.textures import Around, Texture
@@ -23,7 +24,6 @@ from engine.texture.image import ImageSource
 from engine.texture.table import KINDS
 
 LATER = ("match", "mix", "solid", "example")
-FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out, and the kind of texture that does it
 
 NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
@@ -62,10 +62,10 @@ def _canvas(command: DefineTexture, root: Group, around: Around) -> Texture:
     return Texture("canvas", parameters, ImageSource.of(command.name, planes))
 
 
-def _sampled(make: samples.Maker, usual: str, command: DefineTexture, root: Group, around: Around) -> Texture:
+def _sampled(make: samples.Maker, command: DefineTexture, root: Group, around: Around) -> Texture:
     """A texture of a sample that `make` makes, tiled or scattered."""
     members = Fields(thawed(command.arguments), "")
-    field = members.take("field", usual)
+    field = members.take("field", USUAL[command.maker])
     if field not in FIELDS:
         raise members.fault("field", f"one of {', '.join(FIELDS)}")
     parameters, source = command.arguments, _known(command, members, around)
@@ -76,7 +76,7 @@ def _sampled(make: samples.Maker, usual: str, command: DefineTexture, root: Grou
         if field == "tile" and rgba.shape[2] < NARROWEST:
             rgba = np.tile(rgba, (1, 1, -(-NARROWEST // rgba.shape[2])))
         source = _the_same(members, ImageSource.of(command.name, rgba))
-    return Texture(FIELDS[field], parameters, source)
+    return Texture(kind_of(command), parameters, source)
 
 
 def _known(command: DefineTexture, members: Fields, around: Around) -> ImageSource | None:
@@ -98,7 +98,7 @@ MAKERS: dict[str, Maker] = {
     **{name: _procedural for name, row in KINDS.items() if not row.pictured},
     "image": _image,
     "canvas": _canvas,
-    "spectrum": partial(_sampled, samples.of_spectrum, "tile"),
-    "sparse": partial(_sampled, samples.of_picture, "sparse"),
-    "impulse": partial(_sampled, samples.of_photograph, "sparse"),
+    "spectrum": partial(_sampled, samples.of_spectrum),
+    "sparse": partial(_sampled, samples.of_picture),
+    "impulse": partial(_sampled, samples.of_photograph),
 }

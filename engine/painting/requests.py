@@ -5,6 +5,7 @@ Light on purpose: importing it loads neither numba nor scipy, so a window can be
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ from engine.numeric.address import Rect
 
 if TYPE_CHECKING:
     from engine.brush.record import Brush
-    from engine.painting.commands import Command
+    from engine.painting.commands import Command, DefineTexture
 
 NOTHING: Map[str, Any] = Map()
 SIDE = 256  # pixels along a side of a screen tile
@@ -99,13 +100,15 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class Swatch:
-    """A small picture painted with a brush, `size` (width, height) pixels; `zoom` levels nearer than painted."""
+    """A small picture painted with a brush, `size` (width, height) pixels; `zoom` levels nearer than painted.
+    `textures`: definitions that the brush brings along."""
 
     ident: str
     brush: Brush
     size: tuple[int, int]
     kind: str = "stroke"
     zoom: int = 0
+    textures: tuple[DefineTexture, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,6 +268,7 @@ class Scene:
     path: Path | None
     textures: tuple[str, ...] = ()  # names of those defined
     texture_kinds: tuple[tuple[str, str], ...] = ()  # and the kind of each
+    definitions: tuple[tuple[str, str, Mapping[str, Any]], ...] = ()  # and its parameters: name, kind, these
     serial: int = 0  # another number: another painting
 
 

@@ -1,0 +1,40 @@
+"""Taking a brush from the palette: the textures that it needs come along into the painting."""
+
+from __future__ import annotations
+
+from app.desk import Desk
+from app.presets import Preset
+from engine.painting.commands import DefineTexture
+from engine.painting.definitions import fitted, used
+from engine.painting.requests import Do
+
+
+def take(desk: Desk, preset: Preset) -> None:
+    """Paints with a preset from now on; the painting gets those of its textures that it lacks."""
+    desk.brush, desk.preset, desk.needs = preset.brush, preset.name, preset.textures
+    provide(desk)
+
+
+def lacking(desk: Desk) -> tuple[DefineTexture, ...]:
+    """Textures that the brush came with and the painting does not have yet."""
+    defined = () if desk.scene is None else desk.scene.textures
+    return tuple(command for command in desk.needs if command.name not in defined)
+
+
+def provide(desk: Desk) -> None:
+    """Defines the textures that the brush came with and the painting lacks, which may be another by now.
+
+    Where the painting has another texture of that name, a free one is used.
+    """
+    needs = used(desk.brush, desk.needs)
+    if not needs:
+        return
+    scene = desk.scene
+    known = {} if scene is None else {name: (kind, given) for name, kind, given in scene.definitions}
+    taken = {row.name for row in desk.kinds}
+    desk.brush, desk.needs, missing = fitted(desk.brush, needs, known, taken)
+    for command in missing:
+        posted = (0 if scene is None else scene.serial, command)
+        if posted not in desk.provided:  # the painting is told of what was posted with its next scene
+            desk.provided.add(posted)
+            desk.post(Do(command))

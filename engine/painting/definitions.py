@@ -1,0 +1,146 @@
+"""Definitions of textures that travel with a brush: read, compared with those of a painting, given other names.
+
+Light on purpose: the window imports it before the engine is loaded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from engine.brush import record
+from engine.brush.record import Brush
+from engine.painting import commands
+from engine.painting.commands import DefineTexture, parse
+from engine.painting.strictjson import FormatError, described
+
+FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out, and the kind of texture that does it
+USUAL = {"spectrum": "tile", "sparse": "sparse", "impulse": "sparse"}  # what makers do where nothing is said
+COUNT_CAP = 16  # of one brush
+_REFERRING = ("texture", "density", "grain", "tip")  # members of a brush that may hold a texture's name
+
+Known = Mapping[str, tuple[str, Mapping[str, Any]]]  # textures of a painting: name -> kind, parameters
+
+
+def read(value: Any, place: str, folder: Path | None = None) -> tuple[DefineTexture, ...]:
+    """The definitions of a list [{"name": ..., "maker": ..., ...}, ...]; paths in them start from `folder`.
+
+    FormatError names the member.
+    """
+    if not isinstance(value, list) or len(value) > COUNT_CAP:
+        raise FormatError(place, described(value), f"a list of at most {COUNT_CAP} textures")
+    found: list[DefineTexture] = []
+    for i, member in enumerate(value):
+        given = {"do": "texture", **_grounded(member, folder)} if isinstance(member, dict) else member
+        command = parse(given, f"{place}[{i}]")
+        if not isinstance(command, DefineTexture) or any(command.name == other.name for other in found):
+            raise FormatError(f"{place}[{i}]", described(member), "a texture with a name of its own")
+        found.append(command)
+    return tuple(found)
+
+
+def to_json(textures: Iterable[DefineTexture]) -> list[dict[str, Any]]:
+    """The list that `read` takes."""
+    return [{name: value for name, value in commands.to_json(command).items() if name != "do"} for command in textures]
+
+
+def _grounded(value: Any, folder: Path | None) -> Any:
+    """The same with the paths of pictures made absolute."""
+    if isinstance(value, list):
+        return [_grounded(part, folder) for part in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        name: str(folder.absolute() / part)
+        if folder and isinstance(part, str) and (name == "path" or (name == "phase" and "." in part))
+        else _grounded(part, folder)
+        for name, part in value.items()
+    }
+
+
+def kind_of(command: DefineTexture) -> str:
+    """The kind of texture that a command defines, as far as its own members tell."""
+    usual = USUAL.get(command.maker)
+    return command.maker if usual is None else FIELDS.get(command.arguments.get("field", usual), "")
+
+
+def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any]) -> bool:
+    """Whether a texture of a painting is what this command would make: all that is told is as told."""
+    told = {name: value for name, value in command.arguments.items() if name != "sha"}
+    # A maker adds what it found out itself, never a member of those by which pictures are named.
+    silent = {"path", "rect", "layer", "size", "shapes", "strokes", "part", "forward", "field"} - set(told)
+    return (
+        kind == kind_of(command)
+        and all(parameters.get(name, _MISSING) == value for name, value in told.items())
+        and not any(name in parameters for name in silent)
+    )
+
+
+_MISSING = object()
+
+
+def fitted(
+    brush: Brush, needs: Sequence[DefineTexture], known: Known, taken: Iterable[str] = ()
+) -> tuple[Brush, tuple[DefineTexture, ...], tuple[DefineTexture, ...]]:
+    """A brush for a painting whose textures are `known`: (the brush, the definitions that it needs, those of them that
+    the painting lacks).
+
+    A texture is defined anew only if the painting has none like it; under a free name, neither known nor `taken`, if
+    another texture has its name.
+    """
+    names: dict[str, str] = {}
+    needed, lacking = [], []
+    for command in needs:
+        same = [name for name, (kind, parameters) in known.items() if defined_by(command, kind, parameters)]
+        if same:
+            name = command.name if command.name in same else same[0]
+        else:
+            name = _free(command.name, {*known, *taken, *names.values()})
+            lacking.append(replace(command, name=name))
+        names[command.name] = name
+        needed.append(replace(command, name=name))
+    return renamed(brush, names), tuple(needed), tuple(lacking)
+
+
+def _free(name: str, taken: set[str]) -> str:
+    wanted, number = name, 1
+    while wanted in taken:
+        number += 1
+        wanted = f"{name} {number}"
+    return wanted
+
+
+def used(brush: Brush, needs: Iterable[DefineTexture]) -> tuple[DefineTexture, ...]:
+    """Those of some definitions that the brush refers to."""
+    names: set[str] = set()
+    _collect(record.to_json(brush), names)
+    return tuple(command for command in needs if command.name in names)
+
+
+def _collect(value: Any, names: set[str]) -> None:
+    if isinstance(value, list):
+        for part in value:
+            _collect(part, names)
+    elif isinstance(value, dict):
+        names.update(part for key, part in value.items() if key in _REFERRING and isinstance(part, str))
+        _collect([part for part in value.values() if isinstance(part, list | dict)], names)
+
+
+def renamed(brush: Brush, names: Mapping[str, str]) -> Brush:
+    """The brush with other names for the textures it refers to."""
+    if all(old == new for old, new in names.items()):
+        return brush
+    return record.from_json(_renamed(record.to_json(brush), names))
+
+
+def _renamed(value: Any, names: Mapping[str, str]) -> Any:
+    if isinstance(value, list):
+        return [_renamed(part, names) for part in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        key: names.get(part, part) if key in _REFERRING and isinstance(part, str) else _renamed(part, names)
+        for key, part in value.items()
+    }

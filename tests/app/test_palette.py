@@ -1,0 +1,189 @@
+"""Presets that bring textures along: read with care, defined once, under a free name where theirs is taken."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from app import palette, presets
+from app.presets import Preset
+from engine.brush import record
+from engine.painting import requests as q
+from engine.painting.commands import Stroke, parse
+from engine.painting.definitions import fitted, read, renamed, used
+from engine.painting.easel import Easel
+from engine.painting.swatches import painted
+from engine.painting.value import Painting
+
+FUR = {
+    "name": "fur",
+    "maker": "spectrum",
+    "field": "sparse",
+    "size": [32, 32],
+    "shapes": [{"shape": "wedge", "angle": 20}],
+}
+BRUSH = {
+    "radius": 9,
+    "ink": [{"texture": "fur", "colour": "#ffffff"}, {"texture": "rock"}],
+    "density": "fur",
+    "grain": {"texture": "paper", "amount": 0.5},
+}
+PAPER = {"name": "paper", "maker": "rock", "period": 8}
+STROKE = parse({"do": "stroke", "points": [[5, 5], [30, 30]]})
+
+
+def folder_with(tmp_path, **members):
+    (tmp_path / "fur.json").write_text(json.dumps({"name": "Fur", "brush": BRUSH, **members}))
+    return tmp_path
+
+
+def preset(tmp_path, *textures):
+    found, faults = presets.load(folder_with(tmp_path, textures=list(textures)))
+    assert not faults
+    return found[0]
+
+
+class Desk(SimpleNamespace):
+    """What of a desk the palette uses, with an engine that does at once what is posted."""
+
+    def __init__(self):
+        super().__init__(brush=record.Brush(), preset="", needs=(), provided=set(), scene=None, kinds=())
+        self.sent = []
+        self.easel = Easel(self._take)
+
+    def _take(self, result):
+        self.sent.append(result)
+        if isinstance(result, q.Scene):
+            self.scene = result
+
+    def post(self, request):
+        self.sent.append(request)
+        self.easel.do(request)
+
+    @property
+    def asked(self):
+        return [request.command for request in self.sent if isinstance(request, q.Do)]
+
+    def paint(self):
+        palette.provide(self)
+        self.easel.carry_out(Stroke(0, (0, 0), STROKE.points, self.brush))
+
+
+def test_a_preset_brings_its_textures(tmp_path):
+    desk = Desk()
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    assert [command.name for command in desk.asked] == ["fur", "paper"]
+    assert desk.scene.textures == ("fur", "paper")
+    desk.paint()
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    desk.paint()
+    assert len(desk.asked) == 2
+
+
+def test_only_what_the_brush_refers_to_comes_along(tmp_path):
+    desk = Desk()
+    palette.take(desk, preset(tmp_path, FUR, PAPER, {"name": "moss", "maker": "rock"}))
+    assert desk.scene.textures == ("fur", "paper")
+
+
+def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
+    desk = Desk()
+    desk.post(q.Do(parse({"do": "texture", "name": "fur", "maker": "rock", "period": 20})))
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    assert desk.scene.textures == ("fur", "fur 2", "paper")
+    assert [part.texture for part in desk.brush.ink] == ["fur 2", "rock"]
+    assert desk.brush.density.texture == "fur 2"
+    assert desk.easel.session.painting.textures["fur"].kind == "rock"
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    assert desk.scene.textures == ("fur", "fur 2", "paper")
+    assert desk.brush.density.texture == "fur 2"
+    desk.paint()
+
+
+def test_another_painting_gets_them_with_its_first_stroke(tmp_path):
+    desk = Desk()
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    desk.post(q.New(q.Rect(0, 0, 64, 64)))
+    assert desk.scene.textures == ()
+    assert not desk.scene.modified
+    assert [command.name for command in palette.lacking(desk)] == ["fur", "paper"]
+    desk.paint()
+    assert desk.scene.textures == ("fur", "paper")
+    assert palette.lacking(desk) == ()
+
+
+def test_a_definition_is_recognised_after_saving(tmp_path):
+    desk = Desk()
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    desk.paint()
+    desk.post(q.Save(tmp_path / "a.ora"))
+    desk.easel.close()
+    other = Desk()
+    other.post(q.Open(tmp_path / "a.ora"))
+    palette.take(other, preset(tmp_path, FUR, PAPER))
+    assert other.asked == []
+    changed = {**FUR, "shapes": [{"shape": "wedge", "angle": 21}]}
+    palette.take(other, preset(tmp_path, changed, PAPER))
+    assert other.scene.textures == ("fur", "fur 2", "paper")
+
+
+def test_the_thumbnail_knows_them(tmp_path):
+    found = preset(tmp_path, FUR, PAPER)
+    picture = painted(q.Swatch("it", found.brush, (104, 44), textures=found.textures), Painting())
+    plain = painted(q.Swatch("it", record.Brush(radius=9), (104, 44)), Painting())
+    assert picture[3].max() > 0.2
+    assert not np.array_equal(picture, plain)
+
+
+def test_saved_and_read_again(tmp_path):
+    found = preset(tmp_path, FUR, PAPER)
+    path = presets.save(Preset("My fur", found.brush, textures=found.textures), tmp_path / "own")
+    (again,), faults = presets.load(tmp_path / "own")
+    assert not faults
+    assert again.path == path
+    assert (again.brush, again.textures) == (found.brush, found.textures)
+
+
+def test_paths_start_from_the_presets_folder(tmp_path):
+    found = preset(tmp_path, {"name": "fur", "maker": "image", "path": "a/b.png"})
+    assert found.textures[0].arguments["path"] == str(tmp_path / "a" / "b.png")
+
+
+FAULTY = {
+    "no list": ({}, "textures: found an object"),
+    "no object": ([7], "textures[0]: found 7"),
+    "no name": ([{"maker": "rock"}], "textures[0].name: found nothing"),
+    "no maker": ([{"name": "fur"}], "textures[0].maker: found nothing"),
+    "twice": ([FUR, FUR], "textures[1]"),
+    "another command": ([{"do": "undo", **FUR}], "textures[0]"),
+    "too many": ([{**FUR, "name": str(i)} for i in range(17)], "at most 16"),
+}
+
+
+@pytest.mark.parametrize(("textures", "message"), FAULTY.values(), ids=FAULTY)
+def test_faulty_definitions_are_told_with_the_file(tmp_path, textures, message):
+    found, faults = presets.load(folder_with(tmp_path, textures=textures))
+    assert not found
+    assert faults[0].startswith("fur.json: ")
+    assert message in faults[0]
+
+
+def test_names_are_changed_only_where_textures_are_meant():
+    brush = record.from_json({**BRUSH, "tip": "fur", "note": "fur"})
+    other = record.to_json(renamed(brush, {"fur": "pelt", "paper": "paper"}))
+    assert other["note"] == "fur"
+    assert [part["texture"] for part in other["ink"]] == ["pelt", "rock"]
+    assert (other["density"], other["tip"]) == ("pelt", "pelt")
+    assert other["grain"]["texture"] == "paper"
+    assert used(brush, read([FUR], "textures")) == read([FUR], "textures")
+
+
+def test_two_brushes_with_one_name_for_two_textures():
+    first, second = (read([{**FUR, "seed": seed}], "textures") for seed in (1, 2))
+    brush = record.from_json({"ink": [{"texture": "fur"}]})
+    known = {"fur": ("sparse", first[0].arguments)}
+    same, _, missing = fitted(brush, first, known)
+    assert (same, missing) == (brush, ())
+    other, needed, missing = fitted(brush, second, known)
+    assert other.ink[0].texture == needed[0].name == missing[0].name == "fur 2"
