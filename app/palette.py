@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.desk import Desk
 from app.presets import Preset
 from engine.painting.commands import DefineTexture
-from engine.painting.definitions import fitted, used
+from engine.painting.definitions import fitted, portable, refers, used
 from engine.painting.requests import Do
 
 
@@ -19,6 +19,16 @@ def lacking(desk: Desk) -> tuple[DefineTexture, ...]:
     """Textures that the brush came with and the painting does not have yet."""
     defined = () if desk.scene is None else desk.scene.textures
     return tuple(command for command in desk.needs if command.name not in defined)
+
+
+def belonging(desk: Desk) -> tuple[tuple[DefineTexture, ...], tuple[str, ...]]:
+    """The definitions of the textures that the brush refers to, and the names of those that only this painting has."""
+    found = {command.name: command for command in desk.needs}
+    defined = () if desk.scene is None else desk.scene.definitions
+    told = {name: portable(name, kind, given) for name, kind, given in defined}
+    found |= {name: command for name, command in told.items() if command is not None}
+    stay = (name for name, command in told.items() if command is None and name not in found)
+    return used(desk.brush, found.values()), tuple(name for name in stay if refers(desk.brush, name))
 
 
 def provide(desk: Desk) -> None:

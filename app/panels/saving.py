@@ -6,12 +6,11 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app import icons, presets
+from app import icons, palette, presets
 from app.colours import to_hex
 from app.desk import Desk
 from app.panels import widgets as w
 from app.presets import Preset
-from engine.painting.definitions import used
 from engine.painting.requests import Swatch
 
 PICTURE = (104, 44)  # of a thumbnail, points
@@ -56,7 +55,8 @@ class SaveBrush:
 
 
 def _save(desk: Desk, name: str) -> None:
-    preset = Preset(name, replace(desk.brush, colour=to_hex(desk.colour)), textures=used(desk.brush, desk.needs))
+    textures, stay = palette.belonging(desk)
+    preset = Preset(name, replace(desk.brush, colour=to_hex(desk.colour)), textures=textures)
     try:
         path = presets.save(preset, presets.own_folder())
     except OSError as error:
@@ -67,4 +67,5 @@ def _save(desk: Desk, name: str) -> None:
     desk.presets, desk.preset = (*others, preset), name
     width, height = (int(points * desk.scale) for points in PICTURE)
     desk.post(Swatch(f"preset {name}", preset.brush, (width, height), textures=preset.textures))
-    desk.say(f"Saved the brush “{name}”")
+    without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""
+    desk.say(f"Saved the brush “{name}”{without}", bad=bool(stay))

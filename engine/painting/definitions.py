@@ -10,6 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from immutables import Map
+
 from engine.brush import record
 from engine.brush.record import Brush
 from engine.painting import commands
@@ -53,9 +55,7 @@ def _grounded(value: Any, folder: Path | None) -> Any:
     if not isinstance(value, dict):
         return value
     return {
-        name: str(folder.absolute() / part)
-        if folder and isinstance(part, str) and (name == "path" or (name == "phase" and "." in part))
-        else _grounded(part, folder)
+        name: str(folder.absolute() / part) if folder and _is_path(name, part) else _grounded(part, folder)
         for name, part in value.items()
     }
 
@@ -79,6 +79,33 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 
 
 _MISSING = object()
+
+
+def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTexture | None:
+    """The definition of a painting's texture for use elsewhere; None if it needs the painting, or a picture whose place
+    is not known."""
+    if not _reachable(parameters):
+        return None
+    maker = kind
+    if kind in FIELDS.values():
+        maker = "impulse" if "window" in parameters else "spectrum" if "field" in parameters else kind
+    given = {key: value for key, value in parameters.items() if key != "sha"}
+    found = DefineTexture(name, maker, Map(given))
+    return found if kind_of(found) == kind else None
+
+
+def _reachable(value: Any) -> bool:
+    """Whether all pictures that are named have absolute paths."""
+    if isinstance(value, tuple):
+        return all(map(_reachable, value))
+    if not isinstance(value, Mapping):
+        return True
+    paths = [part for key, part in value.items() if _is_path(key, part)]
+    return "rect" not in value and all(Path(path).is_absolute() for path in paths) and _reachable(tuple(value.values()))
+
+
+def _is_path(key: str, value: Any) -> bool:
+    return isinstance(value, str) and (key == "path" or (key == "phase" and "." in value))
 
 
 def fitted(
@@ -117,6 +144,13 @@ def used(brush: Brush, needs: Iterable[DefineTexture]) -> tuple[DefineTexture, .
     names: set[str] = set()
     _collect(record.to_json(brush), names)
     return tuple(command for command in needs if command.name in names)
+
+
+def refers(brush: Brush, name: str) -> bool:
+    """Whether the brush refers to a texture."""
+    names: set[str] = set()
+    _collect(record.to_json(brush), names)
+    return name in names
 
 
 def _collect(value: Any, names: set[str]) -> None:

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from app import palette, presets
 from app.presets import Preset
@@ -187,3 +188,40 @@ def test_two_brushes_with_one_name_for_two_textures():
     assert (same, missing) == (brush, ())
     other, needed, missing = fitted(brush, second, known)
     assert other.ink[0].texture == needed[0].name == missing[0].name == "fur 2"
+
+
+SPECTRAL = {
+    "spectrum": {"maker": "spectrum", "size": [32, 32], "shapes": [{"shape": "ring"}], "seed": 4},
+    "scattered": {"maker": "spectrum", "field": "sparse", "size": [32, 32], "density": 5},
+    "sparse": {"maker": "sparse", "size": [32, 32], "shapes": [{"shape": "noise"}], "spread": 0.5},
+    "photograph": {"maker": "impulse", "path": "{dir}/grey.png", "average": 2},
+    "photograph, tiled": {"maker": "impulse", "path": "{dir}/grey.png", "field": "tile", "window": 9},
+    "image": {"maker": "image", "path": "{dir}/grey.png", "period": 12},
+    "rock": {"maker": "rock", "period": 12},
+}
+
+
+@pytest.mark.parametrize("members", SPECTRAL.values(), ids=SPECTRAL)
+def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
+    """Saved in one painting, used in another: the same picture."""
+    Image.fromarray(np.random.default_rng(1).integers(0, 256, (20, 24), np.uint8)).save(tmp_path / "grey.png")
+    members = {key: value.format(dir=tmp_path) if key == "path" else value for key, value in members.items()}
+    desk, other = Desk(), Desk()
+    desk.post(q.Do(parse({"do": "texture", "name": "fur", **members})))
+    desk.brush = record.from_json({"radius": 9, "ink": [{"texture": "fur", "colour": "#ffffff"}]})
+    textures, stay = palette.belonging(desk)
+    assert stay == ()
+    palette.take(other, Preset("Fur", desk.brush, textures=textures))
+    assert other.scene.textures == ("fur",)
+    swatch = q.Swatch("it", desk.brush, (60, 40))
+    pictures = [painted(swatch, d.easel.session.painting) for d in (desk, other)]
+    assert np.array_equal(*pictures)
+    palette.take(other, Preset("Fur", desk.brush, textures=textures))
+    assert len(other.asked) == 1
+
+
+def test_what_only_the_painting_has_is_told():
+    desk = Desk()
+    desk.post(q.Do(parse({"do": "texture", "name": "fur", "maker": "canvas", "rect": [0, 0, 0, 8, 8]})))
+    desk.brush = record.from_json({"ink": [{"texture": "fur"}]})
+    assert palette.belonging(desk) == ((), ("fur",))

@@ -8,9 +8,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+from app import presets as palette
 from engine.brush import kinds, presets
 from engine.painting import commands
+from engine.painting.definitions import used
 from engine.painting.recording import read
+from engine.painting.requests import Swatch
+from engine.painting.swatches import painted
+from engine.painting.value import Painting
 
 PALETTES = Path(__file__).resolve().parents[2] / "palettes"
 DEMO = PALETTES / "demo"
@@ -52,3 +57,13 @@ def test_presets_are_whole_and_can_paint():
     assert len({p.name for p in found}) == len(found)
     for preset in found:
         kinds.check(preset.brush)
+
+
+def test_every_preset_brings_all_it_needs_and_draws_itself():
+    """On an empty painting, as the window's thumbnails are painted."""
+    found, faults = palette.load(PALETTES / "brushes")
+    assert not faults
+    for preset in found:
+        picture = painted(Swatch(preset.name, preset.brush, (104, 44), textures=preset.textures), Painting())
+        assert picture[3].max() > 0.1, preset.name
+        assert len(used(preset.brush, preset.textures)) == len(preset.textures), preset.name
