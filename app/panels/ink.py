@@ -114,8 +114,7 @@ class InkPanel:
 
     def _extent(self, desk: Desk) -> None:
         """Scattered textures can keep their marks whole at the stroke's rim."""
-        kinds = dict(desk.scene.texture_kinds) if desk.scene else {}
-        if desk.brush.extent or any(kinds.get(part.texture) == "sparse" for part in desk.brush.ink):
+        if desk.brush.extent or any(textures.kind_of(desk, part.texture) == "sparse" for part in desk.brush.ink):
             changed, on = imgui.checkbox("Whole marks at the rim", desk.brush.extent)
             w.tooltip("The rim of a stroke takes the shape of the texture's marks: none is cut")
             if changed:
@@ -134,6 +133,7 @@ class InkPanel:
             return
         for name, hint in textures.names(desk):
             if imgui.selectable(textures.label(desk, name), False)[0]:
+                textures.bring(desk, name)
                 part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
                 desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
             w.tooltip(hint)

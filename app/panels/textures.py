@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from immutables import Map
@@ -9,15 +10,37 @@ from immutables import Map
 from app import icons
 from app.desk import Desk
 from app.panels import widgets as w
+from engine.painting import definitions
+from engine.painting.commands import DefineTexture
 
 _SLIDER_MOST = {"period": 512.0, "angle": 180.0}
 _WHOLE_CURVE = ("period", "density")  # sliders that are finer where they are small
 
 
 def names(desk: Desk) -> list[tuple[str, str]]:
-    """Names and hints: those built in, then those that the painting defines."""
-    own = [(row.name, row.tooltip) for row in desk.kinds if not row.pictured]
-    return own + [(name, "A texture of this painting") for name in (desk.scene.textures if desk.scene else ())]
+    """Names and hints: those built in, those that the painting defines, those that the bundled brushes bring."""
+    found = {row.name: row.tooltip for row in desk.kinds if not row.pictured}
+    for name in desk.scene.textures if desk.scene else ():
+        found.setdefault(name, "A texture of this painting")
+    for name in _bringable(desk):
+        found.setdefault(name, "A texture of the brushes; the painting gets it when you paint with it")
+    return list(found.items())
+
+
+def bring(desk: Desk, name: str) -> None:
+    """Has the painting get a texture of the brushes that it lacks, as soon as it is painted with."""
+    command = _bringable(desk).get(name)
+    here = desk.scene is not None and name in desk.scene.textures
+    if command is not None and not here and all(other.name != name for other in desk.needs):
+        desk.needs = (*desk.needs, command)
+
+
+def _bringable(desk: Desk) -> dict[str, DefineTexture]:
+    """By name, what the brush came with and what the presets come with; the first of a name counts."""
+    found: dict[str, DefineTexture] = {}
+    for command in (*desk.needs, *(one for preset in desk.presets for one in preset.textures)):
+        found.setdefault(command.name, command)
+    return found
 
 
 def label(desk: Desk, texture: str) -> str:
@@ -30,32 +53,60 @@ def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | N
     options = [(name, label(desk, name)) for name, _ in found]
     if texture not in dict(options):
         options.append((texture, f"{texture} (not here)"))
-    return w.choice("texture", texture, options, hint, width, [tip for _, tip in found])
+    chosen = w.choice("texture", texture, options, hint, width, [tip for _, tip in found])
+    if chosen:
+        bring(desk, chosen)
+    return chosen
 
 
 def rows(desk: Desk, texture: str) -> tuple[Any, ...]:
     """The parameters of a texture, from the table of its kind."""
-    defined = dict(desk.scene.texture_kinds) if desk.scene else {}
-    kind = defined.get(texture, texture)
+    kind = kind_of(desk, texture)
     return next((tuple(row.parameters) for row in desk.kinds if row.name == kind), ())
+
+
+def kind_of(desk: Desk, texture: str) -> str:
+    """The kind of a texture: of the painting, of those still to come into it, or built in."""
+    defined = dict(desk.scene.texture_kinds) if desk.scene else {}
+    if texture in defined:
+        return defined[texture]
+    command = _bringable(desk).get(texture)
+    return texture if command is None else definitions.kind_of(command)
 
 
 def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any]:
     """A slider for each parameter and a button for another seed; the parameters as they are now."""
-    found = rows(desk, texture)
+    found, usual = rows(desk, texture), own(desk, texture)
     for row in found:
         if row.name != "seed":
-            parameters = _slider(parameters, row)
+            parameters = _slider(parameters, row, usual.get(row.name, row.default))
     seeded = any(row.name == "seed" for row in found)
     if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
         parameters = parameters.set("seed", (int(parameters.get("seed", 0) or 0) * 31 + 17) % 99991)
     return parameters
 
 
-def _slider(parameters: Map[str, Any], row: Any) -> Map[str, Any]:
-    value = float(parameters.get(row.name, row.default))
+def own(desk: Desk, texture: str) -> Mapping[str, Any]:
+    """The parameters that a texture was defined with: a brush that says nothing paints with them."""
+    for name, _, given in desk.scene.definitions if desk.scene else ():
+        if name == texture:
+            return given
+    command = _bringable(desk).get(texture)
+    return {} if command is None else command.arguments
+
+
+def _slider(parameters: Map[str, Any], row: Any, usual: Any) -> Map[str, Any]:
+    value = float(parameters.get(row.name, usual))
     lo, hi = float(row.lo), min(float(row.hi), _SLIDER_MOST.get(row.name, float(row.hi)))
-    form = "%.0f°" if row.unit in ("degrees", "°") else "%.1f px" if row.name == "period" else "%.2f"
+    form = (
+        "%.0f°"
+        if row.unit in ("degrees", "°")
+        else "%.1f px"
+        if row.name == "period"
+        else "%.0f"
+        if row.whole
+        else "%.2f"
+    )
     curved = row.name in _WHOLE_CURVE
     changed, value = w.slider(row.name.capitalize(), value, (lo, hi), row.tooltip, form=form, curved=curved)
     if not changed:

@@ -1,0 +1,61 @@
+"""The textures that panels offer: built in, of the painting, of the brushes."""
+
+from types import SimpleNamespace
+
+import pytest
+from immutables import Map
+
+from app.panels import textures
+from app.presets import Preset
+from engine.brush.record import Brush
+from engine.painting.commands import parse
+from engine.painting.ready import ready
+
+FUR = parse({"do": "texture", "name": "fur", "maker": "sparse", "size": [8, 8], "density": 20.0})
+LINEN = parse({"do": "texture", "name": "linen", "maker": "spectrum", "size": [8, 8], "period": 77})
+
+
+def desk(*defined):
+    scene = SimpleNamespace(
+        textures=tuple(name for name, _, _ in defined),
+        texture_kinds=tuple((name, kind) for name, kind, _ in defined),
+        definitions=defined,
+    )
+    presets = (Preset("Cat", Brush(), textures=(FUR,)), Preset("Cloth", Brush(), textures=(LINEN, FUR)))
+    return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, needs=())
+
+
+def test_each_texture_is_offered_once_and_the_paintings_own_is_meant():
+    made = desk(("linen", "sparse", Map({"period": 9.0})))
+    names = [name for name, _ in textures.names(made)]
+    assert names.count("linen") == names.count("fur") == names.count("rock") == 1
+    assert "image" not in names
+    assert textures.kind_of(made, "linen") == "sparse"
+    assert textures.kind_of(made, "fur") == "sparse"
+    assert textures.kind_of(made, "rock") == "rock"
+    assert textures.kind_of(made, "no such") == "no such"
+
+
+def test_a_texture_of_the_brushes_is_brought_once_and_not_where_it_is_already():
+    made = desk()
+    for _ in range(2):
+        textures.bring(made, "fur")
+        textures.bring(made, "rock")
+    assert made.needs == (FUR,)
+    made = desk(("fur", "sparse", Map()))
+    textures.bring(made, "fur")
+    assert made.needs == ()
+
+
+@pytest.mark.parametrize("name", [row.name for row in ready().kinds])
+def test_every_parameter_of_every_kind_has_a_slider(name):
+    made = desk(("it", name, Map()))
+    for row in textures.rows(made, "it"):
+        assert row.name == "seed" or float(row.lo) < float(row.hi)
+        assert float(row.lo) <= float(row.default) <= float(row.hi)
+
+
+def test_sliders_begin_at_what_the_texture_was_defined_with():
+    assert textures.own(desk(), "linen")["period"] == 77
+    assert textures.own(desk(("linen", "spectrum", Map({"period": 5}))), "linen")["period"] == 5
+    assert textures.own(desk(), "rock") == {}
