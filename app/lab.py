@@ -65,22 +65,17 @@ class LabState:
 
     def brush(self, brush: Brush, colour: str, eraser: bool, built_in: frozenset[str]) -> Brush:
         """The artist's brush as it paints in the lab: its textures are those that every painting has (`built_in`)."""
-        parts: dict[str, Any] = {}
-        for name in ("density", "grain", "tip"):
-            held = getattr(brush, name)
-            parts[name] = held if held is not None and held.texture in built_in else None
+        brush = only_with(brush, built_in)
         colours = self.coloured and self.made.sheet == "amplitude"
-        ink = tuple(part for part in brush.ink if part.texture in built_in)
         return replace(
             brush,
             radius=self.radius * self.made.size[0] / 256,
             opacity=self.strength,
             colour=colour if colours else WHITE,
             mode="erase" if eraser or self.erasing else brush.mode if brush.mode in ("paint", "smooth") else "paint",
-            ink=ink if colours else tuple(replace(part, colour=BLACK) for part in ink),
+            ink=brush.ink if colours else tuple(replace(part, colour=BLACK) for part in brush.ink),
             op="toward",
             edge=None,
-            **parts,
         )
 
     def ask(self, post: Callable[[Request], None], now: float, brush: Brush, size: tuple[int, int]) -> None:
@@ -105,6 +100,15 @@ class LabState:
         post(LabUse(name))
         if not self.follow:
             post(LabUse(""))
+
+
+def only_with(brush: Brush, textures: frozenset[str]) -> Brush:
+    """The brush without the parts that need other textures."""
+    parts: dict[str, Any] = {}
+    for name in ("density", "grain", "tip"):
+        held = getattr(brush, name)
+        parts[name] = held if held is not None and held.texture in textures else None
+    return replace(brush, ink=tuple(part for part in brush.ink if part.texture in textures), **parts)
 
 
 def with_texture(brush: Brush, how: str, texture: str) -> Brush:

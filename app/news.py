@@ -14,6 +14,7 @@ from imgui_bundle import imgui
 from app import palette, presets
 from app.colours import to_hex
 from app.desk import Desk
+from app.lab import only_with
 from app.panels.brush import PREVIEW, THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.panels.lab import LAB_STROKE
@@ -105,8 +106,11 @@ class News:
     def _ask_lab(self, now: float) -> None:
         desk = self.desk
         if desk.strip == "lab" and desk.panels:
-            brush = replace(desk.brush, colour=to_hex(desk.colour), radius=16.0, ink=(), mode="paint")
-            brush = replace(brush, opacity=1.0, flow=1.0)
+            known = {row.name for row in desk.kinds if not row.pictured} | set(
+                desk.scene.textures if desk.scene else ()
+            )
+            brush = only_with(replace(desk.brush, ink=()), frozenset(known))
+            brush = replace(brush, colour=to_hex(desk.colour), radius=16.0, opacity=1.0, flow=1.0, mode="paint")
             desk.lab.ask(desk.post, now, brush, (round(LAB_STROKE[0] * desk.scale), round(LAB_STROKE[1] * desk.scale)))
 
     def waiting(self) -> bool:

@@ -77,7 +77,8 @@ class LabPanel:
             return
         for period in _PERIODS:
             radius = side / period
-            painter.add_circle(middle, radius, theme.packed((1.0, 1.0, 1.0), 0.16), 64)
+            painter.add_circle(middle, radius + 1, theme.packed((0.0, 0.0, 0.0), 0.22), 64)
+            painter.add_circle(middle, radius, theme.packed((1.0, 1.0, 1.0), 0.2), 64)
             if period <= 8:
                 at = ImVec2(middle.x + 0.71 * radius + 2, middle.y + 0.71 * radius - 2)
                 _label(at, f"{period} px", 0.9 if over else 0.6)

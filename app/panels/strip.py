@@ -30,7 +30,7 @@ class Strip(NamedTuple):
 
 STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint what sounds: coarse in the middle, fine at the rim", 356.0),
-    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 300.0),
+    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 312.0),
 }
 
 

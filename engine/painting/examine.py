@@ -16,7 +16,8 @@ from engine.painting import requests as q
 MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
 STRIP = 256  # rows read in one step
 _FLOOR = 60.0  # decibels below the loudest that are still told from silence
-_DARK, _MID, _LIGHT = (np.array(rgb, np.float32) for rgb in ((16, 16, 20), (196, 92, 58), (255, 244, 214)))
+_RGB = ((18, 18, 21), (196, 92, 58), (255, 244, 214), (70, 130, 215))
+_DARK, _MID, _LIGHT, _COLD = (np.array(rgb, np.float32) for rgb in _RGB)
 
 
 class Host(Protocol):
@@ -56,7 +57,7 @@ class Examiner:
         """Everything known so far, again and again."""
         while area.area > MOST:
             level, area = level - 1, area.zoomed(-1)
-        lines = {"Looked at": f"{area.width:,} × {area.height:,} px of level {level}"}
+        lines = {"Size": f"{area.width:,} × {area.height:,} px", "Level": str(level)}
         pictures: list[str] = []
 
         def told(done: bool = False) -> q.Found:
@@ -73,11 +74,11 @@ class Examiner:
         yield told()
         lines["Regions"] = f"{facts.regions:,}"
         yield told()
-        self._send("analysis regions", facts.false_coloured[..., :3], pictures)
+        self._send("analysis regions", _square(facts.false_coloured[..., :3]), pictures)
         yield told()
         self._send("analysis power", _heat(_decibels(facts.power)), pictures)
         yield told()
-        self._send("analysis correlation", _heat(0.5 + 0.5 * _middle(facts.autocorrelation)), pictures)
+        self._send("analysis correlation", _signed(_middle(facts.autocorrelation)), pictures)
         yield told()
         self._send("analysis poles", _heat(_decibels(facts.all_pole)), pictures)
         rings = tuple(zip(*(column.tolist() for column in facts.radial), strict=True))
@@ -100,9 +101,28 @@ def _decibels(power: np.ndarray) -> np.ndarray:
 
 
 def _middle(correlation: np.ndarray) -> np.ndarray:
-    """Displacements of up to a quarter of the sides: those beyond have too little overlap to mean much."""
+    """Displacements of up to a quarter of the shorter side: those beyond have too little overlap to mean much."""
     height, width = correlation.shape
-    return correlation[height // 4 : height - height // 4, width // 4 : width - width // 4].clip(-1.0, 1.0)
+    reach = max(min(height, width) // 4, 1)
+    y, x = height // 2, width // 2
+    return correlation[max(y - reach, 0) : y + reach + 1, max(x - reach, 0) : x + reach + 1].clip(-1.0, 1.0)
+
+
+def _signed(values: np.ndarray) -> np.ndarray:
+    """Values -1..1: what is alike from dark over red to light, what is opposite from dark to blue."""
+    cold = _DARK - values[..., None].astype(np.float32) * (_COLD - _DARK)
+    return np.where(values[..., None] < 0.0, cold, _heat(np.maximum(values, 0.0))).astype(np.uint8)
+
+
+def _square(rgb: np.ndarray) -> np.ndarray:
+    """A picture in the middle of a dark square, as large as it must be."""
+    height, width = rgb.shape[:2]
+    side = max(height, width)
+    out = np.empty((side, side, 3), np.uint8)
+    out[...] = _DARK
+    top, left = (side - height) // 2, (side - width) // 2
+    out[top : top + height, left : left + width] = rgb
+    return out
 
 
 def _heat(values: np.ndarray) -> np.ndarray:

@@ -17,6 +17,7 @@ from engine.brush.parts import Component
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.numeric import shapes
+from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import requests as q
@@ -30,6 +31,7 @@ from engine.painting.stroke import LiveStroke
 from engine.painting.textures import Texture
 from engine.texture.image import ImageSource
 
+FIELD = Rect(0, 0, 360, 360)  # the part of an endless field that is shown
 NEARER = 4  # levels that the picture "lab near" is zoomed in
 _TRIED = "lab"  # the texture's name in the pictures of strokes
 _CACHE = 1 << 24
@@ -226,7 +228,10 @@ class Lab:
         self._texture = spectrum.sample(sheets, self._design())
         self._stale = False
         self.host.send(q.Picture("lab spectrum", _shown(sheets, self._set.sheet)))
-        self.host.send(q.Picture("lab texture", _pixels(0.5 + 0.5 * self._texture)))
+        shown = self._texture
+        if self._set.field.get("field") == "sparse":
+            shown = self._tried().instance({}, 0, 0).appearance(0, FIELD)
+        self.host.send(q.Picture("lab texture", _pixels(0.5 + 0.5 * shown)))
         self._tell()
 
     def _tell(self) -> None:

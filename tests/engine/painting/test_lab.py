@@ -193,7 +193,7 @@ def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
     found = [r for r in desk.sent if isinstance(r, q.Found)]
     assert [r.done for r in found].count(True) == 1
     assert found[-1].done
-    assert found[-1].lines["Looked at"].startswith("96 × 64")
+    assert found[-1].lines["Size"] == "96 × 64 px"
     assert int(found[-1].lines["Colours"]) >= 2
     for ident in found[-1].pictures:
         assert desk.picture(ident).shape[2] == 4

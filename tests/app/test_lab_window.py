@@ -1,0 +1,93 @@
+"""The texture lab in the real window: paint in the spectrum, paint with what it makes."""
+
+import time
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+
+SPECTRUM = (slice(470, 710), slice(270, 510))
+TEXTURE = (slice(470, 690), slice(535, 750))
+USE_AS_INK = (810, 755)
+LINE = [(300 + 20 * i, 200 + (25 if i % 6 < 3 else -25)) for i in range(30)]
+
+
+def parked(app):
+    app.do("mousemove", 700, 60)
+    time.sleep(0.3)
+    return app.settled(calm=2).astype(int)
+
+
+def until(app, good, seconds=60.0):
+    """The settled screen once it is good; kernels may still be compiled."""
+    end = time.monotonic() + seconds
+    while not good(screen := parked(app)):
+        assert time.monotonic() < end
+    return screen
+
+
+def changed(a, b):
+    return int((np.abs(a - b).max(axis=-1) > 12).sum())
+
+
+def test_paint_a_spectrum_then_paint_with_it(program):
+    app = program()
+    app.do("mousemove", 700, 60)
+    app.settled()
+    app.keys("l")
+    opened = until(app, lambda screen: screen[TEXTURE].std() > 25)  # the first shape is noise
+    assert opened[590, 300:480].mean() > opened[475, 275:285].mean()  # loud in the middle
+
+    # A stroke appears at the opposite frequency too, and the texture follows.
+    app.stroke(*[(330 + 3 * i, 520 + 2 * i) for i in range(12)])
+    painted = until(app, lambda screen: changed(screen[TEXTURE], opened[TEXTURE]) > 3000)
+    difference = np.abs(painted[SPECTRUM] - opened[SPECTRUM]).max(axis=-1) > 12
+    assert difference[:120].sum() > 100
+    assert difference[120:].sum() > 100
+
+    # Undo over the spectrum is the lab's.
+    app.do("mousemove", 400, 600)
+    app.keys("ctrl+z")
+    until(app, lambda screen: changed(screen[TEXTURE], opened[TEXTURE]) < 50)
+    app.do("mousemove", 400, 600)
+    app.keys("ctrl+shift+z")
+    until(app, lambda screen: changed(screen[TEXTURE], painted[TEXTURE]) < 50)
+
+    # Used as ink, it is what the next stroke is painted with.
+    app.do("mousemove", *USE_AS_INK)
+    time.sleep(0.2)
+    app.do("click", 1)
+    app.keys(*["bracketright"] * 20)
+    app.stroke(*LINE)
+    stroke = (slice(190, 212), slice(320, 860))
+    first = until(app, lambda screen: changed(screen[stroke], opened[stroke]) > 3000)
+    assert first[stroke].std(axis=1).mean() > 20  # plain paint would be even
+
+    # It follows the lab: another spectrum, and the next stroke is another one.
+    app.do("mousemove", 815, 491)
+    time.sleep(0.2)
+    app.do("click", 1)
+    until(app, lambda screen: changed(screen[TEXTURE], painted[TEXTURE]) > 3000)
+    time.sleep(0.5)
+    app.do("mousemove", 700, 60)
+    app.keys("ctrl+z")
+    until(app, lambda screen: changed(screen[stroke], opened[stroke]) < 50)
+    app.stroke(*LINE)
+    second = until(app, lambda screen: changed(screen[stroke], opened[stroke]) > 3000)
+    assert changed(second[stroke], first[stroke]) > 1500
+
+
+def test_analysis_finds_its_facts(program):
+    app = program()
+    app.do("mousemove", 700, 60)
+    app.settled()
+    app.stroke(*[(x, y + 200) for x, y in LINE])
+    app.keys("a")
+    before = parked(app)
+    app.do("mousemove", 320, 515)
+    time.sleep(0.2)
+    app.do("click", 1)
+    until(app, lambda screen: changed(screen[520:700, 480:980], before[520:700, 480:980]) > 3000)
+    app.keys("a")
+    until(app, lambda screen: changed(screen[600:760, 300:900], before[600:760, 300:900]) > 3000)
