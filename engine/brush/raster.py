@@ -4,7 +4,8 @@ With the stroke's coverage M' and the brush's textures mixed to t, 0..1, the wei
 colour c the target T makes c + w (T - c) of it, in straight, encoded colours; alpha stays.  Finer levels keep the part
 A = 1 + w (T'(c) - 1) of their detail, T' being how a small grey change of c changes the mean of T; where a formula
 gives f, T' is a difference over 1/255 to each side.  Detail of the texture itself goes on at finer levels as ink, of
-the amplitude that the op has there.  `toward`, `clone`, `displace` and `erase` lay or take paint: A = 1 - w.
+the amplitude that the op has there.  `toward`, `clone`, `displace`, `predict` and `erase` lay or take paint:
+A = 1 - w.
 """
 
 from __future__ import annotations
@@ -18,12 +19,14 @@ from typing import Any, cast
 import numpy as np
 
 from engine.brush import checks, coat, ops, tones
+from engine.brush.foretell import Foretold, foretell, predictor
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.mask import Coverage
 from engine.brush.record import Brush
 from engine.brush.stamp import Stamp
 from engine.numeric import formula_kernel
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.prediction import Predictor
 from engine.texture.image import ImageSource
 from engine.texture.planes import COLOURS, Planes, merged
 from engine.texture.record import Instance
@@ -46,11 +49,16 @@ class Scene:
 
     `source`: reads the layer that the op names, at the stroke's level; `origin`: the stroke's, in pixels of its level;
     `pressure`: the stroke's coverage laid with the pen's pressure as opacity: the strongest that went over a pixel.
+    `start`: the pixel where the stroke begins; `seed`: of what is random; `memo`: what was learnt there, kept for the
+    whole stroke.
     """
 
     source: Read | None = None
     origin: tuple[int, int] = (0, 0)
     pressure: Coverage | None = None
+    start: tuple[int, int] = (0, 0)
+    seed: int = 0
+    memo: dict[str, Predictor] = field(default_factory=dict)
 
 
 def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink:
@@ -256,6 +264,18 @@ class Raster:
         tones.moved(around, (-right).astype(np.float32), (-down).astype(np.float32), paint)
         return self._lay(paint, (), old, weight)
 
+    def _predict(self, key: TileKey, old: Planes, weight: np.ndarray, free: np.ndarray) -> Stamp | None:
+        return self._lay(self._foretold.over(key.rect), (), old, weight)
+
+    @cached_property
+    def _foretold(self) -> Foretold:
+        assert self.read is not None
+        memo = self.scene.memo
+        if "predictor" not in memo:
+            window, reach = (round(self.op.parameters[name]) for name in ("window", "reach"))
+            memo["predictor"] = predictor(self.read, self.scene.start, window, reach)
+        return foretell(self.coverage, self.read, memo["predictor"], self.scene.seed)
+
     def _erase(self, key: TileKey, old: Planes, weight: np.ndarray, free: np.ndarray) -> Stamp | None:
         keep = np.empty_like(_ONES)
         if self.locked or not coat.keep_of(weight, keep):
@@ -284,6 +304,7 @@ _LAID: dict[str, Callable[..., Stamp | None]] = {
     "toward": Raster._toward,
     "clone": Raster._clone,
     "displace": Raster._displace,
+    "predict": Raster._predict,
     "erase": Raster._erase,
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from engine.brush import ops
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
+from engine.brush.foretell import AREA_CAP
 from engine.brush.mask import StrokeMask
 from engine.brush.raster import Read, Scene
 from engine.brush.record import Brush
@@ -17,34 +19,48 @@ from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group, Layer
 from engine.numeric.address import Rect
 from engine.numeric.formula import variables
+from engine.numeric.prediction import Predictor
 from engine.texture.planes import Planes
 
 
 class Scenery:
     """Grows with the stroke.  BrushError if the op names a layer that is none of `root`'s."""
 
-    def __init__(self, brush: Brush, root: Group, level: int, origin: tuple[int, int], cache: TileCache | None) -> None:
+    def __init__(
+        self, brush: Brush, root: Group, level: int, origin: tuple[int, int], seed: int, cache: TileCache | None
+    ) -> None:
         op = ops.chosen(brush.op)
         self._level, self._origin = level, origin
         self._source = _reader(root, op.parameters["layer"], level, cache) if "layer" in op.parameters else None
         self._pressed = op.tree is not None and "pressure" in variables(op.tree)
         steady = brush.dynamics.delete("flow") if "flow" in brush.dynamics else brush.dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, hardness=1.0, dynamics=steady.set("opacity", "pressure"))
-        self.again()
-
-    def again(self) -> None:
-        """Begins anew, without a point."""
         self._stroker = Stroker(self._brush)
-        self._mask = StrokeMask(self._level, self._origin)
+        self._mask = StrokeMask(level, origin)
+        self._seed, self._start = seed, (0, 0)
+        self._predicts = op.row is not None and op.row.name == "predict"
+        self._memo: dict[str, Predictor] = {}
+        self._begun = False
 
-    def lay(self, points: np.ndarray) -> None:
-        """More points, float64 (n, 6), that are known to be good."""
+    def lay(self, points: np.ndarray, rect: Rect) -> Rect:
+        """More points, float64 (n, 6), that are known to be good, of a stroke that now covers `rect`.
+
+        Returns the pixels that may look different although they were covered before.  BrushError if the op cannot be
+        done on so large a stroke; the points are not laid then.
+        """
+        if self._predicts and rect.area > AREA_CAP:
+            raise BrushError("stroke", f"one of {rect.area} pixels", f"at most {AREA_CAP} of the operation predict")
+        if not self._begun:
+            left, top = (math.floor(value) for value in points[0, :2])
+            self._start, self._begun = (self._origin[0] + left, self._origin[1] + top), True
         if self._pressed:
             self._mask.paint(self._stroker.walk(points))
+        return rect if self._predicts else Rect(0, 0, 0, 0)
 
     @property
     def scene(self) -> Scene:
-        return Scene(self._source, self._origin, self._mask.coverage() if self._pressed else None)
+        pressure = self._mask.coverage() if self._pressed else None
+        return Scene(self._source, self._origin, pressure, self._start, self._seed, self._memo)
 
 
 def _reader(root: Group, name: str, level: int, cache: TileCache | None) -> Read:

@@ -62,7 +62,7 @@ class LiveStroke:
         self._mask = StrokeMask(level, origin, tip=self._tip)
         inks = {"paint": resolve, "raster": raster.mixture}
         self._ink = inks[brush.mode](brush, painting.textures, level, own) if brush.mode in inks else None
-        self._scenery = Scenery(brush, self.base.root, level, origin, cache) if brush.mode == "raster" else None
+        self._scenery = Scenery(brush, self.base.root, level, origin, own, cache) if brush.mode == "raster" else None
         self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
         self._edit: Edit | None = None
 
@@ -94,11 +94,11 @@ class LiveStroke:
         try:
             dirty = tile_bounds(self._mask.paint(self._stroker.walk(points)))
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
+            if self._scenery is not None:
+                dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
         except BrushError:
             self._again()
             raise
-        if self._scenery is not None:
-            self._scenery.lay(points)
         self._points.append(points)
         self._count += len(points)
         self._edit = None
@@ -127,7 +127,8 @@ class LiveStroke:
     @property
     def rect(self) -> Rect:
         """A rectangle of pixels of the level outside which nothing changes."""
-        return self._mask.rect
+        rect = self._mask.rect
+        return rect if rect.empty else rect.grown(self._relief.spread)
 
     @property
     def edit(self) -> Edit:

@@ -90,7 +90,7 @@ TARGETS = {
     "hue": lambda c: np.einsum("ij,jhw->ihw", turning(60), c),
     "gradient": wash,
 }
-LOOK_AROUND = ("smooth", "sharpen", "displace", "clone", "erase")
+LOOK_AROUND = ("smooth", "sharpen", "displace", "predict", "clone", "erase")
 
 
 def test_the_table_is_complete():
@@ -261,6 +261,26 @@ def test_clone_copies_from_some_way_off(offset):
     made, m = edited({"name": "clone", "layer": "x", "offset": offset}, planes, SOFT)
     want = reader(planes)(Rect.at(*offset, TILE, TILE)).data
     np.testing.assert_allclose(after(made, old), m * want, atol=2e-5)
+
+
+def test_predict_continues_the_texture_of_where_the_stroke_begins():
+    y, x = np.mgrid[0:WIDE, 0:WIDE]
+    stripes = 0.5 + 0.3 * np.sin(2 * np.pi * (x + y) / 12)
+    planes = Planes(snapped(np.stack([stripes, stripes * 0.5, 1 - stripes, np.ones((WIDE, WIDE))])))
+    whole = Planes(planes.data.copy())
+    whole.data[:, TILE + 40 : TILE + 80, TILE + 30 : TILE + 90] = 0  # a hole
+    old = old_of(whole)
+    brush = from_json({"mode": "raster", "op": "predict", "radius": 30, "hardness": 1})
+    mask = StrokeMask(0, (0, 0))
+    mask.paint(np.array([[60.0, 60, 45, 1, 1, 1]]))
+    read = reader(whole)
+    made = kinds.edit(brush, mask, mixture(brush, {}, 0, 7), False, read, scene=Scene(read, start=(-40, -40)))
+    got = after(made, old)
+    hole = (slice(None), slice(40, 80), slice(30, 90))
+    want = old_of(planes).data[hole]
+    assert all(np.corrcoef(got[hole][c].ravel(), want[c].ravel())[0, 1] > 0.9 for c in range(3))
+    assert (got[hole][3] == 1).all()
+    assert (made.stamp(KEY, old).keep[60, 60] == 0).all()
 
 
 def test_erase_takes_by_the_texture():

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from engine.brush.checks import BrushError
 from engine.brush.ops import OPS
 from engine.brush.record import from_json
 from engine.canvas import layers
@@ -156,6 +157,17 @@ def test_clone_copies_another_layer_or_the_old_pixels_of_its_own():
     )
     want = values(painting, 0, Rect(7, 2, 71, 66))
     np.testing.assert_allclose(values(shifted)[:4], want[:4], atol=1e-6)
+
+
+def test_a_stroke_too_large_to_be_continued_is_refused_and_stays_as_it_was():
+    brush = from_json({"mode": "raster", "op": "predict", "radius": 40})
+    live = LiveStroke(base(), 0, (0, 0), brush)
+    live.add(np.array([[10.0, 10.0]]))
+    before = live.preview(FRAME).data
+    with pytest.raises(BrushError, match="predict"):
+        live.add(np.array([[4000.0, 4000.0]]))
+    assert live.preview(FRAME).data.tobytes() == before.tobytes()
+    assert len(live.to_command().points) == 1
 
 
 def test_pressure_of_a_formula_is_the_pens():
