@@ -24,8 +24,8 @@ REPEATS = 9
 WIDE = 250.0  # radius
 EDGE = 6 * TILE  # of the picture it is painted on
 FORMULA = "(colour - pic) * (0.5 + 0.5 * sin(x / 9 + 4 * luma))"
-POINTWISE, AROUND, WRITTEN = 12.0, 40.0, 120.0  # how many copies one dab may take
-LIMITS = {"smooth": AROUND, "sharpen": AROUND, "displace": AROUND, "gamma": AROUND, "formula": WRITTEN}
+POINTWISE, AROUND, WRITTEN, FORETOLD = 12.0, 40.0, 120.0, 300.0  # how many copies one dab may take
+LIMITS = {"smooth": AROUND, "sharpen": AROUND, "displace": AROUND, "gamma": AROUND, "predict": FORETOLD}
 
 
 def measure(small: bool = False) -> Iterator[Figure]:
@@ -42,15 +42,15 @@ def _dab(name: str, op: dict[str, Any], repeats: int, limit: float) -> Figure:
     shape = {"radius": WIDE, "hardness": 0.3, "colour": "#a06020"}
     brush = from_json({"mode": "raster", "op": op, "ink": [{"texture": "rock", "amount": 0.8}], **shape})
     ink = mixture(brush, {}, 0, 0)
-    picture = _picture()
-    read = _reader(picture)
+    read = _reader(_picture())
+    scene = Scene(read)
     olds: dict[TileKey, Planes] = {}
     new, changed = np.ones((7, TILE, TILE), np.float32), np.ones((TILE, TILE), np.uint8)
 
     def own() -> None:
         mask = StrokeMask(0, (0, 0))
         mask.paint(Stroker(brush).add(np.array([[EDGE / 2, EDGE / 2, 0.7]])))
-        edit = kinds.edit(brush, mask, ink, False, read, scene=Scene(read))
+        edit = kinds.edit(brush, mask, ink, False, read, scene=scene)
         for key in edit.tiles:
             old = olds.get(key)
             if old is None:
