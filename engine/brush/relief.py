@@ -90,7 +90,7 @@ def _heights(
 def _ground(
     part: Surface | None, textures: Mapping[str, Texture | ImageSource], seed: int, where: str
 ) -> Heights | None:
-    """The grain, bound to the coarsest level at which its period still has two pixels, so that all levels, finer and
+    """The grain, bound to the coarsest level at which its period still has four pixels, so that all levels, finer and
     coarser than its own, see one and the same surface."""
     found = _heights(part, textures, part.level if part else 0, seed, where)
     if part is None or found is None:
@@ -98,7 +98,7 @@ def _ground(
     period = getattr(found.made, "period", None)
     if period is None:
         return found
-    above = max(0, math.floor(math.log2(period / 2.0)))
+    above = max(0, math.floor(math.log2(period / 4.0)))
     if isinstance(period, int):  # pictures come in whole pixels
         above = min(above, (period & -period).bit_length() - 1)
     if above == 0:

@@ -1,10 +1,12 @@
 """The texture lab on the engine's thread: what it shows is what its command makes, undone and redone alike."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from immutables import Map
 
-from engine.brush.parts import Component
+from engine.brush.parts import Component, Surface
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
 from engine.numeric.spectra import opposite
@@ -135,6 +137,21 @@ def test_a_texture_in_use_follows_the_lab_and_the_next_stroke_paints_with_it(des
     again = replay(desk.easel.session.recording()).painting
     assert again.textures["Cloth"].source == painting.textures["Cloth"].source
     assert len(desk.log) == 2  # the definition that was painted with, and the stroke
+
+
+@pytest.mark.parametrize("field", [Map(), Map({"field": "sparse"})])
+def test_its_texture_serves_as_paper_and_as_a_dry_brush(desk, field):
+    desk.ask(replace(RING, field=field), q.LabUse("Cloth"))
+    plain = Brush(radius=20, colour="#000000", opacity=0.5)  # pressed harder, paint would fill the paper
+    points = q.Points(np.array([[50.0, 50, 1, 0, 0, 0], [90, 60, 1, 0, 0, 0]]))
+    seen = []
+    for brush in (plain, replace(plain, grain=Surface("Cloth", 0.9)), replace(plain, density=Surface("Cloth", 0.9))):
+        desk.ask(q.Begin(-1, (0, 0), brush), points, q.Finish())
+        seen.append(desk.easel.picture(-1, Rect(60, 45, 80, 65))[3])
+        desk.ask(q.Do(c.Undo()))
+    assert seen[0].std() < 0.01
+    assert seen[1].std() > 0.05
+    assert seen[2].std() > 0.05
 
 
 def test_definitions_that_nothing_was_painted_with_are_not_recorded(desk):
