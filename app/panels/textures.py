@@ -10,6 +10,7 @@ from immutables import Map
 from app import icons
 from app.desk import Desk
 from app.panels import widgets as w
+from engine.brush.checks import is_number
 from engine.painting import definitions
 from engine.painting.commands import DefineTexture
 
@@ -87,16 +88,22 @@ def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any
 
 
 def own(desk: Desk, texture: str) -> Mapping[str, Any]:
-    """The parameters that a texture was defined with: a brush that says nothing paints with them."""
-    for name, _, given in desk.scene.definitions if desk.scene else ():
-        if name == texture:
-            return given
+    """The parameters that a texture was defined with, with which a brush paints that says nothing; the period is the
+    width of its picture where the definition says nothing either."""
+    width, given = 0, None
+    if desk.scene:
+        width = dict(desk.scene.texture_widths).get(texture, 0)
+        given = next((parameters for name, _, parameters in desk.scene.definitions if name == texture), None)
     command = _bringable(desk).get(texture)
-    return {} if command is None else command.arguments
+    if given is None and command is not None:
+        given, size = command.arguments, command.arguments.get("size")
+        width = size[0] if isinstance(size, tuple) and size else 0
+    return {**({"period": width} if width else {}), **(given or {})}
 
 
 def _slider(parameters: Map[str, Any], row: Any, usual: Any) -> Map[str, Any]:
-    value = float(parameters.get(row.name, usual))
+    value = parameters.get(row.name, usual)
+    value = float(value if is_number(value) else row.default)  # files may say anything; the engine refuses it
     lo, hi = float(row.lo), min(float(row.hi), _SLIDER_MOST.get(row.name, float(row.hi)))
     form = (
         "%.0f°"

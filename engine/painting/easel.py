@@ -212,6 +212,7 @@ class Easel:
             textures=tuple(sorted(painting.textures)),
             texture_kinds=tuple((name, texture.kind) for name, texture in painting.textures.items()),
             definitions=tuple((name, texture.kind, texture.parameters) for name, texture in painting.textures.items()),
+            texture_widths=tuple((name, t.source.width) for name, t in painting.textures.items() if t.source),
             serial=self._serial,
         )
 

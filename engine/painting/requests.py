@@ -269,6 +269,7 @@ class Scene:
     textures: tuple[str, ...] = ()  # names of those defined
     texture_kinds: tuple[tuple[str, str], ...] = ()  # and the kind of each
     definitions: tuple[tuple[str, str, Mapping[str, Any]], ...] = ()  # and its parameters: name, kind, these
+    texture_widths: tuple[tuple[str, int], ...] = ()  # pixels across the pictures of those that have one
     serial: int = 0  # another number: another painting
 
 

@@ -20,6 +20,7 @@ def desk(*defined):
         textures=tuple(name for name, _, _ in defined),
         texture_kinds=tuple((name, kind) for name, kind, _ in defined),
         definitions=defined,
+        texture_widths=tuple((name, 48) for name, _, _ in defined),
     )
     presets = (Preset("Cat", Brush(), textures=(FUR,)), Preset("Cloth", Brush(), textures=(LINEN, FUR)))
     return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, needs=())
@@ -58,4 +59,6 @@ def test_every_parameter_of_every_kind_has_a_slider(name):
 def test_sliders_begin_at_what_the_texture_was_defined_with():
     assert textures.own(desk(), "linen")["period"] == 77
     assert textures.own(desk(("linen", "spectrum", Map({"period": 5}))), "linen")["period"] == 5
+    assert textures.own(desk(("linen", "spectrum", Map())), "linen")["period"] == 48  # its picture's width
+    assert textures.own(desk(), "fur")["period"] == 8
     assert textures.own(desk(), "rock") == {}
