@@ -18,7 +18,9 @@ from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.hashing import MASK32, fold_key, mix64, place64
+from engine.numeric.strips import NO_ROWS, NO_STRIPS, in_strips, lay_strips
 
+ALIKE = -1  # for `levels`: all points weigh 1
 _SMALLEST = 8  # pixels along a cell, which else is half as large as the sample: so it covers the plane evenly
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _BITS20 = np.uint64(0xFFFFF)
@@ -34,16 +36,20 @@ class Impulse:
 
     `phases`: float32 (p, p, c, h, w), C-contiguous, p = 2^s: the response as it falls on the pixels when its corner
     lies at the fraction (row, column)/p of one.  Plain: (1, 1, c, h, w).  `size`: (h, w) at the level of the points.
+    `strips`, `rows`: a small plain one once more, as `engine.numeric.strips` lays it; else empty.
     """
 
     phases: np.ndarray
     size: tuple[int, int]
-    coarser: int = 0
+    coarser: int
+    strips: np.ndarray
+    rows: np.ndarray
 
     @classmethod
     def of(cls, response: np.ndarray) -> Impulse:
         """`response`: float32 (c, h, w)."""
-        return cls(np.ascontiguousarray(response[None, None], np.float32), response.shape[1:])
+        plain = np.ascontiguousarray(response[None, None], np.float32)
+        return cls(plain, response.shape[1:], 0, *in_strips(plain[0, 0]))
 
     def seen(self, coarser: int, phases: int = 16) -> Impulse:
         """The means over 2^coarser pixels squared; positions in steps of a pixel of the finer level, at least 1/16."""
@@ -52,7 +58,7 @@ class Impulse:
         response = _pooled(self.phases[0, 0], 1 << (coarser - steps), (0, 0))
         p = 1 << steps
         rows = [[_pooled(response, p, (y, x)) for x in range(p)] for y in range(p)]
-        return Impulse(np.ascontiguousarray(rows, np.float32), self.size, coarser)
+        return Impulse(np.ascontiguousarray(rows, np.float32), self.size, coarser, NO_STRIPS, NO_ROWS)
 
 
 def _pooled(planes: np.ndarray, p: int, at: tuple[int, int]) -> np.ndarray:
@@ -101,7 +107,7 @@ def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None 
     A copy of the response begins at pixel (x, y) - size // 2, where (x, y) is its point.  `within`: uint8 (h, w) over
     `reach(impulse, rect)`; points where it is 0 are left out (the extent of section 5.2).
     """
-    out = np.zeros((impulse.phases.shape[2], rect.height, rect.width), np.float32)
+    out = np.empty((impulse.phases.shape[2], rect.height, rect.width), np.float32)
     if rect.empty:
         return out
     m, (height, width) = impulse.coarser, impulse.size
@@ -119,7 +125,8 @@ def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None 
     )
     mean = noise.density * (cell_w * cell_h / (width * height))
     inside = _EVERYWHERE if within is None else within
-    _fill(out, impulse.phases, _keys(noise.key, x >> 32, y >> 32), layout, (mean, noise.levels), inside)
+    keys = _keys(noise.key, x >> 32, y >> 32)
+    _fill(out, impulse.phases, impulse.strips, impulse.rows, keys, layout, (mean, noise.levels), inside)
     return out
 
 
@@ -147,6 +154,8 @@ def _keys(key: int, high_x: int, high_y: int) -> np.ndarray:
 def _weight(h, levels):
     """A number of mean 0 and variance 1 from the upper 24 bits of a hash: any, or one of `levels` values."""
     bits = h >> _40
+    if levels == ALIKE:
+        return np.float32(1.0)
     if levels < 2:
         size = _LEAST + np.float32(np.int32(bits >> _1)) * _RANGE
         return size if bits & _1 else -size
@@ -169,39 +178,56 @@ def _stamp(out, response, top, left, weight):
                 row[i] += weight * copied[i]
 
 
-@njit(cache=True, nogil=True)
-def _cell(out, phases, h, corner, layout, noise, within):
-    """Adds the points of one cell, whose hash is `h` and whose corner lies at (x, y) from that of `out`."""
-    cell_w, cell_h = np.uint64(layout.cells[4]), np.uint64(layout.cells[5])
-    m, last = layout.coarser, phases.shape[0] - 1
-    mean, levels = noise
-    rest = np.float64(mix64(h) >> _40) * 2.0**-24
-    for i in range(int(mean) + (1 if rest < mean - int(mean) else 0)):
-        g = mix64(h + np.uint64(i + 1) * _GOLDEN)
-        x = corner[0] + np.int64((g & _BITS20) * cell_w >> _20)
-        y = corner[1] + np.int64((g >> _20 & _BITS20) * cell_h >> _20)
-        if within.size and not _counts(within, (x >> m) - layout.offsets[2], (y >> m) - layout.offsets[3]):
-            continue
-        x, y = x - layout.offsets[0], y - layout.offsets[1]
-        left, top = x >> m, y >> m
-        if top >= out.shape[1] or top + phases.shape[3] <= 0:
-            continue
-        fine = phases[((y - (top << m)) * (last + 1)) >> m, ((x - (left << m)) * (last + 1)) >> m]
-        _stamp(out, fine, top, left, _weight(g, levels))
-
-
 @njit(inline="always")
 def _counts(within, x, y):
     return 0 <= y < within.shape[0] and 0 <= x < within.shape[1] and within[y, x] != 0
 
 
 @njit(cache=True, nogil=True)
-def _fill(out, phases, keys, layout, noise, within):
-    """Adds all cells, row by row."""
+def _cell(h, corner, layout, noise, within, places, weights, count):
+    """Lists the points of one cell, whose hash is `h` and whose corner lies at (x, y), from `count` on; the new count.
+
+    `places`: int64 (n, 2), where the response begins, (row, column) in pixels of the points' level.
+    """
+    cell_w, cell_h = np.uint64(layout.cells[4]), np.uint64(layout.cells[5])
+    mean, levels = noise
+    rest = np.float64(mix64(h) >> _40) * 2.0**-24
+    for i in range(int(mean) + (1 if rest < mean - int(mean) else 0)):
+        g = mix64(h + np.uint64(i + 1) * _GOLDEN)
+        x = corner[0] + np.int64((g & _BITS20) * cell_w >> _20)
+        y = corner[1] + np.int64((g >> _20 & _BITS20) * cell_h >> _20)
+        m = layout.coarser
+        if within.size and not _counts(within, (x >> m) - layout.offsets[2], (y >> m) - layout.offsets[3]):
+            continue
+        places[count, 0], places[count, 1] = y - layout.offsets[1], x - layout.offsets[0]
+        weights[count] = _weight(g, levels)
+        count += 1
+    return count
+
+
+@njit(cache=True, nogil=True)
+def _fill(out, phases, strips, filled, keys, layout, noise, within):
+    """Lists the points, cell by cell, then lays them."""
     x, y, columns, rows, cell_w, cell_h = layout.cells
+    most = columns * rows * (int(noise[0]) + 1)
+    places, weights, starts = np.empty((most, 2), np.int64), np.empty(most, np.float32), np.empty(rows + 1, np.int64)
+    count = 0
     for j in range(rows):
+        starts[j] = count
         for i in range(columns):
             key = keys[(y + j) >> 32, (x + i) >> 32]
             h = place64(key, np.uint64((x + i) & MASK32), np.uint64((y + j) & MASK32))
             corner = layout.corner[0] + i * cell_w, layout.corner[1] + j * cell_h
-            _cell(out, phases, h, corner, layout, noise, within)
+            count = _cell(h, corner, layout, noise, within, places, weights, count)
+    starts[rows] = count
+    if strips.size:
+        top = layout.corner[1] - layout.offsets[1]
+        lay_strips(out, strips, filled, places, weights, (starts, top, cell_h))
+        return
+    out[:] = np.float32(0.0)
+    for n in range(count):
+        top, left = places[n, 0] >> layout.coarser, places[n, 1] >> layout.coarser
+        if top < out.shape[1] and top + phases.shape[3] > 0:
+            a, b = places[n, 0] - (top << layout.coarser), places[n, 1] - (left << layout.coarser)
+            p = phases.shape[0]
+            _stamp(out, phases[a * p >> layout.coarser, b * p >> layout.coarser], top, left, weights[n])

@@ -1,0 +1,124 @@
+"""Sums of weighted, displaced copies of a small picture, in strips 16 pixels wide.
+
+A copy that is added to a picture row by row is many short runs that begin anywhere.  In strips, the rows of 16 pixels
+of a block of the result follow one another, and the small picture is kept as it falls on a strip at each of its
+displacements; so a copy is a few long runs at aligned places, several times as fast.  The sums are the same, bit for
+bit: what is added besides are zeros.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+WIDE = 16  # pixels across a strip
+_BLOCK = 128  # pixels along a side of a block of the result
+_MARGIN = 8  # rows of zeros below a strip: runs are of whole groups of four rows
+_MOST = 3 << 19  # bytes that a picture in strips may take: it has to stay near the processor
+_ALIGNED = 64
+
+_W = np.uintp(WIDE)
+NO_STRIPS = np.empty((0, 0, 0, 0), np.float32)
+NO_ROWS = np.empty((0, 2), np.int64)
+
+
+def in_strips(planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`planes` (c, h, w) as they fall on a strip whose first pixel is their column d - 15, for each d.
+
+    (float32 (c, w + 15, h + 8, 16), and the rows [first, last) that are not zero, int64 (w + 15, 2)); empty for
+    planes that would take too much.
+    """
+    channels, height, width = planes.shape
+    shape = (channels, width + WIDE - 1, height + _MARGIN, WIDE)
+    if 4 * int(np.prod(shape)) > _MOST:
+        return NO_STRIPS, NO_ROWS
+    laid = np.zeros((channels, height + _MARGIN, width + 2 * (WIDE - 1)), np.float32)
+    laid[:, :height, WIDE - 1 : WIDE - 1 + width] = planes
+    strips = _empty(shape)
+    for d in range(shape[1]):
+        strips[:, d] = laid[:, :, d : d + WIDE]
+    filled = (strips != 0.0).any((0, 3))
+    first, last = filled.argmax(1), filled.shape[1] - filled[:, ::-1].argmax(1)
+    return strips, np.stack([first, np.where(filled.any(1), last, first)], 1).astype(np.int64)
+
+
+def _empty(shape: tuple[int, ...]) -> np.ndarray:
+    """float32, at an address that whole vectors are read from."""
+    size = 4 * int(np.prod(shape))
+    room = np.empty(size + _ALIGNED, np.uint8)
+    at = -room.ctypes.data % _ALIGNED
+    return room[at : at + size].view(np.float32).reshape(shape)
+
+
+@njit(inline="always")
+def _add(into, p, copied, q, n, weight):
+    """into[p:p + n] += weight * copied[q:q + n]; unsigned places, so that none counts from the end."""
+    for i in range(n):
+        into[p + i] += weight * copied[q + i]
+
+
+@njit(cache=True, nogil=True)
+def _lay(block, copied, rows, shape, at, weight):
+    """Adds a copy to a block of strips: shape = (its channels, strips, rows, the copy's displacements and rows)."""
+    channels, strips, height, displacements, copy_height = shape
+    top, left = at
+    tall, deep = height + _MARGIN, copy_height
+    for s in range(max(0, left // WIDE), min(strips, (left + displacements + WIDE - 1) // WIDE)):
+        d = s * WIDE - left + WIDE - 1
+        if d >= displacements:
+            break
+        a, b = max(0, top + rows[d, 0]), min(height, top + rows[d, 1])
+        if a < b:
+            n = np.uintp(((b - a + 3) >> 2) << 6)
+            for c in range(channels):
+                p = np.uintp(((c * strips + s) * tall + a) * WIDE)
+                q = np.uintp(((c * displacements + d) * deep + a - top) * WIDE)
+                _add(block, p, copied, q, n, weight)
+
+
+@njit(cache=True, nogil=True)
+def _unpack(out, block, strips, y0, x0):
+    """Copies a block's strips to rows and columns from (y0, x0) on of `out`."""
+    height, width = min(_BLOCK, out.shape[1] - y0), min(_BLOCK, out.shape[2] - x0)
+    flat = out.reshape(out.size)
+    for c in range(out.shape[0]):
+        for s in range(strips):
+            wide = np.uintp(min(WIDE, width - s * WIDE))
+            for y in range(height):
+                p = np.uintp((c * out.shape[1] + y0 + y) * out.shape[2] + x0 + s * WIDE)
+                q = np.uintp(((c * strips + s) * (height + _MARGIN) + y) * WIDE)
+                if wide == _W:
+                    for i in range(_W):
+                        flat[p + i] = block[q + i]
+                else:
+                    for i in range(wide):
+                        flat[p + i] = block[q + i]
+
+
+@njit(cache=True, nogil=True)
+def lay_strips(out, copied, rows, places, weights, bands):
+    """out (c, h, w) = sum over n of weights[n] times the copy, beginning at (row, column) places[n], in that order.
+
+    bands = (starts, top, tall): copies starts[j] to starts[j + 1] begin in the rows [top + j tall, top + (j + 1) tall).
+    """
+    starts, first, tall = bands
+    channels, displacements, copy_height, _ = copied.shape
+    high = copy_height - _MARGIN
+    side = min(_BLOCK, out.shape[2]) + WIDE - 1 & ~(WIDE - 1)
+    room = np.empty(channels * side * (min(_BLOCK, out.shape[1]) + _MARGIN) + 16, np.float32)
+    block = room[(np.uintp(-room.ctypes.data) & np.uintp(63)) >> np.uintp(2) :]
+    flat = copied.reshape(copied.size)
+    for y0 in range(0, out.shape[1], _BLOCK):
+        height = min(_BLOCK, out.shape[1] - y0)
+        j0 = max(0, (y0 - high - first) // tall)
+        j1 = min(starts.size - 1, (y0 + height - first) // tall + 1)
+        for x0 in range(0, out.shape[2], _BLOCK):
+            width = min(_BLOCK, out.shape[2] - x0)
+            strips = (width + WIDE - 1) // WIDE
+            block[: channels * strips * (height + _MARGIN) * WIDE] = np.float32(0.0)
+            shape = channels, strips, height, displacements, copy_height
+            for n in range(starts[j0], starts[max(j0, j1)]):
+                top, left = places[n, 0] - y0, places[n, 1] - x0
+                if top < height and top + high > 0 and left < width and left + displacements > WIDE - 1:
+                    _lay(block, flat, rows, shape, (top, left), weights[n])
+            _unpack(out, block, strips, y0, x0)
