@@ -18,12 +18,13 @@ from typing import Any, cast
 
 import numpy as np
 
-from engine.brush import checks, coat, ops, tones
+from engine.brush import coat, ops, tones
 from engine.brush.foretell import Foretold, foretell, predictor
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.mask import Coverage
 from engine.brush.record import Brush
 from engine.brush.stamp import Stamp
+from engine.brush.tints import constants
 from engine.numeric import formula_kernel
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.prediction import Predictor
@@ -40,7 +41,6 @@ _SPAN = 4  # px to each side over which the texture's slope is taken
 _LUMA = np.array(tones.LUMA, np.float32)
 _ONES = np.ones((TILE, TILE), np.float32)
 _NONE = np.zeros((6, 1, 1), np.float32)
-_BLANK = np.zeros((tones.STEPS + 1, 3), np.float32)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -170,20 +170,7 @@ class Raster:
 
     @cached_property
     def _constants(self) -> tuple[int, np.ndarray, np.ndarray]:
-        """The op's code, its parameters float32 (9,), and its ramp's table float32 (1025, 3)."""
-        out = np.zeros(9, np.float32)
-        row, given = self.op.row, self.op.parameters
-        if row is None:
-            return tones.FORMULA, out, _BLANK
-        if row.code == tones.MATRIX:
-            matrix = saturating(given["amount"]) if row.name == "saturate" else turning(given["turn"])
-            out[:] = matrix.reshape(-1)
-        elif row.code == tones.RAMP:
-            return tones.TEXTURE_RAMP if self.op.by_texture else tones.RAMP, out, ramp(given["ramp"])
-        else:
-            numbers = [given[part.name] for part in row.parameters if part.kind == "number"]
-            out[: len(numbers)] = np.rint(numbers) if row.name == "posterise" else numbers
-        return row.code, out, _BLANK
+        return constants(self.op)
 
     def _mean(self, key: TileKey, old: Planes) -> np.ndarray:
         """The straight colours around each pixel, float32 (3, 128, 128): its own where nothing lies around."""
@@ -307,30 +294,6 @@ _LAID: dict[str, Callable[..., Stamp | None]] = {
     "predict": Raster._predict,
     "erase": Raster._erase,
 }
-
-
-def saturating(amount: float) -> np.ndarray:
-    """The matrix (3, 3) that multiplies what a colour differs from its grey by `amount`; brightness stays."""
-    return amount * np.eye(3) + (1.0 - amount) * np.tile(np.array(tones.LUMA), (3, 1))
-
-
-def turning(degrees: float) -> np.ndarray:
-    """The matrix (3, 3) that turns colours about the grey axis; brightness and greys stay."""
-    angle = math.radians(degrees)
-    cross = np.array([[0.0, -1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 1.0, 0.0]]) / math.sqrt(3.0)
-    grey = np.tile(np.array(tones.LUMA), (3, 1))
-    turn = np.eye(3) * math.cos(angle) + math.sin(angle) * cross + (1.0 - math.cos(angle)) / 3.0
-    chroma = np.eye(3) - grey
-    return chroma @ turn @ chroma + grey
-
-
-@lru_cache(32)
-def ramp(stops: tuple[tuple[float, str], ...]) -> np.ndarray:
-    """The colours of a ramp at 1025 places from 0 to 1: float32 (1025, 3), not to be written to."""
-    places = np.linspace(0.0, 1.0, tones.STEPS + 1)
-    colours = np.array([checks.rgb(colour) for _, colour in stops])
-    columns = [np.interp(places, [place for place, _ in stops], column) for column in colours.T]
-    return np.ascontiguousarray(np.stack(columns, axis=1).astype(np.float32))
 
 
 def _plane(coverage: Coverage, key: TileKey) -> np.ndarray | None:

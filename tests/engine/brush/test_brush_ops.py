@@ -9,8 +9,9 @@ from engine.brush import kinds
 from engine.brush.checks import rgb
 from engine.brush.mask import StrokeMask
 from engine.brush.ops import OPS
-from engine.brush.raster import Scene, mixture, saturating, turning
+from engine.brush.raster import Scene, mixture
 from engine.brush.record import from_json, to_json
+from engine.brush.tints import saturating, turning
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.texture.planes import Planes

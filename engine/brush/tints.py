@@ -1,0 +1,54 @@
+"""The numbers of an op as its loop wants them: parameters, colour matrices, ramps of colours."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from engine.brush import checks, tones
+from engine.brush.ops import Chosen
+
+_BLANK = np.zeros((tones.STEPS + 1, 3), np.float32)
+
+
+def constants(op: Chosen) -> tuple[int, np.ndarray, np.ndarray]:
+    """The op's code, its parameters float32 (9,), and its ramp's table float32 (1025, 3)."""
+    out = np.zeros(9, np.float32)
+    row, given = op.row, op.parameters
+    if row is None:
+        return tones.FORMULA, out, _BLANK
+    if row.code == tones.MATRIX:
+        matrix = saturating(given["amount"]) if row.name == "saturate" else turning(given["turn"])
+        out[:] = matrix.reshape(-1)
+    elif row.code == tones.RAMP:
+        return tones.TEXTURE_RAMP if op.by_texture else tones.RAMP, out, ramp(given["ramp"])
+    else:
+        numbers = [given[part.name] for part in row.parameters if part.kind == "number"]
+        out[: len(numbers)] = np.rint(numbers) if row.name == "posterise" else numbers
+    return row.code, out, _BLANK
+
+
+def saturating(amount: float) -> np.ndarray:
+    """The matrix (3, 3) that multiplies what a colour differs from its grey by `amount`; brightness stays."""
+    return amount * np.eye(3) + (1.0 - amount) * np.tile(np.array(tones.LUMA), (3, 1))
+
+
+def turning(degrees: float) -> np.ndarray:
+    """The matrix (3, 3) that turns colours about the grey axis; brightness and greys stay."""
+    angle = math.radians(degrees)
+    cross = np.array([[0.0, -1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 1.0, 0.0]]) / math.sqrt(3.0)
+    grey = np.tile(np.array(tones.LUMA), (3, 1))
+    turn = np.eye(3) * math.cos(angle) + math.sin(angle) * cross + (1.0 - math.cos(angle)) / 3.0
+    chroma = np.eye(3) - grey
+    return chroma @ turn @ chroma + grey
+
+
+@lru_cache(32)
+def ramp(stops: tuple[tuple[float, str], ...]) -> np.ndarray:
+    """The colours of a ramp at 1025 places from 0 to 1: float32 (1025, 3), not to be written to."""
+    places = np.linspace(0.0, 1.0, tones.STEPS + 1)
+    colours = np.array([checks.rgb(colour) for _, colour in stops])
+    columns = [np.interp(places, [place for place, _ in stops], column) for column in colours.T]
+    return np.ascontiguousarray(np.stack(columns, axis=1).astype(np.float32))
