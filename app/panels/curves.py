@@ -84,7 +84,9 @@ class CurveEditor:
         if w.icon_button("reset", icons.UNDO, "Back to the first", enabled=curve is not None):
             curve = None
         curve = self._canvas(curve, rows, side)
-        imgui.text_disabled("Drag to draw" if self.by_hand else "Click adds, drag moves, right click removes")
+        imgui.text_disabled("Drag to draw" if self.by_hand else "Click to add, right click to remove")
+        if imgui.is_key_pressed(imgui.Key.escape):
+            imgui.close_current_popup()
         imgui.end_popup()
         return curve != before, curve
 

@@ -49,7 +49,7 @@ class SaveBrush:
             _save(desk, name)
             imgui.close_current_popup()
         imgui.same_line()
-        if w.text_button("Cancel", "Go back", width=em * 6):
+        if w.text_button("Cancel", "Go back", width=em * 6) or imgui.is_key_pressed(imgui.Key.escape):
             imgui.close_current_popup()
         imgui.end_popup()
 
