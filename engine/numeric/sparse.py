@@ -115,14 +115,11 @@ def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None 
     points = _points(impulse, rect)
     x, y = points.x0 // cell_w, points.y0 // cell_h
     columns, rows = (points.x1 - 1) // cell_w + 1 - x, (points.y1 - 1) // cell_h + 1 - y
-    around = reach(impulse, rect)
-    layout = _Layout(
-        (x & MASK32, y & MASK32, columns, rows, cell_w, cell_h),
-        # From here on places count from the rectangle's corner.
-        (x * cell_w - (rect.x0 << m), y * cell_h - (rect.y0 << m)),
-        (width // 2, height // 2, around.x0 - rect.x0, around.y0 - rect.y0),
-        m,
-    )
+    around = rect if within is None else reach(impulse, rect)
+    # From the rectangle's corner on, its place is known to the keys alone.
+    corner = x * cell_w - (rect.x0 << m), y * cell_h - (rect.y0 << m)
+    offsets = width // 2, height // 2, around.x0 - rect.x0, around.y0 - rect.y0
+    layout = _Layout(x & MASK32, y & MASK32, columns, rows, cell_w, cell_h, *corner, *offsets, m)
     mean = noise.density * (cell_w * cell_h / (width * height))
     inside = _EVERYWHERE if within is None else within
     keys = _keys(noise.key, x >> 32, y >> 32)
@@ -131,13 +128,21 @@ def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None 
 
 
 class _Layout(NamedTuple):
-    """Where a rectangle's cells lie: (low halves of the first cell's column and row, their numbers, a cell's width and
-    height); the first cell's corner; half the response, and the corner of the points' reach; levels between."""
+    """Where a rectangle's cells lie."""
 
-    cells: tuple[int, int, int, int, int, int]
-    corner: tuple[int, int]
-    offsets: tuple[int, int, int, int]
-    coarser: int
+    x: int  # the first cell's column and row, their low halves
+    y: int
+    columns: int
+    rows: int
+    width: int  # of a cell, in pixels of the points' level
+    height: int
+    left: int  # of the first cell, from the rectangle's corner
+    top: int
+    half_x: int  # how far to the left of and above its point a response begins
+    half_y: int
+    reach_x: int  # the corner of the points' reach, in pixels of the rectangle's level
+    reach_y: int
+    coarser: int  # levels from the rectangle's up to the points'
 
 
 _EVERYWHERE = np.zeros((0, 0), np.uint8)
@@ -189,7 +194,7 @@ def _cell(h, corner, layout, noise, within, places, weights, count):
 
     `places`: int64 (n, 2), where the response begins, (row, column) in pixels of the points' level.
     """
-    cell_w, cell_h = np.uint64(layout.cells[4]), np.uint64(layout.cells[5])
+    cell_w, cell_h = np.uint64(layout.width), np.uint64(layout.height)
     mean, levels = noise
     rest = np.float64(mix64(h) >> _40) * 2.0**-24
     for i in range(int(mean) + (1 if rest < mean - int(mean) else 0)):
@@ -197,9 +202,9 @@ def _cell(h, corner, layout, noise, within, places, weights, count):
         x = corner[0] + np.int64((g & _BITS20) * cell_w >> _20)
         y = corner[1] + np.int64((g >> _20 & _BITS20) * cell_h >> _20)
         m = layout.coarser
-        if within.size and not _counts(within, (x >> m) - layout.offsets[2], (y >> m) - layout.offsets[3]):
+        if within.size and not _counts(within, (x >> m) - layout.reach_x, (y >> m) - layout.reach_y):
             continue
-        places[count, 0], places[count, 1] = y - layout.offsets[1], x - layout.offsets[0]
+        places[count, 0], places[count, 1] = y - layout.half_y, x - layout.half_x
         weights[count] = _weight(g, levels)
         count += 1
     return count
@@ -208,7 +213,7 @@ def _cell(h, corner, layout, noise, within, places, weights, count):
 @njit(cache=True, nogil=True)
 def _fill(out, phases, strips, filled, keys, layout, noise, within):
     """Lists the points, cell by cell, then lays them."""
-    x, y, columns, rows, cell_w, cell_h = layout.cells
+    x, y, columns, rows = layout.x, layout.y, layout.columns, layout.rows
     most = columns * rows * (int(noise[0]) + 1)
     places, weights, starts = np.empty((most, 2), np.int64), np.empty(most, np.float32), np.empty(rows + 1, np.int64)
     count = 0
@@ -217,12 +222,12 @@ def _fill(out, phases, strips, filled, keys, layout, noise, within):
         for i in range(columns):
             key = keys[(y + j) >> 32, (x + i) >> 32]
             h = place64(key, np.uint64((x + i) & MASK32), np.uint64((y + j) & MASK32))
-            corner = layout.corner[0] + i * cell_w, layout.corner[1] + j * cell_h
+            corner = layout.left + i * layout.width, layout.top + j * layout.height
             count = _cell(h, corner, layout, noise, within, places, weights, count)
     starts[rows] = count
     if strips.size:
-        top = layout.corner[1] - layout.offsets[1]
-        lay_strips(out, strips, filled, places, weights, (starts, top, cell_h))
+        top = layout.top - layout.half_y
+        lay_strips(out, strips, filled, places, weights, (starts, top, layout.height))
         return
     out[:] = np.float32(0.0)
     for n in range(count):

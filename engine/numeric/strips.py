@@ -17,7 +17,6 @@ _MARGIN = 8  # rows of zeros below a strip: runs are of whole groups of four row
 _MOST = 3 << 19  # bytes that a picture in strips may take: it has to stay near the processor
 _ALIGNED = 64
 
-_W = np.uintp(WIDE)
 NO_STRIPS = np.empty((0, 0, 0, 0), np.float32)
 NO_ROWS = np.empty((0, 2), np.int64)
 
@@ -87,12 +86,8 @@ def _unpack(out, block, strips, y0, x0):
             for y in range(height):
                 p = np.uintp((c * out.shape[1] + y0 + y) * out.shape[2] + x0 + s * WIDE)
                 q = np.uintp(((c * strips + s) * (height + _MARGIN) + y) * WIDE)
-                if wide == _W:
-                    for i in range(_W):
-                        flat[p + i] = block[q + i]
-                else:
-                    for i in range(wide):
-                        flat[p + i] = block[q + i]
+                for i in range(wide):
+                    flat[p + i] = block[q + i]
 
 
 @njit(cache=True, nogil=True)

@@ -36,5 +36,5 @@ def test_large_pictures_are_not_laid_in_strips():
     assert in_strips(np.ones((1, 64, 64), np.float32))[0].size
     assert not in_strips(np.ones((1, 256, 256), np.float32))[0].size
     assert not in_strips(np.ones((3, 96, 96), np.float32))[0].size
-    strips, rows = in_strips(np.zeros((1, 5, 5), np.float32))
+    _, rows = in_strips(np.zeros((1, 5, 5), np.float32))
     assert (rows[:, 0] == rows[:, 1]).all()
