@@ -175,8 +175,6 @@ def check(brush: Brush, where: str = "brush") -> None:
     for name in ("example", "depth"):
         if getattr(brush, name) is not None:
             raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
-    if brush.extent:
-        raise BrushError(f"{where}.extent", "true", "false: this version paints without")
 
 
 def edit(

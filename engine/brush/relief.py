@@ -4,6 +4,7 @@ Lewis 1984, section 6.1: a second texture modulates the density of the first (dr
 canvas is felt by every brush (virtual surface).  All of it is a function of the stroke's coverage M and of the place
 alone, so a stroke in progress looks as it will once it is done.  In order:
 
+* **Extent**: edges of whole windows (module `extent`).
 * **Rim**: times a curve of the distance to the stroke's rim (module `rim`).
 * **Grain**: heights g, 0..1, of a surface that lies still under all strokes.  With amount a, the brush touches
   where (M (1 + s)/a - (1 - g))/s, clipped to 0..1, is above zero, s = 0.35: a light touch meets only the peaks, M = a
@@ -21,6 +22,8 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
+from engine.brush import extent
+from engine.brush.extent import Extent
 from engine.brush.ink import Texture, named
 from engine.brush.mask import Coverage
 from engine.brush.parts import Surface
@@ -125,15 +128,23 @@ class Relief:
     grain: Heights | None = None
     rim: Rim | None = None
     amounts: tuple[float, float] = (1.0, 1.0)  # of density and grain
+    extent: Extent | None = None
     _done: dict[TileKey, _Made] = field(default_factory=dict, repr=False)
 
     @property
     def reach(self) -> int:
         """How far from a pixel whose coverage changes others may change too, in px."""
-        return self.rim.reach if self.rim else 0
+        return (self.rim.reach if self.rim else 0) + self.spread
+
+    @property
+    def spread(self) -> int:
+        """How far beyond its own coverage the stroke goes, in px."""
+        return self.extent.reach if self.extent else 0
 
     def over(self, coverage: Coverage) -> Coverage:
         """The coverage as this relief thins it; its tiles are made when they are asked for."""
+        if self.extent is not None:
+            coverage = self.extent.over(coverage)
         if self.density is None and self.grain is None and self.rim is None:
             return coverage
         stain = None
@@ -220,6 +231,7 @@ def resolve(
         _ground(grain, textures, seeds[1], f"{where}.grain"),
         Rim.of(brush),
         (density.amount if density else 0.0, grain.amount if grain else 0.0),
+        extent.resolve(brush, textures, level, seeds[0], where),
     )
 
 

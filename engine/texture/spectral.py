@@ -191,6 +191,14 @@ class Sparse(_Spectral):
     def form(self) -> Continuation:
         return sample.response(self.source, self.period).form
 
+    @property
+    def noise(self) -> sparse.Noise:
+        """The points of the field at the native level."""
+        return self._noise(0)
+
+    def _noise(self, octave: int) -> sparse.Noise:
+        return sparse.Noise(_key(self.seed, self.base, self.native + octave), self.density, self.quantise)
+
     def _own(self, level: int, rect: Rect) -> np.ndarray:
         return self._field(self.impulse(level), 0, rect)
 
@@ -198,8 +206,7 @@ class Sparse(_Spectral):
         return self._field(sample.response(self.source, self.period).top, depth, rect)
 
     def _field(self, impulse: sparse.Impulse, octave: int, rect: Rect) -> np.ndarray:
-        key = _key(self.seed, self.base, self.native + octave)
-        out = sparse.field(impulse, sparse.Noise(key, self.density, self.quantise), rect)
+        out = sparse.field(impulse, self._noise(octave), rect)
         # A response of energy 1 per area makes a field of variance `density`, whatever the sample.
         out *= np.float32(self.spread * SPREAD / math.sqrt(self.density))
         return out

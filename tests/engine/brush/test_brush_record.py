@@ -207,7 +207,6 @@ def test_a_brush_made_in_the_program_is_checked_too():
     ("data", "place"),
     [
         ({"mode": "example", "example": "leaves"}, "brush.mode"),
-        ({"extent": True}, "brush.extent"),
         ({"example": "leaves"}, "brush.example"),
     ],
 )

@@ -30,9 +30,11 @@ PARTS = {
     "edge": {"edge": EDGE, "ink": INK[:1]},
     "sample": {"tip": {"texture": "squares", "angle": 20}, "spacing": 0.8},
     "window": {"tip": {"texture": "rock", "from": "window", "shaping": "stretch"}},
+    "extent": {"extent": True, "ink": [{"texture": "rings", "colour": "#ffffff"}], "radius": 16},
     "all": {"ink": INK, "density": "rock", "grain": GRAIN, "edge": EDGE, "shaping": "root", "tip": "rock"},
 }
 MODES = ["paint", "erase", "smooth", "raster"]
+RINGS = {"do": "texture", "name": "rings", "maker": "sparse", "size": [24, 24], "shapes": [{"shape": "ring"}]}
 RNG = np.random.default_rng(11)
 POINTS = np.column_stack([RNG.uniform(20, 180, 9), RNG.uniform(20, 140, 9), RNG.uniform(0.2, 1, 9), np.zeros((9, 3))])
 GROUND = {"radius": 70, "hardness": 1, "colour": "#c08040", "ink": INK[1:], "dynamics": {}}
@@ -54,7 +56,7 @@ def told(*commands):
 
 
 def base(locked=False):
-    found = [{"do": "layer", "add": "A"}, stroke(GROUND, np.array([[100.0, 80, 1]]))]
+    found = [RINGS, {"do": "layer", "add": "A"}, stroke(GROUND, np.array([[100.0, 80, 1]]))]
     return told(*found, *([{"do": "layer", "set": "A", "alpha_locked": True}] if locked else []))
 
 
@@ -93,13 +95,15 @@ def test_the_preview_is_the_commit_also_in_portions(name, mode):
 @pytest.mark.parametrize("name", PARTS)
 def test_the_parts_change_what_is_painted(name):
     painting = base()
-    plain = told({"do": "layer", "add": "A"}, stroke(GROUND, np.array([[100.0, 80, 1]])), stroke(_plain(name)))
+    plain = apply(base(), parse(stroke(_plain(name))), Around())
     made = apply(painting, parse(stroke(brush_of(name))), Around())
     assert np.abs(values(made)[:4] - values(plain)[:4]).mean() > 0.01
 
 
 def _plain(name):
-    given = {k: v for k, v in brush_of(name).items() if k not in ("density", "grain", "edge", "tip", "shaping")}
+    given = {
+        k: v for k, v in brush_of(name).items() if k not in ("density", "grain", "edge", "tip", "shaping", "extent")
+    }
     ink = [{k: v for k, v in part.items() if k != "shaping"} for part in given.get("ink", [])]
     return given | {"ink": ink}
 
@@ -117,8 +121,9 @@ def test_paper_is_felt_at_the_same_places_at_every_level():
 
 
 def test_undo_replay_and_files(tmp_path):
-    several = [("all", "paint"), ("edge", "raster"), ("window", "erase"), ("grain", "smooth"), ("shaping", "paint")]
+    several = [("all", "paint"), ("edge", "raster"), ("window", "erase"), ("grain", "smooth"), ("extent", "paint")]
     commands = [
+        RINGS,
         {"do": "texture", "name": "weave", "maker": "squares", "period": 5},
         stroke(GROUND, np.array([[100.0, 80, 1]])),
         *(stroke(brush_of(name, mode), np.roll(POINTS, i, 0)) for i, (name, mode) in enumerate(several)),
