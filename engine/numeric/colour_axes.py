@@ -94,6 +94,18 @@ def blended(a: ColourAxes, b: ColourAxes, weight: float) -> ColourAxes:
     return ColourAxes(mean, axes, np.linalg.pinv(axes).astype(np.float32), low, high)
 
 
+def like(axes: ColourAxes, other: ColourAxes) -> ColourAxes:
+    """The same axes of colours with no fewer channels and axes than another's: `blended` at weight 0."""
+    return blended(axes, other, 0.0)
+
+
+def counted(axes: ColourAxes, count: int) -> ColourAxes:
+    """The longest `count` axes; what is missing has no length."""
+    short = max(0, count - axes.count)
+    columns = np.pad(axes.axes[:, :count], ((0, 0), (0, short)))
+    return replace(axes, axes=columns, back=np.pad(axes.back[:count], ((0, short), (0, 0))))
+
+
 def _padded(given: ColourAxes, wide: int, deep: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Mean, axes, low and high of colours of more channels: grey becomes RGB, what has no alpha is opaque."""
     mean, axes, low, high = given.mean, given.axes, given.low, given.high

@@ -203,6 +203,15 @@ def changed(
     return image(total, made.sizes[0], True)
 
 
+def finished(steps: Generator[float, None, np.ndarray]) -> np.ndarray:
+    """What such a generator returns in the end."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as stop:
+            return stop.value
+
+
 def _mapped(work: Callable[[Place], np.ndarray], items: list[Place], threads: Executor | None) -> Iterator[np.ndarray]:
     return map(work, items) if threads is None else threads.map(work, items)
 
