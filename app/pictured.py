@@ -28,6 +28,14 @@ def from_view(desk: Desk) -> None:
     _define(desk, DefineTexture(free_name(desk, "View"), "canvas", Map(arguments)))
 
 
+def kept_view(desk: Desk) -> str:
+    """Defines a texture of what the window shows of the canvas, which does not join the ink; its name."""
+    rect, name = seen(desk), free_name(desk, "View")
+    arguments = {"rect": (desk.view.shown_level, rect.x0, rect.y0, rect.width, rect.height)}
+    desk.post(Do(DefineTexture(name, "canvas", Map(arguments))))
+    return name
+
+
 def seen(desk: Desk) -> Rect:
     """The pixels of the level shown that no panel covers."""
     x0, y0, x1, y1 = desk.free_area()

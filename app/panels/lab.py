@@ -132,7 +132,7 @@ class LabPanel:
     def bar(self, desk: Desk) -> None:
         """The texture in use, and the lab's undo, in the strip's title line."""
         lab, scene = desk.lab, desk.lab.scene
-        using = scene.using if scene is not None else ""
+        using = self._using(desk)
         side, gap = imgui.get_frame_height(), 2 * desk.scale
         right = imgui.get_window_width() - imgui.get_style().window_padding.x - 4 * (side + gap) - 8 * desk.scale
         if using:
@@ -173,11 +173,16 @@ class LabPanel:
         imgui.same_line()
         w.picture(desk.pictures.get("lab near"), (wide, below), "The same ink, 16 times nearer")
 
+    def _using(self, desk: Desk) -> str:
+        """The texture of this painting that follows the lab."""
+        name = desk.lab.scene.using if desk.lab.scene is not None else ""
+        return name if desk.scene is not None and name in desk.scene.textures else ""
+
     # --- its use -----------------------------------------------------------------------------------------------------
 
     def _uses(self, desk: Desk) -> None:
         scene = desk.lab.scene
-        using = scene.using if scene is not None else ""
+        using = self._using(desk)
         silent = scene is None or scene.silent
         gap, room = 2 * desk.scale, imgui.get_content_region_avail().x
         for i, (how, icon, text, hint) in enumerate(_USES):

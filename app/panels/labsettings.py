@@ -14,7 +14,7 @@ from app.panels import widgets as w
 
 _SIGNS = {"ring": icons.RING, "wedge": icons.WEDGE, "points": icons.GRID, "noise": icons.CLOUD}
 _PICTURES = (
-    ("canvas", "In view", "The spectrum of what the canvas shows: its texture, without its picture"),
+    ("texture", "In view", "The spectrum of what the canvas shows: its texture, without its picture"),
     ("image", "File…", "The spectrum of a picture file: a photograph of sand, bark, cloth"),
 )
 _PHASES = (
@@ -86,9 +86,8 @@ class LabSettings:
             desk.ask("lab picture")
         else:
             shape: dict[str, Any] = {"shape": name}
-            if name == "canvas":
-                rect = pictured.seen(desk)
-                shape["rect"] = (desk.view.shown_level, rect.x0, rect.y0, rect.width, rect.height)
+            if name == "texture":
+                shape["texture"] = pictured.kept_view(desk)
             lab.change(shapes=((*rest, Map(shape)) if shift else (Map(shape),)))
 
     def _shape_numbers(self, desk: Desk) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from immutables import Map
 
 from engine.brush.checks import thawed
 from engine.canvas import layers
@@ -22,17 +23,22 @@ from engine.painting.images import read_image
 from engine.painting.limits import LIMITS
 from engine.painting.rendering import strips
 from engine.painting.strictjson import Fields
+from engine.texture.image import ImageSource
 
 PIXELS_CAP = 1 << 26  # of a picture: 1 GiB as float32 planes
 DETAIL_CAP = 16  # finer levels that a captured rectangle may hold
 
 
+_NO_PICTURES: Map[str, ImageSource] = Map()
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where pictures come from: files, paths starting from a folder; and the canvas."""
+    """Where pictures come from: files, paths starting from a folder; the canvas; those known by their sha."""
 
     folder: Path | None
     root: Group
+    pictures: Mapping[str, ImageSource] = _NO_PICTURES
 
     def picture(self, members: Fields) -> np.ndarray:
         """The picture that `path`, or else `rect` and `layer`, name: premultiplied RGBA, float32 (4, h, w)."""
@@ -43,8 +49,14 @@ class Place:
         return read_picture(members.text("path", cap=4096), self.folder)
 
     def shape(self, shape: Mapping[str, Any]) -> np.ndarray:
-        """The picture that a shape of a spectrum names."""
-        return self.picture(Fields(thawed(shape), "shapes"))
+        """The picture that a shape of a spectrum names: that of a texture by its sha, or as `picture`."""
+        members = Fields(thawed(shape), "shapes")
+        if shape["shape"] != "texture":
+            return self.picture(members)
+        known = self.pictures.get(members.text("sha", cap=64))
+        if known is None or known.data is None:
+            raise members.fault("sha", "that of a texture which the painting has")
+        return known.data
 
 
 def read_picture(path: str, folder: Path | None) -> np.ndarray:

@@ -103,10 +103,14 @@ class Lab:
 
     def step(self) -> None:
         """The next piece of work: a stroke laid anew, or the pictures."""
-        if self._live is None and not self._ready():
-            self._build()
-        else:
-            self._show()
+        try:
+            if self._live is None and not self._ready():
+                self._build()
+            else:
+                self._show()
+        except Exception:
+            self._stale = False  # it would fail again
+            raise
 
     def settle(self) -> None:
         """Brings the texture in use up to date before it is painted with."""
@@ -122,7 +126,8 @@ class Lab:
     # --- requests ----------------------------------------------------------------------------------------------------
 
     def _change(self, request: q.LabSet) -> None:
-        before, self._set = self._set, request
+        shapes = tuple(map(self._resolved, request.shapes))
+        before, self._set = self._set, replace(request, shapes=shapes)
         if before.size != request.size:
             self._live = None
             scale = request.size[0] / before.size[0], request.size[1] / before.size[1]
@@ -185,6 +190,13 @@ class Lab:
             self._define(self._command(request.name))
         self._tell()
 
+    def _resolved(self, shape: Map[str, Any]) -> Map[str, Any]:
+        """A shape that names a texture knows its picture by the sha: whatever the name means later."""
+        texture = self.host.session.painting.textures.get(shape.get("texture", ""))
+        if shape["shape"] != "texture" or texture is None or texture.source is None:
+            return shape
+        return shape.set("sha", texture.source.sha)
+
     # --- the spectrum ------------------------------------------------------------------------------------------------
 
     def _design(self) -> Design:
@@ -217,7 +229,7 @@ class Lab:
 
     def _look(self, shape: Map[str, Any]) -> np.ndarray:
         session = self.host.session
-        return Place(session.folder, session.painting.root).shape(shape)
+        return Place(session.folder, session.painting.root, session.around().pictures).shape(shape)
 
     def _show(self) -> None:
         """The spectrum and its texture as they are now."""

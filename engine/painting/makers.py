@@ -70,7 +70,7 @@ def _sampled(make: samples.Maker, command: DefineTexture, root: Group, around: A
         raise members.fault("field", f"one of {', '.join(FIELDS)}")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        sample = make(members, Place(around.folder, root))
+        sample = make(members, Place(around.folder, root, around.pictures))
         parameters = sample.found.update(parameters)
         rgba = sample.rgba
         if field == "tile" and rgba.shape[2] < NARROWEST:

@@ -70,7 +70,7 @@ class Session:
         recorded."""
         if isinstance(command, c.Undo | c.Redo):
             return self._travel(command)
-        after = apply(self.painting, command, self._around())
+        after = apply(self.painting, command, self.around())
         if isinstance(command, c.DefineTexture):
             command = recorded(command, after.textures[command.name])
         return self._done(command, after)
@@ -94,7 +94,7 @@ class Session:
         header = Header(self.painting.frame, self.painting.seed, self._extra)
         return Recording(header, tuple(self.log), folder=self.folder)
 
-    def _around(self) -> Around:
+    def around(self) -> Around:
         """Pictures of textures are known by their sha, wherever their files are now."""
         sources = (self.lent, *(texture.source for texture in self.painting.textures.values()))
         return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})

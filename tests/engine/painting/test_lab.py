@@ -13,9 +13,11 @@ from engine.numeric.spectra import opposite
 from engine.painting import commands as c
 from engine.painting import requests as q
 from engine.painting.easel import Easel
+from engine.painting.fault import FileError
 from engine.painting.painting import apply
 from engine.painting.recording import Recording
 from engine.painting.replay import replay
+from engine.painting.strictjson import FormatError
 from engine.painting.value import Painting
 
 RING = q.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
@@ -181,6 +183,33 @@ def test_the_spectrum_of_what_is_on_the_canvas(desk):
     desk.ask(q.LabUse("Seen"))
     again = replay(desk.easel.session.recording()).painting
     assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+
+
+def test_the_spectrum_of_another_texture_stays_what_it_was(desk):
+    points = np.array([[x, 32.0, 1, 0, 0, 0] for x in range(4, 64, 8)])
+    brush = Brush(radius=100, ink=(Component("stripes", 1.0, "#ffffff", Map({"period": 8.0})),))
+    stroke = q.Begin(0, (0, 0), brush), q.Points(points), q.Finish()
+    view = Map({"rect": (0, 0, 0, 64, 64)})
+    desk.ask(*stroke, q.Do(c.DefineTexture("View", "canvas", view)))
+    desk.ask(q.LabSet((64, 64), (Map({"shape": "texture", "texture": "View"}),)))
+    shown = desk.picture("lab spectrum")
+    assert set(np.argsort(shown[32, :, 0])[-2:]) == {24, 40}
+    desk.ask(*stroke, q.LabUse("Seen"), *stroke)
+    assert np.array_equal(desk.picture("lab spectrum"), shown)
+    again = replay(desk.easel.session.recording()).painting
+    assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+
+
+@pytest.mark.parametrize("shape", [{"shape": "image", "path": "none.png"}, {"shape": "texture", "texture": "None"}])
+def test_a_picture_that_is_not_there_is_told_once(desk, shape):
+    desk.ask(RING)
+    before = desk.picture("lab texture")
+    desk.easel.do(q.LabSet((64, 64), (Map(shape),)))
+    with pytest.raises((FileError, FormatError)):
+        desk.easel.step()
+    assert not desk.easel.pending
+    desk.ask(RING)
+    assert np.array_equal(desk.picture("lab texture"), before)
 
 
 def test_another_size_keeps_what_was_painted(desk):
