@@ -9,7 +9,7 @@ import pytest
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
-RASTER, OPS, MULTIPLY, SAVE = (209, 434), (100, 463), (50, 229), (229, 83)
+RASTER, OPS, FORMULA, FIELD, SAVE = (209, 434), (100, 463), (50, 782), (100, 492), (229, 83)
 
 
 def press(app, at):
@@ -22,7 +22,7 @@ def press(app, at):
     time.sleep(0.4)
 
 
-def test_a_raster_op_chosen_in_the_panel_changes_paint_and_lays_none(program):
+def test_a_formula_written_in_the_panel_changes_paint_and_lays_none(program):
     app = program()
     empty = app.canvas()
     app.keys(*["bracketright"] * 12)
@@ -33,7 +33,11 @@ def test_a_raster_op_chosen_in_the_panel_changes_paint_and_lays_none(program):
 
     press(app, RASTER)
     press(app, OPS)
-    press(app, MULTIPLY)
+    press(app, FORMULA)  # the last of the list
+    press(app, FIELD)
+    app.keys("ctrl+a")
+    app.type("0 - pic * 0.7")
+    app.keys("Return")
     before = app.canvas(calm=8)
     assert np.array_equal(before, painted)
     app.stroke(*WAVE)
