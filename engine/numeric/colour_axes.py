@@ -6,6 +6,7 @@ a picture of one colour has none.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -36,9 +37,7 @@ class ColourAxes:
 
     def colours(self, planes: np.ndarray) -> np.ndarray:
         """The colours (C, ...) of planes (R, ...), kept within the example's range: float32."""
-        out = self.unclipped(planes) if self.count else np.empty((self.mean.size, *planes.shape[1:]), np.float32)
-        if not self.count:
-            out[:] = self.mean.reshape(-1, *[1] * (out.ndim - 1))
+        out = self.unclipped(planes)
         for plane, low, high in zip(out, self.low, self.high, strict=True):
             np.clip(plane, low, high, out=plane)
         return out
@@ -127,8 +126,9 @@ def _brightness(vectors: np.ndarray) -> np.ndarray:
 def combined(matrix: np.ndarray, planes: np.ndarray, offset: np.ndarray) -> np.ndarray:
     """matrix (m, n) times planes (n, ...) plus offset (m,): float32 (m, ...), in the same order on any machine."""
     out = np.empty((matrix.shape[0], *planes.shape[1:]), np.float32)
-    flat = np.ascontiguousarray(planes, np.float32).reshape(planes.shape[0], -1)
-    _combine(matrix.astype(np.float32), flat, offset.astype(np.float32), out.reshape(matrix.shape[0], flat.shape[1]))
+    count = math.prod(planes.shape[1:])
+    flat = np.ascontiguousarray(planes, np.float32).reshape(len(planes), count)
+    _combine(matrix.astype(np.float32), flat, offset.astype(np.float32), out.reshape(len(matrix), count))
     return out
 
 
