@@ -162,9 +162,14 @@ class Raster:
             given = _NONE
         keep = np.empty_like(_ONES)
         add = np.empty((COLOURS + 3 * len(inks), TILE, TILE), np.float32)
+        before, shape = np.ascontiguousarray(old.data), (3, TILE, TILE)
+        c = np.empty((3, TILE * TILE), np.float32)
+        tones.straight(before[:COLOURS].reshape(COLOURS, -1), c)
+        along = np.ascontiguousarray(texture).reshape(-1)
+        t, s = tones.targets(code, c, self._colour, parameters, table, along, given.reshape(len(given), -1))
         tones.change(
-            code, np.ascontiguousarray(old.data), _where(old.inks, inks), weight, free, self._colour,
-            parameters, table, texture, given, self._gains(inks), keep, add,
+            before, _where(old.inks, inks), weight, free, c.reshape(shape), t.reshape(shape), s.reshape(shape),
+            code == tones.TEXTURE_RAMP, self._gains(inks), keep, add,
         )  # fmt: skip
         return Stamp(keep, add, inks)
 

@@ -1,4 +1,4 @@
-"""Kernels of the raster-ops that change the colour of a pixel: the table of channel functions, and one loop for all.
+"""Kernels of the raster-ops that change the colour of a pixel: the table of channel functions, each with its own loop.
 
 Colours are straight (not premultiplied), encoded as the layer is, 0..1.  A function gives the target t of a channel
 and its slope t', so that a stroke of weight w makes c + w (t - c), and small grey detail 1 + w (t' - 1) of itself.  A
@@ -102,10 +102,10 @@ def _posterise(c, p, a, b):
 
 
 def _separable(function):
-    """The loop over a row of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n)."""
+    """The loop of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n)."""
 
     @njit(cache=True, nogil=True)
-    def row(c, colour, parameters, t, s):
+    def loop(c, colour, parameters, t, s):
         a, b = parameters[0], parameters[1]
         for channel in range(3):
             source, target, slope, p = c[channel], t[channel], s[channel], colour[channel]
@@ -114,7 +114,7 @@ def _separable(function):
                 target[x] = min(max(value, _ZERO), _ONE)
                 slope[x] = steep if _ZERO <= value <= _ONE else _ZERO
 
-    return row
+    return loop
 
 
 _rows = tuple(
@@ -124,7 +124,6 @@ _rows = tuple(
         _contrast, _posterise,
     )
 )  # fmt: skip
-(_m1, _m2, _m3, _m4, _m5, _m6, _m7, _m8, _m9, _m10, _m11, _m12, _m13, _m14) = _rows
 
 MATRIX, RAMP, TEXTURE_RAMP, GIVEN, SHARPEN, FORMULA = 15, 16, 17, 18, 19, 20
 
@@ -201,99 +200,73 @@ def weigh(coverage, texture, weight, free):
     return some != 0
 
 
-@njit(cache=True, nogil=True)
-def _targets(code, c, colour, p, table, index, given, t, s):
-    """Targets and slopes of a row by the op's code (`ops.Op`)."""
-    if code == 1:
-        _m1(c, colour, p, t, s)
-    elif code == 2:
-        _m2(c, colour, p, t, s)
-    elif code == 3:
-        _m3(c, colour, p, t, s)
-    elif code == 4:
-        _m4(c, colour, p, t, s)
-    elif code == 5:
-        _m5(c, colour, p, t, s)
-    elif code == 6:
-        _m6(c, colour, p, t, s)
-    elif code == 7:
-        _m7(c, colour, p, t, s)
-    elif code == 8:
-        _m8(c, colour, p, t, s)
-    elif code == 9:
-        _m9(c, colour, p, t, s)
-    elif code == 10:
-        _m10(c, colour, p, t, s)
-    elif code == 11:
-        _m11(c, colour, p, t, s)
-    elif code == 12:
-        _m12(c, colour, p, t, s)
-    elif code == 13:
-        _m13(c, colour, p, t, s)
-    elif code == 14:
-        _m14(c, colour, p, t, s)
+def targets(
+    code: int, c: np.ndarray, colour: np.ndarray, p: np.ndarray, table: np.ndarray, index: np.ndarray, given: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Targets and slopes, float32 (3, n) each, of straight colours `c` (3, n), by the op's code (`ops.Op`).
+
+    `colour` (3,), `p` (9,) parameters, `table` (1025, 3); `index` (n,): the texture; `given` (3 or 6, n): targets and
+    slopes made elsewhere.  An op's loop is compiled when it is first used.
+    """
+    if code == FORMULA:
+        return given[:3], given[3:]
+    t, s = np.empty_like(c), np.empty_like(c)
+    if code <= len(_rows):
+        _rows[code - 1](c, colour, p, t, s)
     elif code == MATRIX:
         _matrix(c, p, t, s)
-    elif code == RAMP:
-        luma(c, index)
-        _ramp(index, table, t, s)
-    elif code == TEXTURE_RAMP:
-        _ramp(index, table, t, s)
     elif code == SHARPEN:
         _sharpen(c, given, p[0], t, s)
+    elif code == GIVEN:
+        t, s[:] = given, 0.0
     else:
-        t[:] = given[:3]
-        s[:] = _ZERO
-        if code == FORMULA:
-            s[:] = given[3:]
+        if code == RAMP:
+            index = np.empty(c.shape[1], np.float32)
+            luma(c, index)
+        _ramp(index, table, t, s)
+    return t, s
 
 
 @njit(cache=True, nogil=True)
-def change(code, old, planes, weight, free, colour, p, table, index, given, gains, keep, add):
+def change(old, planes, weight, free, c, t, s, along, gains, keep, add):
     """A and B of an op that changes colours and spares alpha: v' = v + w (alpha t - v), A = 1 + w (t' - 1) in -1..2.
 
-    `old` float32 (4 + 3m, h, w), premultiplied; `weight`, `free`, `index` (h, w), as of `weigh` and the texture;
-    `colour` (3,), `p` (9,) parameters, `table` (1025, 3); `given` (3 or 6, h, w): targets and slopes made elsewhere,
-    (6, 1, 1) if there are none.  `add` (4 + 3n, h, w), `keep` (h, w) are written.  `planes` int64 (3n,): where the
-    planes of the n inks are in `old`, -1 for none; `gains` (n,): what the op's own texture adds to each of them.
+    `old` float32 (4 + 3m, h, w), premultiplied; `weight`, `free` (h, w), as of `weigh`; `c`, `t`, `s` (3, h, w):
+    straight colours, targets and slopes, the latter along the brush's texture if `along`.  `add` (4 + 3n, h, w) and
+    `keep` (h, w) are written.  `planes` int64 (3n,): where the planes of the n inks are in `old`, -1 for none; `gains`
+    (n,): what the op's own texture adds to each of them.
 
     Where the layer is not opaque, finer detail is mostly that of its alpha, and keeps its colour if A is the ratio of
     the new colour to the old.
     """
-    width = weight.shape[1]
-    c, t, s = np.empty((3, width), np.float32), np.empty((3, width), np.float32), np.empty((3, width), np.float32)
-    along = np.empty(width, np.float32)
     for y in range(weight.shape[0]):
-        straight(old[:4, y], c)
-        row = y if given.shape[1] > 1 else 0
-        along[:] = index[y]
-        _targets(code, c, colour, p, table, along, given[:, row], t, s)
         w, a, alpha = weight[y], keep[y], old[3, y]
-        for x in range(width):
-            sum_c, sum_t = c[0, x] + c[1, x] + c[2, x], t[0, x] + t[1, x] + t[2, x]
-            slope = (s[0, x] + s[1, x] + s[2, x]) * _THIRD
-            slope = slope if code != TEXTURE_RAMP else _ZERO
+        c0, c1, c2, t0, t1, t2 = c[0, y], c[1, y], c[2, y], t[0, y], t[1, y], t[2, y]
+        s0, s1, s2 = s[0, y], s[1, y], s[2, y]
+        for x in range(w.size):
+            sum_c, sum_t = c0[x] + c1[x] + c2[x], t0[x] + t1[x] + t2[x]
+            slope = _ZERO if along else (s0[x] + s1[x] + s2[x]) * _THIRD
             ratio = min(max(sum_t / max(sum_c, _TINY), _ZERO), _TWO) if alpha[x] > _ZERO else _ONE
             a[x] = snap(min(max(_ONE + w[x] * ((slope if alpha[x] >= _OPAQUE else ratio) - _ONE), -_ONE), _TWO))
         for channel in range(3):
-            v, b, target = old[channel, y], add[channel, y], t[channel]
-            for x in range(width):
+            v, b, target = old[channel, y], add[channel, y], t[channel, y]
+            for x in range(w.size):
                 b[x] = snap(v[x] + w[x] * (alpha[x] * target[x] - v[x])) - snap(a[x] * v[x])
         add[3, y] = _ZERO
-        _inks(code, old, planes, free, gains, y, t, s, a, add)
+        _inks(old, planes, free, gains, y, t, s, along, a, add)
 
 
 @njit(cache=True, nogil=True)
-def _inks(code, old, planes, free, gains, y, t, s, a, add):
+def _inks(old, planes, free, gains, y, t, s, along, a, add):
     """B of the ink planes of a row: the op's own texture goes on in them, to one half at most; none passes 2."""
     f, alpha = free[y], old[3, y]
     for i in range(planes.size):
         channel, gain = i % 3, gains[i // 3]
-        v, b, target, slope = old[channel, y], add[4 + i, y], t[channel], s[channel]
+        v, b, target, slope = old[channel, y], add[4 + i, y], t[channel, y], s[channel, y]
         before = old[max(planes[i], 0), y]
         there = _ONE if planes[i] >= 0 else _ZERO
         for x in range(f.size):
-            steep = alpha[x] * slope[x] if code == TEXTURE_RAMP else alpha[x] * target[x] - v[x]
+            steep = alpha[x] * slope[x] if along else alpha[x] * target[x] - v[x]
             left = snap(a[x] * before[x] * there)
             most = min(max(abs(left), _HALF), _INK)
             b[x] = min(max(left + snap(f[x] * gain * steep), -most), most) - left
