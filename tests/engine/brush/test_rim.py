@@ -126,5 +126,5 @@ def test_the_rims_colour_is_in_the_paint(ink, locked):
     assert (with_rim.add[(slice(None), *middle)] == plain.add[(slice(None), *middle)]).all()
     weight = with_rim.add[(3, *rim_at)]
     assert weight > 0.2
-    np.testing.assert_allclose(with_rim.add[(slice(0, 3), *rim_at)] / weight, [32 / 255, 0, 0], atol=0.06)
-    assert np.abs(with_rim.add[(slice(4, None), *rim_at)]).max(initial=0) < 0.05
+    np.testing.assert_allclose(with_rim.add[(slice(0, 3), *rim_at)] / weight, [32 / 255, 0, 0], atol=0.15)
+    assert np.abs(with_rim.add[(slice(4, None), *rim_at)]).max(initial=0) < 0.08
