@@ -11,7 +11,7 @@ import io
 import os
 import tempfile
 from collections import deque
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -29,11 +29,13 @@ from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted
 from engine.painting import grounds, pictures
 from engine.painting.atomic import replacing
+from engine.painting.cascade import Cascade
 from engine.painting.fault import FileError, WriteError
 from engine.painting.grounds import GroundEntry
+from engine.painting.implied import Tile, needed, ordered, without
 from engine.painting.limits import LIMITS
 from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Pack, PictureEntry, manifest_json
-from engine.painting.packing import Tile, encoded_size, grouped, pack
+from engine.painting.packing import grouped, pack
 from engine.painting.pngread import PngReader
 from engine.painting.pngstream import PngWriter
 from engine.painting.recording import Recording
@@ -284,9 +286,11 @@ class Plan:
             yield Job(name, lambda: ground.pixels)
 
     def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
-        tiles = grounds.painted_since(layer.pyramid)
+        tiles = ordered(grounds.painted_since(layer.pyramid))
         self._packs[layer.id] = []
-        yield from _pack_jobs(f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id])
+        yield from _pack_jobs(
+            f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], Cascade(layer.pyramid, needed(tiles))
+        )
 
     def _picture_jobs(self, source) -> Iterator[Job]:
         packs: list[Pack] = []
@@ -346,12 +350,16 @@ def _png_name(layer: Layer) -> str:
     return f"data/L{layer.id}.png"
 
 
-def _pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack]) -> Iterator[Job]:
+def _pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack], values: Cascade | None = None) -> Iterator[Job]:
+    """The packs of some tiles; `values` of their pyramid, if what ink implies of them may be left out."""
     for number, group in enumerate(grouped(tiles)):
         name = f"{stem}/{number}.tiles"
-        plain = sum(encoded_size(r.data.shape, 8 * r.data.itemsize) for _, r in group)
-        packs.append(Pack(name, len(group), plain))
-        yield Job(name, partial(pack, group))
+        packs.append(Pack(name, len(group), sum(record.data.nbytes for _, record in group)))
+        yield Job(name, partial(_packed, group, values))
+
+
+def _packed(group: Sequence[Tile], values: Cascade | None) -> bytes:
+    return pack([(key, record, None) for key, record in group] if values is None else without(values, group))
 
 
 def _told(recording: Recording) -> bytes:

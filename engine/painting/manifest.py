@@ -19,6 +19,7 @@ from engine.numeric.address import TILE, Rect
 from engine.painting import grounds
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.grounds import GroundEntry
+from engine.painting.implied import TEXTURES
 from engine.painting.recording import SIDE_LIMIT
 from engine.painting.strictjson import Fields, FormatError
 from engine.painting.textures import Texture
@@ -26,7 +27,7 @@ from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 from engine.texture.table import TextureError
 
-FORMAT = 1
+FORMAT = 2  # 1: no tile without the colour that its ink implies; no `texture`
 MANIFEST = "inkfall/manifest.json"
 RECORDING = "inkfall/recording.jsonl"
 _CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
@@ -65,6 +66,7 @@ class Manifest:
     textures: Mapping[str, tuple[str, Map, str | None]]  # name -> kind, parameters, sha of its picture
     pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
     members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
+    texture: int = TEXTURES  # the revision of textures' pixels by which colour was left out
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """The named textures; FormatError if one cannot be made."""
@@ -95,6 +97,7 @@ def manifest_json(
     frame = painting.frame
     return {
         "inkfall": FORMAT,
+        "texture": TEXTURES,
         **_CONSTANTS,
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
@@ -168,6 +171,7 @@ def parse_manifest(value: Any) -> Manifest:
         {name: _texture(v, f"textures.{name}") for name, v in _object(members, "textures").items()},
         {sha: _picture(sha, v) for sha, v in _object(members, "pictures").items()},
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
+        TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
     )
 
 

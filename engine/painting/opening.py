@@ -7,7 +7,7 @@ import io
 import os
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -19,10 +19,11 @@ from engine.canvas.layers import LayerError
 from engine.canvas.store import Pyramid, Record
 from engine.painting import grounds, pictures
 from engine.painting.fault import FileError, shown
+from engine.painting.implied import TEXTURES, Changed, Coded, restored
 from engine.painting.imports import STACK, Opened, read_raster
 from engine.painting.limits import LIMITS, Limits, memory_cap
 from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack, PictureEntry, parse_manifest
-from engine.painting.packing import Tile, unpack
+from engine.painting.packing import unpack
 from engine.painting.recording import Recording, read_from
 from engine.painting.rendering import Stop, check
 from engine.painting.stackxml import parse_stack
@@ -151,11 +152,10 @@ class _Opening:
             laid = {number: pool.submit(self._ground, number, manifest) for number in manifest.grounds}
             for layer in list(layers.layers(root)):
                 check(self._cancelled)
-                levels = self._levels(manifest.packs[layer.id], manifest, sources)
-                if layer.id in laid:
-                    pyramid = grounds.with_tiles(laid.pop(layer.id).result(), levels)
-                else:
-                    pyramid = grounds.with_tiles(Pyramid(), levels)
+                tiles = list(self._tiles(manifest.packs[layer.id], manifest, sources))
+                ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
+                pyramid = grounds.with_tiles(ground, self._levels(tiles))
+                self._colour(pyramid, tiles, manifest)
                 root = layers.with_pyramid(root, layer.name, pyramid)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
@@ -171,22 +171,33 @@ class _Opening:
             png = self._archive.read(found.member, manifest.members[found.member][0])
         return grounds.restored(found, png, f"{self._archive.name}: member {shown(found.member)}", self._limits)
 
-    def _levels(
-        self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]
-    ) -> dict[int, dict[tuple[int, int], Record]]:
+    def _levels(self, tiles: Sequence[Coded]) -> dict[int, dict[tuple[int, int], Record]]:
         levels: dict[int, dict[tuple[int, int], Record]] = {}
-        for key, record in self._tiles(packs, manifest, sources):
+        for key, record, _ in tiles:
             level = levels.setdefault(key.level, {})
             if (key.x, key.y) in level:
                 raise FileError(self._archive.name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
             level[key.x, key.y] = record
         return levels
 
+    def _colour(self, pyramid: Pyramid, tiles: Sequence[Coded], manifest: Manifest) -> None:
+        """Puts back the colour that ink implies."""
+        try:
+            with ThreadPoolExecutor(WORKERS, "imply") as pool:
+                restored(pyramid, tiles, pool.map)
+        except Changed as error:
+            if manifest.texture == TEXTURES:
+                raise FileError(self._archive.name, str(error)) from None
+            told = f"{error} (by textures of revision {manifest.texture}, these are of {TEXTURES})"
+            raise FileError(self._archive.name, told) from None
+
     def _picture(self, entry: PictureEntry, manifest: Manifest) -> ImageSource:
-        parts = list(self._tiles(entry.packs, manifest, {}))
+        parts = [(key, record) for key, record, _ in self._tiles(entry.packs, manifest, {})]
         return pictures.assembled(entry.name, entry.sha, entry.size, parts, self._archive.name)
 
-    def _tiles(self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]) -> Iterator[Tile]:
+    def _tiles(
+        self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]
+    ) -> Iterator[Coded]:
         """All tiles of some packs; the file is read here, unpacking goes on beside."""
         waiting: deque[tuple[Pack, Future]] = deque()
         with ThreadPoolExecutor(WORKERS, "open") as pool:
@@ -202,7 +213,7 @@ class _Opening:
                 for _, future in waiting:
                     future.cancel()
 
-    def _next(self, waiting: deque) -> list[Tile]:
+    def _next(self, waiting: deque) -> list[Coded]:
         pack, future = waiting.popleft()
         tiles = future.result()
         self._done += pack.plain
@@ -217,7 +228,7 @@ class _Opening:
         with self._reading:
             return self._archive.read(pack.member, size), sha
 
-    def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Tile]:
+    def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Coded]:
         data, sha = stored
         where = f"{self._archive.name}: member {shown(pack.member)}"
         if hashlib.sha256(data).hexdigest() != sha:

@@ -2,36 +2,37 @@
 
 A pack is little-endian: 8 bytes of magic, the length of the head (uint32), the head, and the blocks.  The head is one
 JSON object: `inks`, the keys of all instances in the pack; `tiles`, one list each of
-[level, x, y, x0, y0, x1, y1, bits, [indices of inks]], addresses in hexadecimal of any length; `blocks`, one list each
-of [number of tiles, plain bytes, stored bytes].  A block is a zlib stream of its tiles one after another.
-
-A tile is, for each of its planes, one byte naming the difference taken (0 none, 1 from the left, 2 from above), then
-for each plane all low bytes, all next bytes, and so on, of the zigzag-coded differences (wrapping at 16 or 32 bits).
+[level, x, y, x0, y0, x1, y1, bits, [indices of inks]], addresses in hexadecimal of any length, and where ink implies
+the tile's colour (engine/painting/implied.py) three entries more, [indices of those inks], [terms], CRC-32; `blocks`,
+one list each of [number of tiles, plain bytes, stored bytes].  A block is a zlib stream of a run of tiles
+(engine/painting/tilecode.py).
 """
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from isal import isal_zlib
-from numba import njit
 
 from engine.canvas.store import Record
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.painting import firstpacks, tilecode
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.fault import FileError, shown
+from engine.painting.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.painting.inflate import DeflateError, Inflated
 from engine.painting.strictjson import FormatError, dumps, loads
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
-MAGIC = b"inkfall\x01"
+MAGIC = b"inkfall\x02"
 TILES = 256  # in a pack
-BYTES = 32 << 20  # plain, of all tiles of a pack, about
-BLOCK = 1 << 20  # plain, of all tiles of a block, about
+BYTES = 32 << 20  # of all tiles of a pack, about
+BLOCK = 1 << 22  # of all tiles of a block, about
 HEAD_CAP = 24 << 20  # bytes of the head
 BLOCK_CAP = 256 << 20  # what a block may claim: one tile of a thousand inks fits
 LEVEL_CAP = LEVEL_LIMIT + 256  # a stroke changes some levels coarser than its own
@@ -40,135 +41,20 @@ RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 LEVEL = 1
 
-Tile = tuple[TileKey, Record]
-
-
-# ---- one tile ----
-
-
-@njit(cache=True, nogil=True)
-def _best_difference(plane):
-    """0, 1 or 2: which differences of a plane (h, w) have the smallest sum of absolute values."""
-    height, width = plane.shape
-    as_is, left, above = np.int64(0), np.int64(0), np.int64(0)
-    for y in range(height):
-        row = plane[y]
-        before = plane[max(y - 1, 0)]
-        here = np.int64(0)
-        for i in range(width):
-            here += abs(np.int64(row[i]))
-        as_is += here
-        left += abs(np.int64(row[0]))
-        for i in range(1, width):
-            left += abs(np.int64(row[i]) - np.int64(row[i - 1]))
-        if y == 0:
-            above += here
-        else:
-            for i in range(width):
-                above += abs(np.int64(row[i]) - np.int64(before[i]))
-    if above < min(left, as_is):
-        return 2
-    return 1 if left < as_is else 0
-
-
-@njit(cache=True, nogil=True)
-def _difference(plane, y, kind, line):
-    """Row `y` of a plane less what `kind` names, wrapping, into `line`."""
-    row = plane[y]
-    width = row.size
-    if kind == 1:
-        line[0] = row[0]
-        for i in range(1, width):
-            line[i] = row[i] - row[i - 1]
-    elif kind == 2 and y > 0:
-        before = plane[y - 1]
-        for i in range(width):
-            line[i] = row[i] - before[i]
-    else:
-        for i in range(width):
-            line[i] = row[i]
-
-
-@njit(cache=True, nogil=True)
-def _encode(data, out):
-    """`data` int16 or int32 (planes, h, w), bytes into `out`; gives the number of bytes."""
-    planes, height, width = data.shape
-    size = height * width
-    count = data.itemsize
-    top = 8 * count - 1
-    line = np.empty(width, data.dtype)
-    for p in range(planes):
-        kind = _best_difference(data[p])
-        out[p] = kind
-        base = planes + p * size * count
-        for y in range(height):
-            _difference(data[p], y, kind, line)
-            for b in range(count):
-                place = out[base + b * size + y * width : base + b * size + (y + 1) * width]
-                shift = 8 * b
-                for i in range(width):
-                    v = np.int64(line[i])
-                    place[i] = np.uint8(((v << 1) ^ (v >> top)) >> shift)
-    return planes + planes * size * count
-
-
-@njit(cache=True, nogil=True)
-def _whole_row(raw, start, size, row):
-    """One row of differences from its bytes, which lie `size` apart from `start` on."""
-    width = row.size
-    low = raw[start : start + width]
-    high = raw[start + size : start + size + width]
-    if row.itemsize == 2:
-        for i in range(width):
-            z = np.int32(low[i]) | (np.int32(high[i]) << 8)
-            row[i] = (z >> 1) ^ -(z & 1)
-        return
-    third = raw[start + 2 * size : start + 2 * size + width]
-    fourth = raw[start + 3 * size : start + 3 * size + width]
-    for i in range(width):
-        wide = np.int64(low[i]) | (np.int64(high[i]) << 8) | (np.int64(third[i]) << 16) | (np.int64(fourth[i]) << 24)
-        row[i] = (wide >> 1) ^ -(wide & 1)
-
-
-@njit(cache=True, nogil=True)
-def _decode(raw, out):
-    """The inverse of `_encode`: bytes `raw` into `out`; gives the largest |value|, or -1 if a difference is unknown."""
-    planes, height, width = out.shape
-    size = height * width
-    largest = np.int64(0)
-    for p in range(planes):
-        kind = raw[p]
-        if kind > 2:
-            return np.int64(-1)
-        base = planes + p * size * out.itemsize
-        for y in range(height):
-            row = out[p, y]
-            _whole_row(raw, base + y * width, size, row)
-            if kind == 1:
-                for i in range(1, width):
-                    row[i] += row[i - 1]
-            elif kind == 2 and y > 0:
-                before = out[p, y - 1]
-                for i in range(width):
-                    row[i] += before[i]
-            for i in range(width):
-                largest = max(largest, abs(np.int64(row[i])))
-    return largest
-
-
-def encoded_size(shape: tuple[int, ...], bits: int) -> int:
-    """Plain bytes of a tile of `shape` (planes, h, w)."""
-    return shape[0] + shape[0] * shape[1] * shape[2] * bits // 8
-
 
 # ---- writing ----
 
 
 def grouped(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
     """The tiles in runs of a pack's size."""
+    return _runs(tiles, BYTES, TILES)
+
+
+def _runs(tiles: Sequence, most: int, count: int) -> Iterator[Sequence]:
+    """Runs of at most `count` tiles whose data take no more than `most` bytes, if they are several."""
     start, size = 0, 0
-    for stop, (_, record) in enumerate(tiles):
-        if stop > start and (stop - start >= TILES or size + record.data.nbytes > BYTES):
+    for stop, (_, record, *_) in enumerate(tiles):
+        if stop > start and (stop - start >= count or size + record.data.nbytes > most):
             yield tiles[start:stop]
             start, size = stop, 0
         size += record.data.nbytes
@@ -176,46 +62,57 @@ def grouped(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
         yield tiles[start:]
 
 
-def pack(tiles: Sequence[Tile]) -> bytes:
+def pack(tiles: Sequence[Coded]) -> bytes:
     """The pack of some tiles: the same tiles in the same order give the same bytes."""
     inks: dict[Instance, int] = {}
     lines, blocks, bodies = [], [], []
-    for key, record in tiles:
-        indices = [inks.setdefault(ink, len(inks)) for ink in record.inks]
+
+    def indices(found: Sequence[Instance]) -> list[int]:
+        return [inks.setdefault(ink, len(inks)) for ink in found]
+
+    for key, record, implied in tiles:
         bits = 8 * record.data.itemsize
-        lines.append([key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, bits, indices])
-    for run in _runs(tiles):
-        plain = np.empty(sum(encoded_size(r.data.shape, 8 * r.data.itemsize) for _, r in run), np.uint8)
-        filled = 0
-        for _, record in run:
-            filled += _encode(np.ascontiguousarray(record.data), plain[filled:])
-        bodies.append(isal_zlib.compress(plain.data, LEVEL))
-        blocks.append([len(run), plain.size, len(bodies[-1])])
+        line = [key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, bits, indices(record.inks)]
+        more = [] if implied is None else [indices(implied.inks), list(implied.terms), implied.crc]
+        lines.append([*line, *more])
+    for run in _runs(tiles, BLOCK, TILES):
+        plain = tilecode.encoded([record.data for _, record, _ in run])
+        bodies.append(isal_zlib.compress(plain, LEVEL))
+        blocks.append([len(run), len(plain), len(bodies[-1])])
     head = dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode()
     return b"".join([MAGIC, struct.pack("<I", len(head)), head, *bodies])
-
-
-def _runs(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
-    start, size = 0, 0
-    for stop, (_, record) in enumerate(tiles):
-        if stop > start and size + record.data.nbytes > BLOCK:
-            yield tiles[start:stop]
-            start, size = stop, 0
-        size += record.data.nbytes
-    if tiles:
-        yield tiles[start:]
 
 
 # ---- reading ----
 
 
+@dataclass(frozen=True, slots=True)
+class _Format:
+    """How blocks of tiles are read: `decoded` as `tilecode.decoded`; the plain bytes of a tile (planes, h, w) of 16 or
+    32 bits as the manifest counts them; whether those of a block are just that many."""
+
+    decoded: Callable[[np.ndarray, Sequence[np.ndarray]], int]
+    size: Callable[[tuple[int, int, int], int], int]
+    exact: bool
+
+
+def _data_size(shape: tuple[int, int, int], bits: int) -> int:
+    return shape[0] * shape[1] * shape[2] * bits // 8
+
+
+_FORMATS = {
+    firstpacks.MAGIC: _Format(firstpacks.decoded, firstpacks.encoded_size, exact=True),
+    MAGIC: _Format(tilecode.decoded, _data_size, exact=False),
+}
+
+
 def unpack(
     data: bytes, name: str, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None = None
-) -> list[Tile]:
+) -> list[Coded]:
     """The tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
 
-    `announced`: the numbers of tiles and of plain bytes there must be.  FileError if anything is not as it should be,
-    before memory is taken for it; `name` is the file's and the member's.
+    `announced`: the numbers of tiles and of bytes there must be.  FileError if anything is not as it should be, before
+    memory is taken for it; `name` is the file's and the member's.
     """
     try:
         return _unpack(data, ink_of, announced)
@@ -232,50 +129,80 @@ def _need(right: bool, what: str, found: object) -> None:
         raise _Fault(f"{what}: found {shown(found)}")
 
 
-def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None) -> list[Tile]:
-    _need(data[:8] == MAGIC and len(data) >= 12, "start of a pack of tiles", data[:8])
+@dataclass(frozen=True, slots=True)
+class _Head:
+    """What the head of a pack tells of one tile; `shape` is that of its data."""
+
+    key: TileKey
+    rect: Rect
+    shape: tuple[int, int, int]
+    bits: int
+    inks: tuple[Instance, ...]
+    implied: Implied | None
+
+
+def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None) -> list[Coded]:
+    _need(data[:8] in _FORMATS and len(data) >= 12, "start of a pack of tiles", data[:8])
+    form = _FORMATS[data[:8]]
     (length,) = struct.unpack_from("<I", data, 8)
     start = 12 + length
     _need(start <= len(data), "length of the head", length)
     head = loads(data[12:start], cap=HEAD_CAP)
-    _need(
-        isinstance(head, dict) and all(isinstance(head.get(k), list) for k in ("inks", "tiles", "blocks")), "head", ""
-    )
+    lists = isinstance(head, dict) and all(isinstance(head.get(k), list) for k in ("inks", "tiles", "blocks"))
+    _need(lists, "head", "")
     inks = [ink_of(key) for key in head["inks"]]
     heads = [_tile_head(line, inks) for line in head["tiles"]]
-    found = len(heads), sum(encoded_size(shape, bits) for _, _, shape, bits, _ in heads)
+    found = len(heads), sum(form.size(h.shape, h.bits) for h in heads)
     _need(announced is None or found == announced, "tiles and bytes of a pack", found)
-    tiles: list[Tile] = []
+    tiles: list[Coded] = []
     for block in head["blocks"]:
         whole = isinstance(block, list) and len(block) == 3 and all(type(v) is int and v >= 0 for v in block)
         _need(whole, "block", block)
         count, plain, stored = block
         run = heads[len(tiles) : len(tiles) + count]
-        expected = sum(encoded_size(shape, bits) for _, _, shape, bits, _ in run)
-        _need(len(run) == count and plain == expected and plain <= BLOCK_CAP, "block", block)
+        _need(len(run) == count and plain <= _most(run, form) <= BLOCK_CAP, "block", block)
+        _need(not form.exact or plain == _most(run, form), "block", block)
         _need(start + stored <= len(data), "stored bytes of a block", stored)
-        tiles.extend(_block(memoryview(data)[start : start + stored], plain, run))
+        tiles.extend(_block(memoryview(data)[start : start + stored], plain, run, form))
         start += stored
     _need(start == len(data) and len(tiles) == len(heads), "end of a pack", (start, len(tiles)))
     return tiles
 
 
-Head = tuple[TileKey, Rect, tuple[int, int, int], int, tuple[Instance, ...]]
+def _most(run: Sequence[_Head], form: _Format) -> int:
+    """Plain bytes that a block of these tiles can have: where rows have widths, also one byte for each."""
+    size = sum(form.size(h.shape, h.bits) for h in run)
+    return size if form.exact else size + sum(tilecode.code_size(h.shape) for h in run)
 
 
-def _tile_head(line: Any, inks: list[Instance]) -> Head:
-    _need(isinstance(line, list) and len(line) == 9, "tile", line)
-    level, x, y, *corners, bits, indices = line
+def _tile_head(line: Any, inks: list[Instance]) -> _Head:
+    _need(isinstance(line, list) and len(line) in (9, 12), "tile", line)
+    level, x, y, *corners, bits, indices = line[:9]
     _need(type(level) is int and abs(level) <= LEVEL_CAP, "level of a tile", level)
     key = TileKey(level, _address(x), _address(y))
     _need(all(type(v) is int and 0 <= v <= TILE for v in corners), "rectangle of a tile", corners)
     rect = Rect(*corners)
     _need(not rect.empty, "rectangle of a tile", corners)
     _need(type(bits) is int and bits in KINDS, "bits of a tile", bits)
+    there = _chosen(indices, inks)
+    implied = _implied(line[9:], level, inks) if len(line) == 12 else None
+    return _Head(key, rect, (COLOURS + 3 * len(there), rect.height, rect.width), bits, there, implied)
+
+
+def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
     sound = isinstance(indices, list) and all(type(i) is int and 0 <= i < len(inks) for i in indices)
     _need(sound and len(set(indices)) == len(indices), "inks of a tile", indices)
-    there = tuple(inks[i] for i in indices)
-    return key, rect, (COLOURS + 3 * len(there), rect.height, rect.width), bits, there
+    return tuple(inks[i] for i in indices)
+
+
+def _implied(entries: list[Any], level: int, inks: list[Instance]) -> Implied:
+    indices, terms, crc = entries
+    chosen = _chosen(indices, inks)
+    _need(0 < len(chosen) <= MOST and all(ink.base - level <= ABOVE for ink in chosen), "inks that imply", indices)
+    sound = isinstance(terms, list) and len(terms) == 3 * (1 + 2 * len(chosen))
+    _need(sound and all(type(v) is int and abs(v) <= TERM_CAP for v in terms), "terms of a tile", terms)
+    _need(type(crc) is int and 0 <= crc < 1 << 32, "CRC of a tile", crc)
+    return Implied(chosen, tuple(terms), crc)
 
 
 def _address(text: Any) -> int:
@@ -285,7 +212,7 @@ def _address(text: Any) -> int:
     return int(text, 16)
 
 
-def _block(stored: memoryview, plain: int, run: Sequence[Head]) -> Iterator[Tile]:
+def _block(stored: memoryview, plain: int, run: Sequence[_Head], form: _Format) -> Iterator[Coded]:
     raw = np.empty(plain, np.uint8)
     stream = Inflated(iter([bytes(stored)]))
     try:
@@ -294,12 +221,12 @@ def _block(stored: memoryview, plain: int, run: Sequence[Head]) -> Iterator[Tile
     except DeflateError as error:
         raise _Fault(f"block: damaged ({error})") from error
     _need(complete, "bytes in a block", filled)
-    at = 0
-    for key, rect, shape, bits, inks in run:
-        data = np.empty(shape, KINDS[bits])
-        size = encoded_size(shape, bits)
-        largest = _decode(raw[at : at + size], data)
-        _need(0 <= largest <= RESIDUAL_CAP, "largest residual of a tile", largest)
-        at += size
-        data.flags.writeable = False
-        yield key, Record(rect, data, inks, 0)
+    tiles = [np.empty(head.shape, KINDS[head.bits]) for head in run]
+    largest = form.decoded(raw, tiles)
+    _need(largest >= 0, "rows of a block", "others than its tiles have")
+    _need(largest < 2 * RESIDUAL_CAP, "largest residual of a block", largest)
+    for head, data in zip(run, tiles, strict=True):
+        seen = data.view()  # what is implied is still to be put into `data`
+        seen.flags.writeable = False
+        data.flags.writeable = head.implied is not None
+        yield head.key, Record(head.rect, seen, head.inks, 0), head.implied

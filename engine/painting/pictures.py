@@ -11,8 +11,9 @@ from engine.canvas import layers
 from engine.canvas.store import Record
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.grid import Q
-from engine.painting import packing
 from engine.painting.fault import FileError
+from engine.painting.implied import Tile
+from engine.painting.packing import RESIDUAL_CAP
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
@@ -37,11 +38,11 @@ def _collect(source: Any, found: dict[str, ImageSource]) -> None:
         found[source.sha] = source
 
 
-def tiles(source: ImageSource) -> list[packing.Tile]:
+def tiles(source: ImageSource) -> list[Tile]:
     """A picture on the grid, cut into tiles of whole numbers; ValueError if it does not lie on the grid."""
     assert source.data is not None
     steps = np.rint(source.data / np.float32(Q))
-    if not (np.array_equal(steps * np.float32(Q), source.data) and np.abs(steps).max() <= packing.RESIDUAL_CAP):
+    if not (np.array_equal(steps * np.float32(Q), source.data) and np.abs(steps).max() <= RESIDUAL_CAP):
         raise ValueError(f"picture {source.name!r}: values off the grid of 2^-16")
     return [
         (key, Record(Rect(0, 0, place.width, place.height), _cut(steps, place), (), 0))
@@ -59,7 +60,7 @@ def _cut(steps: np.ndarray, place: Rect) -> np.ndarray:
     return np.ascontiguousarray(steps[:, place.y0 : place.y1, place.x0 : place.x1], np.int32)
 
 
-def assembled(name: str, sha: str, size: tuple[int, int], parts: list[packing.Tile], where: str) -> ImageSource:
+def assembled(name: str, sha: str, size: tuple[int, int], parts: list[Tile], where: str) -> ImageSource:
     """The picture of `size` (width, height) again; FileError if its tiles do not cover exactly that."""
     width, height = size
     data = np.empty((4, height, width), np.float32)

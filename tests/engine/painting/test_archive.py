@@ -335,7 +335,7 @@ def test_other_merged_pictures_change_nothing(session, members, tmp_path):
 
 
 def test_a_newer_format_shows_its_pictures(members, tmp_path):
-    manifest = json.loads(members["inkfall/manifest.json"]) | {"inkfall": 2}
+    manifest = json.loads(members["inkfall/manifest.json"]) | {"inkfall": 3}
     found = opened(rewritten(members, {"inkfall/manifest.json": json.dumps(manifest).encode()}), tmp_path)
     assert not found.native
     assert found.notes[0] == opening.NEWER

@@ -13,6 +13,7 @@ from engine.canvas.store import Record
 from engine.numeric.address import Rect, TileKey
 from engine.painting import packing
 from engine.painting.fault import FileError
+from engine.painting.implied import TERM_CAP, Implied
 from engine.painting.packing import grouped, pack, unpack
 from engine.texture.table import from_key, instance
 
@@ -37,12 +38,13 @@ def tile(key, rect, inks=(), dtype=np.int16, seed=0, spread=None):
     rng = np.random.default_rng(seed)
     shape = (4 + 3 * len(inks), rect.height, rect.width)
     limit = spread or (np.iinfo(np.int16).max if dtype == np.int16 else packing.RESIDUAL_CAP)
-    return key, Record(rect, rng.integers(-limit, limit + 1, shape).astype(dtype), inks, 7)
+    return key, Record(rect, rng.integers(-limit, limit + 1, shape).astype(dtype), inks, 7), None
 
 
 def same(a, b):
     return (
         a[0] == b[0]
+        and a[2] == b[2]
         and a[1].rect == b[1].rect
         and a[1].inks == b[1].inks
         and a[1].data.dtype == b[1].data.dtype
@@ -68,41 +70,28 @@ def test_round_trip(level, x, corners, inks, dtype, spread, seed):
     data = pack(tiles)
     back = unpack(data, "a", ink_of)
     assert all(same(a, b) for a, b in zip(tiles, back, strict=True))
-    assert all(record.depth == 0 and not record.data.flags.writeable for _, record in back)
+    assert all(record.depth == 0 and not record.data.flags.writeable for _, record, _ in back)
     assert pack(back) == data
 
 
-def plain_difference(plane, kind):
-    out = plane.astype(np.int64)
-    if kind == 1:
-        out[:, 1:] -= plane[:, :-1]
-    if kind == 2:
-        out[1:] -= plane[:-1]
-    return out
+def implying(tile, terms, crc=7, inks=INKS[:1]):
+    return *tile[:2], Implied(inks, terms, crc)
 
 
-@pytest.mark.parametrize("dtype", [np.int16, np.int32])
-def test_encoding_is_the_plain_form(dtype):
-    """The smallest of three differences, wrapped, zigzag, bytes apart: in NumPy."""
-    y, x = np.mgrid[0:9, 0:7]
-    planes = [x * 40 + y * 3, x * 3 + y * 40, (x + y) % 2 * 9 - 4, x * y - 20]
-    data = np.array(planes).astype(dtype)
-    bits = 8 * data.itemsize
-    expected, kinds = [], []
-    for plane in data:
-        kind = min(range(3), key=lambda k: (np.abs(plain_difference(plane, k)).sum(), k))
-        kinds.append(kind)
-        d = plain_difference(plane, kind).astype(dtype).astype(np.int64)
-        zigzag = ((d << 1) ^ (d >> (bits - 1))) & ((1 << bits) - 1)
-        expected += [((zigzag >> s) & 255).astype(np.uint8).tobytes() for s in range(0, bits, 8)]
-    out = np.empty(packing.encoded_size(data.shape, bits), np.uint8)
-    assert packing._encode(data, out) == out.size
-    assert kinds == [2, 1, 0, kinds[3]]
-    assert out.tobytes() == bytes(kinds) + b"".join(expected)
+@given(st.lists(st.integers(-TERM_CAP, TERM_CAP), min_size=9, max_size=9), st.integers(0, (1 << 32) - 1))
+@settings(deadline=None, max_examples=30)
+def test_what_is_implied_comes_back(terms, crc):
+    one = implying(tile(TileKey(3, 1, -2), Rect(0, 0, 4, 4)), tuple(terms), crc)
+    other = tile(TileKey(3, 2, -2), Rect(0, 0, 4, 4), INKS[1:2])
+    back = unpack(pack([one, other]), "a", ink_of)
+    assert same(one, back[0])
+    assert same(other, back[1])
+    assert back[0][1].data.base.flags.writeable
+    assert not back[0][1].data.flags.writeable
 
 
 def test_groups_keep_order_and_size():
-    tiles = [tile(TileKey(0, i, 0), Rect(0, 0, 1, 1)) for i in range(600)]
+    tiles = [tile(TileKey(0, i, 0), Rect(0, 0, 1, 1))[:2] for i in range(600)]
     groups = list(grouped(tiles))
     assert [len(g) for g in groups] == [256, 256, 88]
     assert [t for g in groups for t in g] == tiles
@@ -118,7 +107,12 @@ def test_a_tile_of_many_inks_fills_a_block_of_its_own():
 
 # ---- what lies ----
 
-GOOD = pack([tile(TileKey(2, -3, 4), Rect(1, 2, 4, 6), INKS[:1]), tile(TileKey(2, -2, 4), Rect(0, 0, 3, 3))])
+GOOD = pack(
+    [
+        tile(TileKey(2, -3, 4), Rect(1, 2, 4, 6), INKS[:1]),
+        implying(tile(TileKey(2, -2, 4), Rect(0, 0, 3, 3)), tuple(range(9))),
+    ]
+)
 
 
 def remade(change, body=None):
@@ -171,6 +165,15 @@ HOSTILE = {
     "bytes left over": GOOD + b"x",
     "not deflate": remade(lambda head: None, body=bytes(200)),
     "tile list cut": setting("tiles", 0, value=[1, 2]),
+    "no ink implies": setting("tiles", 1, 9, value=[]),
+    "unknown ink implies": setting("tiles", 1, 9, value=[1]),
+    "ink of a level far below implies": setting("tiles", 1, 0, value=0),
+    "too few terms": setting("tiles", 1, 10, value=[0] * 8),
+    "terms as numbers": setting("tiles", 1, 10, value=[0.5] * 9),
+    "term beyond the range": setting("tiles", 1, 10, value=[1 << 41] * 9),
+    "terms missing": setting("tiles", 1, 10, value=None),
+    "CRC": setting("tiles", 1, 11, value=-1),
+    "implied list cut": setting("tiles", 1, value=[2, "-2", "4", 0, 0, 3, 3, 16, [], [0]]),
 }
 
 
@@ -184,7 +187,7 @@ def test_hostile(name):
 
 
 def test_residuals_beyond_the_range_of_values_are_refused():
-    huge = TileKey(0, 0, 0), Record(Rect(0, 0, 1, 1), np.full((4, 1, 1), 1 << 23, np.int32), (), 0)
+    huge = TileKey(0, 0, 0), Record(Rect(0, 0, 1, 1), np.full((4, 1, 1), 1 << 23, np.int32), (), 0), None
     with pytest.raises(FileError, match="largest residual"):
         unpack(pack([huge]), "a", ink_of)
 

@@ -1,0 +1,65 @@
+"""Values of many rectangles of a pyramid: what they have in common, the coarser levels, is evaluated once."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+
+from engine.canvas.evaluate import step
+from engine.canvas.store import Pyramid
+from engine.numeric.address import Rect
+from engine.texture.planes import Planes
+
+SMALL = 1 << 21  # pixels of a level up to which it is held as a whole
+KEPT = 16  # levels held at a time: between them and the coarsest there may be many
+
+Held = tuple[Rect, Planes | None]
+
+
+class Cascade:
+    """`needed`: the even rectangle of each level within which values will be asked for.  Safe for several threads.
+
+    A level is evaluated when a finer one is, at the latest, and must not change after that.
+    """
+
+    def __init__(self, pyramid: Pyramid, needed: Mapping[int, Rect]) -> None:
+        self.pyramid = pyramid
+        self._coarsest = pyramid.coarsest if pyramid.coarsest is not None else 0
+        self._rects = dict(needed)
+        finest = max(needed, default=self._coarsest)
+        for level in range(finest, self._coarsest, -1):
+            above = self._rects.get(level - 1, Rect(0, 0, 0, 0))
+            self._rects[level - 1] = above.union(self._rects[level].parents().evened())
+        self._held: dict[int, Held] = {}
+        self._next = self._coarsest
+        self._lock = threading.Lock()
+
+    def at(self, level: int, rect: Rect) -> Planes | None:
+        """What the even `rect` of `level` shows, None where nothing lies."""
+        self.hold(level - 1)
+        return self._at(level, rect)
+
+    def hold(self, level: int) -> None:
+        """Evaluates all levels down to this one of which little enough is needed to hold it as a whole."""
+        with self._lock:
+            for k in range(self._next, level + 1):
+                rect = self._rects.get(k)
+                if rect is not None and rect.area <= SMALL:
+                    self._held[k] = rect, self._at(k, rect)
+                self._held.pop(k - KEPT, None)
+            self._next = max(self._next, level + 1)
+
+    def _at(self, level: int, rect: Rect) -> Planes | None:
+        rects, above = [rect], None
+        for k in range(level - 1, self._coarsest - 1, -1):
+            parents = rects[-1].parents().evened()
+            above = self._held.get(k)
+            if above is not None and above[0].union(parents) == above[0]:
+                break
+            rects.append(parents)
+            above = None
+        at, value = above if above is not None else (rects[-1].parents(), None)
+        for k, inner in zip(range(level - len(rects) + 1, level + 1), reversed(rects), strict=True):
+            value = step(self.pyramid, value, at, k, inner)
+            at = inner
+        return value

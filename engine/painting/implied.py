@@ -1,0 +1,203 @@
+"""What ink implies of a tile's colour: textured paint is colour and amplitude times texture, and a file need not say
+twice what the texture is.
+
+Where strokes of ink lie, colour is close to
+
+    v_c = p_c alpha + sum over inks i of (a_ic + s_ic alpha) S_i + q_ic a_ic
+
+with the amplitudes a, the texture's appearance S, and numbers p, q, s that are the same for a whole tile: p and q are
+the brushes' colours, s what rounding took from the amplitudes.  (C + a s (X - C), for all strokes of one X and a, has
+that form exactly; engine/brush/ink.py.)  At levels coarser than an ink's base level its appearance is the mean of
+the base level's (rule U of the canvas).  A file holds p, q, s and what is left: mostly nothing, or a rounding.
+
+`without` takes colour out of the records of a pyramid, `restored` puts it back, level by level from the coarsest on,
+since the sum is about values, and the value of a level stands on the coarser ones.  What S is must never change for a
+texture in a file: each tile carries the CRC-32 of its colour.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import groupby
+
+import numpy as np
+from isal import isal_zlib
+
+from engine.canvas.store import Pyramid, Record
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.pyramid import reduce
+from engine.painting import impliedkernels as kernels
+from engine.painting.cascade import Cascade
+from engine.texture.planes import COLOURS, Planes
+from engine.texture.record import Instance
+
+TEXTURES = 1  # raised when a texture's pixels change: what older files imply is then another picture
+ABOVE = 2  # levels above an ink's base for which its appearance is worked out: 16 pixels of it for one
+MOST = 3  # inks of a tile
+STRIDE = 4  # of the pixels by which terms are found,
+FEW = 1 << 12  # unless a tile has no more than these
+SQUARE = 4  # tiles along the side of a square that is evaluated at a time
+NOTHING = Rect(0, 0, 0, 0)
+ONE = 1 << 30  # unit of p, q, s
+TERM_CAP = 1 << 40  # |p|, |q|, |s| in that unit
+
+Tile = tuple[TileKey, Record]
+
+
+@dataclass(frozen=True, slots=True)
+class Implied:
+    """What was taken out of a tile's colour: the inks, for red, green and blue the terms p, then q and s of each ink,
+    in units of 2^-30, and the CRC-32 of the three planes of colour before, little-endian."""
+
+    inks: tuple[Instance, ...]
+    terms: tuple[int, ...]
+    crc: int
+
+    @property
+    def factors(self) -> np.ndarray:
+        """float32 (3, 1 + 2n)."""
+        return (np.array(self.terms, np.float64) / ONE).astype(np.float32).reshape(3, 1 + 2 * len(self.inks))
+
+
+Coded = tuple[TileKey, Record, Implied | None]
+
+
+class Changed(ValueError):
+    """Colour put back is not what was taken out."""
+
+
+def ordered(tiles: Sequence[Tile]) -> list[Tile]:
+    """The tiles from the coarsest level on, those of a square together."""
+    return sorted(tiles, key=lambda tile: (*_square(tile[0]), tile[0].y, tile[0].x))
+
+
+def _square(key: TileKey) -> tuple[int, int, int]:
+    return key.level, key.y // SQUARE, key.x // SQUARE
+
+
+def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
+    """Tiles of a pyramid on which nothing waits, the colour that their ink implies taken out where that leaves less."""
+    out: list[Coded] = []
+    for _, square in groupby(tiles, key=lambda tile: _square(tile[0])):
+        out.extend(_square_without(values, list(square)))
+    return out
+
+
+def needed(tiles: Sequence) -> dict[int, Rect]:
+    """By level, the even rectangle around all tiles of it."""
+    found: dict[int, Rect] = {}
+    for key, record, *_ in tiles:
+        found[key.level] = found.get(key.level, NOTHING).union(_at(key, record).evened())
+    return found
+
+
+def _square_without(values: Cascade, group: list[Tile]) -> Iterator[Coded]:
+    level = group[0][0].level
+    rect = _bounds(group).parents().evened()
+    above = values.at(level - 1, rect)
+    for key, record in group:
+        yield _tile_without(_Tile(key, record, rect, above))
+
+
+def _bounds(group: Sequence) -> Rect:
+    return needed(group)[group[0][0].level]
+
+
+def _at(key: TileKey, record: Record) -> Rect:
+    x, y, r = key.x * TILE, key.y * TILE, record.rect
+    return Rect(x + r.x0, y + r.y0, x + r.x1, y + r.y1)
+
+
+class _Tile:
+    """A tile on its parents: `above`, what lies on `rect` of the level above, None for nothing."""
+
+    def __init__(self, key: TileKey, record: Record, rect: Rect, above: Planes | None) -> None:
+        self.key, self.record = key, record
+        self.at = _at(key, record)
+        self._above = Planes.empty(rect.height, rect.width) if above is None else above
+        self._corner = self.at.evened().parents()
+        self._place = self._corner.y0 - rect.y0, self._corner.x0 - rect.x0, self.at.y0 & 1, self.at.x0 & 1
+
+    def inks(self) -> tuple[Instance, ...] | None:
+        """The inks that lie here; None if one of them adds texture of its own at this level."""
+        found = list(self.record.inks)
+        top, left, *_ = self._place
+        for i, ink in enumerate(self._above.inks):
+            inside = self._above.data, COLOURS + 3 * i, top, left, self._corner.height, self._corner.width
+            if ink not in found and kernels.lies(*inside):
+                found.append(ink)
+        return None if any(ink.base < self.key.level for ink in found) else tuple(found)
+
+    def arguments(self, inks: tuple[Instance, ...]) -> tuple:
+        """What the kernels need of the tile for these inks."""
+        sources, own = (
+            np.array([COLOURS + 3 * there.index(ink) if ink in there else -1 for ink in inks], np.int64)
+            for there in (self._above.inks, self.record.inks)
+        )
+        place = np.array(self._place, np.int64)
+        return self.record.data, self._above.data, place, sources, own, _seen(inks, self.key.level, self.at)
+
+
+def _tile_without(tile: _Tile) -> Coded:
+    key, record = tile.key, tile.record
+    lying = tile.inks()
+    known = [] if lying is None else [ink for ink in lying if ink.base - ABOVE <= key.level]
+    if not known:
+        return key, record, None
+    inks = tuple(known[:MOST])
+    arguments = tile.arguments(inks)
+    terms = np.rint(kernels.fit(*arguments, STRIDE if tile.at.area > FEW else 1) * ONE)
+    if not (np.isfinite(terms).all() and np.abs(terms).max() <= TERM_CAP):
+        return key, record, None
+    implied = Implied(inks, tuple(map(int, terms.ravel())), isal_zlib.crc32(record.data[:3].data))
+    data = record.data.copy()
+    if kernels.exchange(*arguments, implied.factors, np.int32(-1), data) <= 0:
+        return key, record, None
+    data.flags.writeable = False
+    return key, replace(record, data=data), implied
+
+
+def _seen(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
+    """Appearance of the inks at a level from `ABOVE` below their base on: float32 (n, 1 or 3, h, w)."""
+    found = []
+    for ink in inks:
+        lacking = max(ink.base - level, 0)
+        seen = ink.appearance(level + lacking, at.zoomed(lacking))[:3]
+        for _ in range(lacking):
+            seen = reduce(seen)
+        found.append(seen)
+    planes = max(len(seen) for seen in found)
+    return np.stack([np.broadcast_to(seen, (planes, at.height, at.width)) for seen in found]).astype(
+        np.float32, copy=False
+    )
+
+
+def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable = map) -> None:
+    """Puts the colour back into those of `tiles` from which it was taken, all of them in their places in `pyramid`.
+
+    Their records hold views of arrays that are written to here for the last time.  `run` maps a function over a list,
+    maybe on several threads.  Changed if the colour is not what it was.
+    """
+    lacking = sorted((tile for tile in tiles if tile[2] is not None), key=lambda tile: _square(tile[0]))
+    values = Cascade(pyramid, needed(lacking))
+    for _, found in groupby(lacking, key=lambda tile: tile[0].level):
+        squares = [list(square) for _, square in groupby(found, key=lambda tile: _square(tile[0]))]
+        for _ in run(partial(_square_restored, values), squares):
+            pass
+
+
+def _square_restored(values: Cascade, square: Sequence[Coded]) -> None:
+    level = square[0][0].level
+    rect = _bounds(square).parents().evened()
+    above = values.at(level - 1, rect)
+    for key, record, implied in square:
+        data = record.data.base
+        assert implied is not None
+        assert isinstance(data, np.ndarray)
+        tile = _Tile(key, record, rect, above)
+        kernels.exchange(*tile.arguments(implied.inks), implied.factors, np.int32(1), data)
+        if isal_zlib.crc32(data[:3].data) != implied.crc:
+            raise Changed(f"tile {key.x}, {key.y} of level {level}: its colour is not what it was when it was saved")
+        data.flags.writeable = False

@@ -1,0 +1,203 @@
+"""Compiled loops of what ink implies of colour (engine/painting/implied.py).
+
+A tile, w x h, is its residuals `data`, int16 or int32 (4 + 3m, h, w) in units of 2^-16, on the expanded `parents`,
+float32 (C, H, W).  `place`, int64 (4,): the row and the column of `parents` above and left of the first pixel's parent,
+and 1 where the tile begins on an odd row, on an odd column.  `sources` and `own`, int64 (n,): where the amplitudes of
+each ink begin in `parents` and in `data`, -1 for nowhere.  `seen` is float32 (n, 1 or 3, h, w); `factors`, float32
+(3, 1 + 2n), are p, then q and s of each ink.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.grid import snap
+from engine.numeric.pyramid import blend_rows, expand_row
+
+_UNIT = np.float32(2.0**-16)
+_COUNT = np.float32(2.0**16)
+_FAR = 21  # bits of what is implied, in units of 2^-16: snap holds below 64
+_RIDGE = 1e-10  # of the normal equations' trace: of terms that do the same, both get a part
+
+
+@njit(cache=True, nogil=True)
+def lies(values, plane, top, left, height, width):
+    """Whether any of three planes from `plane` on is not zero on a rectangle."""
+    for c in range(3):
+        for y in range(height):
+            row = values[plane + c, top + y][left : left + width]
+            found = np.int32(0)
+            for i in range(width):
+                found |= np.int32(row[i] != np.float32(0.0))
+            if found:
+                return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _expanded(parents, plane, place, y, t, line):
+    """Row `y` of a plane of the expanded parents, from the even column on."""
+    if plane < 0:
+        line[:] = np.float32(0.0)
+        return
+    even = y + place[2]
+    row, left = place[0] + 1 + even // 2, place[1]
+    near = parents[plane, row][left : left + t.size]
+    far = parents[plane, row + 2 * (even & 1) - 1][left : left + t.size]
+    blend_rows(near, far, t)
+    expand_row(t, line)
+
+
+@njit(cache=True, nogil=True)
+def _shown(parents, plane, data, own, place, y, t, line):
+    """As `_expanded`, and the tile's own residual on it."""
+    _expanded(parents, plane, place, y, t, line)
+    if own >= 0:
+        d = data[own, y]
+        a = line[place[3] : place[3] + d.size]
+        for i in range(d.size):
+            a[i] += np.float32(d[i]) * _UNIT
+
+
+@njit(cache=True, nogil=True)
+def _alpha(parents, data, place, y, t, line):
+    _shown(parents, 3, data, 3, place, y, t, line)
+    for i in range(line.size):
+        line[i] = min(max(line[i], np.float32(0.0)), np.float32(1.0))
+
+
+@njit(cache=True, nogil=True)
+def _solve(a, b):
+    """The solution of the positive definite a x = b, in place, by elimination."""
+    n = b.size
+    for i in range(n):
+        for j in range(i + 1, n):
+            f = a[j, i] / a[i, i]
+            for k in range(i, n):
+                a[j, k] -= f * a[i, k]
+            b[j] -= f * b[i]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            b[i] -= a[i, k] * b[k]
+        b[i] /= a[i, i]
+
+
+@njit(cache=True, nogil=True)
+def _room(data, place):
+    """Rows to work in: a parents' row, and three of the tile's from the even column on."""
+    n = (place[3] + data.shape[2] + 1) // 2
+    return np.empty(n + 2, np.float32), np.empty((3, 2 * n), np.float32)
+
+
+@njit(cache=True, nogil=True)
+def _gather(a, b, x, lines, seen, first, y, stride, target):
+    """Adds the pixels of a row to the normal equations; `lines` (1 + n, w) are alpha and the amplitudes."""
+    n = seen.shape[0]
+    m = x.size
+    for i in range(0, seen.shape[3], stride):
+        alpha, rest = np.float64(lines[0, i]), np.float64(target[i])
+        x[0] = alpha
+        for k in range(n):
+            amplitude, s = np.float64(lines[1 + k, i]), np.float64(seen[k, first, y, i])
+            rest -= amplitude * s
+            x[1 + 2 * k], x[2 + 2 * k] = amplitude, alpha * s
+        for j in range(m):
+            b[j] += x[j] * rest
+            for k in range(j, m):
+                a[j, k] += x[j] * x[k]
+
+
+@njit(cache=True, nogil=True)
+def fit(data, parents, place, sources, own, seen, stride):
+    """The factors, float64, that leave the smallest squares on every `stride`-th pixel of every such row."""
+    n, width = sources.size, data.shape[2]
+    m = 1 + 2 * n
+    t, work = _room(data, place)
+    lines = np.empty((1 + n, width), np.float32)
+    a, b, x = np.zeros((3, m, m), np.float64), np.zeros((3, m), np.float64), np.zeros(m, np.float64)
+    inside = work[:, place[3] : place[3] + width]
+    for y in range(0, data.shape[1], stride):
+        _alpha(parents, data, place, y, t, work[0])
+        lines[0] = inside[0]
+        for c in range(3):
+            for k in range(n):
+                plane = sources[k] + c if sources[k] >= 0 else -1
+                _shown(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, t, work[1])
+                lines[1 + k] = inside[1]
+            _shown(parents, c, data, c, place, y, t, work[2])
+            _gather(a[c], b[c], x, lines, seen, c % seen.shape[1], y, stride, inside[2])
+    for c in range(3):
+        trace = 0.0
+        for j in range(m):
+            trace += a[c, j, j]
+            for k in range(j):
+                a[c, j, k] = a[c, k, j]
+        for j in range(m):
+            a[c, j, j] += _RIDGE * trace + 1e-30
+        _solve(a[c], b[c])
+    return b
+
+
+@njit(cache=True, nogil=True)
+def _add(line, alpha, amplitude, s, p, q, r):
+    """line += p alpha + q amplitude + (amplitude + r alpha) s."""
+    for i in range(s.size):
+        line[i] += (p * alpha[i] + q * amplitude[i]) + (amplitude[i] + r * alpha[i]) * s[i]
+
+
+@njit(cache=True, nogil=True)
+def _exchanged(row, implied, below, sign, whole):
+    """A row of `exchange`, into `whole` int32: all bits of what is implied, of the row before and after."""
+    far, old, new = np.int32(0), np.int32(0), np.int32(0)
+    for i in range(row.size):
+        here = np.int32(row[i])
+        given = np.int32(snap(implied[i]) * _COUNT)
+        there = here + sign * (given - np.int32(below[i] * _COUNT))
+        far |= given ^ (given >> np.int32(31))
+        old |= here ^ (here >> np.int32(31))
+        new |= there ^ (there >> np.int32(31))
+        whole[i] = there
+    return far, old, new
+
+
+@njit(cache=True, nogil=True)
+def exchange(data, parents, place, sources, own, seen, factors, sign, out):
+    """`out`, the colour planes of which may be those of `data`, = `data` with implied - expanded added to its colour
+    (`sign` 1: colour is put back) or taken away (-1).
+
+    Gives the bits that it saves in the widths of rows, -1 also where values do not fit into `out`.
+    """
+    height, width = data.shape[1:]
+    t, work = _room(data, place)
+    implied, whole = np.empty(width, np.float32), np.empty(width, np.int32)
+    at = place[3]
+    alpha, amplitude, below = work[0, at : at + width], work[1, at : at + width], work[2, at : at + width]
+    saved, widest, far = np.int64(0), np.int32(0), np.int32(0)
+    for y in range(height):
+        _alpha(parents, data, place, y, t, work[0])
+        for c in range(3):
+            implied[:] = np.float32(0.0)
+            for k in range(sources.size):
+                plane = sources[k] + c if sources[k] >= 0 else -1
+                _shown(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, t, work[1])
+                p = factors[c, 0] if k == 0 else np.float32(0.0)
+                s = seen[k, c % seen.shape[1], y]
+                _add(implied, alpha, amplitude, s, p, factors[c, 1 + 2 * k], factors[c, 2 + 2 * k])
+            _expanded(parents, c, place, y, t, work[2])
+            most, before, after = _exchanged(data[c, y], implied, below, sign, whole)
+            out[c, y][:] = whole
+            far, widest = far | most, widest | after
+            saved += _bits(before) - _bits(after)
+    if _bits(far) > _FAR or _bits(widest) >= 8 * data.itemsize:
+        return np.int64(-1)
+    return saved
+
+
+@njit(cache=True, nogil=True)
+def _bits(value):
+    count = 0
+    while value:
+        count += 1
+        value >>= 1
+    return count

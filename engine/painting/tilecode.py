@@ -1,0 +1,261 @@
+"""How the integers of a tile become bytes: differences, and of those no more bits than each row needs.
+
+Of each plane the differences are taken that leave least: none, from the left, from above, or from the plane through
+those two and the pixel between them (as in ISO/IEC 15948, section 9, without its choice of neighbour).  They wrap at
+the 16 or 32 bits of the tile, and are zigzag-coded: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
+
+A row takes 0, 2, 4, 8, 16 or 32 bits a pixel, the fewest that hold all of it.  Rows of the same width lie together,
+those of several bytes apart by byte, so that deflate, which comes after, finds like with like.  A run of tiles is
+
+    for every plane of every tile: one byte naming the differences, one byte per row naming its width;
+    then the streams: all rows of 2 bits, of 4 bits, of 8 bits, low bytes, next bytes, third and fourth bytes of wider.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numba import njit
+
+STREAMS = 7
+_CODES = 6  # widths of a row
+_KINDS = 4  # of differences
+
+
+@njit(cache=True, nogil=True)
+def _kind(plane):
+    """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values."""
+    height, width = plane.shape
+    sums = np.zeros(_KINDS, np.int64)
+    for y in range(height):
+        row, before = plane[y], plane[max(y - 1, 0)]
+        none, left, above, both = np.int64(0), np.int64(0), np.int64(0), np.int64(0)
+        first = np.int64(0) if y == 0 else np.int64(before[0])
+        none += abs(np.int64(row[0]))
+        left += abs(np.int64(row[0]))
+        above += abs(np.int64(row[0]) - first)
+        both += abs(np.int64(row[0]) - first)
+        keep = np.int32(y > 0)
+        here, beside, up, corner = row[1:], row[: width - 1], before[1:], before[: width - 1]
+        for i in range(width - 1):
+            v, u = np.int32(here[i]), np.int32(up[i]) * keep
+            step = v - np.int32(beside[i])
+            none += abs(v)
+            left += abs(step)
+            above += abs(v - u)
+            both += abs(step - u + np.int32(corner[i]) * keep)
+        sums += np.array([none, left, above, both])
+    return np.argmin(sums)
+
+
+@njit(cache=True, nogil=True)
+def _difference(plane, y, kind, line):
+    """Row `y` of a plane less what `kind` names, wrapping, into `line`."""
+    row = plane[y]
+    width = row.size
+    if kind >= 2 and y > 0:
+        before = plane[y - 1]
+        for i in range(width):
+            line[i] = row[i] - before[i]
+        if kind == 3:
+            for i in range(width - 1, 0, -1):
+                line[i] -= row[i - 1] - before[i - 1]
+        return
+    line[:] = row
+    if kind == 1 or kind == 3:
+        here, beside = row[1:], row[: width - 1]
+        rest = line[1:]
+        for i in range(width - 1):
+            rest[i] = here[i] - beside[i]
+
+
+@njit(cache=True, nogil=True)
+def _zigzag(line, z):
+    """`line` (w,) zigzag-coded into `z` uint32 (>= w,); all its bits together."""
+    top = 8 * line.itemsize - 1
+    bits = np.uint32(0)
+    for i in range(line.size):
+        v = np.int32(line[i])
+        z[i] = np.uint32((v << 1) ^ (v >> top))
+        bits |= z[i]
+    return bits
+
+
+@njit(cache=True, nogil=True)
+def _put(z, width, bits, streams, at):
+    """Appends a row to its stream, `at` (STREAMS,) being where each ends; the code of its width."""
+    if bits == 0:
+        return 0
+    if bits < 4:
+        n = (width + 3) // 4
+        out = streams[0, at[0] : at[0] + n]
+        for i in range(n):
+            out[i] = z[4 * i] | (z[4 * i + 1] << 2) | (z[4 * i + 2] << 4) | (z[4 * i + 3] << 6)
+        at[0] += n
+        return 1
+    if bits < 16:
+        n = (width + 1) // 2
+        out = streams[1, at[1] : at[1] + n]
+        for i in range(n):
+            out[i] = z[2 * i] | (z[2 * i + 1] << 4)
+        at[1] += n
+        return 2
+    count, first = 1, 2
+    if bits >= 256:
+        count, first = (2, 3) if bits < 65536 else (4, 3)
+    for b in range(count):
+        out = streams[first + b, at[first + b] : at[first + b] + width]
+        for i in range(width):
+            out[i] = np.uint8(z[i] >> np.uint32(8 * b))
+        at[first + b] += width
+    return 3 if count == 1 else 3 + count // 2
+
+
+@njit(cache=True, nogil=True)
+def _encode(data, codes, streams, at):
+    """`data` int16 or int32 (planes, h, w): its codes (planes * (1 + h),), its rows into the streams."""
+    planes, height, width = data.shape
+    line = np.empty(width, data.dtype)
+    z = np.zeros(width + 3, np.uint32)
+    for p in range(planes):
+        kind = _kind(data[p])
+        codes[p * (1 + height)] = kind
+        for y in range(height):
+            _difference(data[p], y, kind, line)
+            bits = _zigzag(line, z)
+            codes[p * (1 + height) + 1 + y] = _put(z, width, bits, streams, at)
+
+
+@njit(cache=True, nogil=True)
+def _lengths(codes, planes, height, width, lengths):
+    """Adds what a tile takes of each stream to `lengths` (STREAMS,); False if a code is unknown."""
+    for p in range(planes):
+        if codes[p * (1 + height)] >= _KINDS:
+            return False
+        for y in range(height):
+            code = codes[p * (1 + height) + 1 + y]
+            if code >= _CODES:
+                return False
+            if code == 1:
+                lengths[0] += (width + 3) // 4
+            elif code == 2:
+                lengths[1] += (width + 1) // 2
+            elif code == 3:
+                lengths[2] += width
+            elif code > 3:
+                for b in range(2 if code == 4 else 4):
+                    lengths[3 + b] += width
+    return True
+
+
+@njit(cache=True, nogil=True)
+def _take(raw, at, code, z):
+    """The next row of width `code` into `z` uint32 (w + 3,)."""
+    width = z.size - 3
+    if code == 1:
+        n = (width + 3) // 4
+        source = raw[at[0] : at[0] + n]
+        for i in range(n):
+            v = np.uint32(source[i])
+            z[4 * i], z[4 * i + 1] = v & np.uint32(3), (v >> np.uint32(2)) & np.uint32(3)
+            z[4 * i + 2], z[4 * i + 3] = (v >> np.uint32(4)) & np.uint32(3), v >> np.uint32(6)
+        at[0] += n
+    elif code == 2:
+        n = (width + 1) // 2
+        source = raw[at[1] : at[1] + n]
+        for i in range(n):
+            v = np.uint32(source[i])
+            z[2 * i], z[2 * i + 1] = v & np.uint32(15), v >> np.uint32(4)
+        at[1] += n
+    elif code == 3:
+        source = raw[at[2] : at[2] + width]
+        for i in range(width):
+            z[i] = source[i]
+        at[2] += width
+    else:
+        z[:] = 0
+        for b in range(2 if code == 4 else 4):
+            source = raw[at[3 + b] : at[3 + b] + width]
+            for i in range(width):
+                z[i] |= np.uint32(source[i]) << np.uint32(8 * b)
+            at[3 + b] += width
+
+
+@njit(cache=True, nogil=True)
+def _add_before(row, before, kind, first):
+    """A row of differences to the row itself, wrapping."""
+    if kind == 1 or kind == 3:
+        for i in range(1, row.size):
+            row[i] += row[i - 1]
+    if kind >= 2 and not first:
+        for i in range(row.size):
+            row[i] += before[i]
+
+
+@njit(cache=True, nogil=True)
+def _decode(raw, codes, at, out):
+    """The inverse of `_encode`, `at` (STREAMS,) being where in `raw` the next row of each width lies; gives the
+    largest |value|."""
+    planes, height, width = out.shape
+    z = np.zeros(width + 3, np.uint32)
+    largest = np.int32(0)
+    for p in range(planes):
+        kind = codes[p * (1 + height)]
+        for y in range(height):
+            code = codes[p * (1 + height) + 1 + y]
+            row = out[p, y]
+            if code == 0:
+                row[:] = 0
+            else:
+                _take(raw, at, code, z)
+                for i in range(width):
+                    v = np.int32(z[i] >> np.uint32(1))
+                    row[i] = v ^ -np.int32(z[i] & np.uint32(1))
+            if kind:
+                _add_before(row, out[p, max(y - 1, 0)], kind, y == 0)
+            for i in range(width):
+                v = np.int32(row[i])
+                largest |= max(v, ~v)
+    return largest
+
+
+def code_size(shape: tuple[int, int, int]) -> int:
+    """Bytes of the codes of a tile (planes, h, w)."""
+    return shape[0] * (1 + shape[1])
+
+
+def encoded(tiles: Sequence[np.ndarray]) -> bytes:
+    """A run of tiles, each int16 or int32 (planes, h, w), as bytes."""
+    samples = sum(data.size for data in tiles)
+    rows = sum(data.shape[0] * data.shape[1] for data in tiles)
+    codes = np.empty(sum(code_size(data.shape) for data in tiles), np.uint8)
+    streams = np.empty((STREAMS, samples + rows), np.uint8)
+    at = np.zeros(STREAMS, np.int64)
+    filled = 0
+    for data in tiles:
+        _encode(data, codes[filled:], streams, at)
+        filled += code_size(data.shape)
+    return b"".join([codes.data, *(streams[k, : at[k]].data for k in range(STREAMS))])
+
+
+def decoded(raw: np.ndarray, tiles: Sequence[np.ndarray]) -> int:
+    """Fills `tiles`, of known shapes, from the bytes of a run, uint8; gives a bound of |value|, less than twice the
+    largest, or -1 if the bytes are not those of such tiles."""
+    count = sum(code_size(data.shape) for data in tiles)
+    if raw.size < count:
+        return -1
+    lengths = np.zeros(STREAMS, np.int64)
+    filled = 0
+    for data in tiles:
+        if not _lengths(raw[filled:count], *data.shape, lengths):
+            return -1
+        filled += code_size(data.shape)
+    if count + int(lengths.sum()) != raw.size:
+        return -1
+    at = count + np.cumsum(lengths) - lengths
+    filled = largest = 0
+    for data in tiles:
+        largest |= _decode(raw, raw[filled:count], at, data)
+        filled += code_size(data.shape)
+    return largest

@@ -1,0 +1,68 @@
+"""Files of earlier formats still open, pixel for pixel: each was written by the program of its time."""
+
+import hashlib
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from engine.canvas.evaluate import evaluate
+from engine.canvas.layers import layers
+from engine.numeric.address import Rect
+from engine.painting import firstpacks
+from engine.painting.archive import Snapshot, save
+from engine.painting.opening import open_painting
+
+OLD = Path(__file__).parent / "old"
+# Rock under stripes under finer rock; SHA-256 of premultiplied float32 planes of the frame, by level.
+FIRST = {
+    -2: "2f22185d749b7ad4c196cf2ba4c36a3d",
+    0: "4f7f850aa0c07d837f7d184d707b635c",
+    1: "72bb94b4d9da8b5cd845264ef9196efa",
+    2: "3a86c59b5e5d3e91c2487b52a872b539",
+    4: "a740ea8792d31936bbc348c4b033315b",
+}
+
+
+def seen(painting, level):
+    planes = evaluate(next(layers(painting.root)).pyramid, level, Rect(0, 0, 64, 48).zoomed(level)).data[:4]
+    return hashlib.sha256(np.ascontiguousarray(planes).tobytes()).hexdigest()[:32]
+
+
+@pytest.fixture(scope="module")
+def opened():
+    return open_painting(OLD / "format1.ora")
+
+
+def test_a_file_of_the_first_format_opens(opened):
+    assert opened.native
+    assert {level: seen(opened.painting, level) for level in FIRST} == FIRST
+
+
+def test_it_is_saved_in_the_present_format(opened, tmp_path):
+    save(tmp_path / "a.ora", Snapshot(opened.painting))
+    again = open_painting(tmp_path / "a.ora")
+    assert again.native
+    assert {level: seen(again.painting, level) for level in FIRST} == FIRST
+
+
+@pytest.mark.parametrize("dtype", [np.int16, np.int32])
+def test_the_first_code_of_tiles(dtype):
+    """Differences, zigzag, bytes apart: as the first format had it."""
+    y, x = np.mgrid[0:9, 0:7]
+    planes = np.array([x * 40 + y * 3, x * 3 + y * 40, (x + y) % 2 * 9 - 4, x * y - 20])
+    bits, body = 8 * np.dtype(dtype).itemsize, b""
+    for kind, plane in zip((2, 1, 0, 1), planes, strict=True):
+        d = plane.astype(np.int64)
+        if kind == 1:
+            d[:, 1:] -= plane[:, :-1]
+        if kind == 2:
+            d[1:] -= plane[:-1]
+        zigzag = ((d << 1) ^ (d >> 63)) & ((1 << bits) - 1)
+        body += b"".join(((zigzag >> s) & 255).astype(np.uint8).tobytes() for s in range(0, bits, 8))
+    raw = np.frombuffer(struct.pack("4B", 2, 1, 0, 1) + body, np.uint8)
+    out = np.empty(planes.shape, dtype)
+    assert len(raw) == firstpacks.encoded_size(planes.shape, bits)
+    assert firstpacks.decoded(raw, [out]) == np.abs(planes).max()
+    assert np.array_equal(out, planes)
