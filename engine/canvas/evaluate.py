@@ -13,9 +13,9 @@ from collections import OrderedDict
 import numpy as np
 
 from engine.canvas import kernels
-from engine.canvas.attenuate import effective
-from engine.canvas.store import Change, Pyramid, changes_between
-from engine.numeric.address import TILE, Rect, TileKey
+from engine.canvas.attenuate import effective, placed
+from engine.canvas.store import Change, Pyramid, Record, changes_between
+from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
@@ -130,29 +130,27 @@ def step(pyramid: Pyramid, parent: Planes | None, parent_at: Rect, level: int, r
     sources = plane_map(parent.inks, inks) if parent is not None else None
     top = (rect.y0 >> 1) - 1 - parent_at.y0
     left = (rect.x0 >> 1) - 1 - parent_at.x0
+    laid = [(placed(key, record.rect), record, plane_map(record.inks, inks)) for key, record in records]
     for first in range(0, rect.height, _BAND):
         last = min(first + _BAND, rect.height)
         if parent is not None:
             expand_into(parent.data, top, left, sources, out, first, last)
         band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
-        for key, record in records:
-            _add_record(out, rect, band, key, record, inks)
+        for at, record, planes in laid:
+            if at.y0 < band.y1 and band.y0 < at.y1:
+                _add_record(out, rect, band, at, record, planes)
         _add_texture_band(out, inks, level, rect, band)
         kernels.clamp_alpha(out, first, last)
     return without_empty_inks(Planes(out, inks))
 
 
-def _add_record(out: np.ndarray, rect: Rect, band: Rect, key: TileKey, record, inks: tuple[Instance, ...]) -> None:
-    x, y = key.x * TILE, key.y * TILE
-    at = Rect(x + record.rect.x0, y + record.rect.y0, x + record.rect.x1, y + record.rect.y1)
+def _add_record(out: np.ndarray, rect: Rect, band: Rect, at: Rect, record: Record, planes: np.ndarray) -> None:
     part = at.intersect(band)
-    if part.empty:
-        return
-    kernels.add_residual(
-        out, part.y0 - rect.y0, part.x0 - rect.x0,
-        record.data, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width,
-        plane_map(record.inks, inks),
-    )  # fmt: skip
+    if not part.empty:
+        kernels.add_residual(
+            out, part.y0 - rect.y0, part.x0 - rect.x0,
+            record.data, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width, planes,
+        )  # fmt: skip
 
 
 def add_texture(out: np.ndarray, ink: Planes, level: int, rect: Rect) -> None:
