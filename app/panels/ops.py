@@ -204,7 +204,7 @@ def _mistake(formula: str, error: FormulaError) -> None:
             painter.add_rect_filled(ImVec2(x, corner.y + height), ImVec2(x + width, corner.y + height + 2), warn)
         x += width
     imgui.dummy(ImVec2(1, height + 2))
-    wanted = f"Column {error.column}: expected {error.expected.partition(':')[0]}"
+    wanted = f"Column {error.column}: found {error.found}, expected {error.expected.partition(':')[0]}"
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.vec(theme.WARN), wanted)
     imgui.pop_text_wrap_pos()
