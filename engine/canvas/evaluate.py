@@ -88,6 +88,24 @@ def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None =
     return Planes.empty(rect.height, rect.width) if found is None else found
 
 
+def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
+    """Colour and alpha of `rect` at `level`, as `evaluate` has them: float32 (4, h, w), None where nothing lies.
+
+    Ink that adds no texture down to this level is left out on the way: half the work where there is any.
+    """
+    coarsest = pyramid.coarsest
+    if coarsest is None or level < coarsest:
+        return None
+    rects = [rect.evened()]
+    for _ in range(level - coarsest):
+        rects.append(rects[-1].parents().evened())
+    value, above = None, rects[-1]
+    for k, inner in zip(range(coarsest, level + 1), reversed(rects), strict=True):
+        value = step(pyramid, value, above, k, inner, level)
+        above = inner
+    return None if value is None else value.rgba[:, *rect.slices(rects[0])]
+
+
 def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Planes | None:
     """As `evaluate`, but None where nothing lies."""
     known, value = _from_cache(pyramid, level, rect, cache)
@@ -118,12 +136,17 @@ def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache |
     return None if value is None else value.cut(*rect.slices(inner))
 
 
-def step(pyramid: Pyramid, parent: Planes | None, parent_at: Rect, level: int, rect: Rect) -> Planes | None:
-    """One level down: v of the even `rect` from its parents, which lie at `parent_at`."""
+def step(
+    pyramid: Pyramid, parent: Planes | None, parent_at: Rect, level: int, rect: Rect, finest: int | None = None
+) -> Planes | None:
+    """One level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that adds no
+    texture down to the level `finest`, where that is given."""
     records = [(key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect)]
     if parent is None and not records:
         return None
     inks = merged(() if parent is None else parent.inks, *(record.inks for _, record in records))
+    if finest is not None:
+        inks = tuple(ink for ink in inks if ink.base < finest)
     out = np.empty((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32)
     if parent is None:
         out[:] = 0.0

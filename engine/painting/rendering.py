@@ -8,7 +8,7 @@ import numpy as np
 
 from engine.canvas import layers
 from engine.canvas.composite import Read, composite
-from engine.canvas.evaluate import evaluate_sparse
+from engine.canvas.evaluate import shown
 from engine.canvas.fold import fold
 from engine.canvas.layers import Group, Layer
 from engine.canvas.store import Pyramid
@@ -75,8 +75,8 @@ def sheets(
             check(cancelled)
             part = places[layer.id].intersect(band)
             if not part.empty:
-                found = evaluate_sparse(layer.pyramid, level, part, None)
-                known[layer.id] = np.zeros((4, part.height, part.width), np.float32) if found is None else found.rgba
+                found = shown(layer.pyramid, level, part)
+                known[layer.id] = np.zeros((4, part.height, part.width), np.float32) if found is None else found
         yield known, composite(root, level, band, _parts(known, places, band))
 
 
@@ -112,8 +112,7 @@ def _reader(piece: Rect) -> Read:
 
     def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         if layer.id not in known:
-            found = evaluate_sparse(layer.pyramid, level, piece, None)
-            known[layer.id] = None if found is None else found.rgba
+            known[layer.id] = shown(layer.pyramid, level, piece)
         planes = known[layer.id]
         if planes is None:
             return None

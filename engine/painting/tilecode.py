@@ -1,8 +1,9 @@
 """How the integers of a tile become bytes: differences, and of those no more bits than each row needs.
 
-Of each plane the differences are taken that leave least: none, from the left, from above, or from the plane through
-those two and the pixel between them (as in ISO/IEC 15948, section 9, without its choice of neighbour).  They wrap at
-the 16 or 32 bits of the tile, and are zigzag-coded: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
+Of each plane, unless all of it is -2 to 1, the differences are taken that leave least: none, from the left, from
+above, or from the plane through those two and the pixel between them (as in ISO/IEC 15948, section 9, without its
+choice of neighbour).  They wrap at the 16 or 32 bits of the tile, and are zigzag-coded: 0, -1, 1, -2, ... become 0, 1,
+2, 3, ...
 
 A row takes 0, 2, 4, 8, 16 or 32 bits a pixel, the fewest that hold all of it.  Rows of the same width lie together,
 those of several bytes apart by byte, so that deflate, which comes after, finds like with like.  A run of tiles is
@@ -24,9 +25,25 @@ _KINDS = 4  # of differences
 
 
 @njit(cache=True, nogil=True)
+def _small(plane):
+    """Whether all values are -2 to 1: then they are roundings, and differences would make more of them."""
+    for y in range(plane.shape[0]):
+        row = plane[y]
+        bits = np.int32(0)
+        for i in range(row.size):
+            v = np.int32(row[i])
+            bits |= v ^ (v >> np.int32(31))
+        if bits > 1:
+            return False
+    return True
+
+
+@njit(cache=True, nogil=True)
 def _kind(plane):
-    """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values."""
+    """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values; 0 if all are -2 to 1."""
     height, width = plane.shape
+    if _small(plane):
+        return 0
     sums = np.zeros(_KINDS, np.int64)
     for y in range(height):
         row, before = plane[y], plane[max(y - 1, 0)]

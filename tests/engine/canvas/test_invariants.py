@@ -11,7 +11,7 @@ from engine.brush.kinds import edit as edit_of
 from engine.brush.mask import StrokeMask
 from engine.brush.record import Brush
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import TileCache, evaluate, shown
 from engine.canvas.fold import fold
 from engine.canvas.kernels import attenuate
 from engine.canvas.store import Pyramid
@@ -279,3 +279,13 @@ def test_amplified_detail_stays_within_bounds_and_alpha_may_be_spared():
     assert out[3].tolist() == [[400000, -400000, 100]]
     for plane in (0, 1, 2, 4):
         assert out[plane].tolist() == [[8 * 65536, -8 * 65536, 200]]
+
+
+@pytest.mark.parametrize("level", range(-3, 7))
+def test_what_is_shown_is_the_colour_of_the_value(level):
+    pyramid = painted(5, half=30)
+    rect = Rect(-41, -7, 33, 50).zoomed(level)
+    found = shown(pyramid, level, rect)
+    expected = evaluate(pyramid, level, rect).rgba
+    assert np.array_equal(np.zeros_like(expected) if found is None else found, expected)
+    assert shown(Pyramid(), level, rect) is None

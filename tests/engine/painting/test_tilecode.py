@@ -75,7 +75,8 @@ def plain(data):
         along = np.hstack([plane[:, :1], np.diff(plane, axis=1)])
         forms = [plane, along, plane - before, None]
         forms[3] = np.hstack([forms[2][:, :1], np.diff(forms[2], axis=1)])
-        kind = int(np.argmin([np.abs(form).sum() for form in forms]))
+        small = plane.min() >= -2 and plane.max() <= 1
+        kind = 0 if small else int(np.argmin([np.abs(form).sum() for form in forms]))
         codes.append(kind)
         for row in forms[kind].astype(data.dtype).astype(np.int64):
             z = (row << 1) ^ (row >> 63)
