@@ -14,7 +14,7 @@ COMMANDS = {
     "play": "replay a recording without a window",
     "export": "write a painting, or a rectangle of it at any level, as a picture",
     "info": "tell what a painting holds",
-    "texture": "make a texture from a spectrum, a sample or a photograph",
+    "texture": "make a texture from a spectrum, a sample, a photograph or examples",
     "analyse": "tell what a picture is made of: spectra, colours, regions",
     "bench": "measure against the stated bounds",
     "doctor": "tell what Inkfall finds on this machine",

@@ -10,6 +10,8 @@ from typing import NamedTuple, NoReturn
 
 from app.cli.outcome import Refused
 
+SIDE = 1 << 20  # pixels each way of what is made
+
 _RECTANGLE = re.compile(r"-?\d+(,-?\d+)*")
 
 
@@ -92,3 +94,12 @@ def seed(text: str) -> int:
     if not re.fullmatch(r"[+-]?[0-9]{1,18}", text):
         raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number")
     return int(text)
+
+
+def size(text: str) -> tuple[int, int]:
+    """`WxH`: width and height."""
+    found = re.fullmatch(r"([0-9]{1,8})[x×]([0-9]{1,8})", text)
+    width, height = (int(part) for part in found.groups()) if found else (0, 0)
+    if not (1 <= width <= SIDE and 1 <= height <= SIDE):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected WxH, each from 1 to {SIDE} pixels")
+    return width, height

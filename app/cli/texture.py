@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from app.cli.arguments import Parser, seed
+from app.cli.arguments import Parser, seed, size
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output
 from app.cli.progress import Progress
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from engine.painting.textures import Texture
     from engine.texture.record import Instance
 
-SIDE = 1 << 20  # pixels each way
 ROWS, TOGETHER = 256, 1 << 25  # of a strip: rows, and pixels at most
 COLUMNS = 2048  # of the pieces in which a strip is made
 
@@ -52,19 +51,25 @@ MAKERS = {
         ("window", "average", "phase", "density", "mean", "spread", "quantise"),
     ),
 }
-LATER = ("match", "mix", "solid", "example")
+# Makers that match histograms: they make a texture of one size, whole.
+MATCHED = ("match", "mix", "solid")
+LATER = ("example",)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("maker", metavar="MAKER", help=f"{', '.join(MAKERS)}; MAKER --help tells its options")
+    parser.add_argument("maker", metavar="MAKER", help=f"{_known()}; MAKER --help tells its options")
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="the maker's picture and options")
 
 
 def run(options: argparse.Namespace) -> int:
     name = options.maker
+    if name in MATCHED:
+        from app.cli import matched, solid
+
+        return solid.run(options.words) if name == "solid" else matched.run(name, options.words)
     if name not in MAKERS:
         note = ", which comes in a later release" if name in LATER else ""
-        raise Refused(f"texture: found the maker {name[:40]!a}{note}, expected one of {', '.join(MAKERS)}")
+        raise Refused(f"texture: found the maker {name[:40]!a}{note}, expected one of {_known()}")
     given = _parser(name).parse_args(options.words)
     checked_output(given.out, (".png",))
     if os.path.exists(given.out) and os.path.exists(given.picture) and os.path.samefile(given.out, given.picture):
@@ -76,6 +81,10 @@ def run(options: argparse.Namespace) -> int:
     channels = _write(given, instance, size)
     _tell(given, texture, size, channels)
     return DONE
+
+
+def _known() -> str:
+    return ", ".join((*MAKERS, *MATCHED))
 
 
 def _parser(name: str) -> Parser:
@@ -112,15 +121,6 @@ _PHASES = {
     "sparse": "",
     "impulse": "window: of the window in the middle; zero; random (default window)",
 }
-
-
-def size(text: str) -> tuple[int, int]:
-    """`WxH`."""
-    found = re.fullmatch(r"([0-9]{1,8})[x×]([0-9]{1,8})", text)
-    width, height = (int(part) for part in found.groups()) if found else (0, 0)
-    if not (1 <= width <= SIDE and 1 <= height <= SIDE):
-        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected WxH, each from 1 to {SIDE} pixels")
-    return width, height
 
 
 def place(text: str) -> tuple[int, int]:
