@@ -32,6 +32,7 @@ class LabState:
     painting: bool = False
     scene: LabScene | None = None
     spot: tuple[float, float, float] | None = None
+    shown: tuple[int, int] = (112, 64)  # width and height of the pictures of strokes, framebuffer pixels
     _posted: LabSet | None = None
     _resting: tuple[Any, ...] = ()
     _since: float = 0.0
@@ -78,17 +79,19 @@ class LabState:
             edge=None,
         )
 
-    def ask(self, post: Callable[[Request], None], now: float, brush: Brush, size: tuple[int, int]) -> None:
+    def ask(self, post: Callable[[Request], None], now: float, brush: Brush) -> None:
         """Posts what was set, at once, and a while after the last change, that the lab has come to rest."""
         if self.made != self._posted:
             self._posted = self.made
             post(self.made)
-        state = self.made, brush, self.scene.strokes if self.scene else 0, self.scene.can_redo if self.scene else False
+        scene = self.scene
+        done = (scene.strokes, scene.can_undo, scene.can_redo) if scene is not None else ()
+        state = self.made, brush, self.shown, done
         if state != self._resting or self.painting:
             self._resting, self._since = state, now
         if self._since and now - self._since >= SETTLE and not self.painting:
             self._since = 0.0
-            post(LabRest(brush, size))
+            post(LabRest(brush, self.shown))
 
     @property
     def waiting(self) -> bool:

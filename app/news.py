@@ -17,7 +17,6 @@ from app.desk import Desk
 from app.lab import only_with
 from app.panels.brush import PREVIEW, THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
-from app.panels.lab import LAB_STROKE
 from app.screen import Screen, ScreenTile, cells, near_first
 from app.trace import trace
 from app.view import SUBPIXEL, Place
@@ -111,7 +110,7 @@ class News:
             )
             brush = only_with(replace(desk.brush, ink=()), frozenset(known))
             brush = replace(brush, colour=to_hex(desk.colour), radius=16.0, opacity=1.0, flow=1.0, mode="paint")
-            desk.lab.ask(desk.post, now, brush, (round(LAB_STROKE[0] * desk.scale), round(LAB_STROKE[1] * desk.scale)))
+            desk.lab.ask(desk.post, now, brush)
 
     def waiting(self) -> bool:
         """Whether a swatch is about to be asked for."""

@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, pictured, theme
 from app.desk import Desk
 from app.panels import widgets as w
+from engine.numeric.address import Rect
 from engine.painting.requests import Analyse
 
 _PICTURES = (
@@ -24,7 +25,10 @@ _PICTURES = (
 
 
 class AnalysisPanel:
-    """Draws the strip; the engine finds the facts one after the other."""
+    """Draws the strip; the engine finds the facts one after the other, at first of what is in view."""
+
+    def __init__(self) -> None:
+        self._asked = False
 
     def draw(self, desk: Desk) -> None:
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
@@ -58,21 +62,21 @@ class AnalysisPanel:
     def _ask(self, desk: Desk) -> None:
         wide = (imgui.get_content_region_avail().x - 2 * desk.scale) / 2
         if w.text_button("What is in view", "Looks at what the canvas shows, at the level shown", width=wide):
-            desk.found = None
-            desk.post(Analyse(desk.view.shown_level, pictured.seen(desk)))
+            self._look(desk, desk.view.shown_level, pictured.seen(desk))
         imgui.same_line(0, 2 * desk.scale)
         if w.text_button("The frame", "Looks at the whole frame at level 0", width=wide):
-            desk.found = None
-            desk.post(Analyse(0, desk.frame))
+            self._look(desk, 0, desk.frame)
+        if not self._asked:
+            self._look(desk, desk.view.shown_level, pictured.seen(desk))
+
+    def _look(self, desk: Desk, level: int, area: Rect) -> None:
+        self._asked, desk.found = True, None
+        desk.post(Analyse(level, area))
 
     def _facts(self, desk: Desk) -> None:
         imgui.spacing()
         if desk.found is None:
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text_disabled(
-                "Says what the picture is made of: how many colours, how large its features are and which way they run."
-            )
-            imgui.pop_text_wrap_pos()
+            imgui.text_disabled(f"{icons.WAIT} looking…")
             return
         for name, value in sorted(desk.found.lines.items(), key=lambda line: _ORDER.index(line[0])):
             imgui.text_disabled(name)

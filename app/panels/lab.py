@@ -13,7 +13,6 @@ from app.panels import widgets as w
 from app.panels.labsettings import LabSettings
 from engine.painting.requests import LabStep
 
-LAB_STROKE = (112, 64)  # of the pictures of strokes, points
 REPEATS = 1.4  # tiles of 256 pixels that the preview shows along a side
 _PERIODS = (32, 16, 8, 4)  # pixels: rings drawn over the spectrum
 _USES = (
@@ -38,7 +37,8 @@ class LabPanel:
         self._brush(desk)
         imgui.end_child()
         imgui.same_line()
-        imgui.begin_child("texture", ImVec2(side * 0.86, 0))
+        settings = min((room.x - side - 2 * gap) * 0.51, 300 * desk.scale)
+        imgui.begin_child("texture", ImVec2(room.x - side - settings - 2 * gap, 0))
         self._texture(desk, side)
         imgui.end_child()
         imgui.same_line()
@@ -88,7 +88,8 @@ class LabPanel:
         lab, painter = desk.lab, imgui.get_window_draw_list()
         radius = max(1.5, lab.radius * side / 256)
         x, y = desk.pointer.x, desk.pointer.y
-        for at, alpha in ((ImVec2(x, y), 0.9), (ImVec2(2 * corner.x + side - x, 2 * corner.y + side - y), 0.4)):
+        other = ImVec2(2 * corner.x + side - x, 2 * corner.y + side - y)
+        for at, alpha in ((ImVec2(x, y), 0.9), (other, 0.0 if lab.made.forward else 0.4)):
             painter.add_circle(at, radius + 1, theme.packed((0.0, 0.0, 0.0), 0.6 * alpha), 40)
             painter.add_circle(at, radius, theme.packed((1.0, 1.0, 1.0), alpha), 40)
         if lab.made.forward or lab.painting:
@@ -163,12 +164,14 @@ class LabPanel:
         """The texture as it tiles, a stroke of it, and the same much nearer."""
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
         endless = desk.lab.made.field.get("field") == "sparse"
-        tile = 0.0 if endless else room.x / REPEATS * desk.lab.made.size[0] / 256
+        tile = min(room.x / REPEATS, 256 * desk.scale) * desk.lab.made.size[0] / 256
         below = min(64 * desk.scale, 0.24 * room.y)
         tall = room.y - below - gap.y
         hint = "The endless field" if endless else "The texture, tiled; it follows every touch"
+        tile = max(room.x, tall) if endless else tile
         w.picture(desk.pictures.get("lab texture"), (room.x, tall), hint, tile)
         wide = (room.x - gap.x) / 2
+        desk.lab.shown = max(1, round(wide)), max(1, round(below))
         w.picture(desk.pictures.get("lab stroke"), (wide, below), "A stroke of the brush with this ink")
         imgui.same_line()
         w.picture(desk.pictures.get("lab near"), (wide, below), "The same ink, 16 times nearer")

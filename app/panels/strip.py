@@ -28,9 +28,10 @@ class Strip(NamedTuple):
     height: float  # points
 
 
+PART, HIGHEST = 0.4, 560.0  # of the window's height; points
 STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint what sounds: coarse in the middle, fine at the rim", 356.0),
-    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 312.0),
+    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 320.0),
 }
 
 
@@ -43,7 +44,9 @@ class StripPanel:
 
     def height(self, desk: Desk) -> float:
         """What it takes of the screen, framebuffer pixels."""
-        return STRIPS[desk.strip].height * desk.scale if desk.strip else 0.0
+        if not desk.strip:
+            return 0.0
+        return max(STRIPS[desk.strip].height * desk.scale, min(PART * desk.view.height, HIGHEST * desk.scale))
 
     def draw(self, desk: Desk) -> None:
         """Into the present window."""

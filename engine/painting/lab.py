@@ -44,14 +44,13 @@ class _Start:
 
     size: tuple[int, int]
     shapes: tuple[Map[str, Any], ...]
+    forward: bool
     root: Group | None
 
     def __eq__(self, other: object) -> bool:
-        return (
-            isinstance(other, _Start)
-            and (self.size, self.shapes) == (other.size, other.shapes)
-            and (self.root is other.root)
-        )
+        if not isinstance(other, _Start) or self.root is not other.root:
+            return False
+        return (self.size, self.shapes, self.forward) == (other.size, other.shapes, other.forward)
 
 
 class Host(Protocol):
@@ -151,7 +150,7 @@ class Lab:
         self._stale = True
         if request.kept:
             assert self._now.sheets is not None
-            after = spectrum.stroked(self._now.sheets, live)
+            after = spectrum.stroked(self._now.sheets, live, not self._set.forward)
             self._past.append(self._now)
             self._now = _State((*self._now.strokes, live.to_command()), after, self._now.start)
             self._future = []
@@ -205,7 +204,9 @@ class Lab:
 
     def _start(self) -> _Start:
         seen = any(shape["shape"] == "canvas" for shape in self._set.shapes)
-        return _Start(self._set.size, self._set.shapes, self.host.session.painting.root if seen else None)
+        return _Start(
+            self._set.size, self._set.shapes, self._set.forward, self.host.session.painting.root if seen else None
+        )
 
     def _ready(self) -> bool:
         return self._now.sheets is not None and self._now.start == self._start()
@@ -217,7 +218,7 @@ class Lab:
             self._building = start, spectrum.begun(self._design(), self._look), 0
         _, sheets, laid = self._building
         if laid < len(strokes):
-            sheets, laid = spectrum.with_stroke(sheets, strokes[laid]), laid + 1
+            sheets, laid = spectrum.with_stroke(sheets, strokes[laid], not start.forward), laid + 1
         self._building = start, sheets, laid
         if laid >= len(strokes):
             self._now.sheets, self._now.start, self._building = sheets, start, None
@@ -236,7 +237,7 @@ class Lab:
         sheets = self._now.sheets
         assert sheets is not None
         if self._live is not None and not self._live.empty:
-            sheets = spectrum.stroked(sheets, self._live)
+            sheets = spectrum.stroked(sheets, self._live, not self._set.forward)
         self._texture = spectrum.sample(sheets, self._design())
         self._stale = False
         self.host.send(q.Picture("lab spectrum", _shown(sheets, self._set.sheet)))

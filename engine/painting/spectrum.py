@@ -45,8 +45,8 @@ class Design:
 
     `size`: width, height; `shapes`: JSON-ready members of each, whose `shape` is a row of `shapes.SHAPES` or one of
     PICTURED; `strokes`: on layer "amplitude" (also where none is named) or "phase"; `phase`: one of PHASES;
-    `seed`: of random phases; `part`: a row of `spectra.PARTS`; `forward`: the painting is a pattern, the texture its
-    spectrum.
+    `seed`: of random phases; `part`: a row of `spectra.PARTS`; `forward`: the painting is a pattern, not symmetric, and
+    the texture its spectrum.
     """
 
     size: tuple[int, int] = (256, 256)
@@ -137,8 +137,8 @@ def _frozen(value: Any) -> Any:
 class Sheets(NamedTuple):
     """A painted spectrum: float32 (1 or 3, h, w), 0..1 on the grid, read-only; zero frequency at [h // 2, w // 2].
 
-    `amplitude`: logarithmic, one plane, or red, green and blue; F(-u) = F(u).  `phase`: one plane, 0..1 for -pi..pi,
-    1/2 where nothing was painted; F(-u) = 1 - F(u).
+    `amplitude`: logarithmic, one plane, or red, green and blue; F(-u) = F(u), but for a pattern.  `phase`: one plane,
+    0..1 for -pi..pi, 1/2 where nothing was painted; F(-u) = 1 - F(u).
     """
 
     amplitude: np.ndarray
@@ -223,8 +223,8 @@ def touch(sheets: Sheets, brush: Any, sheet: str = "amplitude", cache: TileCache
     return LiveStroke(painting, 0, (0, 0), brush, cache, sheet)
 
 
-def stroked(sheets: Sheets, live: LiveStroke) -> Sheets:
-    """The sheets with a stroke as it is now, which `touch` began on them, and its mirror image."""
+def stroked(sheets: Sheets, live: LiveStroke, mirrored: bool = True) -> Sheets:
+    """The sheets with a stroke as it is now, which `touch` began on them, and its mirror image if it is to have one."""
     sheet = live.layer.name
     width, height = sheets.size
     before = getattr(sheets, sheet)
@@ -237,7 +237,7 @@ def stroked(sheets: Sheets, live: LiveStroke) -> Sheets:
         after = after[:1]
     if len(before) < len(after):
         before = np.broadcast_to(before, after.shape)
-    after = _mirrored(before, snapped(after), sheet == "phase")
+    after = _mirrored(before, snapped(after), sheet == "phase") if mirrored or sheet == "phase" else snapped(after)
     return _sheets(sheets.amplitude, after) if sheet == "phase" else _sheets(after, sheets.phase)
 
 
@@ -256,15 +256,15 @@ def drawn(design: Design, look: Look | None = None) -> Sheets:
     """The spectrum with all its shapes and strokes.  BrushError if a brush cannot paint it."""
     sheets = begun(design, look)
     for stroke in design.strokes:
-        sheets = with_stroke(sheets, stroke)
+        sheets = with_stroke(sheets, stroke, not design.forward)
     return sheets
 
 
-def with_stroke(sheets: Sheets, stroke: c.Stroke) -> Sheets:
+def with_stroke(sheets: Sheets, stroke: c.Stroke, mirrored: bool = True) -> Sheets:
     """One more stroke, whole."""
     live = touch(sheets, stroke.brush, stroke.layer or SHEETS[0])
     live.lay(stroke.points + np.array([*stroke.origin, 0, 0, 0, 0]))
-    return stroked(sheets, live)
+    return stroked(sheets, live, mirrored)
 
 
 def sample(sheets: Sheets, design: Design) -> np.ndarray:

@@ -219,6 +219,17 @@ def test_another_size_keeps_what_was_painted(desk):
     assert desk.picture("lab spectrum")[32, 32, 0] == 255
 
 
+def test_forward_paints_a_pattern_without_its_mirror_image(desk):
+    desk.ask(q.LabSet((64, 64)))
+    desk.stroke((16, 16))
+    assert desk.picture("lab spectrum")[48, 48, 0] == 255
+    desk.ask(q.LabSet((64, 64), forward=True))
+    assert desk.picture("lab spectrum")[16, 16, 0] == 255
+    assert desk.picture("lab spectrum")[48, 48, 0] < 40
+    desk.ask(q.LabUse("T"))
+    assert desk.easel.session.painting.textures["T"].source == sample_of(c.parse(c.to_json(desk.log[-1])))
+
+
 def test_the_phase_has_a_sheet_of_its_own(desk):
     desk.ask(RING)
     random = desk.picture("lab texture")

@@ -60,6 +60,16 @@ def test_a_stroke_appears_at_the_opposite_frequency_and_the_eraser_takes_both_aw
     assert np.array_equal(gone.amplitude, spectrum.begun(blank).amplitude)
 
 
+def test_a_pattern_is_not_symmetric_and_its_transform_is_the_texture():
+    design = Design((64, 64), (), (line((20, 20), (30, 24)),), forward=True)
+    sheets = spectrum.drawn(design)
+    assert sheets.amplitude[0, 20, 20] == 1.0
+    assert sheets.amplitude[0, 44, 44] == 0.0
+    texture = spectrum.sample(sheets, design)
+    assert texture.std() > 0.3
+    assert not np.array_equal(texture, spectrum.sample(sheets, Design((64, 64))))
+
+
 def test_opposite_sides_of_a_painted_phase_turn_opposite_ways():
     sheets = spectrum.drawn(Design((64, 64), (), (line((20, 20), layer="phase"),)))
     assert sheets.phase[0, 20, 20] == 1.0

@@ -1,0 +1,81 @@
+"""What the window knows of the lab: places in the spectrum, the brush that paints there, when it has come to rest."""
+
+import pytest
+from immutables import Map
+
+from app.lab import SETTLE, LabState, only_with, with_texture
+from engine.brush.parts import Component, Surface
+from engine.brush.record import Brush
+from engine.painting.requests import LabRest, LabSet, LabUse
+
+OWN = frozenset({"rock", "stripes"})
+
+
+def test_places_on_the_screen_are_pixels_of_the_spectrum():
+    lab = LabState(spot=(100.0, 50.0, 512.0))
+    assert lab.place(100, 50) == (0, 0)
+    assert lab.place(356, 306) == (128, 128)
+    assert lab.over(100, 50)
+    assert not lab.over(612, 60)
+    lab.spot = None
+    assert not lab.over(356, 306)
+
+
+def test_the_brush_paints_white_with_what_every_painting_has():
+    lab = LabState(made=LabSet((512, 512)), radius=6.0, strength=0.5)
+    ink = (Component("rock", 0.5, "#ff0000"), Component("Photo"))
+    brush = lab.brush(Brush(ink=ink, grain=Surface("Photo"), density=Surface("rock")), "#00ff00", False, OWN)
+    assert (brush.colour, brush.radius, brush.opacity, brush.mode) == ("#ffffff", 12.0, 0.5, "paint")
+    assert [(part.texture, part.colour) for part in brush.ink] == [("rock", "#000000")]
+    assert brush.grain is None
+    assert brush.density == Surface("rock")
+
+
+def test_colour_and_the_eraser():
+    lab = LabState(coloured=True)
+    assert lab.brush(Brush(), "#00ff00", False, OWN).colour == "#00ff00"
+    assert lab.brush(Brush(mode="raster"), "#00ff00", False, OWN).mode == "paint"
+    assert lab.brush(Brush(), "#00ff00", True, OWN).mode == "erase"
+    lab.change(sheet="phase")
+    assert lab.brush(Brush(), "#00ff00", False, OWN).colour == "#ffffff"
+
+
+def test_settings_are_posted_at_once_and_strokes_shown_at_rest():
+    lab, posted = LabState(), []
+    lab.ask(posted.append, 10.0, Brush())
+    assert posted == [lab.made]
+    lab.shape(0, "b", 2.0)
+    lab.ask(posted.append, 10.1, Brush())
+    assert posted[1].shapes == (Map({"shape": "noise", "b": 2.0}),)
+    lab.ask(posted.append, 10.1 + SETTLE / 2, Brush())
+    assert len(posted) == 2
+    assert lab.waiting
+    lab.ask(posted.append, 10.2 + SETTLE, Brush())
+    lab.ask(posted.append, 20.0, Brush())
+    assert [type(request) for request in posted] == [LabSet, LabSet, LabRest]
+    assert not lab.waiting
+
+
+def test_numbers_at_their_default_are_left_out():
+    lab = LabState()
+    lab.field("density", 20.0)
+    assert lab.made.field == Map({"density": 20.0})
+    lab.field("density", None)
+    lab.field("density", None)
+    assert lab.made.field == Map()
+
+
+@pytest.mark.parametrize(("follow", "names"), [(True, ["A"]), (False, ["A", ""])])
+def test_a_texture_in_use_follows_or_is_let_go(follow, names):
+    posted = []
+    LabState(follow=follow).use(posted.append, "A")
+    assert posted == [LabUse(name) for name in names]
+
+
+def test_a_brush_takes_the_texture():
+    brush = Brush(mode="erase", ink=(Component("rock"),))
+    assert with_texture(brush, "ink", "A").ink == (Component("A", 1.0, "#ffffff"),)
+    assert with_texture(brush, "ink", "A").mode == "paint"
+    assert with_texture(brush, "grain", "A").grain.texture == "A"
+    assert with_texture(brush, "density", "A").ink == brush.ink
+    assert only_with(with_texture(brush, "density", "A"), OWN) == brush
