@@ -58,7 +58,7 @@ def test_paint_a_spectrum_then_paint_with_it(program):
     app.do("mousemove", *USE_AS_INK)
     time.sleep(0.2)
     app.do("click", 1)
-    app.keys(*["bracketright"] * 20)
+    app.do("key", "--repeat", 20, "--delay", 30, "bracketright")
     app.stroke(*LINE)
     stroke = (slice(190, 212), slice(320, 860))
     first = until(app, lambda screen: changed(screen[stroke], opened[stroke]) > 3000)
