@@ -58,6 +58,7 @@ class Desk:
     curves: tuple[CurveRow, ...] = ()  # that shape textures
     edges: tuple[CurveRow, ...] = ()  # that shape the rim of a stroke
     presets: tuple[Any, ...] = ()  # app.presets.Preset
+    papers: tuple[Any, ...] = ()  # app.presets.Paper
     scene: Scene | None = None
     ready: bool = False
     painting: bool = False

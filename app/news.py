@@ -124,7 +124,9 @@ class News:
         found, faults = presets.load(presets.bundled_folder())
         own, more = presets.load(presets.own_folder())
         desk.presets = (*found, *own) or (presets.DEFAULT,)
-        for fault in faults + more:
+        papers, torn = presets.load_papers(presets.papers_folder())
+        desk.papers = tuple(papers)
+        for fault in faults + more + torn:
             desk.say(fault, bad=True)
         if not desk.preset:
             first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])

@@ -1,16 +1,18 @@
-"""Brush presets: files of palettes/brushes and of the user's own folder, one JSON object each (feature A5)."""
+"""Brush presets and papers: files of palettes/brushes, palettes/grains and the user's own folder, one JSON object each
+(feature A5)."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import platformdirs
 
-from engine.brush import record
+from engine.brush import parts, record
+from engine.brush.parts import Surface
 from engine.brush.record import Brush
 from engine.painting import definitions
 from engine.painting.atomic import replacing
@@ -33,12 +35,26 @@ class Preset:
     textures: tuple[DefineTexture, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A surface to paint on, under a name: what a brush's grain becomes when it is chosen."""
+
+    name: str
+    grain: Surface
+    textures: tuple[DefineTexture, ...]
+
+
 DEFAULT = Preset("Round", Brush(radius=12.0))
 
 
 def bundled_folder() -> Path:
     """The presets that come with the program; the folder lies beside the packages."""
     return Path(__file__).resolve().parent.parent / "palettes" / "brushes"
+
+
+def papers_folder() -> Path:
+    """The papers that come with the program."""
+    return bundled_folder().with_name("grains")
 
 
 def own_folder() -> Path:
@@ -48,14 +64,24 @@ def own_folder() -> Path:
 
 def load(folder: Path) -> tuple[list[Preset], list[str]]:
     """The presets of a folder by file name, and a line for each file that is none."""
-    presets, faults = [], []
-    for path in sorted(folder.glob("*.json")) if folder.is_dir() else []:
-        try:
-            presets.append(_read(path))
-        except (OSError, ValueError) as error:
-            faults.append(f"{path.name}: {error}")
+    presets, faults = _all(folder, _read)
     presets.sort(key=lambda p: (_GROUP_RANK.get(p.group, 1), p.group, _order(p)))
     return presets, faults
+
+
+def load_papers(folder: Path) -> tuple[list[Paper], list[str]]:
+    """The papers of a folder by file name, and a line for each file that is none."""
+    return _all(folder, _read_paper)
+
+
+def _all(folder: Path, read: Callable[[Path], Any]) -> tuple[list[Any], list[str]]:
+    found, faults = [], []
+    for path in sorted(folder.glob("*.json")) if folder.is_dir() else []:
+        try:
+            found.append(read(path))
+        except (OSError, ValueError) as error:
+            faults.append(f"{path.name}: {error}")
+    return found, faults
 
 
 def _order(preset: Preset) -> tuple[bool, str]:
@@ -63,12 +89,24 @@ def _order(preset: Preset) -> tuple[bool, str]:
     return preset.brush.mode != "paint", preset.name
 
 
-def _read(path: Path) -> Preset:
+def _object(path: Path, what: str) -> dict[str, Any]:
+    """The JSON object of a file.  ValueError says what was found and expected."""
     if path.stat().st_size > BYTES_CAP:
-        raise ValueError(f"found {path.stat().st_size} bytes, expected a brush of at most {BYTES_CAP}")
+        raise ValueError(f"found {path.stat().st_size} bytes, expected {what} of at most {BYTES_CAP}")
     data = json.loads(path.read_text("utf-8"))
     if not isinstance(data, dict):
-        raise ValueError("found no object, expected a brush")
+        raise ValueError(f"found no object, expected {what}")
+    return data
+
+
+def _read_paper(path: Path) -> Paper:
+    data = _object(path, "a paper")
+    textures = definitions.read(data.get("textures", []), "textures", path.parent)
+    return Paper(str(data.get("name") or path.stem), parts.surface(data.get("grain"), "grain"), textures)
+
+
+def _read(path: Path) -> Preset:
+    data = _object(path, "a brush")
     name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
     group = str(data.pop("group", OWN))
     textures = definitions.read(data.pop("textures", []), "textures", path.parent)

@@ -37,9 +37,10 @@ def bring(desk: Desk, name: str) -> None:
 
 
 def _bringable(desk: Desk) -> dict[str, DefineTexture]:
-    """By name, what the brush came with and what the presets come with; the first of a name counts."""
+    """By name, what the brush came with and what presets and papers come with; the first of a name counts."""
     found: dict[str, DefineTexture] = {}
-    for command in (*desk.needs, *(one for preset in desk.presets for one in preset.textures)):
+    bundled = (one for source in (*desk.presets, *desk.papers) for one in source.textures)
+    for command in (*desk.needs, *bundled):
         found.setdefault(command.name, command)
     return found
 

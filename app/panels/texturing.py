@@ -79,6 +79,7 @@ class Texturing:
         return self._shaped(desk, _amount(_texture(desk, part), hint))
 
     def _grain(self, desk: Desk, part: Surface) -> Surface:
+        part = _paper(desk, part)
         part = _amount(_texture(desk, part), "How deep the grain is: light touches reach its peaks alone")
         hint = "The level in whose pixels the grain is measured; higher is finer. It stays on the canvas as you zoom"
         changed, level = w.slider("Scale", float(part.level), SCALES, hint, form="level %.0f")
@@ -126,6 +127,19 @@ _SECTIONS: tuple[tuple[str, str, str, Callable[[Texturing, Desk, Any], Any]], ..
     ("edge", "Edge", "What happens along the rim of a stroke: wet, dark, worn", Texturing._edge),
     ("tip", "Tip", "Each dab is a piece of a texture", Texturing._tip),
 )
+
+
+def _paper(desk: Desk, part: Surface) -> Surface:
+    """A drop-down of the bundled papers; the surface is the chosen one's."""
+    if not desk.papers:
+        return part
+    current = next((paper.name for paper in desk.papers if paper.grain == part), "A paper of your own")
+    chosen = w.choice("paper", current, [(p.name, p.name) for p in desk.papers], "Papers and other surfaces", -1)
+    for paper in desk.papers:
+        if paper.name == chosen:
+            textures.bring(desk, paper.grain.texture)
+            return paper.grain
+    return part
 
 
 def _texture(desk: Desk, part: Any) -> Any:

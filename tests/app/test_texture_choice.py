@@ -23,7 +23,7 @@ def desk(*defined):
         texture_widths=tuple((name, 48) for name, _, _ in defined),
     )
     presets = (Preset("Cat", Brush(), textures=(FUR,)), Preset("Cloth", Brush(), textures=(LINEN, FUR)))
-    return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, needs=())
+    return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, papers=(), needs=())
 
 
 def test_each_texture_is_offered_once_and_the_paintings_own_is_meant():
