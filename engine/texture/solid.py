@@ -18,7 +18,7 @@ from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.steerable import Filters, Place, finished
 from engine.texture.matching import Pattern, Shape, Step, analysed, filters_for
 
-ITERATIONS = 8
+ITERATIONS = 10
 LEAST = 4  # voxels along the smallest cube
 
 _DOMAIN = 0x736F6C64  # "sold": tells these hashes from those of other textures
@@ -82,7 +82,7 @@ def _sliced(
     cube: np.ndarray, axis: int, made: Filters, bands: dict[Place, np.ndarray], threads: Executor | None
 ) -> np.ndarray:
     """The cube with the subbands of all its slices across `axis` matched, each slice by itself."""
-    slices = np.ascontiguousarray(np.moveaxis(cube, axis, 0))
+    slices = np.moveaxis(cube, axis, 0).copy()
     step = max(1, _TOGETHER // slices[0].size)
 
     def change(place: Place, values: np.ndarray) -> None:

@@ -56,6 +56,14 @@ def test_no_seams_in_any_direction(granite):
             assert abs(measure[-1] - measure.mean()) < 4.0 * measure.std()
 
 
+def test_no_direction_is_preferred(granite):
+    """Of an example that prefers none: differences along x, y and z are as large."""
+    example, cube = granite
+    found = [np.abs(np.diff(cube, axis=axis)).mean() for axis in (1, 2, 3)]
+    assert max(found) < 1.06 * min(found)
+    assert np.mean(found) == pytest.approx(np.abs(np.diff(example, axis=1)).mean(), rel=0.15)
+
+
 def test_steps_and_threads():
     example = specimens.granite((40, 40))
     with ThreadPoolExecutor(2) as threads:
