@@ -30,7 +30,7 @@ class Strip(NamedTuple):
 
 PART, HIGHEST = 0.4, 560.0  # of the window's height; points
 STRIPS = {
-    "lab": Strip("Texture lab", icons.FLASK, "Paint what sounds: coarse in the middle, fine at the rim", 356.0),
+    "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", 356.0),
     "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 320.0),
 }
 

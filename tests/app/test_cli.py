@@ -169,7 +169,7 @@ HOSTILE = {
     "missing image": '{"do": "texture", "name": "t", "maker": "image", "path": "../none.png"}',
     "image is a device": '{"do": "texture", "name": "t", "maker": "image", "path": "/dev/zero"}',
     "later maker": '{"do": "texture", "name": "t", "maker": "match"}',
-    "raster mode": '{"do": "stroke", "points": [[0, 0]], "brush": {"mode": "raster"}}',
+    "raster op": '{"do": "stroke", "points": [[0, 0]], "brush": {"mode": "raster", "op": "dissolve"}}',
     "endless stroke": '{"do": "stroke", "points": [[0, 0], [16777216, 16777216]], "brush": {"radius": 4000}}',
 }
 
