@@ -118,7 +118,7 @@ class LabPanel:
         imgui.end_child()
         imgui.same_line(0, 2 * desk.scale)
         imgui.begin_child("strength", ImVec2(room / 2, height))
-        hint = "How loud its paint is: the spectrum is shown, and painted, in loudness (a logarithm)"
+        hint = "How strong its paint is; the spectrum shows strength on a logarithmic scale"
         changed, value = w.slider("Strength", lab.strength * 100, (1.0, 100.0), hint, form="%.0f%%")
         lab.strength = round(value / 100, 3) if changed else lab.strength
         imgui.end_child()

@@ -23,7 +23,7 @@ _PHASES = (
     ("painted", "Painted", "Paint the phases too: pushes features to one side or the other"),
 )
 _SHEETS = (
-    ("amplitude", "Paint loudness", "The brush paints how loud each frequency is"),
+    ("amplitude", "Paint strength", "The brush paints how strong each frequency is"),
     ("phase", "Paint phase", "The brush turns phases: warm one way, cold the other; the other side turns back"),
 )
 _PARTS = (
