@@ -11,11 +11,10 @@ import io
 import os
 import tempfile
 from collections import deque
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import IO
 
@@ -32,10 +31,10 @@ from engine.painting.atomic import replacing
 from engine.painting.cascade import Cascade
 from engine.painting.fault import FileError, WriteError
 from engine.painting.grounds import GroundEntry
-from engine.painting.implied import Tile, needed, ordered, without
+from engine.painting.implied import needed, ordered
+from engine.painting.jobs import Job, pack_jobs
 from engine.painting.limits import LIMITS
 from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Pack, PictureEntry, manifest_json
-from engine.painting.packing import grouped, pack
 from engine.painting.pngread import PngReader
 from engine.painting.pngstream import PngWriter
 from engine.painting.recording import Recording
@@ -64,15 +63,6 @@ class Snapshot:
 
 
 Product = bytes | IO[bytes]
-
-
-@dataclass(frozen=True)
-class Job:
-    """One member: its name, and what makes its bytes; `deflate`: text."""
-
-    name: str
-    make: Callable[[], bytes]
-    deflate: bool = False
 
 
 def save(
@@ -288,13 +278,13 @@ class Plan:
     def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
         tiles = ordered(grounds.painted_since(layer.pyramid))
         self._packs[layer.id] = []
-        yield from _pack_jobs(
+        yield from pack_jobs(
             f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], Cascade(layer.pyramid, needed(tiles))
         )
 
     def _picture_jobs(self, source) -> Iterator[Job]:
         packs: list[Pack] = []
-        yield from _pack_jobs(f"inkfall/pictures/{source.sha}", pictures.tiles(source), packs)
+        yield from pack_jobs(f"inkfall/pictures/{source.sha}", pictures.tiles(source), packs)
         self._pictures.append(PictureEntry(source.name, source.sha, (source.width, source.height), tuple(packs)))
 
     def finish(self, writer: ZipWriter) -> None:
@@ -348,18 +338,6 @@ class _Png:
 
 def _png_name(layer: Layer) -> str:
     return f"data/L{layer.id}.png"
-
-
-def _pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack], values: Cascade | None = None) -> Iterator[Job]:
-    """The packs of some tiles; `values` of their pyramid, if what ink implies of them may be left out."""
-    for number, group in enumerate(grouped(tiles)):
-        name = f"{stem}/{number}.tiles"
-        packs.append(Pack(name, len(group), sum(record.data.nbytes for _, record in group)))
-        yield Job(name, partial(_packed, group, values))
-
-
-def _packed(group: Sequence[Tile], values: Cascade | None) -> bytes:
-    return pack([(key, record, None) for key, record in group] if values is None else without(values, group))
 
 
 def _told(recording: Recording) -> bytes:

@@ -35,7 +35,7 @@ from engine.texture.record import Instance
 
 TEXTURES = 1  # raised when a texture's pixels change: what older files imply is then another picture
 ABOVE = 2  # levels above an ink's base for which its appearance is worked out: 16 pixels of it for one
-MOST = 3  # inks of a tile
+MOST = 4  # inks of a tile
 STRIDE = 4  # of the pixels by which terms are found,
 FEW = 1 << 12  # unless a tile has no more than these
 SQUARE = 4  # tiles along the side of a square that is evaluated at a time
@@ -120,15 +120,18 @@ class _Tile:
         self._corner = self.at.evened().parents()
         self._place = self._corner.y0 - rect.y0, self._corner.x0 - rect.x0, self.at.y0 & 1, self.at.x0 & 1
 
-    def inks(self) -> tuple[Instance, ...] | None:
-        """The inks that lie here; None if one of them adds texture of its own at this level."""
+    def inks(self) -> tuple[Instance, ...]:
+        """The inks that lie here and whose appearance is known, the finer ones first; none if there are too many of
+        those that add texture of their own at this level."""
         found = list(self.record.inks)
         top, left, *_ = self._place
         for i, ink in enumerate(self._above.inks):
             inside = self._above.data, COLOURS + 3 * i, top, left, self._corner.height, self._corner.width
             if ink not in found and kernels.lies(*inside):
                 found.append(ink)
-        return None if any(ink.base < self.key.level for ink in found) else tuple(found)
+        adding = [ink for ink in found if ink.base < self.key.level]
+        others = [ink for ink in found if 0 <= ink.base - self.key.level <= ABOVE]
+        return () if len(adding) > MOST else tuple([*adding, *others][:MOST])
 
     def arguments(self, inks: tuple[Instance, ...]) -> tuple:
         """What the kernels need of the tile for these inks."""
@@ -137,16 +140,15 @@ class _Tile:
             for there in (self._above.inks, self.record.inks)
         )
         place = np.array(self._place, np.int64)
-        return self.record.data, self._above.data, place, sources, own, _seen(inks, self.key.level, self.at)
+        seen, detail = _seen(inks, self.key.level, self.at), _detail(inks, self.key.level, self.at)
+        return self.record.data, self._above.data, place, sources, own, seen, detail
 
 
 def _tile_without(tile: _Tile) -> Coded:
     key, record = tile.key, tile.record
-    lying = tile.inks()
-    known = [] if lying is None else [ink for ink in lying if ink.base - ABOVE <= key.level]
-    if not known:
+    inks = tile.inks()
+    if not inks:
         return key, record, None
-    inks = tuple(known[:MOST])
     arguments = tile.arguments(inks)
     terms = np.rint(kernels.fit(*arguments, STRIDE if tile.at.area > FEW else 1) * ONE)
     if not (np.isfinite(terms).all() and np.abs(terms).max() <= TERM_CAP):
@@ -168,8 +170,21 @@ def _seen(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
         for _ in range(lacking):
             seen = reduce(seen)
         found.append(seen)
-    planes = max(len(seen) for seen in found)
-    return np.stack([np.broadcast_to(seen, (planes, at.height, at.width)) for seen in found]).astype(
+    return _stacked(found, at)
+
+
+def _detail(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
+    """What the inks add at a level: float32 (n, 1 or 3, h, w), n = 0 if they add nothing."""
+    if all(ink.base >= level for ink in inks):
+        return np.empty((0, 1, 0, 0), np.float32)
+    added = [ink.bandpass(level, at) for ink in inks]
+    return _stacked([np.zeros((1, 1, 1), np.float32) if planes is None else planes for planes in added], at)
+
+
+def _stacked(found: Sequence[np.ndarray], at: Rect) -> np.ndarray:
+    """Planes (1 or 3, h, w) each as one array: float32 (n, 1 or 3, h, w)."""
+    planes = max(len(each) for each in found)
+    return np.stack([np.broadcast_to(each, (planes, at.height, at.width)) for each in found]).astype(
         np.float32, copy=False
     )
 

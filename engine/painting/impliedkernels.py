@@ -4,7 +4,8 @@ A tile, w x h, is its residuals `data`, int16 or int32 (4 + 3m, h, w) in units o
 float32 (C, H, W).  `place`, int64 (4,): the row and the column of `parents` above and left of the first pixel's parent,
 and 1 where the tile begins on an odd row, on an odd column.  `sources` and `own`, int64 (n,): where the amplitudes of
 each ink begin in `parents` and in `data`, -1 for nowhere.  `seen` is float32 (n, 1 or 3, h, w); `factors`, float32
-(3, 1 + 2n), are p, then q and s of each ink.
+(3, 1 + 2n), are p, then q and s of each ink; `detail`, float32 (n or 0, 1 or 3, h, w), is what texture adds at this
+level of itself, all zero for inks of this level and coarser ones.
 """
 
 from __future__ import annotations
@@ -68,6 +69,13 @@ def _alpha(parents, data, place, y, t, line):
 
 
 @njit(cache=True, nogil=True)
+def _textured(line, amplitude, detail):
+    """line += what an ink adds, as the canvas does."""
+    for i in range(detail.size):
+        line[i] += snap(amplitude[i] * detail[i])
+
+
+@njit(cache=True, nogil=True)
 def _solve(a, b):
     """The solution of the positive definite a x = b, in place, by elimination."""
     n = b.size
@@ -109,7 +117,7 @@ def _gather(a, b, x, lines, seen, first, y, stride, target):
 
 
 @njit(cache=True, nogil=True)
-def fit(data, parents, place, sources, own, seen, stride):
+def fit(data, parents, place, sources, own, seen, detail, stride):
     """The factors, float64, that leave the smallest squares on every `stride`-th pixel of every such row."""
     n, width = sources.size, data.shape[2]
     m = 1 + 2 * n
@@ -121,11 +129,13 @@ def fit(data, parents, place, sources, own, seen, stride):
         _alpha(parents, data, place, y, t, work[0])
         lines[0] = inside[0]
         for c in range(3):
+            _shown(parents, c, data, c, place, y, t, work[2])
             for k in range(n):
                 plane = sources[k] + c if sources[k] >= 0 else -1
                 _shown(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, t, work[1])
                 lines[1 + k] = inside[1]
-            _shown(parents, c, data, c, place, y, t, work[2])
+                if detail.shape[0]:
+                    _textured(inside[2], inside[1], detail[k, c % detail.shape[1], y])
             _gather(a[c], b[c], x, lines, seen, c % seen.shape[1], y, stride, inside[2])
     for c in range(3):
         trace = 0.0
@@ -162,9 +172,9 @@ def _exchanged(row, implied, below, sign, whole):
 
 
 @njit(cache=True, nogil=True)
-def exchange(data, parents, place, sources, own, seen, factors, sign, out):
-    """`out`, the colour planes of which may be those of `data`, = `data` with implied - expanded added to its colour
-    (`sign` 1: colour is put back) or taken away (-1).
+def exchange(data, parents, place, sources, own, seen, detail, factors, sign, out):
+    """`out`, whose colour planes may be those of `data`, = `data`, to the colour of which implied - (expanded + detail)
+    is added (`sign` 1: it is put back) or from which it is taken (-1).
 
     Gives the bits that it saves in the widths of rows, -1 also where values do not fit into `out`.
     """
@@ -178,13 +188,15 @@ def exchange(data, parents, place, sources, own, seen, factors, sign, out):
         _alpha(parents, data, place, y, t, work[0])
         for c in range(3):
             implied[:] = np.float32(0.0)
+            _expanded(parents, c, place, y, t, work[2])
             for k in range(sources.size):
                 plane = sources[k] + c if sources[k] >= 0 else -1
                 _shown(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, t, work[1])
                 p = factors[c, 0] if k == 0 else np.float32(0.0)
                 s = seen[k, c % seen.shape[1], y]
                 _add(implied, alpha, amplitude, s, p, factors[c, 1 + 2 * k], factors[c, 2 + 2 * k])
-            _expanded(parents, c, place, y, t, work[2])
+                if detail.shape[0]:
+                    _textured(below, amplitude, detail[k, c % detail.shape[1], y])
             most, before, after = _exchanged(data[c, y], implied, below, sign, whole)
             out[c, y][:] = whole
             far, widest = far | most, widest | after

@@ -17,7 +17,7 @@ from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
-from engine.painting import archive, opening
+from engine.painting import jobs, opening
 from engine.painting import commands as c
 from engine.painting.archive import Snapshot, save, shown_level
 from engine.painting.fault import Cancelled, FileError, WriteError
@@ -496,7 +496,7 @@ def test_a_job_that_fails_leaves_the_old_file(session, tmp_path, monkeypatch):
     def fail(*args):
         raise MemoryError
 
-    monkeypatch.setattr(archive, "pack", fail)
+    monkeypatch.setattr(jobs, "pack", fail)
     with pytest.raises(WriteError, match="not enough memory"):
         save(path, Snapshot(session.painting))
     assert path.read_bytes() == b"old"

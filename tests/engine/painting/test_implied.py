@@ -52,6 +52,12 @@ SCENES = {
         ([[200, 200], [400, 300]], 2, ROCK),
         ([[10, 60], [40, 70]], -1, {**ROCK, "radius": 20, "ink": ink("rock", seed=5)}),
     ],
+    "paint on finer levels of rock": [
+        ([[20, 20], [150, 100]], 0, ROCK),
+        ([[80, 80], [250, 170]], 1, {**ROCK, "ink": ink("rock", "#102030", period=9), "opacity": 0.8}),
+        ([[160, 160], [500, 340]], 2, {**ROCK, "radius": 30, "colour": "#ffffff", "ink": []}),
+        ([[160, 200], [500, 380]], 2, {**ROCK, "radius": 30, "ink": ink("stripes", period=9)}),
+    ],
     "no ink": [([[50, 80], [150, 120]], 0, {"radius": 30, "colour": "#123456"})],
     "ink taken away": [([[50, 80], [150, 120]], 0, ROCK), ([[90, 90], [100, 100]], 0, {"radius": 90, "mode": "erase"})],
     "far away": [([[16_000_099.5, -15_999_000.0]], 0, ROCK)],
@@ -156,12 +162,15 @@ def test_the_kernel_is_the_plain_form():
     place = np.array([0, 0, 1, 1], np.int64)
     sources, own = np.array([4, 7], np.int64), np.array([4, -1], np.int64)
     out = data.copy()
-    impliedkernels.exchange(data, parents, place, sources, own, seen, factors, np.int32(1), out)
+    detail = rng.uniform(-0.1, 0.1, (2, 1, 11, 13)).astype(np.float32)
+    detail[1] = 0.0
+    impliedkernels.exchange(data, parents, place, sources, own, seen, detail, factors, np.int32(1), out)
     below = expand(parents)[:, 1:12, 1:14].astype(np.float64)
     for c in range(3):
         amplitudes = [below[4 + c] + data[4 + c] * unit, below[7 + c]]
         wanted = plain_implied(np.clip(below[3] + data[3] * unit, 0, 1), amplitudes, seen[:, 0], factors[c])
-        expected = np.rint((wanted - below[c]) / unit) + data[c]
+        texture = np.rint(amplitudes[0] * detail[0, 0] / unit) * unit
+        expected = np.rint((wanted - below[c] - texture) / unit) + data[c]
         assert np.abs(out[c] - ((expected + 32768) % 65536 - 32768)).max() <= 1  # float32, which wraps in int16
     assert np.array_equal(out[3:], data[3:])
 
