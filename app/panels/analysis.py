@@ -13,7 +13,7 @@ from engine.numeric.address import Rect
 from engine.painting.requests import Analyse
 
 _PICTURES = (
-    ("analysis power", "Power spectrum", "How strong each frequency is; zero in the middle, loudest is light"),
+    ("analysis power", "Power spectrum", "How strong each frequency is; zero in the middle, strongest is light"),
     (
         "analysis correlation",
         "Autocorrelation",
@@ -89,14 +89,14 @@ class AnalysisPanel:
         """Power by frequency, both logarithmic; over it the model's."""
         rows = desk.found.rings if desk.found is not None else ()
         corner = w.picture(None, (wide, tall), "Power by frequency, coarse to fine: the picture, and the model over it")
-        loudest = max((power for _, power, _ in rows), default=0.0)
-        if loudest <= 0.0 or len(rows) < 2:
+        strongest = max((power for _, power, _ in rows), default=0.0)
+        if strongest <= 0.0 or len(rows) < 2:
             return
         painter, low = imgui.get_window_draw_list(), math.log(rows[0][0])
         across = math.log(rows[-1][0]) - low
 
         def at(frequency: float, power: float) -> ImVec2:
-            down = min(1.0, -math.log10(max(power / loudest, 1e-7)) / 6.0)
+            down = min(1.0, -math.log10(max(power / strongest, 1e-7)) / 6.0)
             return ImVec2(
                 corner.x + wide * (math.log(frequency) - low) / across, corner.y + 4 + (tall - 8) * max(0.0, down)
             )

@@ -126,7 +126,7 @@ class LabPanel:
         if w.icon_button("erase", icons.ERASER, "Erase: paints silence", on=lab.erasing):
             lab.erasing = not lab.erasing
         imgui.same_line(0, 2 * desk.scale)
-        hint = "Paint in the brush's colour: red, green and blue sound apart"
+        hint = "Paint in the brush's colour: red, green and blue each have a spectrum of their own"
         if w.icon_button("colour", icons.PALETTE, hint, on=lab.coloured):
             lab.coloured = not lab.coloured
 
