@@ -17,8 +17,8 @@ from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
-from engine.painting import jobs, opening
 from engine.painting import commands as c
+from engine.painting import jobs, opening
 from engine.painting.archive import Snapshot, save, shown_level
 from engine.painting.fault import Cancelled, FileError, WriteError
 from engine.painting.limits import LIMITS
