@@ -140,7 +140,9 @@ class Raster:
     def _gains(self, inks: tuple) -> np.ndarray:
         """What one unit of each ink adds to the texture; 0 for those that are not the brush's, or are coloured."""
         own = {part.instance: part.amplitude[0] for part in self.ink.loaded} if self.ink is not None else {}
-        return np.array([own.get(made, 0.0) if _single(made, self.level) else 0.0 for made in inks], np.float32)
+        # Others may have been painted finer: they have no appearance at this level.
+        gains = [own[made] if made in own and _single(made, self.level) else 0.0 for made in inks]
+        return np.array(gains, np.float32)
 
     def _change(
         self,
