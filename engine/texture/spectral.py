@@ -40,9 +40,14 @@ class _Spectral:
     source: ImageSource
 
     @property
+    def shown(self) -> ImageSource:
+        """The sample: the picture, or a part of it."""
+        return self.source
+
+    @property
     def coloured(self) -> bool:
         """Whether S has three channels."""
-        return sample.coloured(self.source)
+        return sample.coloured(self.shown)
 
     @property
     def native(self) -> int:
@@ -67,7 +72,7 @@ class _Spectral:
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         if level < self.base:
             raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
-        if self.source.data is None:
+        if self.shown.data is None:
             return np.zeros((1, rect.height, rect.width), np.float32)
         if level <= self.native:
             return self._own(level, rect) + self.centre
@@ -75,7 +80,7 @@ class _Spectral:
         return self._cascade(level - self.native, rect, factors) + self.centre
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
-        if level <= self.base or rect.empty or self.source.data is None:
+        if level <= self.base or rect.empty or self.shown.data is None:
             return None
         if level > self.native:
             changes = octave_changes(level - self.native, self.roughness, self.form)
@@ -125,23 +130,23 @@ class Tiled(_Spectral):
 
     @property
     def native(self) -> int:
-        return self.base + sample.finer(self.source, self.period)
+        return self.base + sample.finer(self.shown, self.period)
 
     @property
     def centre(self) -> np.ndarray:
-        return sample.tile(self.source, self.period).mean
+        return sample.tile(self.shown, self.period).mean
 
     @property
     def form(self) -> Continuation:
-        return sample.tile(self.source, self.period).form
+        return sample.tile(self.shown, self.period).form
 
     def _own(self, level: int, rect: Rect) -> np.ndarray:
-        levels = sample.tile(self.source, self.period).levels
+        levels = sample.tile(self.shown, self.period).levels
         return tiled(levels[level - self.native - 1], rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
         """The tile's finest content, shifted elsewhere."""
-        top = sample.tile(self.source, self.period).top
+        top = sample.tile(self.shown, self.period).top
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % top.shape[2], (h >> 32) % top.shape[1]
         return tiled(top, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))

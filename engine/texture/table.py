@@ -14,6 +14,7 @@ from typing import Any
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.field_error import FieldError
 from engine.texture.image import Cover, Image, ImageSource
+from engine.texture.matched import Matched, series
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
 from engine.texture.rock import Rock
@@ -79,6 +80,13 @@ _SAMPLE = (
     Parameter("period", 256, 4, 65536, "px", "Width of the sample, in pixels of the level painted on", whole=True),
     Parameter("roughness", 0.5, 0.0, 1.0, "", "Strength of each octave of detail that zooming in adds; 0 is smooth"),
 )
+_SERIES = (
+    *_SAMPLE,
+    Parameter("stages", 5, 2, 9, "", "How many textures of the series are stored", whole=True),
+    Parameter(
+        "weight", 0.0, 0.0, 1.0, "", "From the first example, 0, to the second, 1; the pen's pressure may set it"
+    ),
+)
 _SPARSE = (
     *_SAMPLE,
     Parameter("density", 10.0, 0.5, 100.0, "", "Copies of the sample per area of it: few stay apart, many merge"),
@@ -97,6 +105,14 @@ _ROWS = (
     Kind("image", _IMAGE, Image, "A picture, tiled; it shows its own detail as you zoom in", pictured=True),
     Kind("canvas", _IMAGE, Image, "A piece of the painting, tiled like a picture", pictured=True),
     Kind("spectrum", _SAMPLE, Tiled, "A painted spectrum as texture, tiled", pictured=True),
+    Kind(
+        "matched",
+        _SAMPLE,
+        Matched,
+        "Noise matched to an example, tiled; zooming in adds more of its kind",
+        pictured=True,
+    ),
+    Kind("series", _SERIES, series, "Textures between two examples, tiled", pictured=True),
     Kind("sparse", _SPARSE, Sparse, "An endless field of scattered copies of a sample", pictured=True),
 )
 # Not for the brush to name: the alpha that an image brings along where it is translucent.

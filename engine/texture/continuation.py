@@ -1,0 +1,158 @@
+"""Finer detail for a picture that has no finer pixels: noise matched, subband by subband, to its finest subbands.
+
+Heeger & Bergen 1995, section 3.3, goes from a picture's pyramid to noise of the same size; here the noise is an octave
+finer than the picture.  Its subbands have the distributions of the picture's finest ones (those of the level that is
+finest among the levels that are not blurred away), along the same axes of colour, weaker by the slope by which the
+picture's subbands weaken from level to level.
+
+An octave is laid over what is there, expanded once more.  With e(f) the response of expand, which lets little pass
+near its end, the octave has the part 1 - e^2 of the power: both together have the picture's spectrum carried on, and
+no step where it ends.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from engine.numeric import histograms, steerable
+from engine.numeric.colour_axes import ColourAxes
+from engine.numeric.steerable import Place
+from engine.texture import sample
+from engine.texture.image import ImageSource
+from engine.texture.matching import Pattern, Shape, analysed, noise
+
+SIDE = 256  # pixels of an octave's tile each way
+LOOKED_AT = 1024  # pixels of a picture each way that are looked at
+# Slopes, amplitude of an octave to that of the one before.  Octaves that are as strong as one another, as those of
+# 1/f noise, would add up to ever more contrast.
+STEEPEST, EVENEST = 0.1, 0.85
+
+_SHAPE = Shape("steerable", 4, 4)
+_OCTAVES = 3  # of a tile: below them, an octave has no part
+_ITERATIONS = 4
+_BLURRED = 0.25  # of what the slope foretells: a level below is not looked at
+_LOUDEST = 0.35  # slope beyond which the lower octaves of a tile are not raised any more
+_QUANTILES = 4096
+_USUAL = 0.5  # where a picture is too small to measure a slope
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Octave:
+    """`tile`: float32 (1 or 3, 256, 256), periodic, of mean zero, in units of S, as strong as the octave at the end
+    of the picture's own pixels would be; `slope`: of the picture's subbands, amplitude per octave, 0.1..0.85."""
+
+    tile: np.ndarray
+    slope: float
+
+
+@lru_cache(maxsize=16)
+def octave_of(source: ImageSource) -> Octave:
+    """What continues a picture."""
+    assert source.data is not None
+    count = 3 if sample.coloured(source) else 1
+    picture = np.ascontiguousarray(source.data[:count, :LOOKED_AT, :LOOKED_AT])
+    pattern = analysed(picture, _SHAPE)
+    if not pattern.shape.levels or not pattern.bands:
+        return Octave(np.zeros((count, SIDE, SIDE), np.float32), _USUAL)
+    finest, slope = measured(pattern)
+    axes = pattern.colours
+    assert isinstance(axes, ColourAxes)
+    planes = _filtered(_noise(pattern, finest, slope))
+    tile = 2.0 * np.einsum("cr,rhw->chw", axes.axes, planes)
+    tile -= tile.mean((1, 2), keepdims=True)
+    tile = np.ascontiguousarray(tile, np.float32)
+    tile.flags.writeable = False
+    return Octave(tile, slope)
+
+
+def measured(pattern: Pattern) -> tuple[int, float]:
+    """The finest level that is not blurred away, and the slope from there on: amplitude per octave."""
+    strengths = _strengths(pattern)
+    for finest in range(min(2, len(strengths) - 2)):
+        slope = _slope(strengths[finest + 1 :])
+        if strengths[finest] >= _BLURRED * slope * strengths[finest + 1]:
+            return finest, _slope(strengths[finest:])
+    finest = max(0, min(2, len(strengths) - 2))
+    return finest, _slope(strengths[finest:])
+
+
+def _strengths(pattern: Pattern) -> list[float]:
+    """The standard deviation of each level's subbands together, colours being 0..1, from the finest."""
+    axes, shape = pattern.colours, pattern.shape
+    assert isinstance(axes, ColourAxes)
+    lengths = np.square(axes.axes, dtype=np.float64).sum(axis=0)
+    return [
+        math.sqrt(
+            sum(
+                float(length) * float(np.square(bands[Place(level, k)], dtype=np.float64).mean())
+                for length, bands in zip(lengths, pattern.bands, strict=True)
+                for k in range(shape.orientations)
+            )
+        )
+        for level in range(shape.levels)
+    ]
+
+
+def _slope(strengths: list[float]) -> float:
+    """A line through their logarithms."""
+    if len(strengths) < 2 or min(strengths) <= 0.0:
+        return _USUAL
+    fall = np.polyfit(np.arange(len(strengths)), np.log2(strengths), 1)[0]
+    return round(min(max(2.0**-fall, STEEPEST), EVENEST), 4)
+
+
+def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
+    """Planes (R, 256, 256) along the axes, whose subbands are distributed as the finest ones of the pattern; those of
+    lower octaves stronger, as the slope tells."""
+    made = steerable.filters(SIDE, SIDE, _OCTAVES, _SHAPE.orientations)
+    rise = max(slope, _LOUDEST)
+    rest = _rest(made, rise)
+
+    def wanted(axis: int, place: Place) -> np.ndarray:
+        bands = pattern.bands[axis]
+        if place.level < 0 and not finest:
+            return bands[place]
+        ordered = bands[Place(finest, max(place.orientation, 0))]
+        return ordered * np.float32(slope**finest * (rest if place.level < 0 else rise**-place.level))
+
+    targets = {
+        place: [histograms.quantiles(wanted(axis, place), _QUANTILES) for axis in range(len(pattern.bands))]
+        for place in steerable.places(_OCTAVES, _SHAPE.orientations)[:-1]
+    }
+
+    def change(place: Place, values: np.ndarray) -> None:
+        for axis, plane in enumerate(values):
+            if place.level == _OCTAVES:
+                plane[:] = 0.0
+            else:
+                histograms.match(plane, targets[place][axis])
+
+    planes = noise(len(pattern.bands), (SIDE, SIDE), 0)
+    for _ in range(_ITERATIONS):
+        planes = steerable.finished(steerable.changed(planes, made, change))
+    return planes
+
+
+def _rest(made: steerable.Filters, slope: float) -> float:
+    """How strong the high-pass residue is to one subband of the finest level, in noise of that slope."""
+    v, u = np.fft.fftfreq(SIDE)[:, None], np.fft.rfftfreq(SIDE)[None]
+    f = np.maximum(np.hypot(u, v), 1.0 / SIDE)
+    power = f ** (-2.0 * (1.0 - math.log2(slope)))
+    high = float((np.square(made.high) * power).sum())
+    return math.sqrt(high / float((np.square(made.bands[0]) * power).sum() / made.orientations))
+
+
+def _filtered(planes: np.ndarray) -> np.ndarray:
+    """Without what expand lets pass of a coarser level: the part 1 - e^2 of the power stays."""
+    e = _response(np.fft.fftfreq(SIDE))[:, None] * _response(np.fft.rfftfreq(SIDE))[None]
+    part = np.sqrt(np.maximum(1.0 - e * e, 0.0)).astype(np.float32)
+    return steerable.image(steerable.spectrum(planes) * part, (SIDE, SIDE), True)
+
+
+def _response(f: np.ndarray) -> np.ndarray:
+    """Of expand (1, 3, 3, 1)/4 along an axis, f in cycles per pixel of the finer level."""
+    return np.cos(np.pi * f) ** 3
