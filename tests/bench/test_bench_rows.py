@@ -10,7 +10,15 @@ from app.bench import BENCHES, Figure, Skipped
 from app.bench.clock import best, copying
 
 STORED = Path(__file__).parent / "ratios.json"
-QUICK = ("view", "dab", "raster", "spectral", "stroke", "memory")  # the others open windows and other programs
+QUICK = (
+    "view",
+    "dab",
+    "raster",
+    "spectral",
+    "matching",
+    "stroke",
+    "memory",
+)  # the others open windows and other programs
 
 
 def checked(row):
