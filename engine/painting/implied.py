@@ -11,8 +11,8 @@ that form exactly; engine/brush/ink.py.)  At levels coarser than an ink's base l
 the base level's (rule U of the canvas).  A file holds p, q, s and what is left: mostly nothing, or a rounding.
 
 `without` takes colour out of the records of a pyramid, `restored` puts it back, level by level from the coarsest on,
-since the sum is about values, and the value of a level stands on the coarser ones.  What S is must never change for a
-texture in a file: each tile carries the CRC-32 of its colour.
+since the sum is about values, and the value of a level stands on the coarser ones.  Where a texture has changed since
+a file was saved, colour follows it as it is now; each tile carries the CRC-32 of its colour, so that one can tell.
 """
 
 from __future__ import annotations
@@ -62,10 +62,6 @@ class Implied:
 
 
 Coded = tuple[TileKey, Record, Implied | None]
-
-
-class Changed(ValueError):
-    """Colour put back is not what was taken out."""
 
 
 def ordered(tiles: Sequence[Tile]) -> list[Tile]:
@@ -189,30 +185,31 @@ def _stacked(found: Sequence[np.ndarray], at: Rect) -> np.ndarray:
     )
 
 
-def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable = map) -> None:
+def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable = map) -> int:
     """Puts the colour back into those of `tiles` from which it was taken, all of them in their places in `pyramid`.
 
     Their records hold views of arrays that are written to here for the last time.  `run` maps a function over a list,
-    maybe on several threads.  Changed if the colour is not what it was.
+    maybe on several threads.  Returns how many tiles have another colour than they had: their texture changed.
     """
     lacking = sorted((tile for tile in tiles if tile[2] is not None), key=lambda tile: _square(tile[0]))
-    values = Cascade(pyramid, needed(lacking))
+    values, changed = Cascade(pyramid, needed(lacking)), 0
     for _, found in groupby(lacking, key=lambda tile: tile[0].level):
         squares = [list(square) for _, square in groupby(found, key=lambda tile: _square(tile[0]))]
-        for _ in run(partial(_square_restored, values), squares):
-            pass
+        changed += sum(run(partial(_square_restored, values), squares))
+    return changed
 
 
-def _square_restored(values: Cascade, square: Sequence[Coded]) -> None:
+def _square_restored(values: Cascade, square: Sequence[Coded]) -> int:
     level = square[0][0].level
     rect = _bounds(square).parents().evened()
     above = values.at(level - 1, rect)
+    changed = 0
     for key, record, implied in square:
         data = record.data.base
         assert implied is not None
         assert isinstance(data, np.ndarray)
         tile = _Tile(key, record, rect, above)
         kernels.exchange(*tile.arguments(implied.inks), implied.factors, np.int32(1), data)
-        if isal_zlib.crc32(data[:3].data) != implied.crc:
-            raise Changed(f"tile {key.x}, {key.y} of level {level}: its colour is not what it was when it was saved")
+        changed += isal_zlib.crc32(data[:3].data) != implied.crc
         data.flags.writeable = False
+    return changed

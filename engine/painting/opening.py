@@ -19,7 +19,7 @@ from engine.canvas.layers import LayerError
 from engine.canvas.store import Pyramid, Record
 from engine.painting import grounds, pictures
 from engine.painting.fault import FileError, shown
-from engine.painting.implied import TEXTURES, Changed, Coded, restored
+from engine.painting.implied import TEXTURES, Coded, restored
 from engine.painting.imports import STACK, Opened, read_raster
 from engine.painting.limits import LIMITS, Limits, memory_cap
 from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack, PictureEntry, parse_manifest
@@ -38,6 +38,7 @@ AHEAD = 4  # packs being unpacked at a time
 PIECE = 1 << 20
 UNREAD = ("mergedimage", "Thumbnails")  # members that are for other programs alone
 LOST = "deep detail is missing: this file was saved by another program"
+OTHER = "the textures of this version are not quite those it was saved with: the colour of {count} tiles differs{why}"
 CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
 NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is left out"
 
@@ -147,7 +148,7 @@ class _Opening:
         if self._total > memory_cap():
             raise FileError(self._archive.name, f"its paint takes {self._total >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
-        root = manifest.root
+        root, other = manifest.root, 0
         with ThreadPoolExecutor(WORKERS, "lay") as pool:
             laid = {number: pool.submit(self._ground, number, manifest) for number in manifest.grounds}
             for layer in list(layers.layers(root)):
@@ -155,11 +156,14 @@ class _Opening:
                 tiles = list(self._tiles(manifest.packs[layer.id], manifest, sources))
                 ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
                 pyramid = grounds.with_tiles(ground, self._levels(tiles))
-                self._colour(pyramid, tiles, manifest)
+                other += self._colour(pyramid, tiles)
                 root = layers.with_pyramid(root, layer.name, pyramid)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
+        if other:
+            why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"
+            notes = (*notes, OTHER.format(count=other, why=why))
         return Opened(painting, notes, True, recording, Map(sources))
 
     def _ground(self, number: int, manifest: Manifest) -> Pyramid:
@@ -180,16 +184,10 @@ class _Opening:
             level[key.x, key.y] = record
         return levels
 
-    def _colour(self, pyramid: Pyramid, tiles: Sequence[Coded], manifest: Manifest) -> None:
-        """Puts back the colour that ink implies."""
-        try:
-            with ThreadPoolExecutor(WORKERS, "imply") as pool:
-                restored(pyramid, tiles, pool.map)
-        except Changed as error:
-            if manifest.texture == TEXTURES:
-                raise FileError(self._archive.name, str(error)) from None
-            told = f"{error} (by textures of revision {manifest.texture}, these are of {TEXTURES})"
-            raise FileError(self._archive.name, told) from None
+    def _colour(self, pyramid: Pyramid, tiles: Sequence[Coded]) -> int:
+        """Puts back the colour that ink implies; of how many tiles it is another than when they were saved."""
+        with ThreadPoolExecutor(WORKERS, "imply") as pool:
+            return restored(pyramid, tiles, pool.map)
 
     def _picture(self, entry: PictureEntry, manifest: Manifest) -> ImageSource:
         parts = [(key, record) for key, record, _ in self._tiles(entry.packs, manifest, {})]
