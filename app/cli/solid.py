@@ -61,7 +61,7 @@ def _parser() -> Parser:
         "--size", type=matched.whole(*SIDES), default=64, metavar="N", help="voxels a side (default 64)"
     )
     parser.add_argument("--png", metavar="P.png", help="a sheet: a row of slices, and the cube")
-    matched.add_common(parser, 10)
+    matched.add_common(parser, 8)
     return parser
 
 

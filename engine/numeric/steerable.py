@@ -97,12 +97,14 @@ def _made(height: int, width: int, levels: int, orientations: int) -> Filters:
         radial = _split(logarithm + level)[1] * _split(logarithm + level + 1)[0]
         bands.append(np.stack([radial * _angular(angle, k, orientations) for k in range(orientations)]))
     low = _split(_logarithm(height, width, *sizes[-1])[0] + levels)[1]
-    return Filters(
-        levels,
-        orientations,
-        tuple(sizes),
-        *(high.astype(np.float32), tuple(band.astype(np.float32) for band in bands), low.astype(np.float32)),
-    )
+    fine, *oriented, coarse = (_kept(mask) for mask in (high, *bands, low))
+    return Filters(levels, orientations, tuple(sizes), fine, tuple(oriented), coarse)
+
+
+def _kept(mask: np.ndarray) -> np.ndarray:
+    out = mask.astype(np.float32)
+    out.flags.writeable = False
+    return out
 
 
 _cached = lru_cache(maxsize=6)(_made)
