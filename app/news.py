@@ -15,7 +15,8 @@ from app import palette, presets
 from app.colours import to_hex
 from app.desk import Desk
 from app.lab import only_with
-from app.panels.brush import PREVIEW, THUMB
+from app.panels.brush import PREVIEW
+from app.panels.brushes import THUMB
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
 from app.trace import trace

@@ -114,6 +114,18 @@ def _read(path: Path) -> Preset:
     return Preset(str(name), brush, path, group, textures)
 
 
+def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, list[Preset]]]:
+    """Presets by group, in their order: those of a group (all: ""), or those of any group that have each of `words` in
+    their names or their group's."""
+    out: dict[str, list[Preset]] = {}
+    wanted = words.casefold().split()
+    for preset in presets:
+        told = f"{preset.name} {preset.group}".casefold()
+        if all(word in told for word in wanted) if wanted else group in ("", preset.group):
+            out.setdefault(preset.group, []).append(preset)
+    return list(out.items())
+
+
 def free_name(name: str, presets: Iterable[Preset]) -> str:
     """The name itself, or with a number, so that no bundled preset has it; one of the artist's own is replaced."""
     name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"

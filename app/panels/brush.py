@@ -8,15 +8,15 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import actions, icons, palette, theme
+from app import actions, icons, theme
 from app.desk import LARGEST, SMALLEST, Desk
 from app.knots import at
 from app.panels import widgets as w
+from app.panels.brushes import BrushList
 from app.panels.curves import CurveEditor
 from app.panels.ops import Operations
 from app.panels.saving import SaveBrush
 from app.panels.texturing import Texturing
-from app.presets import Preset
 from app.tools import TOOLS
 from engine.brush.record import SETTINGS
 from engine.painting.requests import CurveRow
@@ -43,8 +43,6 @@ _PRESSURE_ROWS = (
     ),
 )
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
-THUMB = (104, 44)  # of a thumbnail, points
-ACROSS = 2
 
 
 class BrushPanel:
@@ -52,7 +50,7 @@ class BrushPanel:
 
     def __init__(self) -> None:
         self._texturing, self._curves = Texturing(), CurveEditor()
-        self._operations, self._saving = Operations(), SaveBrush()
+        self._operations, self._saving, self._list = Operations(), SaveBrush(), BrushList()
         self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
 
     def draw(self, desk: Desk) -> None:
@@ -60,7 +58,7 @@ class BrushPanel:
         shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
         self._saving.draw(desk)
         if shown:
-            self._presets(desk)
+            self._list.draw(desk, self._below)
         top = imgui.get_cursor_pos().y
         unfolded = 0.0
         if w.section("Brush settings"):
@@ -103,59 +101,6 @@ class BrushPanel:
                 imgui.same_line(0, gap)
             if w.icon_button(name, icon, actions.tip(name), on=on, size=side):
                 actions.perform(desk, actions.ACTIONS[name])
-
-    def _presets(self, desk: Desk) -> None:
-        gap, em = 5 * desk.scale, imgui.get_font_size()
-        wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
-        tall = wide * THUMB[1] / THUMB[0] + em + 4 * desk.scale
-        room = imgui.get_window_height() - imgui.get_cursor_pos().y - self._below - em
-        height = min(_height(desk.presets, tall + gap, em + gap), max(room, 2.6 * tall))
-        imgui.begin_child("presets", ImVec2(0, height))
-        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
-        group, column = "", 0
-        for preset in desk.presets:
-            if preset.group != group:
-                group, column = preset.group, 0
-                imgui.text_disabled(group)
-            if column % ACROSS:
-                imgui.same_line()
-            column += 1
-            self._preset(desk, preset, wide, tall)
-        imgui.pop_style_var()
-        imgui.end_child()
-
-    def _preset(self, desk: Desk, preset: Preset, wide: float, tall: float) -> None:
-        corner = imgui.get_cursor_screen_pos()
-        if imgui.invisible_button(preset.name, ImVec2(wide, tall)):
-            radius = desk.brush.radius
-            palette.take(desk, preset)
-            if preset.brush.ink:  # its colours belong together
-                desk.colour = preset.brush.rgb
-            desk.tool, desk.erasing = "brush", False
-            if imgui.get_io().key_shift:
-                desk.brush = replace(desk.brush, radius=radius)
-        hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
-        w.tooltip(f"{preset.name}\nShift keeps the present size")
-        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
-        grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
-        painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
-        picture = desk.pictures.get(f"preset {preset.name}")
-        bottom = corner.y + wide * THUMB[1] / THUMB[0]
-        if picture is not None:
-            inset = 2 * desk.scale
-            painter.add_image_rounded(
-                picture,
-                ImVec2(corner.x + inset, corner.y + inset),
-                ImVec2(end.x - inset, bottom),
-                ImVec2(0, 0),
-                ImVec2(1, 1),
-                theme.packed((1.0, 1.0, 1.0)),
-                3 * desk.scale,
-            )
-        painter.push_clip_rect(corner, end, True)
-        at = ImVec2(corner.x + 6 * desk.scale, bottom + 1.5 * desk.scale)
-        painter.add_text(at, theme.packed(theme.TEXT if chosen else (0.72,) * 3), preset.name)
-        painter.pop_clip_rect()
 
     def _modes(self, desk: Desk) -> None:
         """Buttons side by side, each as wide as its word asks for."""
@@ -207,14 +152,6 @@ def _height_of(draw: Callable[[], None]) -> float:
     top = imgui.get_cursor_pos().y
     draw()
     return imgui.get_cursor_pos().y - top
-
-
-def _height(presets: tuple[Preset, ...], row: float, heading: float) -> float:
-    """Of all presets, `row` for each pair and `heading` for each group."""
-    groups: dict[str, int] = {}
-    for preset in presets:
-        groups[preset.group] = groups.get(preset.group, 0) + 1
-    return sum(-(-n // ACROSS) * row + heading for n in groups.values())
 
 
 def _shown(curve: Any) -> Any:

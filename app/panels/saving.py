@@ -10,10 +10,9 @@ from app import icons, palette, presets
 from app.colours import to_hex
 from app.desk import Desk
 from app.panels import widgets as w
+from app.panels.brushes import THUMB
 from app.presets import Preset
 from engine.painting.requests import Swatch
-
-PICTURE = (104, 44)  # of a thumbnail, points
 
 
 class SaveBrush:
@@ -49,7 +48,7 @@ class SaveBrush:
             _save(desk, name)
             imgui.close_current_popup()
         imgui.same_line()
-        if w.text_button("Cancel", "Go back", width=em * 6) or imgui.is_key_pressed(imgui.Key.escape):
+        if w.text_button("Cancel", "Go back", width=em * 6):
             imgui.close_current_popup()
         imgui.end_popup()
 
@@ -65,7 +64,7 @@ def _save(desk: Desk, name: str) -> None:
     preset = replace(preset, path=path)
     others = tuple(p for p in desk.presets if (p.name, p.group) != (name, presets.OWN))
     desk.presets, desk.preset = (*others, preset), name
-    width, height = (int(points * desk.scale) for points in PICTURE)
+    width, height = (int(points * desk.scale) for points in THUMB)
     desk.post(Swatch(f"preset {name}", preset.brush, (width, height), textures=preset.textures))
     without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""
     desk.say(f"Saved the brush “{name}”{without}", bad=bool(stay))

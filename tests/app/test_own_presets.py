@@ -41,3 +41,18 @@ def test_a_bundled_brush_keeps_its_name_for_itself():
     bundled, _ = presets.load(presets.bundled_folder())
     assert presets.free_name("Pencil", bundled) == "Pencil 2"
     assert presets.free_name("  my   own ", bundled) == "my own"
+
+
+def test_brushes_are_found_by_group_or_by_words_of_any():
+    made = [("Pencil", "Basic"), ("Charcoal stick", "Dry media"), ("Charcoal cliff", "Rock & earth"), ("Mine", "Own")]
+    all_of_them = tuple(Preset(name, Brush(), None, group) for name, group in made)
+
+    def names(group, words):
+        return [(title, [p.name for p in members]) for title, members in presets.found(all_of_them, group, words)]
+
+    assert [title for title, _ in names("", "")] == ["Basic", "Dry media", "Rock & earth", "Own"]
+    assert names("Basic", " ") == [("Basic", ["Pencil"])]
+    assert names("Basic", "CHAR") == [("Dry media", ["Charcoal stick"]), ("Rock & earth", ["Charcoal cliff"])]
+    assert names("", "rock char") == [("Rock & earth", ["Charcoal cliff"])]
+    assert names("", "oil") == []
+    assert names("No such", "") == []
