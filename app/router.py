@@ -112,7 +112,10 @@ class Router:
             self.cancel()
             return
         dialog = self.layout.dialogs.open or bool(self.desk.asked)
-        busy = dialog or imgui.get_io().want_text_input
+        if keys == "Escape" and self.layout.popup and not dialog:
+            self.layout.dismiss()
+            return
+        busy = dialog or self.layout.popup or imgui.get_io().want_text_input
         found = by_key(keys)
         if not busy and found is not None and self.layout.strip.takes(self.desk, found):
             return

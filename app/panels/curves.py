@@ -85,8 +85,6 @@ class CurveEditor:
             curve = None
         curve = self._canvas(curve, rows, side)
         imgui.text_disabled("Drag to draw" if self.by_hand else "Click to add, right click to remove")
-        if imgui.is_key_pressed(imgui.Key.escape):
-            imgui.close_current_popup()
         imgui.end_popup()
         return curve != before, curve
 

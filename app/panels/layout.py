@@ -39,6 +39,15 @@ class Layout:
         """Whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
         return self._popup or any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self._covered)
 
+    @property
+    def popup(self) -> bool:
+        """Whether a menu, a list or a small window is open above the panels."""
+        return self._popup
+
+    def dismiss(self) -> None:
+        """Closes the topmost of them."""
+        imgui.internal.close_popup_to_level(max(0, len(imgui.get_current_context().open_popup_stack) - 1), True)
+
     def paints(self, desk: Desk, x: float, y: float) -> bool:
         """Whether a press there begins a stroke in the texture lab."""
         return not self._popup and self.strip.paints(desk, x, y)
