@@ -22,7 +22,8 @@ ITERATIONS = 8
 LEAST = 4  # voxels along the smallest cube
 
 _DOMAIN = 0x736F6C64  # "sold": tells these hashes from those of other textures
-# Each turn goes beyond the average by so much: four solids that agree in part would else pull slowly.
+_ROUND = np.float32(1.5)  # the weight of the pyramid in three dimensions, each direction's slices having 1
+# How far each turn goes, the average being 1: solids that agree in part pull slowly.
 _STRIDE = np.float32(1.6)
 _TOGETHER = 1 << 18  # voxels of the slices that are worked on at once
 
@@ -59,12 +60,12 @@ def matching(
     total, done = iterations * len(cubes), 0
     for turn in range(iterations):
         for channel, cube in enumerate(cubes):
-            mean = _round(cube, round_, channel)
+            mean = _ROUND * _round(cube, round_, channel)
             yield Step((done + 0.25) / total)
             for axis in range(3):
                 mean += _sliced(cube, axis, made, oriented.bands[channel], threads)
                 yield Step((done + 0.25 * (axis + 2)) / total)
-            mean *= np.float32(0.25)
+            mean *= np.float32(1.0) / (_ROUND + np.float32(3.0))
             mean -= cube
             mean *= _STRIDE
             cube += mean
