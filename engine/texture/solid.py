@@ -1,8 +1,9 @@
 """Solid textures: a cube of noise is coerced until every plane through it looks like an example.
 
 Heeger & Bergen 1995, section 4: a pyramid in three dimensions takes the sizes of things from the example, steerable
-pyramids of all slices in three directions their forms, and what they make of the cube is averaged.  The cube is
-seamless in all three directions.
+pyramids of all slices in three directions their forms, and what they make of the cube is averaged.  There the first
+counts more than each of the others: it knows no directions, and keeps slices from agreeing on streaks along the axes,
+which each of them would take for its own fine detail.  The cube is seamless in all three directions.
 """
 
 from __future__ import annotations
@@ -19,7 +20,6 @@ from engine.numeric.steerable import Filters, Place, finished
 from engine.texture.matching import Pattern, Shape, Step, analysed, filters_for
 
 ITERATIONS = 8
-LEAST = 4  # voxels along the smallest cube
 
 _DOMAIN = 0x736F6C64  # "sold": tells these hashes from those of other textures
 _ROUND = np.float32(1.5)  # the weight of the pyramid in three dimensions, each direction's slices having 1
