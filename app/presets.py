@@ -126,6 +126,15 @@ def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, 
     return list(out.items())
 
 
+def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
+    """The preset that `words` mean: those whose name begins so come first, then those with all of it in their name."""
+    wanted = " ".join(words.casefold().split())
+    listed = [preset for _, members in found(presets, "", words) for preset in members]
+    names = [(preset.name.casefold(), preset) for preset in listed]
+    ranked = sorted(names, key=lambda row: (not row[0].startswith(wanted), wanted not in row[0]))
+    return ranked[0][1] if wanted and ranked else None
+
+
 def free_name(name: str, presets: Iterable[Preset]) -> str:
     """The name itself, or with a number, so that no bundled preset has it; one of the artist's own is replaced."""
     name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"

@@ -63,10 +63,10 @@ class BrushList:
         imgui.set_next_item_width(0.44 * room)
         flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.escape_clears_all
         entered, self._find = imgui.input_text_with_hint("##find", "Find", self._find, flags)
-        w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the first")
-        found = presets.found(desk.presets, EVERY, self._find)
-        if entered and self._find and found:
-            take(desk, found[0][1][0])
+        w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the nearest")
+        nearest = presets.nearest(desk.presets, self._find) if entered else None
+        if nearest is not None:
+            take(desk, nearest)
             self._find = ""
         imgui.same_line(0, gap)
         if w.icon_button("all brushes", icons.GRID, "All brushes at once", size=side):

@@ -56,3 +56,19 @@ def test_brushes_are_found_by_group_or_by_words_of_any():
     assert names("", "rock char") == [("Rock & earth", ["Charcoal cliff"])]
     assert names("", "oil") == []
     assert names("No such", "") == []
+
+
+def test_enter_takes_the_brush_whose_name_is_nearest():
+    made = [("Ink spatter", "Wet media"), ("Wet in wet", "Wet media"), ("Soft eraser", "Basic"), ("Eraser", "Basic")]
+    all_of_them = tuple(Preset(name, Brush(), None, group) for name, group in made)
+    for words, name in (
+        ("wet in wet", "Wet in wet"),
+        ("Wet", "Wet in wet"),
+        ("eras", "Eraser"),
+        ("wet  INK", "Ink spatter"),
+    ):
+        nearest = presets.nearest(all_of_them, words)
+        assert nearest is not None
+        assert nearest.name == name
+    assert presets.nearest(all_of_them, " ") is None
+    assert presets.nearest(all_of_them, "oil") is None
