@@ -4,7 +4,8 @@ A component of amount a mixes the texture's value s, 0..1, of colour X into the 
 Curves of the component and of the brush change s first (`engine.texture.shaped`).  With s = (S + 1)/2 for a
 procedural texture of nominal S in -1..1 that is linear in S: the constant parts gather in the base colour, and
 a (X - C)/2 is the amplitude of S (Perlin & Velho 1995, sections 3.1 and 3.4).  A coloured texture, whose S has three
-channels, takes the place of the brush's colour: C + a (s X - C).
+channels, takes the place of the brush's colour: C + a (s X - C).  Textures of a series may go with the pressure (module
+`sway`).
 """
 
 from __future__ import annotations
@@ -17,9 +18,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from engine.brush import sway
 from engine.brush.checks import BrushError
 from engine.brush.parts import Component, Surface, Tip
 from engine.brush.record import Brush
+from engine.brush.sway import Hat, Swayed
 from engine.numeric.address import Rect, TileKey
 from engine.texture.image import Image, ImageSource
 from engine.texture.planes import sort_key
@@ -47,10 +50,12 @@ class Loaded:
 
 @dataclass(frozen=True, eq=False)
 class Ink:
-    """`base`: the constant part of the colour, float32 (3,), encoded sRGB; `loaded`: the instances, sorted by key."""
+    """`base`: the constant part of the colour, float32 (3,), encoded sRGB; `loaded`: the instances, sorted by key;
+    `swayed`: what goes with the pressure, of those of them that do."""
 
     base: np.ndarray
     loaded: tuple[Loaded, ...] = ()
+    swayed: tuple[Swayed, ...] = ()
     _memo: dict[TileKey, np.ndarray] = field(default_factory=dict, repr=False)
 
     @property
@@ -61,6 +66,22 @@ class Ink:
     def amplitudes(self) -> np.ndarray:
         """Red, green and blue amplitude of every instance in turn: float32 (3n,)."""
         return np.concatenate([part.amplitude for part in self.loaded]) if self.loaded else np.zeros(0, np.float32)
+
+    def under(self, key: TileKey, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[Instance, ...]]:
+        """Under the pressure at each pixel of a tile, float32 (128, 128): the ink's colour, float32 (3, 128, 128), the
+        amplitudes (3n, 128, 128) of those n instances that have any there, and these."""
+        colour = np.broadcast_to(self.base[:, None, None], (3, *pressure.shape)).copy()
+        planes, inks = [], []
+        for part in self.loaded:
+            amplitude = np.zeros((3, *pressure.shape), np.float32) + part.amplitude[:, None, None]
+            for one in self.swayed:
+                if one.instance == part.instance:
+                    amplitude += one.amplitude[:, None, None] * one.hat.of(pressure)
+            if amplitude.any():
+                colour += amplitude * part.instance.appearance(key.level, key.rect)[:3]
+                planes.append(amplitude)
+                inks.append(part.instance)
+        return colour, np.concatenate(planes) if planes else np.empty((0, *pressure.shape), np.float32), tuple(inks)
 
     def field(self, key: TileKey) -> np.ndarray:
         """The ink's colour over a tile of its own level: float32 (3, 128, 128), not to be written to."""
@@ -88,33 +109,48 @@ def resolve(
     under = np.array(brush.rgb)
     base = under.copy()
     found: defaultdict[Instance, np.ndarray] = defaultdict(lambda: np.zeros(3))
+    swayed: list[Swayed] = []
     for i, component in enumerate(brush.ink):
-        towards = component.amount * (np.array(component.rgb) - under)
         if component.amount == 0.0:
             continue
-        own = named(component, textures, level, seed, f"{where}.ink[{i}]")
+        place = f"{where}.ink[{i}]"
+        curve = sway.curve_of(component, place)
+        own = named(component if curve is None else sway.at_weight(component, 0.0), textures, level, seed, place)
         made = shaped(own, component.shaping, brush.shaping)
+        amplitude, shift = _mixed(own, component, under)
+        stages = getattr(own, "stages", 1)
         if own.key[0] == "white":  # S = 1: plain colour, no planes
-            base += towards * (made.appearance(level, _PIXEL).item() + 1.0) / 2.0
+            base += amplitude * (made.appearance(level, _PIXEL).item() + 1.0)
             continue
-        if isinstance(own, Image):  # premultiplied, 0..1: its own alpha hides the brush's colour
-            found[made] += component.amount * np.array(component.rgb)
-            if own.cover is None:
-                base -= component.amount * under
-            else:
+        base += shift
+        if curve is None or stages == 1:
+            found[made] += amplitude
+            if isinstance(own, Image) and own.cover is not None:
                 found[own.cover] -= component.amount * under
-        elif getattr(own, "coloured", False):  # its own colours, s X, in place of the brush's
-            found[made] += component.amount * np.array(component.rgb) / 2.0
-            base += component.amount * (np.array(component.rgb) / 2.0 - under)
-        else:
-            found[made] += towards / 2.0
-            base += towards / 2.0
+            continue
+        for k in range(stages):
+            part = named(sway.at_weight(component, k / (stages - 1)), textures, level, seed, place)
+            made = shaped(part, component.shaping, brush.shaping)
+            swayed.append(Swayed(made, amplitude.astype(np.float32), Hat(curve, k, stages)))
+            found[made] += 0.0
+    moving = {part.instance for part in swayed}
     loaded = [
         Loaded(made, amplitude.astype(np.float32))
         for made, amplitude in sorted(found.items(), key=lambda item: sort_key(item[0].key))
-        if amplitude.any()
+        if amplitude.any() or made in moving
     ]
-    return Ink(base.astype(np.float32), tuple(loaded))
+    return Ink(base.astype(np.float32), tuple(loaded), tuple(swayed))
+
+
+def _mixed(own: Instance, component: Component, under: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The amplitude of S that a component is, and what it adds to the base colour: float64 (3,) each."""
+    rgb = np.array(component.rgb)
+    if isinstance(own, Image):  # premultiplied, 0..1: its own alpha hides the brush's colour
+        return component.amount * rgb, -component.amount * under if own.cover is None else np.zeros(3)
+    if getattr(own, "coloured", False):  # its own colours, s X, in place of the brush's
+        return component.amount * rgb / 2.0, component.amount * (rgb / 2.0 - under)
+    half = component.amount * (rgb - under) / 2.0
+    return half, half
 
 
 def named(

@@ -22,6 +22,7 @@ from engine.brush.relief import Relief
 from engine.brush.stamp import Edit, Stamp
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes
+from engine.texture.record import Instance
 
 Read = Callable[[Rect], Planes]
 
@@ -38,6 +39,7 @@ class _Covered:
     ink: Ink | None
     locked: bool
     read: Read | None
+    pressure: Coverage | None = None  # the strongest that went over each pixel, where the ink goes with it
     _flat: dict[float | None, Stamp] = field(default_factory=dict, repr=False)
 
     @property
@@ -80,9 +82,11 @@ class Painting(_Covered):
         keep = self._keep(key)
         if keep is None:
             return None
-        parts = self.ink.loaded
+        parts, inks = self.ink.loaded, self.ink.inks
         add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
-        if self.locked:
+        if self.ink.swayed:
+            inks, add = self._sway(keep, key, old)
+        elif self.locked:
             self._glaze(keep, key, old, add)
         elif parts:
             coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
@@ -92,10 +96,21 @@ class Painting(_Covered):
         part = None if stain is None else stain.part(key)
         if stain is not None and part is not None:
             coat.stain(part, stain.colour, add)
-        made = Stamp(keep, add, self.ink.inks, plain=True)
+        made = Stamp(keep, add, inks, plain=True)
         if alike is not None:
             self._flat[alike] = made
         return made
+
+    def _sway(self, keep: np.ndarray, key: TileKey, old: Planes) -> tuple[tuple[Instance, ...], np.ndarray]:
+        """The inks under the pen's pressure, and B."""
+        assert self.ink is not None
+        pressure = self.pressure.on_grid(key) if self.pressure is not None else np.ones((TILE, TILE), np.float32)
+        colour, planes, inks = self.ink.under(key, pressure)
+        add = np.empty((COLOURS + len(planes), TILE, TILE), np.float32)
+        weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
+        coat.glaze(weight, colour, add[:_ALPHA])
+        coat.glaze(weight, planes, add[COLOURS:])
+        return inks, add
 
     def _glaze(self, keep: np.ndarray, key: TileKey, old: Planes, add: np.ndarray) -> None:
         """B under alpha lock: as `coat.load` and `coat.lay`, the paint weighed by the alpha that lies there."""
@@ -190,7 +205,7 @@ def edit(
 
     `ink` (`ink.resolve`) is needed to paint; `read`, which gives the old values of any rectangle of the stroke's
     level, to smooth; `relief` (`relief.resolve`) thins the coverage; a raster-op takes
-    `raster.mixture` for its ink, and looks at `scene`.  BrushError as `check`.
+    `raster.mixture` for its ink, and looks at `scene`, as ink does that goes with the pressure.  BrushError as `check`.
     """
     check(brush)
     coverage = mask.coverage() if isinstance(mask, StrokeMask) else mask
@@ -200,4 +215,6 @@ def edit(
     assert made is not None
     if made is Raster:
         return Raster(coverage, brush, ink, alpha_locked, read, scene or Scene())
+    if made is Painting and scene is not None:
+        return Painting(coverage, brush, ink, alpha_locked, read, scene.pressure)
     return made(coverage, brush, ink, alpha_locked, read)

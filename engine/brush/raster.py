@@ -18,7 +18,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from engine.brush import coat, ops, tones
+from engine.brush import coat, ops, sway, tones
 from engine.brush.foretell import Foretold, foretell, predictor
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.mask import Coverage
@@ -62,8 +62,9 @@ class Scene:
 
 
 def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink:
-    """The brush's textures mixed to one number, sum a_i s_i: the ink that they would be in white over black."""
-    ink = tuple(replace(part, colour="#ffffff") for part in brush.ink)
+    """The brush's textures mixed to one number, sum a_i s_i: the ink that they would be in white over black; those that
+    go with the pressure are as at full pressure."""
+    ink = tuple(replace(sway.still(part), colour="#ffffff") for part in brush.ink)
     return resolve(replace(brush, colour="#000000", ink=ink), textures, level, seed)
 
 

@@ -20,6 +20,7 @@ from engine.painting.strictjson import FormatError, described
 
 FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out, and the kind of texture that does it
 USUAL = {"spectrum": "tile", "sparse": "sparse", "impulse": "sparse"}  # what makers do where nothing is said
+MATCHED = ("match", "mix")  # makers that match noise to examples
 COUNT_CAP = 16  # of one brush
 _REFERRING = ("texture", "density", "grain", "tip")  # members of a brush that may hold a texture's name
 
@@ -62,6 +63,9 @@ def _grounded(value: Any, folder: Path | None) -> Any:
 
 def kind_of(command: DefineTexture) -> str:
     """The kind of texture that a command defines, as far as its own members tell."""
+    if command.maker in MATCHED:
+        stages = command.arguments.get("stages", 1)
+        return "series" if isinstance(stages, int) and stages > 1 else "matched"
     usual = USUAL.get(command.maker)
     return command.maker if usual is None else FIELDS.get(command.arguments.get("field", usual), "")
 
@@ -69,8 +73,7 @@ def kind_of(command: DefineTexture) -> str:
 def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any]) -> bool:
     """Whether a texture of a painting is what this command would make: all that is told is as told."""
     told = {name: value for name, value in command.arguments.items() if name != "sha"}
-    # A maker adds what it found out itself, never a member of those by which pictures are named.
-    silent = {"path", "rect", "layer", "size", "shapes", "strokes", "part", "forward", "field"} - set(told)
+    silent = _NAMING - set(told)
     return (
         kind == kind_of(command)
         and all(parameters.get(name, _MISSING) == value for name, value in told.items())
@@ -78,6 +81,10 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
     )
 
 
+# A maker adds what it found out itself, never a member of those by which pictures are named.
+_NAMING = frozenset(
+    ("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field")
+)
 _MISSING = object()
 
 
@@ -89,7 +96,9 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
     maker = kind
     if kind in FIELDS.values():
         maker = "impulse" if "window" in parameters else "spectrum" if "field" in parameters else kind
-    given = {key: value for key, value in parameters.items() if key != "sha"}
+    elif kind in ("matched", "series"):
+        maker = "mix" if "pattern" in parameters else "match"
+    given = {key: value for key, value in parameters.items() if key not in ("sha", "examples")}
     found = DefineTexture(name, maker, Map(given))
     return found if kind_of(found) == kind else None
 
@@ -105,7 +114,7 @@ def _reachable(value: Any) -> bool:
 
 
 def _is_path(key: str, value: Any) -> bool:
-    return isinstance(value, str) and (key == "path" or (key == "phase" and "." in value))
+    return isinstance(value, str) and (key in ("path", "pattern", "start") or (key == "phase" and "." in value))
 
 
 def fitted(

@@ -1,4 +1,5 @@
-"""The makers of textures: a procedural one with its parameters, a picture, a piece of the canvas, and Lewis' three.
+"""The makers of textures: a procedural one with its parameters, a picture, a piece of the canvas, Lewis' three, and
+Heeger's and Bergen's two.
 
 The command line, a recording and the window define textures by the same command, so they get the same texture.
 """
@@ -13,7 +14,7 @@ import numpy as np
 
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
-from engine.painting import samples
+from engine.painting import matches, samples
 from engine.painting.capture import Place, captured, read_picture
 from engine.painting.commands import DefineTexture
 from engine.painting.definitions import FIELDS, USUAL, kind_of
@@ -23,7 +24,7 @@ from engine.painting.textures import Around, Texture
 from engine.texture.image import ImageSource
 from engine.texture.table import KINDS
 
-LATER = ("match", "mix", "solid", "example")
+LATER = ("solid", "example")
 
 NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
@@ -79,6 +80,18 @@ def _sampled(make: samples.Maker, command: DefineTexture, root: Group, around: A
     return Texture(kind_of(command), parameters, source)
 
 
+def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
+    """A texture, or a series of them, matched to examples.  The sha of the result is no condition: machines may differ
+    in the last bits of a transform; those of the examples are."""
+    members = Fields(thawed(command.arguments), "")
+    parameters, source = command.arguments, _known(command, members, around)
+    if source is None:
+        sample = matches.of_examples(command.maker, members, Place(around.folder, root, around.pictures))
+        parameters = sample.found.update(parameters)
+        source = ImageSource.of(command.name, sample.rgba)
+    return Texture(kind_of(command), parameters, source)
+
+
 def _known(command: DefineTexture, members: Fields, around: Around) -> ImageSource | None:
     """The picture of a definition that was carried out before."""
     sha = members.text("sha", None, cap=64)
@@ -101,4 +114,6 @@ MAKERS: dict[str, Maker] = {
     "spectrum": partial(_sampled, samples.of_spectrum),
     "sparse": partial(_sampled, samples.of_picture),
     "impulse": partial(_sampled, samples.of_photograph),
+    "match": _matched,
+    "mix": _matched,
 }

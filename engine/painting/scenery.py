@@ -1,4 +1,4 @@
-"""What a raster-op looks at besides the pixels under the stroke: another layer, the pen's pressure."""
+"""What a stroke looks at besides the pixels under it: for a raster-op another layer; the pen's pressure."""
 
 from __future__ import annotations
 
@@ -24,15 +24,16 @@ from engine.texture.planes import Planes
 
 
 class Scenery:
-    """Grows with the stroke.  BrushError if the op names a layer that is none of `root`'s."""
+    """Grows with the stroke: one of a raster-op, or one whose ink goes with the pressure.  BrushError if the op names a
+    layer that is none of `root`'s."""
 
     def __init__(
         self, brush: Brush, root: Group, level: int, origin: tuple[int, int], seed: int, cache: TileCache | None
     ) -> None:
-        op = ops.chosen(brush.op)
+        op = ops.chosen(brush.op if brush.mode == "raster" else "toward")
         self._level, self._origin = level, origin
         self._source = _reader(root, op.parameters["layer"], level, cache) if "layer" in op.parameters else None
-        self._pressed = op.tree is not None and "pressure" in variables(op.tree)
+        self._pressed = brush.mode != "raster" or (op.tree is not None and "pressure" in variables(op.tree))
         steady = brush.dynamics.delete("flow") if "flow" in brush.dynamics else brush.dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, hardness=1.0, dynamics=steady.set("opacity", "pressure"))
         self._stroker = Stroker(self._brush)

@@ -62,7 +62,8 @@ class LiveStroke:
         self._mask = StrokeMask(level, origin, tip=self._tip)
         inks = {"paint": resolve, "raster": raster.mixture}
         self._ink = inks[brush.mode](brush, painting.textures, level, own) if brush.mode in inks else None
-        self._scenery = Scenery(brush, self.base.root, level, origin, own, cache) if brush.mode == "raster" else None
+        looking = brush.mode == "raster" or (self._ink is not None and bool(self._ink.swayed))
+        self._scenery = Scenery(brush, self.base.root, level, origin, own, cache) if looking else None
         self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
         self._edit: Edit | None = None
 

@@ -63,6 +63,11 @@ class Series(Matched):
         return (self.kind, self.base, *numbers, self.source.name, self.source.sha)
 
     @property
+    def coloured(self) -> bool:
+        """Of the whole series: one of its textures may be grey all the same."""
+        return sample.coloured(self.source)
+
+    @property
     def shown(self) -> ImageSource:
         lost = self.source.data is None or self.source.height < self.stages
         return self.source if lost else stage(self.source, self.stages, self.weight)

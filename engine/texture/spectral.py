@@ -94,7 +94,7 @@ class _Spectral:
         places = [rect.evened()]
         for _ in range(factors.size - 1):
             places.append(parents(places[-1]).evened())
-        channels = 3 if self.coloured else 1
+        channels = 3 if sample.coloured(self.shown) else 1
         coarse: np.ndarray | None = None
         for m in range(factors.size - 1, -1, -1):
             even = places[m]
