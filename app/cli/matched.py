@@ -56,7 +56,7 @@ def run(name: str, words: list[str]) -> int:
     last = examples[-1]
     start = read(given.start, given.out) if name == "match" and given.start else None
     width, height = given.size or (start or last).size[::-1]
-    check_memory(height * width, examples, f"{width} x {height}")
+    check_memory(height * width, examples, f"{width} x {height}", 44 + 12 * thread_count())
     pattern = _pattern(name, given, [example.planes for example in examples], (height, width))
     beginning = _beginning(pattern, start, given.seed, (height, width))
     from engine.texture.matching import matching, picture
@@ -143,7 +143,7 @@ def read(path: str, out: str) -> Example:
     return Example(path, planes[: 1 if grey else 3], bits)
 
 
-def check_memory(pixels: int, examples: list[Example], asked: str, each: int = 90) -> None:
+def check_memory(pixels: int, examples: list[Example], asked: str, each: int) -> None:
     """Refused, if so many pixels of `each` bytes for each channel, beside the examples, are beyond the machine."""
     from engine.painting.limits import memory_cap
 
@@ -180,16 +180,19 @@ def _beginning(pattern: Pattern, start: Example | None, seed: int, size: tuple[i
     return started(pattern, axes_of(stretched).planes(stretched), seed)
 
 
+def thread_count() -> int:
+    return min(os.cpu_count() or 1, MOST)
+
+
 @contextmanager
 def threads() -> Iterator[Executor | None]:
     """As many as there are cores; None for one."""
     from concurrent.futures import ThreadPoolExecutor
 
-    count = min(os.cpu_count() or 1, MOST)
-    if count == 1:
+    if thread_count() == 1:
         yield None
         return
-    with ThreadPoolExecutor(count) as pool:
+    with ThreadPoolExecutor(thread_count()) as pool:
         try:
             yield pool
         except BaseException:
