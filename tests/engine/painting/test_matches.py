@@ -258,7 +258,7 @@ def test_a_steady_pressure_is_a_steady_weight(folder):
     define = DEFINITIONS["series"]
 
     def painted(pressure, **component):
-        brush = {"radius": 30, "dynamics": {}, "ink": [{"texture": "t", "period": 24, **component}]}
+        brush = {"radius": 30, "dynamics": {}, "ink": [{"texture": "t", **component}]}
         line = {"do": "stroke", "points": [[0, 20, pressure], [48, 20, pressure]], "brush": brush}
         return shown(replay(lines(define, line, folder=folder)).painting)
 
