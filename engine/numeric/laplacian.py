@@ -1,7 +1,8 @@
 """The Laplacian pyramid in any number of dimensions (Burt & Adelson 1983; Heeger & Bergen 1995, section 3.1).
 
 Reduce smooths by (1, 4, 6, 4, 1)/16 along each axis and keeps every second sample, the first among them; expand puts
-zeros between samples and smooths again.  An axis of n samples becomes (n + 1) // 2; n may be anything from 1.
+zeros between samples and smooths again.  An axis of n samples becomes (n + 1) // 2; n may be anything from 1.  Both
+round to the grid of 2^-16, so that what is taken apart there goes together again exactly.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def most_levels(size: Sequence[int]) -> int:
 
 
 def reduce(images: np.ndarray, dimensions: int = 2, edges: Edges = "circular") -> np.ndarray:
-    """Half as many samples along each of the last `dimensions` axes: float32."""
+    """Half as many samples along each of the last `dimensions` axes: float32, on the 2^-16 grid."""
     out = np.ascontiguousarray(images, np.float32)
     for axis in range(out.ndim - dimensions, out.ndim):
         n = out.shape[axis]
@@ -120,7 +121,7 @@ def _reduce(x, taps, out):
 
 @njit(cache=True, nogil=True)
 def _reduce_last(x, taps, out):
-    """out (b, m) from x (b, n), as `_reduce`."""
+    """out (b, m) from x (b, n), as `_reduce`, rounded to the grid."""
     outer, middle, inner = np.float32(1.0 / 16.0), np.float32(6.0 / 16.0), np.float32(4.0 / 16.0)
     m, n = out.shape[1], x.shape[1]
     within = max(1, (n - 1) // 2)  # from here on taps reach beyond the end
@@ -129,11 +130,13 @@ def _reduce_last(x, taps, out):
         for j in range(1, within):
             i = np.uint64(2 * j)
             sides = (line[i - np.uint64(2)] + line[i + np.uint64(2)]) * outer
-            row[np.uint64(j)] = sides + (line[i - np.uint64(1)] + line[i + np.uint64(1)]) * inner + line[i] * middle
+            value = sides + (line[i - np.uint64(1)] + line[i + np.uint64(1)]) * inner + line[i] * middle
+            row[np.uint64(j)] = np.rint(value * _STEPS) * _STEP
         for j in range(m):
             if j == 0 or j >= within:
                 sides = (line[taps[j, 0]] + line[taps[j, 4]]) * outer
-                row[j] = sides + (line[taps[j, 1]] + line[taps[j, 3]]) * inner + line[taps[j, 2]] * middle
+                value = sides + (line[taps[j, 1]] + line[taps[j, 3]]) * inner + line[taps[j, 2]] * middle
+                row[j] = np.rint(value * _STEPS) * _STEP
 
 
 @njit(cache=True, nogil=True)
