@@ -62,7 +62,7 @@ def run(name: str, words: list[str]) -> int:
     from engine.texture.matching import matching, picture
 
     with threads() as pool:
-        planes = finished("matching", matching(pattern, beginning, given.iterations, pool))
+        planes = finished("matching", matching(pattern, beginning, given.iterations, pool, given.exact))
     depth = given.depth or max(example.bits for example in examples)
     pixels = pixels_of(picture(pattern, planes), depth)
     write(given.out, pixels)
@@ -92,6 +92,7 @@ def _parser(name: str) -> Parser:
     parser.add_argument("--out", metavar="P.png", required=True, help="where the texture goes")
     parser.add_argument("--size", type=size, metavar="WxH", help="pixels (default: those of the picture)")
     parser.add_argument("--pyramid", choices=PYRAMIDS, default="steerable", help="default steerable")
+    parser.add_argument("--exact", action="store_true", help="match histograms by rank, not by tables of 256 bins")
     add_common(parser, 5)
     return parser
 

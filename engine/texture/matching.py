@@ -6,7 +6,7 @@ RGBA, whose alpha is a band like the others.  What is made tiles without seams.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Protocol
@@ -26,6 +26,7 @@ _DOMAIN = 0x6D617463  # "matc": tells these hashes from those of other textures
 _FAINT = 1e-3  # of a start picture's spread: noise that tells equal values apart
 
 Bands = dict[Place, np.ndarray]  # the sorted values of each subband
+Match = Callable[[np.ndarray, np.ndarray], None]  # moves values, in place, to a distribution
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,21 +126,23 @@ def matching(
     start: np.ndarray,
     iterations: int = ITERATIONS,
     threads: Executor | None = None,
+    exact: bool = False,
 ) -> Iterator[Step]:
     """The steps that make planes `start` (R, h, w) like the pattern.  The last has the finished texture; any may be the
-    last that is asked for."""
+    last that is asked for.  `exact`: by rank instead of tables, which takes twice as long."""
     shape = pattern.shape.within(start.shape[1:])
     if shape.levels < pattern.shape.levels:
         raise ValueError(
             f"matching: found a pattern of {pattern.shape.levels} levels, expected {shape.levels} or fewer"
         )
+    match = histograms.match_by_rank if exact else histograms.match
     planes = np.array(start, np.float32)
-    _match_pixels(planes, pattern)
+    _match_pixels(planes, pattern, match)
     turns = iterations if len(planes) else 0
     for turn in range(turns):
-        inside = _iterated(planes, pattern, threads)
+        inside = _iterated(planes, pattern, match, threads)
         planes = yield from _told(inside, turn, turns)
-        _match_pixels(planes, pattern)
+        _match_pixels(planes, pattern, match)
         yield Step((turn + 1) / turns, planes)
     if not turns:
         yield Step(1.0, planes)
@@ -188,9 +191,11 @@ def started(pattern: Pattern, planes: np.ndarray, seed: int) -> np.ndarray:
     return out
 
 
-def _iterated(planes: np.ndarray, pattern: Pattern, threads: Executor | None) -> Generator[float, None, np.ndarray]:
+def _iterated(
+    planes: np.ndarray, pattern: Pattern, match: Match, threads: Executor | None
+) -> Generator[float, None, np.ndarray]:
     """One turn: the pyramid taken apart, its subbands matched, and put together again."""
-    change = _band_match(pattern)
+    change = _band_match(pattern, match)
     if pattern.shape.kind == "steerable":
         made = filters_for(planes, pattern.shape)
         return (yield from steerable.changed(planes, made, change, threads))
@@ -206,14 +211,14 @@ def filters_for(planes: np.ndarray, shape: Shape) -> steerable.Filters:
     return steerable.filters(height, width, shape.levels, shape.orientations)
 
 
-def _band_match(pattern: Pattern) -> Change:
+def _band_match(pattern: Pattern, match: Match) -> Change:
     def change(place: Place, values: np.ndarray) -> None:
         for band, bands in zip(values, pattern.bands, strict=True):
-            histograms.match(band, bands[place])
+            match(band, bands[place])
 
     return change
 
 
-def _match_pixels(planes: np.ndarray, pattern: Pattern) -> None:
+def _match_pixels(planes: np.ndarray, pattern: Pattern, match: Match) -> None:
     for plane, ordered in zip(planes, pattern.pixels or (), strict=False):
-        histograms.match(plane, ordered)
+        match(plane, ordered)

@@ -102,7 +102,14 @@ def test_the_whole_command_as_a_program(tmp_path):
 
 def test_options_change_what_is_made(tmp_path, capsys):
     path, other = picture(tmp_path), picture(tmp_path, size=(60, 50), name="other.png", seed=9)
-    words = [[], ["--pyramid", "laplacian"], ["--levels", "1"], ["--orientations", "2"], ["--iterations", "1"]]
+    words = [
+        [],
+        ["--pyramid", "laplacian"],
+        ["--levels", "1"],
+        ["--orientations", "2"],
+        ["--iterations", "1"],
+        ["--exact"],
+    ]
     words += [["--seed", "1"], ["--start", other, "--size", "36x40"]]
     found = [made(tmp_path, "match", path, *more).tobytes() for more in words]
     assert len(set(found)) == len(words)

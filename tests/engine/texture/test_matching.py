@@ -16,7 +16,8 @@ SIDE = 128
 
 def made(example, size=(SIDE, SIDE), shape=None, seed=3, **more):
     pattern = analysed(example, (shape or Shape()).within(size))
-    return picture(pattern, matched(pattern, noise(pattern.colours.count, size, seed), **more))
+    *_, last = matching.matching(pattern, noise(pattern.colours.count, size, seed), **more)
+    return picture(pattern, last.planes)
 
 
 def closed(example, other, result, shape=None):
@@ -136,6 +137,12 @@ def test_more_turns_come_nearer():
     example = specimens.photograph("brick")
     distances = [unlikeness(made(example, iterations=n), example) for n in (1, 2, 5)]
     assert distances == sorted(distances, reverse=True)
+
+
+def test_tables_are_as_good_as_ranks():
+    example = specimens.granite()
+    by_tables, by_rank = (unlikeness(made(example, exact=exact), example) for exact in (False, True))
+    assert by_tables == pytest.approx(by_rank, rel=0.1)
 
 
 def test_a_start_picture_leaves_its_traces():
