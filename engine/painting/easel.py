@@ -25,6 +25,7 @@ from engine.painting import requests as q
 from engine.painting.difference import areas
 from engine.painting.examine import Examiner
 from engine.painting.lab import Lab
+from engine.painting.matcher import Matcher
 from engine.painting.outline import rows
 from engine.painting.points import rounded
 from engine.painting.ready import ready
@@ -65,8 +66,8 @@ class Easel:
             q.Swatch: self._swatch,
             q.Pick: self._pick,
         }
-        self.lab, self.examiner = Lab(self), Examiner(self)
-        self._handlers |= self.lab.handlers | self.examiner.handlers
+        self.lab, self.examiner, self.matcher = Lab(self), Examiner(self), Matcher(self)
+        self._handlers |= self.lab.handlers | self.examiner.handlers | self.matcher.handlers
         send(ready())
         self._tell()
 
@@ -92,16 +93,25 @@ class Easel:
 
     @property
     def pending(self) -> int:
-        return len(self.sight.open) + (not self._dirty.empty) + self.lab.pending + self.examiner.pending
+        return (
+            len(self.sight.open)
+            + (not self._dirty.empty)
+            + self.lab.pending
+            + self.examiner.pending
+            + self.matcher.pending
+        )
 
     def step(self) -> bool:
-        """The most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, analysis."""
+        """The most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, textures being
+        matched, analysis."""
         if not self._dirty.empty:
             self._send_dirty()
         elif self.lab.pending:
             self.lab.step()
         elif self.sight.open:
             self._bring_up_to_date(self.sight.open.popleft())
+        elif self.matcher.pending:
+            self.matcher.step()
         elif self.examiner.pending:
             self.examiner.step()
         else:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from functools import lru_cache
+from typing import Any, Protocol
 
 import numpy as np
 from immutables import Map
@@ -17,8 +18,8 @@ from engine.brush import parts
 from engine.brush.checks import BrushError
 from engine.numeric.colour_axes import axes_of
 from engine.numeric.grid import snapped
+from engine.numeric.pyramid import reduce
 from engine.numeric.resample import resampled
-from engine.painting.capture import Place
 from engine.painting.commands import SEED_LIMIT
 from engine.painting.fault import FileError
 from engine.painting.samples import SAMPLE_CAP, Sample, flattened
@@ -42,7 +43,8 @@ from engine.texture.matching import (
 )
 from engine.texture.mixing import MIXES, Mix
 
-EXAMPLE_SIDE = 1024  # of a larger example the middle is looked at
+SHRUNK = 1024  # pixels: a longer example is halved until it is no longer than that,
+EXAMPLE_SIDE = 512  # and then its middle is looked at
 SIDE_CAP = 2048
 STAGES_CAP = 9
 _BANDS_CAP = 300
@@ -50,12 +52,23 @@ _AXES_CAP = 3
 _SHORT = 16  # digits of an example's sha
 
 
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A picture: `planes` float32 (1 or 3, h, w) of 0..1; `sha`: of its pixels, by which it is known again."""
+
+    sha: str
+    planes: np.ndarray = field(compare=False, repr=False)
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Plan:
-    """What is asked for.  `examples`: one, or two to be mixed `how`, float32 (1 or 3, h, w) of 0..1; `size`: height and
-    width; `stages`: how many textures, 1 unless it is a series; `start`: a picture to begin with."""
+    """What is asked for.
 
-    examples: tuple[np.ndarray, ...]
+    `examples`: one, or two to be mixed `how`; `size`: height and width; `stages`: how many textures, 1 unless it is a
+    series; `start`: a picture to begin with, float32 (1 or 3, *size).
+    """
+
+    examples: tuple[Example, ...]
     shape: Shape
     size: tuple[int, int]
     iterations: int = ITERATIONS
@@ -76,7 +89,13 @@ class Made:
     colours: np.ndarray | None = None
 
 
-def read(maker: str, members: Fields, place: Place) -> Plan:
+class Pictures(Protocol):
+    """Where examples come from, such as `capture.Place`."""
+
+    def picture(self, members: Fields) -> np.ndarray: ...
+
+
+def read(maker: str, members: Fields, place: Pictures) -> Plan:
     """What a command `match` or `mix` asks for, its pictures read.  FormatError names the member."""
     given = [_example(members, "path", place)]
     stages, how, mix = 1, "palette", Mix()
@@ -89,8 +108,8 @@ def read(maker: str, members: Fields, place: Place) -> Plan:
         stages = members.integer("stages", 1, lo=1, hi=STAGES_CAP)
         if stages > 1 and how != "average":
             raise FormatError(members.at("how"), f'"{how}"', 'average: only of it there are several "stages"')
-    start = _example(_other(members, "start"), "start", place) if "start" in members else None
-    size = _size(members, (start if start is not None else given[-1]).shape[1:], stages)
+    start = _example(_other(members, "start"), "start", place).planes if "start" in members else None
+    size = _size(members, (start if start is not None else given[-1].planes).shape[1:], stages)
     if start is not None:
         start = resampled(start, size, np.arange(size[0]), np.arange(size[1]))
     numbers = _shape(members), size, members.integer("iterations", ITERATIONS, lo=1, hi=1000)
@@ -116,13 +135,16 @@ def steps(plan: Plan) -> Iterator[Made]:
 
 def pattern_of(plan: Plan, stage: int = 0) -> Pattern:
     """What the texture, or one of the stages, is matched to."""
-    shape = plan.shape.within(plan.size)
-    if len(plan.examples) == 1:
-        pattern = analysed(plan.examples[0], shape)
-    else:
-        mix = plan.mix if plan.stages == 1 else Mix(weights(plan.stages)[stage], plan.mix.split)
-        pattern = MIXES[plan.how](plan.examples[0], plan.examples[1], shape, mix)
-    return adjusted(pattern, plan.bands, plan.axes)
+    mix = plan.mix if plan.stages == 1 else Mix(weights(plan.stages)[stage], plan.mix.split)
+    found = _pattern(plan.examples, plan.shape.within(plan.size), plan.how, mix)
+    return adjusted(found, plan.bands, plan.axes)
+
+
+@lru_cache(maxsize=6)
+def _pattern(examples: tuple[Example, ...], shape: Shape, how: str, mix: Mix) -> Pattern:
+    if len(examples) == 1:
+        return analysed(examples[0].planes, shape)
+    return MIXES[how](examples[0].planes, examples[1].planes, shape, mix)
 
 
 def rgba(colours: np.ndarray) -> np.ndarray:
@@ -137,15 +159,15 @@ def sample(plan: Plan, colours: np.ndarray) -> Sample:
     made = rgba(colours)
     own = ImageSource.of("", made)
     middle = own if plan.stages == 1 else stage(own, plan.stages, weights(plan.stages)[plan.stages // 2])
-    shas = tuple(_sha(example) for example in plan.examples)
+    shas = tuple(example.sha for example in plan.examples)
     return Sample(made, Map({"roughness": octave_of(middle).slope, "examples": shas}))
 
 
-def of_examples(maker: str, members: Fields, place: Place) -> Sample:
+def of_examples(maker: str, members: Fields, place: Pictures) -> Sample:
     """The whole work at once.  FileError if an example is not the one that it was when the command was recorded."""
     plan = read(maker, members, place)
     known = members.take("examples", None)
-    if isinstance(known, list) and known != [_sha(example) for example in plan.examples]:
+    if isinstance(known, list) and known != [example.sha for example in plan.examples]:
         raise FileError(
             members.text("path", "rect", cap=4096), "its pixels, or the other example's, are not those recorded"
         )
@@ -154,10 +176,6 @@ def of_examples(maker: str, members: Fields, place: Place) -> Sample:
         colours = made.colours
     assert colours is not None
     return sample(plan, colours)
-
-
-def _sha(example: np.ndarray) -> str:
-    return ImageSource.of("", rgba(example)).sha[:_SHORT]
 
 
 def _other(members: Fields, name: str) -> Fields:
@@ -170,13 +188,17 @@ def _other(members: Fields, name: str) -> Fields:
     return Fields(value, members.at(name))
 
 
-def _example(members: Fields, name: str, place: Place) -> np.ndarray:
-    """Colours (1 or 3, h, w) of 0..1; of a large picture the middle."""
+def _example(members: Fields, name: str, place: Pictures) -> Example:
+    """A picture, halved until it is short enough; of a large one the middle."""
     if "path" not in members and "rect" not in members:
         raise FormatError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
     planes = flattened(place.picture(members))
+    while max(planes.shape[1:]) > SHRUNK and min(planes.shape[1:]) > 1:
+        even = planes[:, : planes.shape[1] // 2 * 2, : planes.shape[2] // 2 * 2]
+        planes = reduce(np.ascontiguousarray(even))
     top, left = (max(0, (n - EXAMPLE_SIDE) // 2) for n in planes.shape[1:])
-    return np.ascontiguousarray(planes[:, top : top + EXAMPLE_SIDE, left : left + EXAMPLE_SIDE])
+    planes = np.ascontiguousarray(planes[:, top : top + EXAMPLE_SIDE, left : left + EXAMPLE_SIDE])
+    return Example(ImageSource.of("", rgba(planes)).sha[:_SHORT], planes)
 
 
 def _size(members: Fields, usual: tuple[int, ...], stages: int) -> tuple[int, int]:

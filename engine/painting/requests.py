@@ -189,9 +189,42 @@ class Analyse:
     area: Rect | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class MatchSet:
+    """What the matching panel is to show: the members of a texture command of `maker`, "match" or "mix"; None where
+    there is no example yet.  The newest counts."""
+
+    maker: str = "match"
+    arguments: Map[str, Any] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MatchUse:
+    """Defines the texture of such a command under a name, as soon as it is made."""
+
+    name: str
+    maker: str
+    arguments: Map[str, Any]
+
+
 LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
 Request = (
-    New | Open | Save | Export | Do | Begin | Points | Finish | Abandon | Look | Swatch | Pick | LabRequest | Analyse
+    New
+    | Open
+    | Save
+    | Export
+    | Do
+    | Begin
+    | Points
+    | Finish
+    | Abandon
+    | Look
+    | Swatch
+    | Pick
+    | LabRequest
+    | Analyse
+    | MatchSet
+    | MatchUse
 )
 
 
@@ -326,6 +359,23 @@ class Found:
 
 
 @dataclass(frozen=True, slots=True)
+class MatchScene:
+    """What the matching panel shows besides the pictures "match example", "match second", "match texture".
+
+    `done`: how far the texture is, 0..1; `levels`, `orientations`: of its pyramid; `colours`: of its axes, sRGB;
+    `fault`: what is wrong with what was asked for; `making`: the texture being made for use.
+    """
+
+    done: float = 0.0
+    levels: int = 0
+    orientations: int = 0
+    colours: tuple[tuple[float, float, float], ...] = ()
+    sizes: tuple[tuple[int, int], ...] = ()  # width and height of the examples
+    fault: str = ""
+    making: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Picked:
     """The colour under a Pick, straight sRGB and alpha 0..1."""
 
@@ -351,7 +401,9 @@ class Pending:
     files: int = 0
 
 
-Result = Ready | Patch | Same | Scene | Note | Saved | Picture | Picked | Looked | Pending | LabScene | Found
+Result = (
+    Ready | Patch | Same | Scene | Note | Saved | Picture | Picked | Looked | Pending | LabScene | Found | MatchScene
+)
 
 
 def frozen(array: np.ndarray) -> np.ndarray:

@@ -1,0 +1,156 @@
+"""Matching on the engine's thread: step by step, the newest first, and what is used is what was seen."""
+
+import numpy as np
+import pytest
+from immutables import Map
+from PIL import Image
+
+from engine.brush.record import from_json, to_json
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting import requests as q
+from engine.painting.easel import Easel
+from engine.painting.painting import apply
+from engine.painting.recording import Recording
+from engine.painting.replay import replay
+from engine.painting.value import Painting
+
+
+class Desk:
+    """An easel, and what it has sent."""
+
+    def __init__(self):
+        self.sent = []
+        self.easel = Easel(self.sent.append)
+
+    def ask(self, *requests):
+        for request in requests:
+            self.easel.do(request)
+
+    def rest(self):
+        steps = 0
+        while self.easel.step():
+            steps += 1
+            assert steps < 5000
+        return steps
+
+    def pictures(self, ident):
+        return [r.pixels for r in self.sent if isinstance(r, q.Picture) and r.ident == ident]
+
+    @property
+    def scene(self):
+        return next(r for r in reversed(self.sent) if isinstance(r, q.MatchScene))
+
+
+@pytest.fixture
+def desk():
+    one = Desk()
+    yield one
+    one.easel.close()
+
+
+@pytest.fixture
+def example(tmp_path):
+    pixels = np.random.default_rng(2).integers(0, 256, (12, 14, 3), np.uint8)
+    Image.fromarray(pixels).resize((56, 48)).save(tmp_path / "a.png")
+    Image.fromarray(pixels[::-1]).resize((40, 48)).save(tmp_path / "b.png")
+    return tmp_path
+
+
+def members(folder, **more):
+    return Map({"path": str(folder / "a.png"), "size": (48, 32), "levels": 2, **more})
+
+
+def test_a_preview_grows_step_by_step(desk, example):
+    desk.ask(q.MatchSet("match", members(example)))
+    assert desk.rest() > 20
+    assert len(desk.pictures("match texture")) == 5
+    assert desk.pictures("match texture")[-1].shape == (32, 48, 4)
+    assert desk.pictures("match example")[0].shape == (48, 56, 4)
+    assert (desk.scene.done, desk.scene.levels, desk.scene.orientations) == (1.0, 2, 4)
+    assert len(desk.scene.colours) == 3
+    assert desk.scene.sizes == ((56, 48),)
+    assert not desk.easel.pending
+
+
+def test_the_newest_settings_win_and_tiles_come_first(desk, example):
+    desk.ask(q.MatchSet("match", members(example)))
+    for _ in range(8):
+        desk.easel.step()
+    desk.ask(q.MatchSet("match", members(example, iterations=1, seed=5)))
+    desk.easel.look(q.Look(((0, 0, 0, -1),)))
+    desk.easel.step()
+    assert any(isinstance(r, q.Patch | q.Same) for r in desk.sent)
+    desk.rest()
+    assert len(desk.pictures("match texture")) == 1
+    assert len(desk.pictures("match example")) == 1  # it is the same
+    desk.ask(q.MatchSet("match", None))
+    assert not desk.easel.pending
+    assert desk.scene.done == 0.0
+
+
+def test_what_is_used_is_what_was_seen_and_replays(desk, example):
+    given = members(example)
+    desk.ask(q.MatchSet("match", given))
+    desk.rest()
+    seen = desk.pictures("match texture")[-1]
+    desk.ask(q.MatchUse("Stone", "match", given))
+    assert desk.rest() < 4  # nothing is done twice
+    texture = desk.easel.session.painting.textures["Stone"]
+    assert texture.kind == "matched"
+    assert np.abs(texture.source.data[:3].transpose(1, 2, 0) * 255 - seen[..., :3]).max() < 0.51
+    (command,) = desk.easel.session.log
+    alone = apply(Painting(), c.DefineTexture("Stone", "match", given)).textures["Stone"]
+    assert alone.source.sha == texture.source.sha == command.arguments["sha"]
+    assert alone.parameters == texture.parameters.delete("sha")
+
+
+def test_a_series_is_made_for_use_between_strokes(desk, example):
+    given = members(example, pattern=str(example / "b.png"), how="average")
+    desk.ask(q.MatchSet("mix", given), q.MatchUse("Both", "mix", given.set("stages", 3)))
+    desk.ask(q.Begin(0, (0, 0), from_json({"radius": 4})), q.Points(np.array([[0.0, 0, 1, 0, 0, 0]])))
+    for _ in range(3000):
+        desk.easel.step()
+    assert not desk.easel.pending
+    assert "Both" not in desk.easel.session.painting.textures
+    desk.ask(q.Points(np.array([[9.0, 0, 1, 0, 0, 0]])), q.Finish())
+    desk.rest()
+    assert desk.easel.session.painting.textures["Both"].kind == "series"
+    log = desk.easel.session.log
+    assert [type(command) for command in log] == [c.Stroke, c.DefineTexture]
+    again = replay(Recording(desk.easel.session.recording().header, tuple(log))).painting
+    assert again.textures["Both"].source.sha == desk.easel.session.painting.textures["Both"].source.sha
+
+
+def test_a_rectangle_is_taken_as_the_canvas_is_now(desk):
+    ink = [{"texture": "rock", "period": 8, "colour": "#ffffff"}]
+    brush = from_json({"radius": 40, "colour": "#402010", "dynamics": {}, "ink": ink})
+    desk.ask(q.New(Rect.at(0, 0, 64, 48)))
+
+    def stroke(colour):
+        points = np.array([[0.0, 24, 1, 0, 0, 0], [64.0, 24, 1, 0, 0, 0]])
+        desk.ask(q.Do(c.Stroke(0, (0, 0), points, from_json({**to_json(brush), "colour": colour}))))
+
+    stroke("#402010")
+    given = Map({"rect": (0, 0, 0, 64, 48), "size": (32, 32), "levels": 2})
+    desk.ask(q.MatchSet("match", given))
+    desk.rest()
+    stroke("#1020ff")
+    desk.ask(q.MatchUse("View", "match", given))
+    desk.rest()
+    blue = desk.easel.session.painting.textures["View"].source.data[:3].mean((1, 2))
+    assert blue[2] > blue[0]
+    log = desk.easel.session.log
+    again = replay(Recording(desk.easel.session.recording().header, tuple(log))).painting
+    assert again.textures["View"].source.sha == desk.easel.session.painting.textures["View"].source.sha
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [({"path": "/nowhere/a.png"}, "/nowhere/a.png"), ({"path": "a", "levels": -1}, "a"), ({}, "path: found nothing")],
+)
+def test_faults_are_told_and_end_the_work(desk, given, message):
+    desk.ask(q.MatchSet("match", Map(given)))
+    desk.rest()
+    assert message in desk.scene.fault
+    assert not desk.easel.pending
