@@ -1,0 +1,1 @@
+"""The still life: wall, table, cloth, jug, fruit, and the light on them."""

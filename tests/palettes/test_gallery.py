@@ -1,0 +1,49 @@
+"""The still life: few points of a pen make very many regions of colour, as Lewis 1984 says of spectral brushes."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from app.__main__ import main
+from engine.painting import commands
+from engine.painting.recording import read
+
+PALETTES = Path(__file__).resolve().parents[2] / "palettes"
+RECORDING = PALETTES / "gallery" / "still-life.jsonl"
+POINTS, PIXELS, REGIONS = 10_000, 250_000, 100_000  # at most, exactly, at least
+
+
+def test_ten_thousand_points_make_a_hundred_thousand_regions(tmp_path, capsys):
+    strokes = [c for c in read(RECORDING).commands if isinstance(c, commands.Stroke)]
+    assert sum(len(stroke.points) for stroke in strokes) <= POINTS
+    picture = str(tmp_path / "still-life.png")
+    assert main(["play", str(RECORDING), "--png", picture]) == 0
+    capsys.readouterr()
+    assert main(["analyse", picture, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["pixels"] == PIXELS
+    assert found["regions"] >= REGIONS
+
+
+def test_it_is_made_with_spectral_textures_and_raster_operations():
+    found = read(RECORDING).commands
+    makers = [c.maker for c in found if isinstance(c, commands.DefineTexture)]
+    assert makers.count("spectrum") == len(makers) >= 10
+    brushes = [c.brush for c in found if isinstance(c, commands.Stroke)]
+    assert {"paint", "raster"} <= {brush.mode for brush in brushes}
+    assert RECORDING.stat().st_size <= 1 << 20
+
+
+def test_script_writes_the_same_recording_again(tmp_path):
+    for name in ("gallery", "brushes"):
+        left_out = shutil.ignore_patterns("*.jsonl", "__pycache__")
+        shutil.copytree(PALETTES / name, tmp_path / name, ignore=left_out)
+    script = tmp_path / "gallery" / "make_still_life.py"
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
+    assert subprocess.run([sys.executable, script], env=environment, check=False).returncode == 0
+    assert (tmp_path / "gallery" / RECORDING.name).read_bytes() == RECORDING.read_bytes()
