@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import shutil
@@ -9,6 +10,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
+from app import presets
 from app.__main__ import main
 from engine.painting import commands
 from engine.painting.recording import read
@@ -47,3 +51,18 @@ def test_script_writes_the_same_recording_again(tmp_path):
     environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
     assert subprocess.run([sys.executable, script], env=environment, check=False).returncode == 0
     assert (tmp_path / "gallery" / RECORDING.name).read_bytes() == RECORDING.read_bytes()
+
+
+def test_the_sheet_of_brushes_shows_what_is_painted():
+    spec = importlib.util.spec_from_file_location("make_sheet", PALETTES / "pictures" / "make_sheet.py")
+    assert spec is not None
+    assert spec.loader is not None
+    sheet = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sheet)
+    found = {preset.name: preset for preset in presets.load(presets.bundled_folder())[0]}
+    for name in ("Fur", "Rust"):  # one that paints, and one that changes what is there
+        painting = sheet.painted(found[name].brush, found[name].textures)
+        size = (sheet.WIDE, sheet.TALL)
+        picture = np.asarray(sheet.seen(painting, 0, (size[0] / 2, size[1] / 2), size), np.float64)
+        assert picture.shape == (sheet.TALL, sheet.WIDE, 3)
+        assert picture.std() > 20

@@ -18,7 +18,7 @@ def fill(
     easel: Easel, outline: Sequence[Point], radius: float, colours: tuple[str, str], period: float = 110, **more: Any
 ) -> None:
     """A form in body colour, its edge crisp: the colour and what brush marks in it turn to."""
-    body = {"hardness": 0.97, "dynamics": {"radius": [[0, 0], [1, 1]]}, **_BARE, **more}
+    body = {"hardness": 0.82, "dynamics": {"radius": [[0, 0], [1, 1]]}, **_BARE, **more}
     rim = body.pop("rim", 1.2)
     marks = {"tints": {"Brush marks": colours[1]}, "periods": {"Brush marks": period}}
     easel.touch("Gouache", solid(outline, radius, rim), 2, radius=radius + 0.2, colour=colours[0], **marks, **body)
