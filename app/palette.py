@@ -10,9 +10,10 @@ from engine.painting.requests import Do
 
 
 def take(desk: Desk, preset: Preset) -> None:
-    """Paints with a preset from now on; the painting gets those of its textures that it lacks."""
+    """Paints with a preset from now on; the painting gets those of its textures that it lacks with the first stroke: a
+    brush that is only looked at leaves nothing behind."""
     desk.brush, desk.preset, desk.needs = preset.brush, preset.name, preset.textures
-    provide(desk)
+    _fit(desk)
 
 
 def lacking(desk: Desk) -> tuple[DefineTexture, ...]:
@@ -32,19 +33,21 @@ def belonging(desk: Desk) -> tuple[tuple[DefineTexture, ...], tuple[str, ...]]:
 
 
 def provide(desk: Desk) -> None:
-    """Defines the textures that the brush came with and the painting lacks, which may be another by now.
+    """Defines the textures that the brush came with and the painting lacks, which may be another by now."""
+    for command in _fit(desk):
+        posted = (0 if desk.scene is None else desk.scene.serial, command)
+        if posted not in desk.provided:  # the painting is told of what was posted with its next scene
+            desk.provided.add(posted)
+            desk.post(Do(command))
 
-    Where the painting has another texture of that name, a free one is used.
-    """
+
+def _fit(desk: Desk) -> tuple[DefineTexture, ...]:
+    """What the painting lacks.  Where it has another texture of that name, the brush takes a free one."""
     needs = used(desk.brush, desk.needs)
     if not needs:
-        return
+        return ()
     scene = desk.scene
     known = {} if scene is None else {name: (kind, given) for name, kind, given in scene.definitions}
     taken = {row.name for row in desk.kinds}
     desk.brush, desk.needs, missing = fitted(desk.brush, needs, known, taken)
-    for command in missing:
-        posted = (0 if scene is None else scene.serial, command)
-        if posted not in desk.provided:  # the painting is told of what was posted with its next scene
-            desk.provided.add(posted)
-            desk.post(Do(command))
+    return missing

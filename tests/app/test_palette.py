@@ -71,9 +71,11 @@ class Desk(SimpleNamespace):
         self.easel.carry_out(Stroke(0, (0, 0), STROKE.points, self.brush))
 
 
-def test_a_preset_brings_its_textures(tmp_path):
+def test_a_preset_brings_its_textures_with_the_first_stroke(tmp_path):
     desk = Desk()
     palette.take(desk, preset(tmp_path, FUR, PAPER))
+    assert desk.asked == []  # a brush that is only looked at leaves nothing behind
+    desk.paint()
     assert [command.name for command in desk.asked] == ["fur", "paper"]
     assert desk.scene.textures == ("fur", "paper")
     desk.paint()
@@ -85,6 +87,7 @@ def test_a_preset_brings_its_textures(tmp_path):
 def test_only_what_the_brush_refers_to_comes_along(tmp_path):
     desk = Desk()
     palette.take(desk, preset(tmp_path, FUR, PAPER, {"name": "moss", "maker": "rock"}))
+    desk.paint()
     assert desk.scene.textures == ("fur", "paper")
 
 
@@ -92,6 +95,8 @@ def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
     desk = Desk()
     desk.post(q.Do(parse({"do": "texture", "name": "fur", "maker": "rock", "period": 20})))
     palette.take(desk, preset(tmp_path, FUR, PAPER))
+    assert [command.name for command in palette.lacking(desk)] == ["fur 2", "paper"]
+    desk.paint()
     assert desk.scene.textures == ("fur", "fur 2", "paper")
     assert [part.texture for part in desk.brush.ink] == ["fur 2", "rock"]
     assert desk.brush.density.texture == "fur 2"
@@ -123,9 +128,11 @@ def test_a_definition_is_recognised_after_saving(tmp_path):
     other = Desk()
     other.post(q.Open(tmp_path / "a.ora"))
     palette.take(other, preset(tmp_path, FUR, PAPER))
+    other.paint()
     assert other.asked == []
     changed = {**FUR, "shapes": [{"shape": "wedge", "angle": 21}]}
     palette.take(other, preset(tmp_path, changed, PAPER))
+    other.paint()
     assert other.scene.textures == ("fur", "fur 2", "paper")
 
 
@@ -212,11 +219,13 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
     textures, stay = palette.belonging(desk)
     assert stay == ()
     palette.take(other, Preset("Fur", desk.brush, textures=textures))
+    other.paint()
     assert other.scene.textures == ("fur",)
     swatch = q.Swatch("it", desk.brush, (60, 40))
     pictures = [painted(swatch, d.easel.session.painting) for d in (desk, other)]
     assert np.array_equal(*pictures)
     palette.take(other, Preset("Fur", desk.brush, textures=textures))
+    other.paint()
     assert len(other.asked) == 1
 
 
