@@ -14,6 +14,7 @@ from typing import Any
 from app.colours import RGB, to_hex
 from app.glide import Glide
 from app.lab import LabState
+from app.match import MatchState
 from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
@@ -78,6 +79,8 @@ class Desk:
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
     lab: LabState = field(default_factory=LabState)
     found: Found | None = None  # by the analysis
+    match: MatchState = field(default_factory=MatchState)
+    sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
 
     @property

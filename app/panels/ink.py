@@ -9,7 +9,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, pictured, theme
 from app.colours import to_hex
 from app.desk import Desk
-from app.panels import textures
+from app.panels import samples, textures
 from app.panels import widgets as w
 from app.panels.curves import CurveEditor
 from engine.brush.record import COMPONENTS_CAP, Component
@@ -129,21 +129,20 @@ class InkPanel:
             width=-1,
         ):
             imgui.open_popup("add texture")
+        samples.limit(desk)
         if not imgui.begin_popup("add texture"):
             return
-        for name, hint in textures.names(desk):
-            if imgui.selectable(textures.label(desk, name), False)[0]:
-                textures.bring(desk, name)
-                part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
-                desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
-            w.tooltip(hint)
-        imgui.separator()
         if imgui.selectable("Picture from a file…", False)[0]:
             desk.ask("texture picture")
         w.tooltip("Paint with a PNG, JPEG or TIFF; it repeats, and shows its own detail as you zoom in")
         if imgui.selectable("What is in view", False)[0]:
             pictured.from_view(desk)
         w.tooltip("Paint with what the canvas shows now, finer detail included")
+        imgui.separator()
+        name = samples.listed(desk)
+        if name:
+            part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
+            desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
         imgui.end_popup()
 
     def _welcome(self, desk: Desk) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from typing import Any
 
 from immutables import Map
@@ -20,20 +20,31 @@ _WHOLE_CURVE = ("period", "density")  # sliders that are finer where they are sm
 
 def names(desk: Desk) -> list[tuple[str, str]]:
     """Names and hints: those built in, those that the painting defines, those that the bundled brushes bring."""
-    found = {row.name: row.tooltip for row in desk.kinds if not row.pictured}
-    for name in desk.scene.textures if desk.scene else ():
-        found.setdefault(name, "A texture of this painting")
-    for name in _bringable(desk):
-        found.setdefault(name, "A texture of the brushes; the painting gets it when you paint with it")
-    return list(found.items())
+    return [row for _, rows in groups(desk) for row in rows]
+
+
+def groups(desk: Desk) -> list[tuple[str, list[tuple[str, str]]]]:
+    """The same by where they come from, under a title each; a name that several have means the first's."""
+    here = desk.scene.textures if desk.scene else ()
+    sources = (
+        ("Of this painting", [(name, "A texture of this painting") for name in here]),
+        ("Built in", [(row.name, row.tooltip) for row in desk.kinds if not row.pictured]),
+        ("Of the brushes", [(name, "The painting gets it when you paint with it") for name in _bringable(desk)]),
+    )
+    seen: set[str] = set()
+    found = []
+    for title, rows in sources:
+        rows = [row for row in rows if row[0] not in seen]
+        seen |= {name for name, _ in rows}
+        if rows:
+            found.append((title, rows))
+    return found
 
 
 def bring(desk: Desk, name: str) -> None:
     """Has the painting get a texture of the brushes that it lacks, as soon as it is painted with."""
-    command = _bringable(desk).get(name)
-    here = desk.scene is not None and name in desk.scene.textures
-    if command is not None and not here and all(other.name != name for other in desk.needs):
-        desk.needs = (*desk.needs, command)
+    if all(other.name != name for other in desk.needs):
+        desk.needs = (*desk.needs, *brought(desk, name))
 
 
 def _bringable(desk: Desk) -> dict[str, DefineTexture]:
@@ -49,16 +60,20 @@ def label(desk: Desk, texture: str) -> str:
     return texture.capitalize() if any(row.name == texture for row in desk.kinds) else texture
 
 
-def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | None:
-    """A drop-down of all textures but plain white; the name chosen now, or None."""
-    found = [(name, tip) for name, tip in names(desk) if name != "white"]
-    options = [(name, label(desk, name)) for name, _ in found]
-    if texture not in dict(options):
-        options.append((texture, f"{texture} (not here)"))
-    chosen = w.choice("texture", texture, options, hint, width, [tip for _, tip in found])
-    if chosen:
-        bring(desk, chosen)
-    return chosen
+def meant(desk: Desk, name: str) -> Hashable:
+    """What a name means now: another value when it means another texture."""
+    if desk.scene and name in desk.scene.textures:
+        given = next((parameters for known, _, parameters in desk.scene.definitions if known == name), None)
+        lab = desk.lab.scene
+        return desk.scene.serial, given, lab.version if lab is not None and lab.using == name else 0
+    return _bringable(desk).get(name, name)
+
+
+def brought(desk: Desk, name: str) -> tuple[DefineTexture, ...]:
+    """The definition of a texture that the painting lacks and the brushes have."""
+    command = _bringable(desk).get(name)
+    here = desk.scene is not None and name in desk.scene.textures
+    return () if command is None or here else (command,)
 
 
 def rows(desk: Desk, texture: str) -> tuple[Any, ...]:

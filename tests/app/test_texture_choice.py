@@ -62,3 +62,21 @@ def test_sliders_begin_at_what_the_texture_was_defined_with():
     assert textures.own(desk(("linen", "spectrum", Map())), "linen")["period"] == 48  # its picture's width
     assert textures.own(desk(), "fur")["period"] == 8
     assert textures.own(desk(), "rock") == {}
+
+
+def test_a_picture_is_asked_for_again_only_where_a_name_means_another_texture():
+    made = desk()
+    made.lab = SimpleNamespace(scene=None)
+    made.scene.serial = 1
+    known = {textures.meant(made, name) for name in ("rock", "fur", "linen")}
+    assert len(known) == 3
+    assert textures.meant(made, "fur") in known
+    assert textures.brought(made, "fur") == (FUR,)
+    here = desk(("fur", "sparse", Map({"density": 3.0})))
+    here.lab, here.scene.serial = SimpleNamespace(scene=SimpleNamespace(using="fur", version=4)), 1
+    first = textures.meant(here, "fur")
+    assert first not in known
+    here.lab.scene.version = 5
+    assert textures.meant(here, "fur") != first
+    assert textures.brought(here, "fur") == ()
+    assert [title for title, _ in textures.groups(here)] == ["Of this painting", "Built in", "Of the brushes"]

@@ -1,0 +1,91 @@
+"""Textures to choose from: a picture and a name each, by where they come from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+from immutables import Map
+
+from app import theme
+from app.desk import Desk
+from app.panels import textures
+from app.panels import widgets as w
+from engine.brush.parts import Component
+from engine.brush.record import Brush
+from engine.painting.requests import Swatch
+
+PICTURE = (44, 28)  # of a texture, points
+NAME = 116  # width of its name, points
+ACROSS = 2
+PERIOD = 96.0  # pixels, at most, that a texture's repeat has in its picture
+DARK, LIGHT = "#22262c", "#f2f2f2"  # what it leads from and to
+
+
+def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | None:
+    """A drop-down of all textures but plain white; the name chosen now, or None."""
+    imgui.set_next_item_width(width)
+    known = any(name == texture for name, _ in textures.names(desk))
+    shown = textures.label(desk, texture) + ("" if known else " (not here)")
+    limit(desk)
+    if not imgui.begin_combo("##texture", shown, imgui.ComboFlags_.height_largest):
+        w.tooltip(hint)
+        return None
+    chosen = listed(desk, texture, ("white",))
+    imgui.end_combo()
+    return chosen
+
+
+def limit(desk: Desk) -> None:
+    """Keeps the pop-up opened next from reaching out of the window: a longer list scrolls."""
+    imgui.set_next_window_size_constraints(ImVec2(0, 0), ImVec2(1e6, 0.55 * desk.view.height))
+
+
+def listed(desk: Desk, current: str = "", without: tuple[str, ...] = ()) -> str | None:
+    """All textures, in the present pop-up; the one chosen now, which the painting gets if it lacks it."""
+    chosen = None
+    for title, rows in textures.groups(desk):
+        imgui.text_disabled(title)
+        shown = [row for row in rows if row[0] not in without]
+        for i, (name, hint) in enumerate(shown):
+            if i % ACROSS:
+                imgui.same_line()
+            if _row(desk, name, hint, name == current):
+                chosen = name
+    if chosen:
+        textures.bring(desk, chosen)
+    return chosen
+
+
+def _row(desk: Desk, name: str, hint: str, on: bool) -> bool:
+    scale, corner = desk.scale, imgui.get_cursor_screen_pos()
+    wide, tall = (size * scale for size in PICTURE)
+    pressed = imgui.selectable(f"##{name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
+    w.tooltip(f"{textures.label(desk, name)}\n{hint}")
+    if not imgui.is_item_visible():
+        return pressed
+    painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
+    shown = _picture(desk, name)
+    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 3 * scale)
+    if shown is not None:
+        zero, one, white = ImVec2(0, 0), ImVec2(1, 1), theme.packed((1.0, 1.0, 1.0))
+        painter.add_image_rounded(shown, corner, end, zero, one, white, 3 * scale)
+    at = ImVec2(end.x + 7 * scale, corner.y + (tall - imgui.get_font_size()) / 2)
+    painter.push_clip_rect(corner, ImVec2(end.x + NAME * scale, end.y), True)
+    painter.add_text(at, theme.packed(theme.TEXT), textures.label(desk, name))
+    painter.pop_clip_rect()
+    return pressed
+
+
+def _picture(desk: Desk, name: str) -> Any:
+    """Its picture if there is one; asks for it when it is not of the texture that is meant now."""
+    ident, meant = f"texture {name}", textures.meant(desk, name)
+    if desk.ready and desk.sampled.get(name) != meant:
+        desk.sampled[name] = meant
+        period = {row.name: row for row in textures.rows(desk, name)}.get("period")
+        usual = textures.own(desk, name).get("period", period.default if period else PERIOD)
+        given = Map() if period is None else Map(period=max(period.lo, min(usual, round(PERIOD * desk.scale))))
+        brush = Brush(16.0, colour=DARK, ink=(Component(name, 1.0, LIGHT, given),))
+        size = (int(PICTURE[0] * desk.scale), int(PICTURE[1] * desk.scale))
+        desk.post(Swatch(ident, brush, size, "fill", textures=textures.brought(desk, name)))
+    return desk.pictures.get(ident)
