@@ -15,6 +15,7 @@ from engine.painting.requests import LabRest, LabScene, LabSet, LabUse, Request
 SETTLE = 0.15  # seconds without change before strokes are shown with the texture
 FIRST = Map({"shape": "noise", "b": 1.4})  # the shape of a lab just opened
 SIZES = (128, 256, 512)
+FULL, LIGHT = 0.8, 0.6  # opacity that hides nearly all of a paper, and one that shows it
 WHITE, BLACK = "#ffffff", "#000000"
 
 
@@ -114,9 +115,16 @@ def only_with(brush: Brush, textures: frozenset[str]) -> Brush:
     return replace(brush, ink=tuple(part for part in brush.ink if part.texture in textures), **parts)
 
 
-def with_texture(brush: Brush, how: str, texture: str) -> Brush:
+def with_texture(brush: Brush, how: str, texture: str, pen: bool = False) -> Brush:
     """The brush with a texture in its ink, as its dry brush or as its paper."""
     if how == "ink":
         return replace(brush, ink=(Component(texture, 1.0, WHITE),), mode="paint")
     surface: dict[str, Any] = {how: Surface(texture, 0.9)}
-    return replace(brush, **surface)
+    return lightened(replace(brush, **surface), pen) if how == "grain" else replace(brush, **surface)
+
+
+def lightened(brush: Brush, pen: bool) -> Brush:
+    """The brush as it shows a paper that it got just now: full coverage fills every hollow of the grain, so one that
+    covers fully covers less, unless a pen's pressure sees to that."""
+    felt = pen and "opacity" in brush.dynamics
+    return brush if felt or brush.opacity <= FULL else replace(brush, opacity=LIGHT)

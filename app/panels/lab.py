@@ -140,6 +140,7 @@ class LabPanel:
             text = f"“{using}” follows"
             wide = imgui.calc_text_size("Keep").x + 2 * imgui.get_style().frame_padding.x
             imgui.same_line(right - wide - imgui.calc_text_size(text).x - imgui.get_style().item_spacing.x)
+            imgui.align_text_to_frame_padding()
             imgui.text_disabled(text)
             imgui.same_line(right - wide)
             if w.text_button("Keep", "Lets it stay as it is; the next use makes another texture"):
@@ -201,7 +202,7 @@ class LabPanel:
         name = using or pictured.free_name(desk, "Texture")
         if not using:
             desk.lab.use(desk.post, name)
-        desk.brush = with_texture(desk.brush, how, name)
+        desk.brush = with_texture(desk.brush, how, name, desk.pointer.pen)
         desk.tool, desk.erasing = "brush", False
 
 

@@ -14,7 +14,8 @@ from immutables import Map
 
 from app.colours import to_hex
 from app.desk import Desk
-from app.panels import textures
+from app.lab import lightened
+from app.panels import samples, textures
 from app.panels import widgets as w
 from app.panels.curves import CurveEditor
 from engine.brush.parts import Edge, Surface, Tip
@@ -44,6 +45,8 @@ class Texturing:
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
                 held, self._fresh = (self._start(desk, name), name) if on else (None, "")
+                if on and name == "grain":
+                    desk.brush = lightened(desk.brush, desk.pointer.pen)
             if shown:
                 top = imgui.get_cursor_pos().y
                 imgui.push_id(name)
@@ -133,7 +136,9 @@ def _paper(desk: Desk, part: Surface) -> Surface:
     """A drop-down of the bundled papers; the surface is the chosen one's."""
     if not desk.papers:
         return part
-    current = next((paper.name for paper in desk.papers if paper.grain == part), "A paper of your own")
+    same = next((paper.name for paper in desk.papers if paper.grain.texture == part.texture), "")
+    changed = f"{same}, changed" if same else "A paper of your own"
+    current = next((paper.name for paper in desk.papers if paper.grain == part), changed)
     chosen = w.choice("paper", current, [(p.name, p.name) for p in desk.papers], "Papers and other surfaces", -1)
     for paper in desk.papers:
         if paper.name == chosen:
@@ -143,7 +148,7 @@ def _paper(desk: Desk, part: Surface) -> Surface:
 
 
 def _texture(desk: Desk, part: Any) -> Any:
-    chosen = textures.chooser(desk, part.texture, "The texture")
+    chosen = samples.chooser(desk, part.texture, "The texture")
     return replace(part, texture=chosen, parameters=Map()) if chosen and chosen != part.texture else part
 
 

@@ -1,5 +1,7 @@
 """What the window knows of the lab: places in the spectrum, the brush that paints there, when it has come to rest."""
 
+from dataclasses import replace
+
 import pytest
 from immutables import Map
 
@@ -79,3 +81,12 @@ def test_a_brush_takes_the_texture():
     assert with_texture(brush, "grain", "A").grain.texture == "A"
     assert with_texture(brush, "density", "A").ink == brush.ink
     assert only_with(with_texture(brush, "density", "A"), OWN) == brush
+
+
+def test_a_paper_shows_at_once_though_full_coverage_would_hide_it():
+    full = Brush(opacity=1.0)
+    assert with_texture(full, "grain", "A").opacity < 0.8
+    assert with_texture(full, "density", "A").opacity == 1.0
+    assert with_texture(replace(full, opacity=0.5), "grain", "A").opacity == 0.5
+    assert with_texture(full, "grain", "A", pen=True).opacity == 1.0  # its pressure changes the opacity
+    assert with_texture(replace(full, dynamics=Map()), "grain", "A", pen=True).opacity < 0.8
