@@ -159,6 +159,12 @@ def save(preset: Preset, folder: Path) -> Path:
     return path
 
 
+def delete(preset: Preset) -> None:
+    """Takes the file of one of the artist's own away."""
+    if preset.path is not None:
+        preset.path.unlink(missing_ok=True)
+
+
 def _own_path(name: str, folder: Path) -> Path:
     """The file of a name: another one where a brush of another name has it, such as "a b" and "a-b"."""
     stem = "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"

@@ -25,7 +25,7 @@ _MODES = (
     ("paint", "Paint", "Lays paint over what is there"),
     ("erase", "Erase", "Takes paint away, at all depths"),
     ("smooth", "Smooth", "Softens the paint and takes away the detail that zooming would show"),
-    ("raster", "Raster", "A raster operation: changes the colours that are there"),
+    ("raster", "Change", "Changes the paint that is there: darker, another hue, blurred, copied…"),
 )
 _PRESSURES: dict[str, Any] = {
     "pressure": "pressure",
@@ -64,7 +64,7 @@ class BrushPanel:
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
-            unfolded += _height_of(lambda: self._raster(desk))
+            self._raster(desk)
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):

@@ -25,6 +25,7 @@ class BrushList:
     def __init__(self) -> None:
         self._group, self._find = EVERY, ""
         self._seen = ""  # the brush chosen when the list was last drawn
+        self._reveal = 0  # frames in which the list still scrolls to it: how long a list is, is known a frame late
 
     def draw(self, desk: Desk, below: float) -> None:
         """`below`: the height that what follows needs."""
@@ -35,7 +36,7 @@ class BrushList:
         tall = _tall(desk, wide)
         room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
         everything = _height(presets.found(desk.presets, EVERY, ""), tall + gap, em + gap)
-        imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.6 * tall))))  # the same for every group
+        imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.3 * tall))))  # the same for every group
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:
             imgui.text_disabled(group)
@@ -43,11 +44,14 @@ class BrushList:
                 if i % ACROSS:
                     imgui.same_line()
                 if self._preset(desk, preset, wide):
-                    self._seen = preset.name
+                    self._seen = desk.preset
+                if self._reveal and preset.name == desk.preset:
+                    imgui.set_scroll_here_y(0.5)
         if not found:
             imgui.text_disabled("No brush is called so")
         imgui.pop_style_var()
         imgui.end_child()
+        self._reveal = 2 if desk.preset != self._seen else max(0, self._reveal - 1)
         self._seen = desk.preset
 
     def _bar(self, desk: Desk) -> None:
@@ -107,9 +111,10 @@ class BrushList:
         if taken:
             take(desk, preset)
         hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
-        if chosen and self._seen != preset.name:  # taken elsewhere
-            imgui.set_scroll_here_y(0.5)
-        w.tooltip(f"{preset.name}\nShift keeps the present size")
+        own = preset.path is not None and preset.path.parent == presets.own_folder()
+        w.tooltip(f"{preset.name}\nShift keeps the present size" + ("\nRight click to delete it" if own else ""))
+        if own:
+            _deletes(desk, preset)
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
         grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
         painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
@@ -132,6 +137,21 @@ def take(desk: Desk, preset: Preset) -> None:
     desk.tool, desk.erasing = "brush", False
     if imgui.get_io().key_shift:
         desk.brush = replace(desk.brush, radius=radius)
+
+
+def _deletes(desk: Desk, preset: Preset) -> None:
+    """The menu of a brush of the artist's own."""
+    if not imgui.begin_popup_context_item(f"own {preset.name}"):
+        return
+    if imgui.selectable(f"Delete “{preset.name}”", False)[0]:
+        try:
+            presets.delete(preset)
+        except OSError as error:
+            desk.say(f"The brush was not deleted: {error}", bad=True)
+        else:
+            desk.presets = tuple(one for one in desk.presets if one is not preset)
+            desk.say(f"Deleted the brush “{preset.name}”")
+    imgui.end_popup()
 
 
 def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:

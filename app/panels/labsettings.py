@@ -13,6 +13,7 @@ from app.lab import SIZES
 from app.panels import widgets as w
 
 _SIGNS = {"ring": icons.RING, "wedge": icons.WEDGE, "points": icons.GRID, "noise": icons.CLOUD}
+_WORDS = {"b": "Softness", "noise": "Clouds"}  # for those whose own names say little
 _PICTURES = (
     ("texture", "In view", "The spectrum of what the canvas shows: its texture, without its picture"),
     ("image", "File…", "The spectrum of a picture file: a photograph of sand, bark, cloth"),
@@ -65,7 +66,9 @@ class LabSettings:
         lab = desk.lab
         held = [shape["shape"] for shape in lab.made.shapes]
         rows = lab.scene.shapes if lab.scene is not None else ()
-        names: list[tuple[str, str, str]] = [(r.name, f"{_SIGNS.get(r.name, '')} {r.label}", r.tooltip) for r in rows]
+        names: list[tuple[str, str, str]] = [
+            (r.name, f"{_SIGNS.get(r.name, '')} {_WORDS.get(r.name, r.label)}", r.tooltip) for r in rows
+        ]
         names += _PICTURES
         gap = 2 * desk.scale
         wide = (imgui.get_content_region_avail().x - gap) / 2
@@ -99,14 +102,14 @@ class LabSettings:
             if row is None:
                 continue
             if several:
-                imgui.text_disabled(row.label)
+                imgui.text_disabled(_WORDS.get(row.name, row.label))
             imgui.push_id(i)
             for number in row.parameters:
                 if number.name == "strength" and not several:
                     continue
                 form = "%.0f°" if number.unit == "degrees" else "%.2f"
                 value = float(shape.get(number.name, number.default))
-                label = number.name.capitalize() if len(number.name) > 1 else f"Falls as 1/f^{number.name}"
+                label = _WORDS.get(number.name, number.name.capitalize())
                 changed, value = w.slider(label, value, (number.lo, number.hi), number.tooltip, form=form)
                 if changed:
                     lab.shape(i, number.name, round(value, 4))

@@ -1,4 +1,4 @@
-"""What opens below the canvas, between the panels: the texture lab, or the analysis of the picture."""
+"""What opens below the canvas, between the panels: the texture lab, textures matched to examples, the analysis."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from app.desk import Desk
 from app.panels import widgets as w
 from app.panels.analysis import AnalysisPanel
 from app.panels.lab import LabPanel
+from app.panels.matching import MatchingPanel
 from engine.painting.requests import LabStep
 
 
@@ -31,6 +32,7 @@ class Strip(NamedTuple):
 PART, HIGHEST = 0.4, 560.0  # of the window's height; points
 STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", 356.0),
+    "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", 356.0),
     "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 320.0),
 }
 
@@ -40,7 +42,7 @@ class StripPanel:
 
     def __init__(self) -> None:
         self.lab = LabPanel()
-        self._panels: dict[str, Panel] = {"lab": self.lab, "analysis": AnalysisPanel()}
+        self._panels: dict[str, Panel] = {"lab": self.lab, "analysis": AnalysisPanel(), "match": MatchingPanel()}
 
     def height(self, desk: Desk) -> float:
         """What it takes of the screen, framebuffer pixels."""
@@ -51,8 +53,10 @@ class StripPanel:
     def draw(self, desk: Desk) -> None:
         """Into the present window."""
         row = STRIPS[desk.strip]
+        imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
         imgui.same_line(0, 14 * desk.scale)
+        imgui.align_text_to_frame_padding()
         imgui.text_disabled(row.hint)
         self._panels[desk.strip].bar(desk)
         imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
