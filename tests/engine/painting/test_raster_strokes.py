@@ -194,3 +194,21 @@ def test_locked_transparency_is_kept_and_a_texture_gives_detail():
     fine = values(done, 3, Rect.at(200, 200, 128, 128))[0]
     coarse = values(done, 0, Rect.at(25, 25, 16, 16))[0].repeat(8, axis=0).repeat(8, axis=1)
     assert (fine - coarse).std() > 0.004
+
+
+@pytest.mark.parametrize("name", ["multiply", "contrast", "gradient"])
+def test_coarse_strokes_change_what_finer_shaped_textures_painted(name):
+    """The finer texture has no appearance at the level of the stroke."""
+    cloud = {"do": "texture", "name": "cloud", "maker": "spectrum", "size": [32, 32], "shapes": [{"shape": "noise"}]}
+    ink = [{"texture": "cloud", "period": 40, "colour": "#ffffff", "shaping": "steps"}]
+    before = told(
+        {"do": "layer", "add": "A"},
+        cloud,
+        {**stroke([[20, 100], [220, 120]], brush={"radius": 60, "colour": "#803010", "ink": ink}), "level": 2},
+    )
+    after = told(stroke(LINE, brush={"mode": "raster", "op": name, "colour": "#404060", "ink": ink}), painting=before)
+    assert np.abs(values(after)[:4] - values(before)[:4]).max() > 0.1
+    fine = Rect.at(0, 0, 256, 256)
+    changed = values(after, 2, fine)[:4]
+    assert np.isfinite(changed).all()
+    assert np.abs(changed - values(before, 2, fine)[:4]).max() > 0.1
