@@ -126,6 +126,7 @@ def _open(name: str) -> Check:
 
 
 def _escape(desk: Desk) -> None:
+    desk.match.marking = None
     desk.erasing = False
     desk.tool = "brush"
 
@@ -219,6 +220,9 @@ ACTIONS: dict[str, Action] = {
     "lab": A("Texture lab", "View", ("L",), "Paint a texture by its spectrum", _strip("lab"), _ready, _open("lab")),
     "analysis": A(
         "Analysis", "View", ("A",), "What the painting is made of", _strip("analysis"), _ready, _open("analysis")
+    ),
+    "match": A(
+        "Match a texture", "View", ("T",), "Make a texture like an example", _strip("match"), _ready, _open("match")
     ),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
     "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),

@@ -36,10 +36,22 @@ def draw_frame(desk: Desk) -> None:
 
 
 def draw_outline(desk: Desk) -> None:
-    """The brush's circle, above the canvas and below the panels."""
+    """The brush's circle, above the canvas and below the panels; or the rectangle that is being marked."""
+    if desk.match.marked is not None:
+        _draw_marked(desk.match.marked)
+    if desk.match.marking is not None:
+        return
     if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.tool].outline:
         return
     painter = imgui.get_background_draw_list()
     at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, desk.brush.radius)
     painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
     painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)
+
+
+def _draw_marked(corners: tuple[float, float, float, float]) -> None:
+    x0, y0, x1, y1 = corners
+    painter = imgui.get_background_draw_list()
+    a, b = ImVec2(min(x0, x1), min(y0, y1)), ImVec2(max(x0, x1), max(y0, y1))
+    painter.add_rect(a, b, theme.packed((0.0, 0.0, 0.0), 0.6), 0.0, thickness=3.0)
+    painter.add_rect(a, b, theme.packed((1.0, 1.0, 1.0), 0.9), 0.0, thickness=1.2)

@@ -54,6 +54,7 @@ class News:
             q.Looked: self._looked,
             q.LabScene: self._lab,
             q.Found: self._found,
+            q.MatchScene: self._matched,
             q.Pending: self._pending,
         }
 
@@ -86,6 +87,8 @@ class News:
             self.worker.post(q.Look(tuple((*t, self.screen.revision(t)) for t in wanted)))
         self._ask_swatches(now)
         self._ask_lab(now)
+        if self.desk.strip == "match" and self.desk.panels:
+            self.desk.match.ask(self.desk.post)
 
     def _ask_swatches(self, now: float) -> None:
         """The stroke of the brush and the ink mixer's picture follow the brush, no faster than they can be seen."""
@@ -175,6 +178,9 @@ class News:
         before, self.desk.lab.scene = self.desk.lab.scene, r
         if before is not None and before.version != r.version:
             self._ink = None  # its pictures are of a texture that is another one now
+
+    def _matched(self, r: q.MatchScene, _now: float) -> None:
+        self.desk.match.scene = r
 
     def _found(self, r: q.Found, _now: float) -> None:
         self.desk.found = r

@@ -12,7 +12,7 @@ from app.desk import Desk
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
-from app.tools import TOOLS, Gesture, paint_lab, pan, pick, turn, zoom
+from app.tools import TOOLS, Gesture, mark, paint_lab, pan, pick, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
@@ -81,6 +81,8 @@ class Router:
             begin: Callable[[Desk, PenEvent], Gesture] = zoom if ctrl else turn if shift else pan
         elif event.button == RIGHT or ctrl:
             begin = pick
+        elif self.desk.match.marking is not None and self.desk.strip == "match":
+            begin = mark
         else:
             begin = TOOLS[self.desk.tool].gesture
         return begin(self.desk, event)

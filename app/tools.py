@@ -15,8 +15,10 @@ from app import icons, palette
 from app.colours import to_hex
 from app.desk import Desk
 from app.input.events import PenEvent
+from app.match import SMALLEST
 from app.view import Place, View
 from engine.brush.smoothing import Smoother
+from engine.numeric.address import Rect
 from engine.painting.requests import Abandon, Begin, Finish, LabBegin, LabEnd, LabPoints, Pick, Points
 
 Gesture = Generator[None, PenEvent, None]
@@ -154,6 +156,26 @@ def pick(desk: Desk, first: PenEvent) -> Gesture:
         if event.kind == "up":
             return
         event = yield
+
+
+def mark(desk: Desk, first: PenEvent) -> Gesture:
+    """A rectangle of the canvas becomes an example to match."""
+    match, index = desk.match, desk.match.marking or 0
+    event = first
+    try:
+        while event.kind != "up":
+            match.marked = first.x, first.y, event.x, event.y
+            event = yield
+    finally:
+        match.marked = None
+    level, view = desk.view.shown_level, desk.view
+    corners = [view.to_canvas(x, y).pixel(level) for x in (first.x, event.x) for y in (first.y, event.y)]
+    xs, ys = zip(*corners, strict=True)
+    rect = Rect(min(xs), min(ys), max(xs), max(ys))
+    if min(rect.width, rect.height) < SMALLEST:
+        desk.say(f"An example has at least {SMALLEST} pixels along each side", bad=True)
+        return
+    match.show_area(index, level, rect)
 
 
 class Tool(NamedTuple):

@@ -100,8 +100,18 @@ class Window:
 
     def _dropped(self, _w: Any, paths: Any) -> None:
         self._wake()
-        if paths and self.desk.ready:
+        if not paths or not self.desk.ready:
+            return
+        x, y = self._pointer()
+        taken = self.desk.strip == "match" and self.desk.panels and self.desk.match.dropped(Path(paths[0]), x, y)
+        if not taken:
             self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
+
+    def _pointer(self) -> tuple[float, float]:
+        """Where the pointer is, framebuffer pixels: while something is dragged, no pointer events tell."""
+        x, y = glfw.get_cursor_pos(self.handle)
+        width, height = glfw.get_window_size(self.handle)
+        return x * self.desk.view.width / max(width, 1), y * self.desk.view.height / max(height, 1)
 
     def open(self, path: Path, live: bool = False) -> None:
         """Opens a file; `live`: a recording is seen as it grows."""

@@ -23,7 +23,7 @@ ORDER = (
     ("app.theme", "app.colours", "app.icons", "app.presets", "app.keys", "app.trace", "app.knots"),
     ("app.ramps",),
     ("app.view",),
-    ("app.glide", "app.lab"),
+    ("app.glide", "app.lab", "app.match"),
     ("app.desk",),
     ("app.screen", "app.terrain", "app.solids", "app.palette"),
     ("app.actions", "app.tools", "app.pictured"),

@@ -187,6 +187,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "export to": files.exporting,
     "texture picture": files.choosing_texture,
     "lab picture": files.choosing_spectrum,
+    "match picture 0": files.choosing_example(0),
+    "match picture 1": files.choosing_example(1),
     "unsaved": lambda desk: Unsaved(),
     "keys": lambda desk: Keys(),
     "about": lambda desk: About(),

@@ -181,5 +181,14 @@ def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:
     return _chooser("Begin with a picture's spectrum", _folder(desk), PICTURES, False, choose)
 
 
+def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
+    """For the first example of a match, or the second."""
+
+    def choose(d: Desk, path: Path) -> None:
+        d.match.show_file(index, path)
+
+    return lambda desk: _chooser("Make a texture like a picture", _folder(desk), PICTURES, False, choose)
+
+
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
     return _chooser("Paint with a picture", _folder(desk), PICTURES, False, pictured.from_file)
