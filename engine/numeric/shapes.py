@@ -76,16 +76,20 @@ def _points(size: tuple[int, int], given: Numbers) -> np.ndarray:
     turn, spacing = np.radians(given["angle"]), given["spacing"]
     total = np.zeros(size, np.float32)
     reach = int(1.5 / spacing)
-    for j in range(-reach, reach + 1):
+    # Bells wider than two spacings would leave no pattern of the points, and take long: that is as wide as they get.
+    width = max(min(given["width"], 2.0 * spacing * max(1.0, given["aspect"])), 0.4 * _step(size))
+    for j in range(reach + 1):  # `drawn` adds the other half
         for i in range(-reach, reach + 1):
-            if (i, j) == (0, 0):
+            if (j, i) <= (0, 0):
                 continue
             x = (i * np.cos(turn) - j * np.sin(turn)) * spacing
             y = (i * np.sin(turn) + j * np.cos(turn)) * spacing * given["aspect"]
             if max(abs(x), abs(y)) > 1.0:
                 continue
             strength = np.hypot(i, j) ** -given["fall"]
-            _add_bell(total, u[0], v[:, 0], (x, y, max(given["width"], 0.4 * _step(size)), strength))
+            _add_bell(total, u[0], v[:, 0], (x, y, width, strength))
+            if max(abs(x), abs(y)) > 1.0 - 5.0 * width:  # cut off at the highest frequency, unlike its opposite
+                _add_bell(total, u[0], v[:, 0], (-x, -y, width, strength))
     return total
 
 

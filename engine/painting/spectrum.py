@@ -24,13 +24,14 @@ from engine.numeric.address import Rect
 from engine.numeric.grid import snapped
 from engine.numeric.resample import resampled
 from engine.painting import commands as c
-from engine.painting.strictjson import Fields, FormatError
+from engine.painting.strictjson import Fields, FormatError, described
 from engine.painting.stroke import LiveStroke
 from engine.painting.value import Painting
 
 SPAN = 4096.0  # the loudest amplitude to that of a value of 1 / ln SPAN: 72 dB from white to black
 SIDES = (8, 1024)  # least and most pixels along a side
-STROKES_CAP = 4096
+SHAPES_CAP, STROKES_CAP = 64, 4096
+FURTHEST = 1 << 24  # pixels from the corner at which a stroke's points may begin
 WINDOWS = 8  # along a side of a picture
 PHASES = ("random", "zero", "painted")
 PICTURED = ("image", "canvas", "texture")  # shapes that are the spectrum of a file, of the canvas, of another texture
@@ -79,8 +80,8 @@ def read(arguments: Any) -> Design:
         raise members.fault("size", f"[width, height], each from {SIDES[0]} to {SIDES[1]}")
     return Design(
         size,
-        tuple(_frozen(_shape(shape, f"shapes[{i}]")) for i, shape in enumerate(_list(members, "shapes"))),
-        tuple(_stroke(stroke, f"strokes[{i}]") for i, stroke in enumerate(_list(members, "strokes"))),
+        tuple(_frozen(_shape(shape, f"shapes[{i}]")) for i, shape in enumerate(_list(members, "shapes", SHAPES_CAP))),
+        tuple(_stroke(stroke, f"strokes[{i}]") for i, stroke in enumerate(_list(members, "strokes", STROKES_CAP))),
         _one_of(members, "phase", PHASES),
         members.integer("seed", 0, lo=-c.SEED_LIMIT, hi=c.SEED_LIMIT),
         _PARTS[_one_of(members, "part", tuple(_PARTS))],
@@ -88,10 +89,10 @@ def read(arguments: Any) -> Design:
     )
 
 
-def _list(members: Fields, name: str) -> list:
+def _list(members: Fields, name: str, cap: int) -> list:
     value = members.take(name, [])
-    if not isinstance(value, list) or len(value) > STROKES_CAP:
-        raise members.fault(name, f"a list of at most {STROKES_CAP}")
+    if not isinstance(value, list) or len(value) > cap:
+        raise members.fault(name, f"a list of at most {cap}")
     return value
 
 
@@ -117,8 +118,12 @@ def _shape(value: Any, where: str) -> dict[str, Any]:
 
 def _stroke(value: Any, where: str) -> c.Stroke:
     command = c.parse({"do": "stroke", **value} if isinstance(value, dict) else value, where)
-    if not isinstance(command, c.Stroke) or command.level != 0:
-        raise FormatError(where, "another command" if not isinstance(command, c.Stroke) else "level", "a stroke at 0")
+    if not isinstance(command, c.Stroke):
+        raise FormatError(where, "another command", "a stroke")
+    if command.level != 0:
+        raise FormatError(f"{where}.level", str(command.level), "0")
+    if max(map(abs, command.origin)) > FURTHEST:
+        raise FormatError(f"{where}.origin", described(list(command.origin)), f"two integers within {FURTHEST}")
     if command.layer not in (None, *SHEETS):
         raise FormatError(f"{where}.layer", repr(command.layer), f"one of {', '.join(SHEETS)}")
     return command

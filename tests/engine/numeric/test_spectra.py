@@ -1,5 +1,7 @@
 """Spectra: the textures that they become have the amplitudes that were painted, at any size."""
 
+import time
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -98,6 +100,15 @@ def test_shapes_of_any_size_and_numbers(name, size, data):
     assert shape.max() <= 1
     assert (spectra.opposite(shape) == shape).all()
     assert shape[size[0] // 2, size[1] // 2] == 0
+
+
+def test_points_lie_on_both_sides_and_dense_wide_ones_are_a_matter_of_a_moment():
+    found = drawn("points", (64, 64), {"spacing": 0.25})
+    for i in range(-4, 4):
+        assert i == 0 or found[32, 32 + 8 * i] == found[32 + 8 * i, 32] == np.float32(1 / abs(i))
+    began = time.perf_counter()
+    drawn("points", (512, 512), {"spacing": 0.02, "width": 0.5})
+    assert time.perf_counter() - began < 2.0  # it took 4 s
 
 
 def test_a_ring_lies_at_its_frequency_and_noise_falls_as_it_says():

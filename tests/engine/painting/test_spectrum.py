@@ -135,6 +135,8 @@ def test_a_shape_that_is_a_picture_needs_one():
         {"strokes": [{"do": "undo"}]},
         {"strokes": [{"level": 1, "points": [[0, 0]]}]},
         {"strokes": [{"points": [[0, 0]], "layer": "Ink"}]},
+        {"strokes": [{"points": [[0, 0]], "origin": [10**30, 0]}]},
+        {"shapes": [{"shape": "ring"}] * 65},
         {"strokes": [7]},
         {"phase": "loud"},
         {"part": "half"},
@@ -147,3 +149,9 @@ def test_bad_designs_are_told_in_one_line(arguments):
         spectrum.read(arguments)
     assert "\n" not in str(told.value)
     assert next(iter(arguments)).rstrip("s") in str(told.value)
+
+
+def test_the_level_of_a_stroke_is_named_with_what_was_found():
+    with pytest.raises(FormatError) as told:
+        spectrum.read({"strokes": [{"points": [[0, 0]]}, {"level": 3, "points": [[0, 0]]}]})
+    assert str(told.value) == "strokes[1].level: found 3, expected 0"
