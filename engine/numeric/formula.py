@@ -119,8 +119,8 @@ def _tokens(text: str) -> Iterator[_Token]:
 
 
 def _shown(text: str) -> str:
-    text = ascii(text) if len(text) <= 24 else ascii(text[:24]) + "..."
-    return '"' + text[1:-1] + '"' if text[0] == "'" and '"' not in text else text
+    shown = ascii(text[:24] + "..." if len(text) > 24 else text)
+    return f'"{shown[1:-1]}"' if shown[0] == "'" and '"' not in shown else shown
 
 
 class _Reader:

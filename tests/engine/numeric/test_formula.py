@@ -326,3 +326,9 @@ def test_the_largest_formula_compiles():
     assert (run(deepest) == -inputs()["x"]).all()
     long = "x" + "+1" * (NODES_CAP // 2 - 1)
     np.testing.assert_allclose(run(long), inputs()["x"] + NODES_CAP // 2 - 1, rtol=1e-5)
+
+
+def test_a_long_mistake_is_shown_in_part():
+    with pytest.raises(FormulaError) as caught:
+        parse("9" * 400)
+    assert caught.value.found == '"' + "9" * 24 + '..."'
