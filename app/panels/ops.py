@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from app.panels import widgets as w
 from app.panels.ramp import RampEditor
 from engine.numeric.formula import FORMULA_CAP, FUNCTIONS, NAMES, FormulaError, parse
 
+BESIDE = (64, 0)  # pixels: what a clone of the layer itself begins with; without, it changes nothing
 OFFSETS = (-512.0, 512.0)  # that the sliders offer
 REST = 0.4  # seconds without typing before a formula is taken: each is compiled
 ECHO = 13  # characters of a formula shown on each side of its mistake
@@ -220,16 +221,26 @@ def _layers(desk: Desk) -> list[str]:
     return [row.name for row in desk.scene.layers if not row.group] if desk.scene else []
 
 
+def copied(layers: Sequence[str], active: str | None) -> str:
+    """The layer that a clone begins to copy from, of all from the top: the one below, or else above, or the same."""
+    if active not in layers:
+        return layers[0]
+    i = layers.index(active)
+    return layers[i + 1] if i + 1 < len(layers) else layers[max(0, i - 1)]
+
+
 def _started(desk: Desk, name: str) -> Any:
     """The op as it begins: its name, with what has to be given; None if there is nothing to give."""
     if name == "formula":
         return Map({"formula": FORMULAS[0][1]})
     row = next(row for row in desk.ops if row.name == name)
-    given = {}
+    given: dict[str, Any] = {}
     for parameter in row.parameters:
         if parameter.default is None and parameter.kind == "layer":
             layers, active = _layers(desk), desk.scene.active if desk.scene else None
             if not layers:
                 return None
-            given[parameter.name] = active if active in layers else layers[0]
+            given[parameter.name] = source = copied(layers, active)
+            if source == active:
+                given["offset"] = BESIDE
     return Map({"name": name} | given) if given else name

@@ -87,7 +87,7 @@ _GONE = "Finer detail fades as the stroke covers it"
 OPS: dict[str, Op] = {
     row.name: row
     for row in (
-        Op("toward", "Toward colour", "Sprays the brush's colour through its texture: a textured airbrush",
+        Op("toward", "Towards colour", "Sprays the brush's colour through its texture: a textured airbrush",
            f"{_GONE}, as under paint; the texture goes on where the paint was opaque.", _FOLLOWS, coloured=True),
         Op("multiply", "Multiply", "Darkens by the brush's colour, like ink on glass",
            f"{_SLOPE}, which is the brush's colour.", _FOLLOWS, (), 1, True),

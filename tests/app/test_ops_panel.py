@@ -32,3 +32,10 @@ def test_a_mistake_at_the_end_is_shown_behind_the_last_character():
     fault = ops.fault("pic *")
     assert ops.around("pic *", fault.column) == ("pic *", " ", "")
     assert ops.around("", 1) == ("", " ", "")
+
+
+def test_a_clone_begins_with_another_layer_where_there_is_one():
+    assert ops.copied(["top", "middle", "bottom"], "middle") == "bottom"
+    assert ops.copied(["top", "bottom"], "bottom") == "top"
+    assert ops.copied(["only"], "only") == "only"
+    assert ops.copied(["top", "bottom"], "a group") == "top"
