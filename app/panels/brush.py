@@ -64,7 +64,7 @@ class BrushPanel:
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
-            self._raster(desk)
+            unfolded += _height_of(lambda: self._raster(desk))
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):

@@ -36,7 +36,7 @@ class BrushList:
         tall = _tall(desk, wide)
         room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
         everything = _height(presets.found(desk.presets, EVERY, ""), tall + gap, em + gap)
-        imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.3 * tall))))  # the same for every group
+        imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.6 * tall))))  # the same for every group
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:
             imgui.text_disabled(group)

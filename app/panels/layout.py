@@ -60,9 +60,13 @@ class Layout:
         if desk.panels:
             height = desk.view.height - top - bottom
             left, right = LEFT * desk.scale, RIGHT * desk.scale
+            # As wide with a scrollbar as without: it takes the margin, and nothing moves when it comes.
+            inner = 2 * imgui.get_style().window_padding.x
+            imgui.set_next_window_content_size(ImVec2(left - inner, 0))
             if self._begin("left", (0, top, left, height)):
                 self.brush.draw(desk)
             imgui.end()
+            imgui.set_next_window_content_size(ImVec2(right - inner, 0))
             if self._begin("right", (desk.view.width - right, top, right, height)):
                 self.colour.draw(desk)
                 self.ink.draw(desk)

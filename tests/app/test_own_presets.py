@@ -28,6 +28,15 @@ def test_saving_again_replaces_and_another_name_never_does(tmp_path):
     assert not list(tmp_path.glob("*.part"))
 
 
+def test_a_brush_of_ones_own_can_be_deleted_and_twice_is_no_fault(tmp_path):
+    presets.save(Preset("A", Brush()), tmp_path)
+    presets.save(Preset("B", Brush()), tmp_path)
+    first, _ = presets.load(tmp_path)
+    presets.delete(first[0])
+    presets.delete(first[0])
+    assert [preset.name for preset in presets.load(tmp_path)[0]] == ["B"]
+
+
 @pytest.mark.parametrize("name", ["", "   ", "///", "..", "CON", "x" * 500, "a\nb\0c"])
 def test_any_name_can_be_saved(name, tmp_path):
     name = presets.free_name(name, ())
