@@ -105,6 +105,8 @@ class InkPanel:
         parameters = textures.sliders(desk, component.texture, component.parameters)
         if parameters != component.parameters:
             component = replace(component, parameters=parameters)
+        if textures.kind_of(desk, component.texture) == "series":
+            component = _pressing(component)
         hint = "A curve that this texture's values go through: harder, softer, turned round"
         changed, curve = self._curves.row("Shaping", component.shaping, desk.curves, hint)
         if changed:
@@ -152,3 +154,13 @@ class InkPanel:
         part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
         if len(desk.brush.ink) < COMPONENTS_CAP:
             desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
+
+
+def _pressing(component: Component) -> Component:
+    """A box to tick: a series of textures whose weight follows the pen."""
+    pressed = isinstance(component.parameters.get("weight"), str | tuple)
+    hint = "The harder the pen is pressed, the more of the second example it paints"
+    changed, on = w.tick("Pen pressure sets the weight", pressed, hint)
+    if not changed:
+        return component
+    return replace(component, parameters=component.parameters.set("weight", "pressure" if on else 0.5))

@@ -95,7 +95,8 @@ def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any
     """A slider for each parameter and a button for another seed; the parameters as they are now."""
     found, usual = rows(desk, texture), own(desk, texture)
     for row in found:
-        if row.name != "seed":
+        still = row.name != "weight" or is_number(parameters.get("weight", 0.0))
+        if row.name not in ("seed", "stages") and still:
             parameters = _slider(parameters, row, usual.get(row.name, row.default))
     seeded = any(row.name == "seed" for row in found)
     if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):

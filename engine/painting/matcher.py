@@ -88,8 +88,9 @@ class Matcher:
         except (FormatError, FileError) as error:
             self._drop(work)
             self.host.send(q.MatchScene(fault=str(error)))
-        except Exception:
+        except Exception as error:
             self._drop(work)  # it would fail again
+            self.host.send(q.MatchScene(fault=str(error).partition("\n")[0] or type(error).__name__))
             raise
 
     def _set(self, request: q.MatchSet) -> None:
