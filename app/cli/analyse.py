@@ -151,7 +151,7 @@ def _print(told: dict[str, Any]) -> None:
     print(f"autocorrelation across {_row(near['across'])}")
     print(f"autocorrelation down   {_row(near['down'])}")
     filter_ = told["all_pole"]
-    how = "as fitted" if filter_["shrunk"] == 1.0 else f"made stable by {filter_['shrunk']:.3f} a pixel"
+    how = "stable as fitted" if filter_["shrunk"] == 1.0 else f"made stable by {filter_['shrunk']:.3f} a pixel"
     print(
         f"all-pole filter of reach {filter_['reach']}: outermost pole at {filter_['radius']:.3f}, {how}; "
         f"error of prediction {filter_['residual']:.4f}"

@@ -92,7 +92,7 @@ def count(text: str) -> int:
 
 def seed(text: str) -> int:
     if not re.fullmatch(r"[+-]?[0-9]{1,18}", text):
-        raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number")
+        raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number of up to 18 digits")
     return int(text)
 
 

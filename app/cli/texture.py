@@ -148,7 +148,7 @@ def _defined(name: str, given: argparse.Namespace) -> Texture:
     try:
         return define(command, layers.EMPTY, Around())
     except (FormatError, TextureError) as error:
-        where = f"--{error.place}" if error.place in told or error.place == "seed" else given.picture
+        where = f"--{error.place}" if error.place in told or error.place == "seed" else given.picture or "the picture"
         raise Refused(f"{where}: found {error.found}, expected {error.expected}") from None
 
 
@@ -204,7 +204,10 @@ def _tell(given: argparse.Namespace, texture: Texture, size: tuple[int, int], ch
         print(json.dumps(told))
         return
     colours = "grey" if channels == 1 else "colour"
+    width, height = told["sample"]
     if "window" in told:
         chosen = "" if given.window else ", chosen from the picture"
-        print(f"window of {told['window']} pixels{chosen}; {told['average']} averaged")
+        print(f"window of {width} x {height} pixels{chosen}; {told['average']} averaged")
+    elif "origin" in given:
+        print(f"window of {width} x {height} pixels, the sample's")
     print(f"wrote {given.out}: {size[0]} x {size[1]} pixels, {colours}, {given.depth} bits")

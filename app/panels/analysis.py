@@ -105,4 +105,4 @@ class AnalysisPanel:
             painter.add_polyline([at(row[0], row[column]) for row in rows], theme.packed(colour), 1.5, 0)
 
 
-_ORDER = ("Size", "Level", "Colours", "Regions", "Falls as")
+_ORDER = ("Size", "Level", "Colours", "Regions", "Falls as", "Model")

@@ -110,3 +110,16 @@ def test_what_is_wrong_takes_one_line(tmp_path, capsys, words):
     assert out.err.count("\n") == 1
     assert any(word in out.err for word in ("found", "cannot be read", "no such file", "required", "damaged", "starts"))
     assert sorted(p.name for p in tmp_path.iterdir()) == ["picture.png", "text.png"]
+
+
+def test_whether_the_filter_is_stable_is_said(tmp_path, capsys):
+    y, x = np.mgrid[:120, :120]
+    wave = np.sin(2 * np.pi * x / 10) + 0.01 * np.random.default_rng(1).standard_normal((120, 120))
+    for name, values, words in (
+        ("wave", wave, "outermost pole at 0.99"),
+        ("wave", wave, "made stable by 0.9"),
+        ("noise", np.random.default_rng(2).standard_normal((120, 120)) / 3, "stable as fitted"),
+    ):
+        Image.fromarray((128 + 100 * values.clip(-1.2, 1.2)).astype(np.uint8)).save(tmp_path / f"{name}.png")
+        assert main(["analyse", str(tmp_path / f"{name}.png")]) == 0
+        assert words in capsys.readouterr().out

@@ -162,8 +162,12 @@ def test_the_window_is_told(tmp_path, capsys):
     assert told["sample"] == [told["window"]] * 2
     made(tmp_path, "impulse", path, "--window", "21", "--average", "1")
     out = capsys.readouterr().out
-    assert "window of 21 pixels; 1 averaged" in out
+    assert "window of 21 x 21 pixels; 1 averaged" in out
     assert "wrote" in out
+    made(tmp_path, "impulse", path, "--window", "512")
+    assert "window of 80 x 90 pixels; 4 averaged" in capsys.readouterr().out  # there is no more of it
+    made(tmp_path, "sparse", path)
+    assert "window of 80 x 90 pixels, the sample's" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("maker", MAKERS)
@@ -202,6 +206,7 @@ WRONG = {
     "size of one": ["sparse", "in.png", "--out", "o.png", "--size", "7"],
     "size zero": ["sparse", "in.png", "--out", "o.png", "--size", "0x7"],
     "size huge": ["sparse", "in.png", "--out", "o.png", "--size", "99999999x7"],
+    "no name": ["sparse", "", "--out", "o.png"],
     "seed": ["sparse", "in.png", "--out", "o.png", "--seed", "1.5"],
     "depth": ["sparse", "in.png", "--out", "o.png", "--depth", "12"],
     "density zero": ["sparse", "in.png", "--out", "o.png", "--density", "0"],
