@@ -192,8 +192,8 @@ class MatchingPanel:
 
 def _stem(desk: Desk) -> str:
     """A name that says what the texture is made of."""
-    stems = [title(example).rpartition(".")[0] or "Matched" for example in desk.match.examples if example is not None]
-    return " and ".join(stems)
+    stems = [title(example).rpartition(".")[0] or "View" for example in desk.match.examples if example is not None]
+    return " and ".join(dict.fromkeys(stems))
 
 
 def _within(corner: ImVec2, room: tuple[float, float], size: tuple[int, int]) -> tuple[ImVec2, ImVec2]:

@@ -192,7 +192,10 @@ def _example(members: Fields, name: str, place: Pictures) -> Example:
     """A picture, halved until it is short enough; of a large one the middle."""
     if "path" not in members and "rect" not in members:
         raise FormatError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
-    planes = flattened(place.picture(members))
+    given = place.picture(members)
+    if not given[3].any():
+        raise FormatError(members.at("rect" if "rect" in members else "path"), "nothing but transparency", "a picture")
+    planes = flattened(given)
     while max(planes.shape[1:]) > SHRUNK and min(planes.shape[1:]) > 1:
         even = planes[:, : planes.shape[1] // 2 * 2, : planes.shape[2] // 2 * 2]
         planes = reduce(np.ascontiguousarray(even))

@@ -158,6 +158,7 @@ REFUSED = {
     "nothing to go by": (texture("match"), "path: found nothing"),
     "no second": (texture("mix", path="grey.png"), "pattern: found nothing"),
     "second of another kind": (texture("mix", path="grey.png", pattern=7), "pattern: found 7"),
+    "nothing painted": (texture("match", rect=[0, 0, 0, 30, 30]), "rect: found nothing but"),
     "size": (texture("match", path="grey.png", size=[0, 4]), "size: found"),
     "huge": (texture("match", path="grey.png", size=[9999999, 4]), "size: found"),
     "levels": (texture("match", path="grey.png", levels=-1), "levels: found -1"),
