@@ -82,7 +82,8 @@ class Examiner:
         yield told()
         self._send("analysis poles", _heat(_decibels(facts.all_pole)), pictures)
         rings = tuple(zip(*(column.tolist() for column in facts.radial), strict=True))
-        lines["Model"] = f"{'stable' if facts.predictor.shrunk == 1.0 else 'made stable'}, r {facts.predictor.radius:.3f}"
+        how = "stable" if facts.predictor.shrunk == 1.0 else "made stable"
+        lines["Model"] = f"{how}, poles to {facts.predictor.radius:.3f}"
         lines["Falls as"] = "—" if facts.slope is None else f"1/f^{facts.slope:.2f}"
         yield told(done=True)
 
