@@ -125,6 +125,6 @@ def with_texture(brush: Brush, how: str, texture: str, pen: bool = False) -> Bru
 
 def lightened(brush: Brush, pen: bool) -> Brush:
     """The brush as it shows a paper that it got just now: full coverage fills every hollow of the grain, so one that
-    covers fully covers less, unless a pen's pressure sees to that."""
-    felt = pen and "opacity" in brush.dynamics
+    covers fully covers less, unless a pen's pressure sees to that, or an edge that leaves the inside lighter."""
+    felt = (pen and "opacity" in brush.dynamics) or brush.edge is not None
     return brush if felt or brush.opacity <= FULL else replace(brush, opacity=LIGHT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from imgui_bundle import ImVec2, imgui
@@ -11,7 +12,7 @@ from app import theme
 from app.desk import Desk
 from app.panels import textures
 from app.panels import widgets as w
-from engine.brush.parts import Component
+from engine.brush.parts import Component, Surface
 from engine.brush.record import Brush
 from engine.painting.requests import Swatch
 
@@ -36,6 +37,31 @@ def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | N
     return chosen
 
 
+def surface(desk: Desk, part: Surface, hint: str) -> Surface:
+    """A drop-down of the papers and, below them, of all textures but plain white; the surface chosen now, or `part`."""
+    same = next((one.name for one in desk.papers if one.grain.texture == part.texture), "")
+    paper = next((one.name for one in desk.papers if one.grain == part), "")
+    imgui.set_next_item_width(-1)
+    limit(desk)
+    shown = paper or (f"{same}, changed" if same else textures.label(desk, part.texture))
+    if not imgui.begin_combo("##surface", shown, imgui.ComboFlags_.height_largest):
+        w.tooltip(hint)
+        return part
+    imgui.text_disabled("Papers")
+    chosen = part
+    for i, one in enumerate(desk.papers):
+        if i % ACROSS:
+            imgui.same_line()
+        if _row(desk, one.grain.texture, one.name, "", one.name == paper):
+            textures.bring(desk, one.grain.texture)
+            chosen = one.grain
+    name = listed(desk, "" if same else part.texture, ("white", *(one.grain.texture for one in desk.papers)))
+    if name and name != part.texture:
+        chosen = replace(part, texture=name, parameters=Map())
+    imgui.end_combo()
+    return chosen
+
+
 def limit(desk: Desk) -> None:
     """Keeps the pop-up opened next from reaching out of the window: a longer list scrolls."""
     imgui.set_next_window_size_constraints(ImVec2(0, 0), ImVec2(1e6, 0.55 * desk.view.height))
@@ -45,23 +71,25 @@ def listed(desk: Desk, current: str = "", without: tuple[str, ...] = ()) -> str 
     """All textures, in the present pop-up; the one chosen now, which the painting gets if it lacks it."""
     chosen = None
     for title, rows in textures.groups(desk):
-        imgui.text_disabled(title)
         shown = [row for row in rows if row[0] not in without]
+        if shown:
+            imgui.text_disabled(title)
         for i, (name, hint) in enumerate(shown):
             if i % ACROSS:
                 imgui.same_line()
-            if _row(desk, name, hint, name == current):
+            if _row(desk, name, textures.label(desk, name), hint, name == current):
                 chosen = name
     if chosen:
         textures.bring(desk, chosen)
     return chosen
 
 
-def _row(desk: Desk, name: str, hint: str, on: bool) -> bool:
+def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
+    """A texture's picture beside a label, to be pressed."""
     scale, corner = desk.scale, imgui.get_cursor_screen_pos()
     wide, tall = (size * scale for size in PICTURE)
-    pressed = imgui.selectable(f"##{name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
-    w.tooltip(f"{textures.label(desk, name)}\n{hint}")
+    pressed = imgui.selectable(f"##{label} {name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
+    w.tooltip(f"{label}\n{hint}".strip())
     if not imgui.is_item_visible():
         return pressed
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
@@ -72,7 +100,7 @@ def _row(desk: Desk, name: str, hint: str, on: bool) -> bool:
         painter.add_image_rounded(shown, corner, end, zero, one, white, 3 * scale)
     at = ImVec2(end.x + 7 * scale, corner.y + (tall - imgui.get_font_size()) / 2)
     painter.push_clip_rect(corner, ImVec2(end.x + NAME * scale, end.y), True)
-    painter.add_text(at, theme.packed(theme.TEXT), textures.label(desk, name))
+    painter.add_text(at, theme.packed(theme.TEXT), label)
     painter.pop_clip_rect()
     return pressed
 

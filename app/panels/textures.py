@@ -15,6 +15,7 @@ from engine.painting import definitions
 from engine.painting.commands import DefineTexture
 
 _SLIDER_MOST = {"period": 512.0, "angle": 180.0}
+_WORDS = {"period": "Size", "mean": "Brightness", "spread": "Contrast", "quantise": "Steps"}  # for artists
 _WHOLE_CURVE = ("period", "density")  # sliders that are finer where they are small
 
 
@@ -132,7 +133,9 @@ def _slider(parameters: Map[str, Any], row: Any, usual: Any) -> Map[str, Any]:
         else "%.2f"
     )
     curved = row.name in _WHOLE_CURVE
-    changed, value = w.slider(row.name.capitalize(), value, (lo, hi), row.tooltip, form=form, curved=curved)
+    changed, value = w.slider(
+        _WORDS.get(row.name, row.name.capitalize()), value, (lo, hi), row.tooltip, form=form, curved=curved
+    )
     if not changed:
         return parameters
     value = min(max(round(value, 0 if row.whole else 3), float(row.lo)), float(row.hi))

@@ -21,6 +21,7 @@ from app.panels.curves import CurveEditor
 from engine.brush.parts import Edge, Surface, Tip
 
 SCALES = (-6, 6)  # levels of a grain that the slider offers
+PAPER = "Cold-pressed paper"  # that a brush gets first
 _START: dict[str, Any] = {
     "density": Surface("rock", 0.9, "threshold", parameters=Map({"period": 18.0, "roughness": 0.3})),
     "grain": Surface("rock", 0.8, parameters=Map({"period": 6.0, "roughness": 0.6})),
@@ -74,6 +75,10 @@ class Texturing:
     def _start(self, desk: Desk, name: str) -> Any:
         """What it was before, unless that needs a texture of another painting."""
         held = self._kept[name]
+        first = next((paper for paper in desk.papers if paper.name == PAPER), None)
+        if held is _START["grain"] and first is not None:
+            textures.bring(desk, first.grain.texture)
+            return first.grain
         known = {texture for texture, _ in textures.names(desk)}
         return held if getattr(held, "texture", None) in known | {None} else _START[name]
 
@@ -82,8 +87,8 @@ class Texturing:
         return self._shaped(desk, _amount(_texture(desk, part), hint))
 
     def _grain(self, desk: Desk, part: Surface) -> Surface:
-        part = _paper(desk, part)
-        part = _amount(_texture(desk, part), "How deep the grain is: light touches reach its peaks alone")
+        part = samples.surface(desk, part, "Papers, and any other texture")
+        part = _amount(part, "How deep the grain is: light touches reach its peaks alone")
         hint = "The level in whose pixels the grain is measured; higher is finer. It stays on the canvas as you zoom"
         changed, level = w.slider("Scale", float(part.level), SCALES, hint, form="level %.0f")
         if changed:
@@ -130,21 +135,6 @@ _SECTIONS: tuple[tuple[str, str, str, Callable[[Texturing, Desk, Any], Any]], ..
     ("edge", "Edge", "What happens along the rim of a stroke: wet, dark, worn", Texturing._edge),
     ("tip", "Tip", "Each dab is a piece of a texture", Texturing._tip),
 )
-
-
-def _paper(desk: Desk, part: Surface) -> Surface:
-    """A drop-down of the bundled papers; the surface is the chosen one's."""
-    if not desk.papers:
-        return part
-    same = next((paper.name for paper in desk.papers if paper.grain.texture == part.texture), "")
-    changed = f"{same}, changed" if same else "A paper of your own"
-    current = next((paper.name for paper in desk.papers if paper.grain == part), changed)
-    chosen = w.choice("paper", current, [(p.name, p.name) for p in desk.papers], "Papers and other surfaces", -1)
-    for paper in desk.papers:
-        if paper.name == chosen:
-            textures.bring(desk, paper.grain.texture)
-            return paper.grain
-    return part
 
 
 def _texture(desk: Desk, part: Any) -> Any:

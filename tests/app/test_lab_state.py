@@ -6,7 +6,7 @@ import pytest
 from immutables import Map
 
 from app.lab import SETTLE, LabState, only_with, with_texture
-from engine.brush.parts import Component, Surface
+from engine.brush.parts import Component, Edge, Surface
 from engine.brush.record import Brush
 from engine.painting.requests import LabRest, LabSet, LabUse
 
@@ -90,3 +90,4 @@ def test_a_paper_shows_at_once_though_full_coverage_would_hide_it():
     assert with_texture(replace(full, opacity=0.5), "grain", "A").opacity == 0.5
     assert with_texture(full, "grain", "A", pen=True).opacity == 1.0  # its pressure changes the opacity
     assert with_texture(replace(full, dynamics=Map()), "grain", "A", pen=True).opacity < 0.8
+    assert with_texture(replace(full, edge=Edge("wet")), "grain", "A").opacity == 1.0  # the inside is lighter already
