@@ -117,7 +117,8 @@ def _parser(name: str) -> Parser:
 
 
 _PHASES = {
-    "spectrum": "random, zero, or a picture of phases, black to white for -180 to 180 degrees (default random)",
+    "spectrum": "random, zero, or a picture of phases, black to white for -180 to 180 degrees (default random; "
+    "of a pattern zero)",
     "sparse": "",
     "impulse": "window: of the window in the middle; zero; random (default window)",
 }

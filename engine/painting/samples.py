@@ -49,9 +49,9 @@ def of_spectrum(members: Fields, place: Place) -> Sample:
     part = members.take("part", "real")
     if part not in _PARTS:
         raise members.fault("part", f"one of {', '.join(_PARTS)}")
-    phase = members.text("phase", "random", cap=4096)
-    seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
     forward = members.flag("forward", False)
+    phase = members.text("phase", spectrum.usual_phase(forward), cap=4096)
+    seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
     turns = np.full((1, height, width), 0.5, np.float32)
     if phase not in ("random", "zero"):
         turns, phase = _phases(members, place, (height, width)), "painted"

@@ -60,7 +60,7 @@ class Design:
 
     def to_arguments(self) -> Map[str, Any]:
         """The members of a texture command that `read` gives back; defaults are left out."""
-        plain = Design()
+        plain = Design(phase=usual_phase(self.forward))
         out: dict[str, Any] = {"size": self.size}
         if self.shapes:
             out["shapes"] = self.shapes
@@ -78,15 +78,21 @@ def read(arguments: Any) -> Design:
     size = members.integers("size", 2, Design().size, limit=SIDES[1])
     if min(size) < SIDES[0]:
         raise members.fault("size", f"[width, height], each from {SIDES[0]} to {SIDES[1]}")
+    forward = members.flag("forward", False)
     return Design(
         size,
         tuple(_frozen(_shape(shape, f"shapes[{i}]")) for i, shape in enumerate(_list(members, "shapes", SHAPES_CAP))),
         tuple(_stroke(stroke, f"strokes[{i}]") for i, stroke in enumerate(_list(members, "strokes", STROKES_CAP))),
-        _one_of(members, "phase", PHASES),
+        _one_of(members, "phase", PHASES, usual_phase(forward)),
         members.integer("seed", 0, lo=-c.SEED_LIMIT, hi=c.SEED_LIMIT),
-        _PARTS[_one_of(members, "part", tuple(_PARTS))],
-        members.flag("forward", False),
+        _PARTS[_one_of(members, "part", tuple(_PARTS), "real")],
+        forward,
     )
+
+
+def usual_phase(forward: bool) -> str:
+    """Where nothing is said: a pattern is transformed as it is."""
+    return "zero" if forward else "random"
 
 
 def _list(members: Fields, name: str, cap: int) -> list:
@@ -96,8 +102,8 @@ def _list(members: Fields, name: str, cap: int) -> list:
     return value
 
 
-def _one_of(members: Fields, name: str, rows: tuple[str, ...]) -> str:
-    value = members.take(name, getattr(Design(), name))
+def _one_of(members: Fields, name: str, rows: tuple[str, ...], usual: str) -> str:
+    value = members.take(name, usual)
     if value not in rows:
         raise members.fault(name, f"one of {', '.join(rows)}")
     return value

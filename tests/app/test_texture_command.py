@@ -95,6 +95,22 @@ def test_the_parts_and_the_forward_variant_differ(tmp_path, words):
     assert not np.array_equal(plain, other)
 
 
+def test_forward_is_the_transform_of_the_pattern_as_it_is(tmp_path):
+    """Lewis 1984, figure 5: magnitudes, symmetric about the middle."""
+    pattern = np.zeros((32, 48), np.uint8)
+    pattern[5:9, 30:41] = 255
+    Image.fromarray(pattern).save(tmp_path / "pattern.png")
+    found = made(tmp_path, "spectrum", tmp_path / "pattern.png", "--forward", "--part", "magnitude").astype(float)
+    plain = np.abs(np.fft.fftshift(np.fft.fft2(pattern - pattern.mean())))
+    shown = (found > 0) & (found < 255)
+    assert shown.mean() > 0.5
+    assert np.corrcoef(found[shown], plain[shown])[0, 1] > 0.999
+    random = made(
+        tmp_path, "spectrum", tmp_path / "pattern.png", "--forward", "--part", "magnitude", "--phase", "random"
+    )
+    assert np.abs(found - random).mean() > 10
+
+
 def test_phases_random_zero_and_painted(tmp_path):
     path = picture(tmp_path, size=(33, 32))
     phases = picture(tmp_path, size=(33, 32), name="phases.png")

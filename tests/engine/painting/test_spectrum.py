@@ -155,3 +155,11 @@ def test_the_level_of_a_stroke_is_named_with_what_was_found():
     with pytest.raises(FormatError) as told:
         spectrum.read({"strokes": [{"points": [[0, 0]]}, {"level": 3, "points": [[0, 0]]}]})
     assert str(told.value) == "strokes[1].level: found 3, expected 0"
+
+
+@pytest.mark.parametrize("phase", spectrum.PHASES)
+@pytest.mark.parametrize("forward", [False, True])
+def test_phases_survive_their_command(phase, forward):
+    design = Design((16, 16), RING.shapes, phase=phase, forward=forward)
+    assert spectrum.read(design.to_arguments()) == design
+    assert spectrum.read({"forward": forward}).phase == ("zero" if forward else "random")
