@@ -132,14 +132,18 @@ def resolve(
             part = named(sway.at_weight(component, k / (stages - 1)), textures, level, seed, place)
             made = shaped(part, component.shaping, brush.shaping)
             swayed.append(Swayed(made, amplitude.astype(np.float32), Hat(curve, k, stages)))
-            found[made] += 0.0
+    return Ink(base.astype(np.float32), _loaded(found, swayed), tuple(swayed))
+
+
+def _loaded(found: Mapping[Instance, np.ndarray], swayed: list[Swayed]) -> tuple[Loaded, ...]:
+    """The instances that have an amplitude, sorted by key; those that go with the pressure have none of their own."""
+    every = {part.instance: np.zeros(3) for part in swayed} | dict(found)
     moving = {part.instance for part in swayed}
-    loaded = [
+    return tuple(
         Loaded(made, amplitude.astype(np.float32))
-        for made, amplitude in sorted(found.items(), key=lambda item: sort_key(item[0].key))
+        for made, amplitude in sorted(every.items(), key=lambda item: sort_key(item[0].key))
         if amplitude.any() or made in moving
-    ]
-    return Ink(base.astype(np.float32), tuple(loaded), tuple(swayed))
+    )
 
 
 def _mixed(own: Instance, component: Component, under: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
