@@ -17,6 +17,7 @@ from app.panels.layers import LayersPanel
 from app.panels.strip import StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
+NARROW = 640.0  # points: a strip needs more
 _FIXED = (
     imgui.WindowFlags_.no_title_bar
     | imgui.WindowFlags_.no_resize
@@ -60,30 +61,42 @@ class Layout:
         if desk.panels:
             height = desk.view.height - top - bottom
             left, right = LEFT * desk.scale, RIGHT * desk.scale
-            # As wide with a scrollbar as without: it takes the margin, and nothing moves when it comes.
-            inner = 2 * imgui.get_style().window_padding.x
-            imgui.set_next_window_content_size(ImVec2(left - inner, 0))
-            if self._begin("left", (0, top, left, height)):
-                self.brush.draw(desk)
-            imgui.end()
-            imgui.set_next_window_content_size(ImVec2(right - inner, 0))
-            if self._begin("right", (desk.view.width - right, top, right, height)):
-                self.colour.draw(desk)
-                self.ink.draw(desk)
-                self.layers.draw(desk)
-            imgui.end()
-        if desk.panels and desk.strip:
-            tall = min(self.strip.height(desk), 0.62 * height)
-            bottom += tall
-            imgui.push_style_color(imgui.Col_.window_bg, theme.vec((0.15,) * 3))
-            if self._begin("strip", (left, desk.view.height - bottom, desk.view.width - left - right, tall)):
-                self.strip.draw(desk)
-            imgui.end()
-            imgui.pop_style_color()
+            tall = min(self.strip.height(desk), 0.62 * height) if desk.strip else 0.0
+            under = desk.view.width - left - right < NARROW * desk.scale  # then the strip goes below the right panel
+            self._sides(desk, (top, height, height - tall if under else height), (left, right))
+            if desk.strip:
+                bottom += tall
+                wide = desk.view.width - left - (0.0 if under else right)
+                self._open_strip(desk, (left, desk.view.height - bottom, wide, tall))
         self._make_room(desk, (left, top, right, bottom))
         self.dialogs.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
+
+    def _sides(self, desk: Desk, span: tuple[float, float, float], widths: tuple[float, float]) -> None:
+        """The columns; `span`: where they begin, the height of the left one and of the right one.
+
+        As wide with a scrollbar as without: it takes the margin, and nothing moves when it comes.
+        """
+        (top, tall, height), (left, right) = span, widths
+        inner = 2 * imgui.get_style().window_padding.x
+        imgui.set_next_window_content_size(ImVec2(left - inner, 0))
+        if self._begin("left", (0, top, left, tall)):
+            self.brush.draw(desk)
+        imgui.end()
+        imgui.set_next_window_content_size(ImVec2(right - inner, 0))
+        if self._begin("right", (desk.view.width - right, top, right, height)):
+            self.colour.draw(desk)
+            self.ink.draw(desk)
+            self.layers.draw(desk)
+        imgui.end()
+
+    def _open_strip(self, desk: Desk, box: tuple[float, float, float, float]) -> None:
+        imgui.push_style_color(imgui.Col_.window_bg, theme.vec((0.15,) * 3))
+        if self._begin("strip", box):
+            self.strip.draw(desk)
+        imgui.end()
+        imgui.pop_style_color()
 
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:
         """What was in the middle stays there when the strip opens or closes."""
