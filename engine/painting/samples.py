@@ -20,7 +20,8 @@ from engine.painting.commands import SEED_LIMIT
 from engine.painting.fault import FileError
 from engine.painting.strictjson import Fields, FormatError
 
-SAMPLE_CAP = 1 << 22  # pixels of a sample: its transform and its pyramid are held in memory
+SAMPLE_CAP = 1 << 22  # pixels of a sample that is made
+GIVEN_CAP = 1 << 24  # of one that is given: its transform and its pyramid are held in memory
 _SPREAD_CAP = 4.0
 _NOTHING: Map[str, Any] = Map()
 _PARTS = {**{name: name for name in spectra.PARTS}, "imag": "imaginary"}
@@ -121,9 +122,9 @@ def _phases(members: Fields, place: Place, size: tuple[int, int]) -> np.ndarray:
 
 def _check_size(members: Fields, given: np.ndarray) -> None:
     height, width = given.shape[1:]
-    if height * width > SAMPLE_CAP:
+    if height * width > GIVEN_CAP:
         where = members.text("path", "rect", cap=4096)
-        raise FileError(where, f"found {width} x {height} pixels, expected at most {SAMPLE_CAP} for a sample")
+        raise FileError(where, f"found {width} x {height} pixels, expected at most {GIVEN_CAP} for a sample")
 
 
 def _fitted(response: np.ndarray, means: np.ndarray) -> np.ndarray:

@@ -231,3 +231,11 @@ def test_coarser_textures_get_larger_windows():
     assert suggested_window(fine) < suggested_window(coarse) <= 128
     assert suggested_window(fine[:, :7, :20]) == 7
     assert suggested_window(np.zeros((1, 1, 1), np.float32)) == 1
+
+
+def test_a_large_photograph_is_a_sample(tmp_path):
+    photo = np.tile(np.random.default_rng(1).integers(0, 256, (300, 360), np.uint8), (8, 6))
+    Image.fromarray(photo).save(tmp_path / "photo.png")
+    found = apply(Painting(), parse(texture("sparse", path="photo.png")), Around(folder=tmp_path)).textures["t"]
+    assert (found.source.width, found.source.height) == (2160, 2400)
+    assert found.instance({}, 0, 0).appearance(0, Rect.at(0, 0, 8, 8)).std() > 0.01
