@@ -100,11 +100,11 @@ class News:
             scale = self.desk.scale
             lacking = palette.lacking(self.desk)
             size = (int(PREVIEW[0] * scale), int(PREVIEW[1] * scale))
-            self.worker.post(q.Swatch("brush", brush, size, textures=lacking))
+            self.worker.post(q.Swatch("brush", brush, size, textures=lacking, soon=True))
             size = (int(135 * scale), int(SWATCH_HEIGHT * scale))
             plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
-            self.worker.post(q.Swatch("ink", plain, size, "fill", textures=lacking))
-            self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER, lacking))
+            self.worker.post(q.Swatch("ink", plain, size, "fill", textures=lacking, soon=True))
+            self.worker.post(q.Swatch("ink near", plain, size, "fill", DEEPER, lacking, soon=True))
 
     def _ask_lab(self, now: float) -> None:
         desk = self.desk

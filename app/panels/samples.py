@@ -115,5 +115,5 @@ def _picture(desk: Desk, name: str) -> Any:
         given = Map() if period is None else Map(period=max(period.lo, min(usual, round(PERIOD * desk.scale))))
         brush = Brush(16.0, colour=DARK, ink=(Component(name, 1.0, LIGHT, given),))
         size = (int(PICTURE[0] * desk.scale), int(PICTURE[1] * desk.scale))
-        desk.post(Swatch(ident, brush, size, "fill", textures=textures.brought(desk, name)))
+        desk.post(Swatch(ident, brush, size, "fill", textures=textures.brought(desk, name), soon=True))
     return desk.pictures.get(ident)

@@ -101,7 +101,7 @@ class Look:
 @dataclass(frozen=True, slots=True)
 class Swatch:
     """A small picture painted with a brush, `size` (width, height) pixels; `zoom` levels nearer than painted.
-    `textures`: definitions that the brush brings along."""
+    `textures`: definitions that the brush brings along; `soon`: before those that are not."""
 
     ident: str
     brush: Brush
@@ -109,6 +109,7 @@ class Swatch:
     kind: str = "stroke"
     zoom: int = 0
     textures: tuple[DefineTexture, ...] = ()
+    soon: bool = False
 
 
 @dataclass(frozen=True, slots=True)

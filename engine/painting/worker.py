@@ -43,6 +43,7 @@ class Bench(Protocol):
     def close(self) -> None: ...
 
 
+PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
 Maker = Callable[[Callable[[Result], None]], Bench]
 
 
@@ -60,6 +61,7 @@ class Worker:
         self._posted: deque[Request] = deque()
         self._look: Look | None = None
         self._swatches: dict[str, Swatch] = {}
+        self._swatched = 0.0  # when tiles last let one pass
         self._results: deque[Result] = deque()
         self._signal = threading.Condition()
         self._closing = False
@@ -97,7 +99,8 @@ class Worker:
         self._wake()
 
     def _next(self, bench: Bench) -> Callable[[], None] | None:
-        """The next piece of work: commands first, then the newest look, then its tiles, then swatches; None to end."""
+        """The next piece of work: commands first, then the newest look, then its tiles, which let a swatch pass now and
+        then, then swatches; None to end."""
         with self._signal:
             while True:
                 if self._posted:
@@ -108,15 +111,21 @@ class Worker:
                 if self._look is not None:
                     look, self._look = self._look, None
                     return lambda: bench.look(look)
-                if bench.pending:
+                now = time.monotonic()
+                if bench.pending and not (self._swatches and now - self._swatched > PASSING):
                     return lambda: (bench.step(), None)[1]
                 if self._swatches:
-                    swatch = self._swatches.pop(next(iter(self._swatches)))
+                    self._swatched = now
+                    swatch = self._swatches.pop(self._foremost())
                     return lambda: bench.do(swatch)
-                now = time.monotonic()
                 if bench.due is not None and bench.due <= now:
                     return bench.play
                 self._signal.wait(None if bench.due is None else bench.due - now)
+
+    def _foremost(self) -> str:
+        """The swatch that is painted next: of those that are wanted soon, or of all, the one that waits longest."""
+        soon = (ident for ident, swatch in self._swatches.items() if swatch.soon)
+        return next(soon, None) or next(iter(self._swatches))
 
     def _run(self) -> None:
         try:

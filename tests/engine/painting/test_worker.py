@@ -125,6 +125,30 @@ def test_only_the_newest_swatch_of_a_name_is_painted(worker):
     assert worker.bench.did[1:] == [q.Swatch("ink", None, (4, 4)), q.Swatch("other", None, (7, 7))]
 
 
+def test_swatches_that_are_wanted_soon_go_first(worker):
+    worker.bench.gate.clear()
+    worker.post(q.Finish())
+    for name in ("a", "b"):
+        worker.post(q.Swatch(name, None, (1, 1)))
+    worker.post(q.Swatch("brush", None, (1, 1), soon=True))
+    worker.bench.gate.set()
+    until(lambda: len(worker.bench.did) == 4)
+    assert [swatch.ident for swatch in worker.bench.did[1:]] == ["brush", "a", "b"]
+
+
+def test_tiles_let_a_swatch_pass_now_and_then(worker):
+    worker.bench.gate.clear()
+    worker.post(q.Look(tuple((0, n, 0, -1) for n in range(2000))))
+    until(lambda: worker.bench.open)
+    for n in range(2):
+        worker.post(q.Swatch(f"{n}", None, (1, 1)))
+    worker.bench.gate.set()
+    until(lambda: len(worker.bench.did) == 2002)
+    places = [i for i, did in enumerate(worker.bench.did) if isinstance(did, q.Swatch)]
+    assert places[0] <= 1  # none had passed for long
+    assert places[1] > 20  # the next waits
+
+
 def test_closing_does_what_was_posted_before(worker):
     worker.bench.gate.clear()
     posts = [q.New(Rect(0, 0, n, n)) for n in range(5)]
