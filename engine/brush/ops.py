@@ -182,14 +182,12 @@ def read(value: Any, place: str) -> OpValue:
         raise BrushError(place, checks.shown(value), 'a name, {"name": NAME, ...} or {"formula": "..."}')
     if "formula" in value:
         _formula(value["formula"], f"{place}.formula")
-        _no_others(value, ("formula",), place)
-        return Map({"formula": value["formula"]})
+        return checks.frozen(value)
     op = _row(value["name"], f"{place}.name")
     own = {part.name: part for part in op.parameters}
-    _no_others(value, ("name", *own), place)
     _missing(op, value, place)
-    given = {name: own[name].read(part, f"{place}.{name}") for name, part in value.items() if name != "name"}
-    return Map({"name": op.name} | given)
+    given = {name: own[name].read(part, f"{place}.{name}") for name, part in value.items() if name in own}
+    return checks.frozen(value).update(given)  # members that this version does not know are kept
 
 
 def chosen(op: OpValue, place: str = "brush.op") -> Chosen:
@@ -204,12 +202,6 @@ def chosen(op: OpValue, place: str = "brush.op") -> Chosen:
 
 def _row(name: Any, place: str) -> Op:
     return OPS[checks.one_of(name, place, tuple(OPS))]
-
-
-def _no_others(value: Mapping[str, Any], known: tuple[str, ...], place: str) -> None:
-    for name in value:
-        if name not in known:
-            raise BrushError(f"{place}.{str(name)[:40]!a}", checks.shown(value[name]), f"only {', '.join(known)}")
 
 
 def _missing(op: Op, given: Mapping[str, Any], place: str) -> None:

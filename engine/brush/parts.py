@@ -58,13 +58,14 @@ class Edge:
     """What happens along the rim of a stroke: `curve`, of EDGES or knots, by the distance from the rim in `width`s.
 
     `width`: in radii of the brush; `amount`: 0..1, how much of it; `colour`: what the paint turns to at the rim, None
-    for no other colour.
+    for no other colour; `extra`: members of the JSON form that this version does not know.
     """
 
     curve: Shape = "wet"
     width: float = 0.5
     amount: float = 1.0
     colour: str | None = None
+    extra: Map[str, Any] = field(default_factory=Map)
 
     @property
     def rgb(self) -> tuple[float, float, float]:
@@ -157,22 +158,20 @@ def edge(value: Any, place: str) -> Edge:
     """A name of EDGES, or an object."""
     if not isinstance(value, Mapping):
         return Edge(_shape(value, place, tuple(EDGES)))
-    unknown = sorted(set(map(str, value)) - {"curve", "width", "amount", "colour"})
-    if unknown:
-        raise BrushError(f"{place}.{unknown[0]}", "no such member", "curve, width, amount or colour")
     colour = value.get("colour")
     return Edge(
         _shape(value.get("curve", "wet"), f"{place}.curve", tuple(EDGES)),
         checks.number(value.get("width", 0.5), f"{place}.width", 0.0, WIDTH_CAP),
         checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0),
         None if colour is None else checks.colour(colour, f"{place}.colour"),
+        _others(value, "curve", "width", "amount", "colour"),
     )
 
 
 def edge_json(part: Edge) -> Any:
     rest: dict[str, Any] = {} if part.width == 0.5 else {"width": part.width}
     rest |= {} if part.amount == 1.0 else {"amount": part.amount}
-    rest |= _given("colour", part.colour)
+    rest |= _given("colour", part.colour) | checks.thawed(part.extra)
     return {"curve": checks.thawed(part.curve), **rest} if rest else checks.thawed(part.curve)
 
 

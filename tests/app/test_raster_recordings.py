@@ -56,7 +56,7 @@ def test_what_is_saved_plays_as_it_was(tmp_path):
 
 WRONG = (
     ("moss", 'brush.op: found "moss", expected one of toward, multiply, '),
-    ({"name": "contrast", "steep": 2}, "brush.op.'steep': found 2, expected only name, gain, pivot"),
+    ({"name": "contrast", "gain": 9}, "brush.op.gain: found 9, expected a number from 0 to 4"),
     ({"name": "clone"}, "brush.op.layer: found none, expected one: the layer that is copied"),
     ({"name": "clone", "layer": "High"}, "brush.op.layer: found 'High', none of that name, expected a layer: 'Low'"),
     ({"formula": "1 + pic.real"}, 'brush.op.formula, column 8: found ".", expected a number, a name or one of'),
