@@ -18,12 +18,14 @@ Held = tuple[Rect, Planes | None]
 
 class Cascade:
     """`needed`: the even rectangle of each level within which values will be asked for.  Safe for several threads.
+    `inked`: whether any ink lies in the pyramid.
 
     A level is evaluated when a finer one is, at the latest, and must not change after that.
     """
 
     def __init__(self, pyramid: Pyramid, needed: Mapping[int, Rect]) -> None:
         self.pyramid = pyramid
+        self.inked = any(record.inks for _, record in pyramid.all_records())
         self._coarsest = pyramid.coarsest if pyramid.coarsest is not None else 0
         self._rects = dict(needed)
         finest = max(needed, default=self._coarsest)

@@ -39,6 +39,7 @@ MOST = 4  # inks of a tile
 STRIDE = 4  # of the pixels by which terms are found,
 FEW = 1 << 12  # unless a tile has no more than these
 SQUARE = 4  # tiles along the side of a square that is evaluated at a time
+SHARED = 8  # inks whose appearance is held for a whole square
 NOTHING = Rect(0, 0, 0, 0)
 ONE = 1 << 30  # unit of p, q, s
 TERM_CAP = 1 << 40  # |p|, |q|, |s| in that unit
@@ -75,6 +76,8 @@ def _square(key: TileKey) -> tuple[int, int, int]:
 
 def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
     """Tiles of a pyramid on which nothing waits, the colour that their ink implies taken out where that leaves less."""
+    if not values.inked:
+        return [(key, record, None) for key, record in tiles]
     out: list[Coded] = []
     for _, square in groupby(tiles, key=lambda tile: _square(tile[0])):
         out.extend(_square_without(values, list(square)))
@@ -90,11 +93,13 @@ def needed(tiles: Sequence) -> dict[int, Rect]:
 
 
 def _square_without(values: Cascade, group: list[Tile]) -> Iterator[Coded]:
-    level = group[0][0].level
     rect = _bounds(group).parents().evened()
-    above = values.at(level - 1, rect)
-    for key, record in group:
-        yield _tile_without(_Tile(key, record, rect, above))
+    above = values.at(group[0][0].level - 1, rect)
+    tiles = [_Tile(key, record, rect, above) for key, record in group]
+    inks = [tile.inks() for tile in tiles]
+    seen = _Seen(tiles, inks)
+    for tile, there in zip(tiles, inks, strict=True):
+        yield _tile_without(tile, there, seen)
 
 
 def _bounds(group: Sequence) -> Rect:
@@ -129,23 +134,23 @@ class _Tile:
         others = [ink for ink in found if 0 <= ink.base - self.key.level <= ABOVE]
         return () if len(adding) > MOST else tuple([*adding, *others][:MOST])
 
-    def arguments(self, inks: tuple[Instance, ...]) -> tuple:
+    def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> tuple:
         """What the kernels need of the tile for these inks."""
         sources, own = (
             np.array([COLOURS + 3 * there.index(ink) if ink in there else -1 for ink in inks], np.int64)
             for there in (self._above.inks, self.record.inks)
         )
         place = np.array(self._place, np.int64)
-        seen, detail = _seen(inks, self.key.level, self.at), _detail(inks, self.key.level, self.at)
-        return self.record.data, self._above.data, place, sources, own, seen, detail
+        planes, start = seen.at(inks, self.at)
+        detail = _detail(inks, self.key.level, self.at)
+        return self.record.data, self._above.data, place, sources, own, planes, start, detail
 
 
-def _tile_without(tile: _Tile) -> Coded:
+def _tile_without(tile: _Tile, inks: tuple[Instance, ...], seen: _Seen) -> Coded:
     key, record = tile.key, tile.record
-    inks = tile.inks()
     if not inks:
         return key, record, None
-    arguments = tile.arguments(inks)
+    arguments = tile.arguments(inks, seen)
     terms = np.rint(kernels.fit(*arguments, STRIDE if tile.at.area > FEW else 1) * ONE)
     if not (np.isfinite(terms).all() and np.abs(terms).max() <= TERM_CAP):
         return key, record, None
@@ -157,16 +162,39 @@ def _tile_without(tile: _Tile) -> Coded:
     return key, replace(record, data=data), implied
 
 
-def _seen(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
-    """Appearance of the inks at a level from `ABOVE` below their base on: float32 (n, 1 or 3, h, w)."""
-    found = []
-    for ink in inks:
-        lacking = max(ink.base - level, 0)
-        seen = ink.appearance(level + lacking, at.zoomed(lacking))[:3]
-        for _ in range(lacking):
-            seen = reduce(seen)
-        found.append(seen)
-    return _stacked(found, at)
+class _Seen:
+    """The appearance of inks on some tiles of a square: evaluated once for all of them, unless there are too many."""
+
+    def __init__(self, tiles: Sequence[_Tile], inks: Sequence[tuple[Instance, ...]]) -> None:
+        places: dict[Instance, Rect] = {}
+        for tile, there in zip(tiles, inks, strict=True):
+            for ink in there:
+                places[ink] = places.get(ink, NOTHING).union(tile.at)
+        self._level = tiles[0].key.level
+        shared = len(places) <= SHARED
+        self._held = {ink: (at, _appearance(ink, self._level, at)) for ink, at in places.items()} if shared else {}
+
+    def at(self, inks: Sequence[Instance], at: Rect) -> tuple[np.ndarray, np.ndarray]:
+        """Float32 (n, 1 or 3, H, W), and the row and the column where what lies on `at` begins, int64 (2,)."""
+        if len(inks) == 1 and inks[0] in self._held:
+            place, planes = self._held[inks[0]]
+            return planes[None], np.array([at.y0 - place.y0, at.x0 - place.x0], np.int64)
+        return _stacked([self._cut(ink, at) for ink in inks], at), np.zeros(2, np.int64)
+
+    def _cut(self, ink: Instance, at: Rect) -> np.ndarray:
+        if ink not in self._held:
+            return _appearance(ink, self._level, at)
+        place, planes = self._held[ink]
+        return planes[:, *at.slices(place)]
+
+
+def _appearance(ink: Instance, level: int, at: Rect) -> np.ndarray:
+    """Appearance of an ink at a level from `ABOVE` above its base on: float32 (1 or 3, h, w), to be read only."""
+    lacking = max(ink.base - level, 0)
+    seen = ink.appearance(level + lacking, at.zoomed(lacking))[:3]
+    for _ in range(lacking):
+        seen = reduce(seen)
+    return np.require(seen, np.float32, "CW")  # of one type, for which the kernels are compiled
 
 
 def _detail(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
@@ -200,16 +228,16 @@ def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable = map) -> i
 
 
 def _square_restored(values: Cascade, square: Sequence[Coded]) -> int:
-    level = square[0][0].level
     rect = _bounds(square).parents().evened()
-    above = values.at(level - 1, rect)
+    above = values.at(square[0][0].level - 1, rect)
+    tiles = [_Tile(key, record, rect, above) for key, record, _ in square]
+    entries = [implied for _, _, implied in square if implied is not None]
+    seen = _Seen(tiles, [implied.inks for implied in entries])
     changed = 0
-    for key, record, implied in square:
-        data = record.data.base
-        assert implied is not None
+    for tile, implied in zip(tiles, entries, strict=True):
+        data = tile.record.data.base
         assert isinstance(data, np.ndarray)
-        tile = _Tile(key, record, rect, above)
-        kernels.exchange(*tile.arguments(implied.inks), implied.factors, np.int32(1), data)
+        kernels.exchange(*tile.arguments(implied.inks, seen), implied.factors, np.int32(1), data)
         changed += isal_zlib.crc32(data[:3].data) != implied.crc
         data.flags.writeable = False
     return changed

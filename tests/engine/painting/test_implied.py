@@ -158,14 +158,16 @@ def test_the_kernel_is_the_plain_form():
     parents = (rng.integers(0, 60000, (10, 9, 11)) * unit).astype(np.float32)
     data = rng.integers(-900, 901, (7, 11, 13)).astype(np.int16)  # rows from 1, columns from 1 of the 14 x 18 children
     data.flags.writeable = False
-    seen = rng.uniform(-1, 1, (2, 1, 11, 13)).astype(np.float32)
+    around = rng.uniform(-1, 1, (2, 1, 14, 17)).astype(np.float32)
+    start = np.array([2, 3], np.int64)
+    seen = around[:, :, 2:13, 3:16]
     factors = rng.uniform(-0.4, 0.4, (3, 5)).astype(np.float32)
     place = np.array([0, 0, 1, 1], np.int64)
     sources, own = np.array([4, 7], np.int64), np.array([4, -1], np.int64)
     out = data.copy()
     detail = rng.uniform(-0.1, 0.1, (2, 1, 11, 13)).astype(np.float32)
     detail[1] = 0.0
-    impliedkernels.exchange(data, parents, place, sources, own, seen, detail, factors, np.int32(1), out)
+    impliedkernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), out)
     below = expand(parents)[:, 1:12, 1:14].astype(np.float64)
     for c in range(3):
         amplitudes = [below[4 + c] + data[4 + c] * unit, below[7 + c]]
@@ -174,6 +176,26 @@ def test_the_kernel_is_the_plain_form():
         expected = np.rint((wanted - below[c] - texture) / unit) + data[c]
         assert np.abs(out[c] - ((expected + 32768) % 65536 - 32768)).max() <= 1  # float32, which wraps in int16
     assert np.array_equal(out[3:], data[3:])
+
+
+@pytest.mark.parametrize("stride", [1, 4])
+def test_terms_that_made_a_colour_are_found(stride):
+    """Colour made of known terms, on the expanded parents, gives those terms, from all pixels or some of them."""
+    rng = np.random.default_rng(8)
+    unit = 2.0**-16
+    parents = (rng.integers(10000, 50000, (10, 9, 11)) * unit).astype(np.float32)
+    data = rng.integers(-900, 901, (7, 11, 13)).astype(np.int16)
+    around = rng.uniform(-1, 1, (2, 1, 14, 17)).astype(np.float32)
+    detail = rng.uniform(-0.1, 0.1, (2, 1, 11, 13)).astype(np.float32)
+    factors = rng.uniform(-0.05, 0.05, (3, 5)).astype(np.float32)
+    place, start = np.array([0, 0, 1, 1], np.int64), np.array([2, 3], np.int64)
+    sources, own = np.array([4, 7], np.int64), np.array([4, -1], np.int64)
+    data[:3], parents[:3] = 0, 0.0  # what is implied is then the whole residual, but for texture
+    wide = data.astype(np.int32)
+    impliedkernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), wide)
+    wide.flags.writeable = False
+    found = impliedkernels.fit(wide, parents, place, sources, own, around, start, detail, stride)
+    assert np.abs(found - factors).max() < 2e-4
 
 
 # ---- what changed ----
