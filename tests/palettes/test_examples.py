@@ -84,7 +84,7 @@ def test_parameters_are_what_the_synthesis_takes(name):
     assert set(given) == {"group", "kappa", "neighbourhood", "levels", "every", "channels"}
     assert isinstance(given["group"], str)
     assert 0.0 <= given["kappa"] <= 5.0
-    assert given["neighbourhood"] in (3, 5, 7, 9)
+    assert given["neighbourhood"] in (3, 5, 7)
     assert 1 <= given["levels"] <= 6
     assert given["every"] >= 1
     assert given["channels"] in ("colour", "luminance")
