@@ -194,7 +194,7 @@ def _appearance(ink: Instance, level: int, at: Rect) -> np.ndarray:
     seen = ink.appearance(level + lacking, at.zoomed(lacking))[:3]
     for _ in range(lacking):
         seen = reduce(seen)
-    return np.require(seen, np.float32, "CW")  # of one type, for which the kernels are compiled
+    return np.require(seen, np.float32, ["C", "W"])  # of one type, for which the kernels are compiled
 
 
 def _detail(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:

@@ -39,33 +39,33 @@ def lies(values, plane, top, left, height, width):
 
 
 @njit(cache=True, nogil=True)
-def _expanded(parents, plane, place, y, t, line):
-    """Row `y` of a plane of the expanded parents, from the even column on."""
+def _expanded(flat, height, width, plane, place, y, t, line):
+    """Row `y` of a plane of the expanded parents, from the even column on; `flat`, all parents of height x width.
+
+    (Views of one-dimensional arrays cost least: a row is no more work than it takes to cut it out.)
+    """
     if plane < 0:
         line[:] = np.float32(0.0)
         return
     even = y + place[2]
-    row, left = place[0] + 1 + even // 2, place[1]
-    near = parents[plane, row][left : left + t.size]
-    far = parents[plane, row + 2 * (even & 1) - 1][left : left + t.size]
-    blend_rows(near, far, t)
+    near = (plane * height + place[0] + 1 + even // 2) * width + place[1]
+    far = near + (2 * (even & 1) - 1) * width
+    blend_rows(flat[near : near + t.size], flat[far : far + t.size], t)
     expand_row(t, line)
 
 
 @njit(cache=True, nogil=True)
-def _shown(parents, plane, data, own, place, y, t, line):
-    """As `_expanded`, and the tile's own residual on it."""
-    _expanded(parents, plane, place, y, t, line)
-    if own >= 0:
-        d = data[own, y]
-        a = line[place[3] : place[3] + d.size]
-        for i in range(d.size):
-            a[i] += np.float32(d[i]) * _UNIT
+def _refined(line, flat, height, plane, y):
+    """line += row `y` of a plane of residuals, if there is one; `flat`, all planes of `height` rows."""
+    if plane >= 0:
+        start = (plane * height + y) * line.size
+        d = flat[start : start + line.size]
+        for i in range(line.size):
+            line[i] += np.float32(d[i]) * _UNIT
 
 
 @njit(cache=True, nogil=True)
-def _alpha(parents, data, place, y, t, line):
-    _shown(parents, 3, data, 3, place, y, t, line)
+def _clamped(line):
     for i in range(line.size):
         line[i] = min(max(line[i], np.float32(0.0)), np.float32(1.0))
 
@@ -94,15 +94,8 @@ def _solve(a, b):
 
 
 @njit(cache=True, nogil=True)
-def _room(data, place):
-    """Rows to work in: a parents' row, and three of the tile's from the even column on."""
-    n = (place[3] + data.shape[2] + 1) // 2
-    return np.empty(n + 2, np.float32), np.empty((3, 2 * n), np.float32)
-
-
-@njit(cache=True, nogil=True)
 def _sampled(parents, plane, data, own, place, y, stride, line):
-    """Every `stride`-th pixel of what `_shown` gives of a row, into `line` float32."""
+    """Every `stride`-th pixel of a row, the parents expanded and the residual added, into `line` float32."""
     if plane < 0:
         line[:] = np.float32(0.0)
     else:
@@ -229,25 +222,31 @@ def exchange(data, parents, place, sources, own, seen, start, detail, factors, s
     Gives the bits that it saves in the widths of rows, -1 also where values do not fit into `out`.
     """
     height, width = data.shape[1:]
-    t, work = _room(data, place)
+    high, wide = parents.shape[1:]
+    old, above, kept = data.ravel(), parents.ravel(), out.ravel()
+    n, at = (place[3] + width + 1) // 2, place[3]
+    t, lines = np.empty(n + 2, np.float32), np.empty((3, 2 * n), np.float32)
+    over, under, first = lines[0], lines[1], lines[2]
+    alpha, amplitude, below = over[at : at + width], under[at : at + width], first[at : at + width]
     implied, whole = np.empty(width, np.float32), np.empty(width, np.int32)
-    at = place[3]
-    alpha, amplitude, below = work[0, at : at + width], work[1, at : at + width], work[2, at : at + width]
     saved, widest, far = np.int64(0), np.int32(0), np.int32(0)
     for y in range(height):
-        _alpha(parents, data, place, y, t, work[0])
+        _expanded(above, high, wide, 3, place, y, t, over)
+        _refined(alpha, old, height, 3, y)
+        _clamped(alpha)
         for c in range(3):
-            _expanded(parents, c, place, y, t, work[2])
+            _expanded(above, high, wide, c, place, y, t, first)
             for k in range(sources.size):
-                plane = sources[k] + c if sources[k] >= 0 else -1
-                _shown(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, t, work[1])
+                _expanded(above, high, wide, sources[k] + c if sources[k] >= 0 else -1, place, y, t, under)
+                _refined(amplitude, old, height, own[k] + c if own[k] >= 0 else -1, y)
                 p = factors[c, 0] if k == 0 else np.float32(0.0)
-                s = seen[k, c % seen.shape[1], start[0] + y][start[1] :]
+                s = seen[k, c % seen.shape[1], start[0] + y][start[1] : start[1] + width]
                 _add(implied, alpha, amplitude, s, p, factors[c, 1 + 2 * k], factors[c, 2 + 2 * k], k == 0)
                 if detail.shape[0]:
                     _textured(below, amplitude, detail[k, c % detail.shape[1], y])
-            most, before, after = _exchanged(data[c, y], implied, below, sign, whole)
-            row = out[c, y]
+            place_of = (c * height + y) * width
+            most, before, after = _exchanged(old[place_of : place_of + width], implied, below, sign, whole)
+            row = kept[place_of : place_of + width]
             for i in range(width):
                 row[i] = whole[i]
             far, widest = far | most, widest | after
