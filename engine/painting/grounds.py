@@ -91,7 +91,7 @@ def with_tiles(ground: Pyramid, levels: dict[int, dict[tuple[int, int], Record]]
         held: Level = stored.get(level, Map())
         editable = held.mutate()
         for place, record in tiles.items():
-            editable.set(place, replace(record, depth=ground.depth))
+            editable.set(place, record if record.depth == ground.depth else replace(record, depth=ground.depth))
         stored = stored.set(level, editable.finish())
     return replace(ground, levels=stored)
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from immutables import Map
 
 from engine.canvas import layers
-from engine.canvas.layers import LayerError
+from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
 from engine.painting import grounds, pictures
 from engine.painting.fault import FileError, shown
@@ -148,16 +148,7 @@ class _Opening:
         if self._total > memory_cap():
             raise FileError(self._archive.name, f"its paint takes {self._total >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
-        root, other = manifest.root, 0
-        with ThreadPoolExecutor(WORKERS, "lay") as pool:
-            laid = {number: pool.submit(self._ground, number, manifest) for number in manifest.grounds}
-            for layer in list(layers.layers(root)):
-                check(self._cancelled)
-                tiles = list(self._tiles(manifest.packs[layer.id], manifest, sources))
-                ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
-                pyramid = grounds.with_tiles(ground, self._levels(tiles))
-                other += self._colour(pyramid, tiles)
-                root = layers.with_pyramid(root, layer.name, pyramid)
+        root, other = self._layers(manifest, sources)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
@@ -165,6 +156,31 @@ class _Opening:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"
             notes = (*notes, OTHER.format(count=other, why=why))
         return Opened(painting, notes, True, recording, Map(sources))
+
+    def _layers(self, manifest: Manifest, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
+        """The layers with what was painted, and how many tiles have another colour than when they were saved.
+
+        The colour of a layer that ink implies is put back while the next layers are read.
+        """
+        root, coloured = manifest.root, []
+        with (
+            ThreadPoolExecutor(WORKERS, "lay") as pool,
+            ThreadPoolExecutor(WORKERS, "imply") as squares,
+            ThreadPoolExecutor(WORKERS, "colour") as colours,
+        ):
+            laid = {number: pool.submit(self._ground, number, manifest) for number in manifest.grounds}
+            try:
+                for layer in list(layers.layers(root)):
+                    check(self._cancelled)
+                    tiles = list(self._tiles(manifest.packs[layer.id], manifest, sources))
+                    ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
+                    pyramid = grounds.with_tiles(ground, self._levels(tiles))
+                    coloured.append(colours.submit(restored, pyramid, tiles, squares.map))
+                    root = layers.with_pyramid(root, layer.name, pyramid)
+                return root, sum(future.result() for future in coloured)
+            finally:
+                for future in (*coloured, *laid.values()):
+                    future.cancel()
 
     def _ground(self, number: int, manifest: Manifest) -> Pyramid:
         """The picture that a layer began with, laid down again."""
@@ -183,11 +199,6 @@ class _Opening:
                 raise FileError(self._archive.name, f"tile {key.x}, {key.y} of level {key.level} is there twice")
             level[key.x, key.y] = record
         return levels
-
-    def _colour(self, pyramid: Pyramid, tiles: Sequence[Coded]) -> int:
-        """Puts back the colour that ink implies; of how many tiles it is another than when they were saved."""
-        with ThreadPoolExecutor(WORKERS, "imply") as pool:
-            return restored(pyramid, tiles, pool.map)
 
     def _picture(self, entry: PictureEntry, manifest: Manifest) -> ImageSource:
         parts = [(key, record) for key, record, _ in self._tiles(entry.packs, manifest, {})]

@@ -10,6 +10,7 @@ one list each of [number of tiles, plain bytes, stored bytes].  A block is a zli
 
 from __future__ import annotations
 
+import re
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -40,6 +41,7 @@ DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
 RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 LEVEL = 1
+_ADDRESS = re.compile("-?[0-9a-f]+")
 
 
 # ---- writing ----
@@ -180,7 +182,7 @@ def _tile_head(line: Any, inks: list[Instance]) -> _Head:
     level, x, y, *corners, bits, indices = line[:9]
     _need(type(level) is int and abs(level) <= LEVEL_CAP, "level of a tile", level)
     key = TileKey(level, _address(x), _address(y))
-    _need(all(type(v) is int and 0 <= v <= TILE for v in corners), "rectangle of a tile", corners)
+    _need(_whole(corners, 0, TILE), "rectangle of a tile", corners)
     rect = Rect(*corners)
     _need(not rect.empty, "rectangle of a tile", corners)
     _need(type(bits) is int and bits in KINDS, "bits of a tile", bits)
@@ -190,9 +192,17 @@ def _tile_head(line: Any, inks: list[Instance]) -> _Head:
 
 
 def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
-    sound = isinstance(indices, list) and all(type(i) is int and 0 <= i < len(inks) for i in indices)
+    sound = isinstance(indices, list) and _whole(indices, 0, len(inks) - 1)
     _need(sound and len(set(indices)) == len(indices), "inks of a tile", indices)
-    return tuple(inks[i] for i in indices)
+    return tuple([inks[i] for i in indices])
+
+
+def _whole(values: list[Any], low: int, high: int) -> bool:
+    """Whether all are integers within the range: a loop, since a head has thousands of such lists."""
+    for value in values:
+        if type(value) is not int or not low <= value <= high:
+            return False
+    return True
 
 
 def _implied(entries: list[Any], level: int, inks: list[Instance]) -> Implied:
@@ -200,15 +210,14 @@ def _implied(entries: list[Any], level: int, inks: list[Instance]) -> Implied:
     chosen = _chosen(indices, inks)
     _need(0 < len(chosen) <= MOST and all(ink.base - level <= ABOVE for ink in chosen), "inks that imply", indices)
     sound = isinstance(terms, list) and len(terms) == 3 * (1 + 2 * len(chosen))
-    _need(sound and all(type(v) is int and abs(v) <= TERM_CAP for v in terms), "terms of a tile", terms)
+    _need(sound and _whole(terms, -TERM_CAP, TERM_CAP), "terms of a tile", terms)
     _need(type(crc) is int and 0 <= crc < 1 << 32, "CRC of a tile", crc)
     return Implied(chosen, tuple(terms), crc)
 
 
 def _address(text: Any) -> int:
-    _need(isinstance(text, str) and 0 < len(text) <= DIGITS_CAP, "address of a tile", text)
-    digits = text.removeprefix("-")
-    _need(bool(digits) and all(c in "0123456789abcdef" for c in digits), "address of a tile", text)
+    sound = isinstance(text, str) and len(text) <= DIGITS_CAP and _ADDRESS.fullmatch(text) is not None
+    _need(sound, "address of a tile", text)
     return int(text, 16)
 
 
