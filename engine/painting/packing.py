@@ -199,7 +199,7 @@ def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
 
 def _whole(values: list[Any], low: int, high: int) -> bool:
     """Whether all are integers within the range: a loop, since a head has thousands of such lists."""
-    for value in values:
+    for value in values:  # noqa: SIM110
         if type(value) is not int or not low <= value <= high:
             return False
     return True
