@@ -36,7 +36,10 @@ class Bench(Protocol):
         """Pieces of open work."""
         ...
 
-    due: float | None  # when `play` is to be called next, by the monotonic clock; None when nothing plays
+    @property
+    def due(self) -> float | None:
+        """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
+        ...
 
     def play(self) -> None: ...
 
