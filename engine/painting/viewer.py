@@ -30,7 +30,7 @@ class Host(Protocol):
 
 
 class Viewer:
-    """Tiles are functions of the painting and the stroke in progress alone.  Its calls come from the engine's thread."""
+    """Tiles are functions of the painting and the stroke in progress.  All calls come from the engine's thread."""
 
     def __init__(self, host: Host) -> None:
         self.host = host
