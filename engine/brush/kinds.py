@@ -7,52 +7,33 @@ alpha itself stays as it is, bit for bit.  Raster-ops, whose A is another, have 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from engine.brush import coat
 from engine.brush.checks import BrushError, shown
+from engine.brush.covered import Covered, Read
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.raster import Raster, Scene
 from engine.brush.record import Brush, to_json
 from engine.brush.relief import Relief
 from engine.brush.stamp import Edit, Stamp
-from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.address import TILE, TileKey
 from engine.texture.planes import COLOURS, Planes
 from engine.texture.record import Instance
-
-Read = Callable[[Rect], Planes]
 
 REACH_CAP = 32  # px: how far on each side a pass of smoothing looks
 _ALPHA = 3
 
 
 @dataclass(frozen=True, eq=False)
-class _Covered:
-    """What all modes share: the stroke's coverage, and the part A that stays."""
+class _Covered(Covered):
+    """What the modes share that have A = 1 - M."""
 
-    coverage: Coverage
-    brush: Brush
-    ink: Ink | None
-    locked: bool
-    read: Read | None
     pressure: Coverage | None = None  # the strongest that went over each pixel, where the ink goes with it
     _flat: dict[float | None, Stamp] = field(default_factory=dict, repr=False)
-
-    @property
-    def level(self) -> int:
-        return self.coverage.level
-
-    @property
-    def tiles(self) -> tuple[TileKey, ...]:
-        return self.coverage.keys
-
-    @property
-    def rect(self) -> Rect:
-        return self.coverage.rect
 
     @property
     def spares_alpha(self) -> bool:

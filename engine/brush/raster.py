@@ -19,6 +19,7 @@ from typing import Any, cast
 import numpy as np
 
 from engine.brush import coat, ops, sway, tones
+from engine.brush.covered import Covered, Read
 from engine.brush.foretell import Foretold, foretell, predictor
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.mask import Coverage
@@ -31,8 +32,6 @@ from engine.numeric.prediction import Predictor
 from engine.texture.image import ImageSource
 from engine.texture.planes import COLOURS, Planes, merged
 from engine.texture.record import Instance
-
-Read = Callable[[Rect], Planes]
 
 _ALPHA = 3
 _STEP = np.float32(1.0 / 255.0)  # to each side, for the slope of a formula
@@ -69,27 +68,10 @@ def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: 
 
 
 @dataclass(frozen=True, eq=False)
-class Raster:
+class Raster(Covered):
     """The edit that a stroke of mode "raster" makes; `ink` is its `mixture`, None for a brush without textures."""
 
-    coverage: Coverage
-    brush: Brush
-    ink: Ink | None
-    locked: bool
-    read: Read | None
     scene: Scene = field(default_factory=Scene)
-
-    @property
-    def level(self) -> int:
-        return self.coverage.level
-
-    @property
-    def tiles(self) -> tuple[TileKey, ...]:
-        return self.coverage.keys
-
-    @property
-    def rect(self) -> Rect:
-        return self.coverage.rect
 
     @cached_property
     def op(self) -> ops.Chosen:
