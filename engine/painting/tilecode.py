@@ -1,6 +1,6 @@
 """How the integers of a tile become bytes: differences, and of those no more bits than each row needs.
 
-Of each plane, unless all of it is -2 to 1, the differences are taken that leave least: none, from the left, from
+Of each plane, unless all of it is -2 to 1, the differences are taken that leave least, by a sample: none, from the left, from
 above, or from the plane through those two and the pixel between them (as in ISO/IEC 15948, section 9, without its
 choice of neighbour).  They wrap at the 16 or 32 bits of the tile, and are zigzag-coded: 0, -1, 1, -2, ... become 0, 1,
 2, 3, ...
@@ -22,6 +22,14 @@ from numba import njit
 STREAMS = 7
 _CODES = 6  # widths of a row
 _KINDS = 4  # of differences
+SAMPLED = 4  # of the rows, by which those are chosen
+
+
+@njit(inline="always")
+def _abs(value):
+    """|value| of an int32, as one."""
+    sign = np.int32(value >> np.int32(31))
+    return np.int32(np.int32(value ^ sign) - sign)
 
 
 @njit(cache=True, nogil=True)
@@ -32,7 +40,7 @@ def _small(plane):
         bits = np.int32(0)
         for i in range(row.size):
             v = np.int32(row[i])
-            bits |= v ^ (v >> np.int32(31))
+            bits = np.int32(bits | np.int32(v ^ np.int32(v >> np.int32(31))))
         if bits > 1:
             return False
     return True
@@ -40,30 +48,40 @@ def _small(plane):
 
 @njit(cache=True, nogil=True)
 def _kind(plane):
-    """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values; 0 if all are -2 to 1."""
-    height, width = plane.shape
+    """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values on every `SAMPLED`-th row;
+    0 if all are -2 to 1."""
+    height = plane.shape[0]
     if _small(plane):
         return 0
     sums = np.zeros(_KINDS, np.int64)
-    for y in range(height):
-        row, before = plane[y], plane[max(y - 1, 0)]
-        none, left, above, both = np.int64(0), np.int64(0), np.int64(0), np.int64(0)
-        first = np.int64(0) if y == 0 else np.int64(before[0])
-        none += abs(np.int64(row[0]))
-        left += abs(np.int64(row[0]))
-        above += abs(np.int64(row[0]) - first)
-        both += abs(np.int64(row[0]) - first)
-        keep = np.int32(y > 0)
-        here, beside, up, corner = row[1:], row[: width - 1], before[1:], before[: width - 1]
-        for i in range(width - 1):
-            v, u = np.int32(here[i]), np.int32(up[i]) * keep
-            step = v - np.int32(beside[i])
-            none += abs(v)
-            left += abs(step)
-            above += abs(v - u)
-            both += abs(step - u + np.int32(corner[i]) * keep)
-        sums += np.array([none, left, above, both])
+    for y in range(min(1, height - 1), height, SAMPLED):
+        none, left, above, both = _sums(plane[y], plane[max(y - 1, 0)])
+        sums[0] += none
+        sums[1] += left
+        sums[2] += above
+        sums[3] += both
     return np.argmin(sums)
+
+
+@njit(cache=True, nogil=True)
+def _sums(row, before):
+    """The sums of a row's absolute differences, of each kind.
+
+    They are cast to int32 at every step, since sums of it are int64 otherwise, which takes twice as long; where that
+    wraps, beyond all values of pixels, another kind is chosen than the best.
+    """
+    v, u = np.int32(row[0]), np.int32(before[0])
+    none, left, above, both = _abs(v), _abs(v), _abs(np.int32(v - u)), _abs(np.int32(v - u))
+    width = row.size
+    here, beside, up, corner = row[1:], row[: width - 1], before[1:], before[: width - 1]
+    for i in range(width - 1):
+        v, u = np.int32(here[i]), np.int32(up[i])
+        step = np.int32(v - np.int32(beside[i]))
+        none = np.int32(none + _abs(v))
+        left = np.int32(left + _abs(step))
+        above = np.int32(above + _abs(np.int32(v - u)))
+        both = np.int32(both + _abs(np.int32(np.int32(step - u) + np.int32(corner[i]))))
+    return none, left, above, both
 
 
 @njit(cache=True, nogil=True)
@@ -90,12 +108,11 @@ def _difference(plane, y, kind, line):
 @njit(cache=True, nogil=True)
 def _zigzag(line, z):
     """`line` (w,) zigzag-coded into `z` uint32 (>= w,); all its bits together."""
-    top = 8 * line.itemsize - 1
     bits = np.uint32(0)
     for i in range(line.size):
         v = np.int32(line[i])
-        z[i] = np.uint32((v << 1) ^ (v >> top))
-        bits |= z[i]
+        z[i] = np.uint32(np.int32(v << np.int32(1)) ^ np.int32(v >> np.int32(31)))
+        bits = np.uint32(bits | z[i])
     return bits
 
 
@@ -144,7 +161,7 @@ def _encode(data, codes, streams, at):
             codes[p * (1 + height) + 1 + y] = _put(z, width, bits, streams, at)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True)  # too short to let other threads run meanwhile
 def _lengths(codes, planes, height, width, lengths):
     """Adds what a tile takes of each stream to `lengths` (STREAMS,); False if a code is unknown."""
     for p in range(planes):
@@ -228,12 +245,12 @@ def _decode(raw, codes, at, out):
                 _take(raw, at, code, z)
                 for i in range(width):
                     v = np.int32(z[i] >> np.uint32(1))
-                    row[i] = v ^ -np.int32(z[i] & np.uint32(1))
+                    row[i] = np.int32(v ^ np.int32(-np.int32(z[i] & np.uint32(1))))
             if kind:
                 _add_before(row, out[p, max(y - 1, 0)], kind, y == 0)
             for i in range(width):
                 v = np.int32(row[i])
-                largest |= max(v, ~v)
+                largest = np.int32(largest | np.int32(v ^ np.int32(v >> np.int32(31))))
     return largest
 
 

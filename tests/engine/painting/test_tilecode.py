@@ -72,11 +72,15 @@ def plain(data):
     codes, streams = [], [b""] * 7
     for plane in data.astype(np.int64):
         before = np.vstack([np.zeros((1, plane.shape[1]), np.int64), plane[:-1]])
+        chosen = slice(min(1, len(plane) - 1), None, tilecode.SAMPLED)
+        beyond = np.vstack([plane[:1], plane[:-1]])  # a plane of one row: as if it had been the same before
         along = np.hstack([plane[:, :1], np.diff(plane, axis=1)])
         forms = [plane, along, plane - before, None]
         forms[3] = np.hstack([forms[2][:, :1], np.diff(forms[2], axis=1)])
+        sampled = [plane, along, plane - beyond, None]
+        sampled[3] = np.hstack([sampled[2][:, :1], np.diff(sampled[2], axis=1)])
         small = plane.min() >= -2 and plane.max() <= 1
-        kind = 0 if small else int(np.argmin([np.abs(form).sum() for form in forms]))
+        kind = 0 if small else int(np.argmin([np.abs(form[chosen]).sum() for form in sampled]))
         codes.append(kind)
         for row in forms[kind].astype(data.dtype).astype(np.int64):
             z = (row << 1) ^ (row >> 63)
