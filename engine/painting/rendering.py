@@ -90,6 +90,8 @@ def _parts(known: Mapping[int, np.ndarray], places: Mapping[int, Rect], band: Re
             return None
         rows, columns = part.slices(whole)
         planes = known[layer.id][:, rows, columns]
+        if _nothing(planes):
+            return None  # much of most layers: cheaper to see than to composite
         if part == rect:
             return planes
         out = np.zeros((4, rect.height, rect.width), np.float32)
@@ -98,6 +100,11 @@ def _parts(known: Mapping[int, np.ndarray], places: Mapping[int, Rect], band: Re
         return out
 
     return read
+
+
+def _nothing(planes: np.ndarray) -> bool:
+    """Whether all of (4, h, w) is zero; alpha is not below that."""
+    return not planes[3].max() and not planes[:3].max() and not planes[:3].min()
 
 
 def check(cancelled: Stop) -> None:
