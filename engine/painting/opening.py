@@ -162,13 +162,16 @@ class _Opening:
 
         The colour of a layer that ink implies is put back while the next layers are read.
         """
-        root, coloured = manifest.root, []
+        root = manifest.root
+        coloured: list[Future] = []
         with (
             ThreadPoolExecutor(WORKERS, "lay") as pool,
             ThreadPoolExecutor(WORKERS, "imply") as squares,
             ThreadPoolExecutor(WORKERS, "colour") as colours,
         ):
-            laid = {number: pool.submit(self._ground, number, manifest) for number in manifest.grounds}
+            laid: dict[int, Future] = {
+                number: pool.submit(self._ground, number, manifest) for number in manifest.grounds
+            }
             try:
                 for layer in list(layers.layers(root)):
                     check(self._cancelled)

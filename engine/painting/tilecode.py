@@ -1,9 +1,9 @@
 """How the integers of a tile become bytes: differences, and of those no more bits than each row needs.
 
-Of each plane, unless all of it is -2 to 1, the differences are taken that leave least, by a sample: none, from the left, from
-above, or from the plane through those two and the pixel between them (as in ISO/IEC 15948, section 9, without its
-choice of neighbour).  They wrap at the 16 or 32 bits of the tile, and are zigzag-coded: 0, -1, 1, -2, ... become 0, 1,
-2, 3, ...
+Of each plane, unless all of it is -2 to 1, the differences are taken that leave least, by a sample: none, from the
+left, from above, or from the plane through those two and the pixel between them (as in ISO/IEC 15948, section 9,
+without its choice of neighbour).  They wrap at the 16 or 32 bits of the tile, and are zigzag-coded: 0, -1, 1, -2, ...
+become 0, 1, 2, 3, ...
 
 A row takes 0, 2, 4, 8, 16 or 32 bits a pixel, the fewest that hold all of it.  Rows of the same width lie together,
 those of several bytes apart by byte, so that deflate, which comes after, finds like with like.  A run of tiles is
