@@ -40,6 +40,13 @@ def test_a_file_of_the_first_format_opens(opened):
     assert {level: seen(opened.painting, level) for level in FIRST} == FIRST
 
 
+def test_what_ink_implied_when_the_second_format_began_is_implied_still():
+    """The same painting, its colour left out: put back with the same roundings, no tile differs."""
+    found = open_painting(OLD / "format2.ora")
+    assert (found.native, found.notes) == (True, ())
+    assert {level: seen(found.painting, level) for level in FIRST} == FIRST
+
+
 def test_it_is_saved_in_the_present_format(opened, tmp_path):
     save(tmp_path / "a.ora", Snapshot(opened.painting))
     again = open_painting(tmp_path / "a.ora")
