@@ -189,14 +189,14 @@ def _preview(example: np.ndarray, repeats: int) -> Figure:
 
 def _solid(example: np.ndarray, side: int, repeats: int) -> Figure:
     """One turn of a cube against the transforms of all its slices."""
-    oriented, round_ = solid.patterns(example, side, SHAPE)
-    start = solid.noise(oriented.colours.count, side, 1)
-    made = matching.filters_for(start, oriented.shape)
+    wanted = solid.patterns(example, side, SHAPE)
+    start = solid.noise(wanted.oriented.colours.count, side, 1)
+    made = matching.filters_for(start, wanted.oriented.shape)
 
     def own() -> None:
-        for _ in solid.matching(oriented, round_, start, 1):
+        for _ in solid.matching(wanted, start, 1):
             pass
 
-    bare = _bare(start[0], made, 3 * len(start))
+    bare = _bare(start[0], made, len(solid.CUTS) * len(start))
     taken, floor = best(min(repeats, 5), own, bare)
     return Figure(f"a turn of a solid {side}", taken * 1e3, "ms", "its transforms", taken / floor, 2 * TRANSFORMS)

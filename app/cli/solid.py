@@ -35,13 +35,13 @@ def run(words: list[str]) -> int:
     from engine.texture.matching import Shape, picture
 
     shape = Shape("steerable", given.levels, given.orientations)
-    oriented, round_ = solid.patterns(example.planes, side, shape)
-    start = solid.noise(oriented.colours.count, side, given.seed)
+    wanted = solid.patterns(example.planes, side, shape)
+    start = solid.noise(wanted.oriented.colours.count, side, given.seed)
     with matched.threads() as pool:
-        cubes = matched.finished("growing", solid.matching(oriented, round_, start, given.iterations, pool))
-    voxels = _voxels(picture(oriented, cubes), given.depth or example.bits)
+        cubes = matched.finished("growing", solid.matching(wanted, start, given.iterations, pool))
+    voxels = _voxels(picture(wanted.oriented, cubes), given.depth or example.bits)
     write(voxels)
-    facts = matched.told(given, oriented.shape, voxels) | {"size": [side, side, side]}
+    facts = matched.told(given, wanted.oriented.shape, voxels) | {"size": [side, side, side]}
     if given.png is not None:
         matched.write(given.png, sheet(voxels))
         facts["sheet"] = given.png

@@ -17,6 +17,15 @@ def resampled(data: np.ndarray, size: tuple[int, int], rows: np.ndarray, columns
     return _summed(part, *_taps(columns, size[1], data.shape[2]), 2)
 
 
+def rows_at(data: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """The rows of `data` (C, h, w) at `places`, real numbers in 0..h - 1, as they are and not filtered: float32
+    (C, places, w)."""
+    first = np.floor(places).astype(np.int64)
+    offsets = np.arange(-1, 3)[:, None]
+    weights = _cubic(np.abs(places - first - offsets)).astype(np.float32)
+    return _summed(data, np.clip(first + offsets, 0, data.shape[1] - 1), weights, 1)
+
+
 def _taps(places: np.ndarray, size: int, old: int) -> tuple[np.ndarray, np.ndarray]:
     """Source indices and weights, (taps, places) each, of pixels `places` of an axis stretched from `old` to `size`."""
     if size == old:
