@@ -253,7 +253,8 @@ def tell(given: argparse.Namespace, facts: dict[str, Any]) -> None:
         print(json.dumps(facts))
         return
     if facts["levels"] < given.levels:
-        print(f"{facts['levels']} levels: the pictures have no room for {given.levels}")
+        count = facts["levels"]
+        print(f"{count} level{'' if count == 1 else 's'}: the pictures have no room for {given.levels}")
     colours = {1: "grey", 3: "RGB", 4: "RGBA"}[facts["channels"]]
     across = " x ".join(map(str, facts["size"]))
     print(f"wrote {given.out}: {across} pixels, {colours}, {facts['bits']} bits")

@@ -120,6 +120,8 @@ def test_options_change_what_is_made(tmp_path, capsys):
     capsys.readouterr()
     made(tmp_path, "match", path, "--levels", "9")
     assert capsys.readouterr().out.startswith("3 levels: the pictures have no room for 9\n")
+    made(tmp_path, "match", path, "--size", "8x8")
+    assert capsys.readouterr().out.startswith("1 level: the pictures have no room for 4\n")
 
 
 @pytest.mark.parametrize("mode", ["L", "RGB", "RGBA", "L16"])
