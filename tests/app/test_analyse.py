@@ -113,7 +113,7 @@ def test_what_is_wrong_takes_one_line(tmp_path, capsys, words):
 
 
 def test_whether_the_filter_is_stable_is_said(tmp_path, capsys):
-    y, x = np.mgrid[:120, :120]
+    x = np.mgrid[:120, :120][1]
     wave = np.sin(2 * np.pi * x / 10) + 0.01 * np.random.default_rng(1).standard_normal((120, 120))
     for name, values, words in (
         ("wave", wave, "outermost pole at 0.99"),
