@@ -1,0 +1,6 @@
+"""Painting with example textures (Ritter, Li, Curless, Agrawala & Salesin 2006, "Painting With Texture").
+
+`parameters`: how an example is used; `exemplar`: an analysed example; `region`: what is painted with one, refined from
+coarse to fine by order-independent corrections (`correction`); `scanline`: the paper's own method, for reference;
+`show`: the pixels of a region.
+"""

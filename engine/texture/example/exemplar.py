@@ -1,0 +1,198 @@
+"""An example texture, analysed: the pyramid of its region's colours, the shapes of its neighbourhoods, and lists of
+its pixels by how many of their neighbours belong to the region (Ritter et al. 2006, sections 4 to 6).
+
+A pixel of a level is named by (row << 16) | column, both counted from PAD outside the picture.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from engine.numeric.halving import halved, halved_region
+from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
+from engine.texture.example.parameters import MOST_LEVELS, Parameters
+from engine.texture.field_error import FieldError
+
+PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
+SIDE = 1024  # pixels along an example, at most
+COUNTS = 50  # of region pixels among 7 x 7
+_COARSEST = 11  # pixels along the shorter side of the coarsest level, at least
+_CHOICES = 25  # of where a patch comes from, at least
+_SMOOTHED = 0.32  # of a smoothed mask: where its region ends, a little outside the old one
+_LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExampleLevel:
+    """One level, all arrays padded by PAD and read-only.
+
+    `compared`: int16 (h, w, 4), 0..255, 0 outside the region; `region`: uint8 (h, w), the pixels that may be copied;
+    `bits`: uint64 (h, w), the region's 7 x 7 shapes; `order`: int32 names of the region's pixels, those with few
+    neighbours inside first; `starts`: int32 (51,), where each count begins in it.
+    """
+
+    compared: np.ndarray
+    region: np.ndarray
+    bits: np.ndarray
+    order: np.ndarray
+    starts: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Exemplar:
+    """`pixels`: the picture, uint8 or uint16 RGBA (h, w, 4), not premultiplied; `mask`: bool (h, w); `levels`, the
+    finest first; `blocks`: int32 names of the upper left pixels of patches, `block` pixels along, that lie wholly
+    inside at the coarsest level; `boundary`: whether the region's rim is one."""
+
+    pixels: np.ndarray
+    mask: np.ndarray
+    parameters: Parameters
+    levels: tuple[ExampleLevel, ...]
+    blocks: np.ndarray
+    block: int
+    boundary: bool
+
+    @cached_property
+    def average(self) -> np.ndarray:
+        """The mean colour of the region: premultiplied float32 (4,) in 0..1."""
+        return premultiplied(self.pixels)[self.mask].mean(axis=0, dtype=np.float64).astype(np.float32)
+
+    @cached_property
+    def colours(self) -> tuple[np.ndarray, ...]:
+        """The pyramid as premultiplied float32 (h, w, 4) in 0..1, not padded, the finest first; 0 outside the region.
+
+        Levels beyond the ones compared are not there.
+        """
+        found = [(np.where(self.mask[..., None], premultiplied(self.pixels), np.float32(0.0)), self.mask)]
+        for _ in self.levels[1:]:
+            found.append(_coarser(*found[-1]))
+        return tuple(colours for colours, _ in found)
+
+
+def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Parameters | None = None) -> Exemplar:
+    """The exemplar of a picture, uint8 or uint16 RGBA (h, w, 4), whose region is `mask`, bool (h, w), or alpha > 0.
+
+    FieldError where there is nothing to learn from.
+    """
+    parameters = parameters or Parameters()
+    mask = _region_of(pixels, mask, parameters)
+    boundary = parameters.boundary == "yes" or (parameters.boundary == "auto" and not mask.all())
+    count = _level_count(mask, parameters)
+    colours, region = premultiplied(pixels), mask
+    levels = []
+    for n in range(count):
+        if n:
+            colours, region = _coarser(colours, region)
+        levels.append(_level(colours, region, parameters, boundary))
+    blocks, block = _blocks(levels[-1], parameters.block)
+    return Exemplar(_frozen(pixels), _frozen(mask), parameters, tuple(levels), blocks, block, boundary)
+
+
+def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters) -> np.ndarray:
+    height, width = pixels.shape[:2]
+    if max(height, width) > SIDE:
+        raise FieldError("example", f"{width} x {height} pixels", f"at most {SIDE} x {SIDE}")
+    if mask is not None and mask.shape != (height, width):
+        raise FieldError("mask", f"{mask.shape[1]} x {mask.shape[0]} pixels", f"{width} x {height} as the example")
+    found = pixels[..., 3] > 0 if mask is None else mask.astype(bool)
+    if not found.any():
+        place, what = ("example", "only transparent pixels") if mask is None else ("mask", "no white pixel")
+        raise FieldError(place, what, "a region to learn from")
+    return _smoothed(found, parameters.smooth) if parameters.smooth else found
+
+
+def _smoothed(mask: np.ndarray, sigma: float) -> np.ndarray:
+    """A smoother outline, a little wider: what was ragged in it is then left to the alpha of the region's pixels."""
+    from scipy.ndimage import gaussian_filter
+
+    return gaussian_filter(mask.astype(np.float32), sigma, mode="constant") > _SMOOTHED
+
+
+def _level_count(mask: np.ndarray, parameters: Parameters) -> int:
+    """As many as were asked for and there is room for, else so many that 11 to 22 pixels are left."""
+    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+    shorter = int(min(rows[-1] - rows[0], columns[-1] - columns[0])) + 1
+    most = max(1, shorter.bit_length())
+    if parameters.levels:
+        return min(parameters.levels, most)
+    return min(MOST_LEVELS, max(1, (shorter // _COARSEST).bit_length()))
+
+
+def _coarser(colours: np.ndarray, region: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The next level of colours (h, w, 4) and region (h, w)."""
+    above = halved_region(region)
+    return halved(colours, region) * above[..., None], above
+
+
+def _level(colours: np.ndarray, region: np.ndarray, parameters: Parameters, boundary: bool) -> ExampleLevel:
+    if boundary:
+        shown = np.pad(np.where(region[..., None], colours, np.float32(0.0)), ((PAD, PAD), (PAD, PAD), (0, 0)))
+    else:  # beyond its edges it goes on as its mirror image, so that all of it may be copied
+        shown = np.pad(colours, ((PAD, PAD), (PAD, PAD), (0, 0)), mode="symmetric")
+    padded = np.pad(region, PAD).astype(np.uint8)
+    bits = np.zeros(padded.shape, np.uint64)
+    region_bits(np.pad(padded, RADIUS), wide := np.zeros([n + 2 * RADIUS for n in padded.shape], np.uint64))
+    bits[:] = wide[RADIUS:-RADIUS, RADIUS:-RADIUS]
+    if not boundary:
+        bits[padded > 0] = FULL
+    order, starts = _by_count(padded, bits)
+    return ExampleLevel(*map(_frozen, (_compared(shown, parameters), padded, bits, order, starts)))
+
+
+def _compared(colours: np.ndarray, parameters: Parameters) -> np.ndarray:
+    """What neighbourhoods are compared by: int16 (h, w, 4)."""
+    found = np.rint(np.float32(255.0) * colours)
+    if parameters.channels == "luminance":  # as heavy as three channels, in one
+        found[..., 0] = np.rint(255.0 * np.tensordot(colours[..., :3], np.asarray(_LUMINANCE, np.float32), 1))
+        found[..., 1] = found[..., 2] = found[..., 0]
+    if not parameters.alpha:
+        found[..., 3] = 0.0
+    return np.clip(found, 0.0, 255.0).astype(np.int16)
+
+
+def _by_count(region: np.ndarray, bits: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    rows, columns = np.nonzero(region)
+    counts = np.bitwise_count(bits[rows, columns])
+    order = np.argsort(counts, kind="stable")
+    names = ((rows << 16) | columns)[order].astype(np.int32)
+    return names, np.searchsorted(counts[order], np.arange(COUNTS + 1)).astype(np.int32)
+
+
+def _blocks(level: ExampleLevel, block: int) -> tuple[np.ndarray, int]:
+    """Where patches of `block` pixels begin that lie wholly inside, as names; smaller ones where there are few."""
+    whole = (level.bits == FULL) & (level.region > 0)
+    inside = whole if whole.any() else level.region > 0
+    fits = _eroded(inside, block)
+    while block > 1 and fits.sum() < _CHOICES:
+        block -= 1
+        fits = _eroded(inside, block)
+    rows, columns = np.nonzero(fits)
+    return _frozen(((rows << 16) | columns).astype(np.int32)), block
+
+
+def _eroded(mask: np.ndarray, side: int) -> np.ndarray:
+    """Where a square of `side` pixels, from its upper left one on, lies wholly in the mask (h, w)."""
+    total = np.pad(np.cumsum(np.cumsum(mask, 0, dtype=np.int64), 1), ((1, 0), (1, 0)))
+    out = np.zeros(mask.shape, bool)
+    rows, columns = (n - side + 1 for n in mask.shape)
+    if rows > 0 and columns > 0:
+        sums = total[side:, side:] - total[:-side, side:] - total[side:, :-side] + total[:-side, :-side]
+        out[:rows, :columns] = sums == side * side
+    return out
+
+
+def premultiplied(pixels: np.ndarray) -> np.ndarray:
+    """uint8 or uint16 RGBA (h, w, 4) as premultiplied float32 in 0..1."""
+    planes = pixels.astype(np.float32) / np.float32(np.iinfo(pixels.dtype).max)
+    planes[..., :3] *= planes[..., 3:]
+    return planes
+
+
+def _frozen(array: np.ndarray) -> np.ndarray:
+    """A copy that cannot be written to."""
+    held = np.array(array, order="C")
+    held.flags.writeable = False
+    return held

@@ -1,0 +1,271 @@
+"""What is painted with one example: a region of the plane, its sources at every level, and their refinement.
+
+The sources depend on the region, the exemplar and the seed alone, not on how the region came about: painting dab by
+dab, in any order, erasing and painting again, all give what painting at once gives.  A region is a value; refining one
+gives others, and any of them may be kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from engine.numeric.address import Rect
+from engine.numeric.halving import halved_region
+from engine.numeric.hashing import fold_key, hash_plane
+from engine.numeric.neighbourhood import RADIUS, SIDE, WEIGHT, square_bits, weights
+from engine.texture.example import correction, tiles
+from engine.texture.example.correction import MARGIN, OUTSIDE, REACH, SUBPASSES, Example, Rules, Window
+from engine.texture.example.exemplar import Exemplar
+from engine.texture.example.tiles import NONE, Tiles
+
+COARSEST_PASSES = 4
+_E_MAX_DECAY = 0.5  # a level: where pixels are large, few shapes of the example are like the stroke's
+_MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
+_DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
+_AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
+_SQUARE = 512
+_TOGETHER = 1 << 15  # pixels of a window that is refined without a pause
+_SLICE = 4096  # pixels between two pauses
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Filled:
+    """A level as it was refined: for which region, from which sources one level coarser; `sources`: int32 planes, one
+    for each pass, the last of which counts."""
+
+    mask: Tiles = NONE
+    above: Tiles = NONE
+    sources: Tiles = NONE
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Region:
+    """`masks`: uint8 tiles of one plane, the region at each level, the finest first; `levels`: what is refined."""
+
+    exemplar: Exemplar
+    seed: int
+    masks: tuple[Tiles, ...]
+    levels: tuple[Filled, ...]
+
+    def fresh(self, level: int) -> bool:
+        """Whether a level, and so every coarser one, is as it will stay for this region."""
+        count = len(self.levels)
+        return all(self._agrees(n) for n in range(level, count))
+
+    def _agrees(self, n: int) -> bool:
+        own = self.levels[n]
+        return own.mask is self.masks[n] and own.above is self._above(n)
+
+    def _above(self, n: int) -> Tiles:
+        return self.levels[n + 1].sources if n + 1 < len(self.levels) else NONE
+
+    @property
+    def finest(self) -> int:
+        """The finest level that is refined; as many as there are levels if none is."""
+        count = len(self.levels)
+        return next((n + 1 for n in reversed(range(count)) if not self._agrees(n)), 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """How far a refinement has come: the region with all levels that are finished, and the part done, 0..1, of the one
+    at work."""
+
+    region: Region
+    level: int
+    done: float
+
+
+def empty(exemplar: Exemplar, seed: int = 0) -> Region:
+    count = len(exemplar.levels)
+    return Region(exemplar, seed, (NONE,) * count, (Filled(),) * count)
+
+
+def painted(region: Region, rect: Rect, mask: np.ndarray, erase: bool = False) -> Region:
+    """With the pixels of `mask`, bool (h, w) over `rect`, added or erased; nothing is refined."""
+    if rect.empty or not mask.any():
+        return region
+    step = 1 << len(region.masks) - 1
+    whole = Rect(rect.x0 // step * step, rect.y0 // step * step, -(-rect.x1 // step) * step, -(-rect.y1 // step) * step)
+    held = np.zeros((1, whole.height, whole.width), np.uint8)
+    tiles.gathered(region.masks[0], whole, held)
+    part = held[0][rect.slices(whole)]
+    part[mask] = 0 if erase else 1
+    masks, inside = [], held[0]
+    for n, old in enumerate(region.masks):
+        if n:
+            whole, inside = whole.zoomed(-1), halved_region(inside)
+        masks.append(tiles.laid(old, whole, inside[None], 0, whole))
+    return replace(region, masks=tuple(masks))
+
+
+def refined(region: Region, upto: int = 0, threads: Executor | None = None) -> Region:
+    """With the levels down to `upto` as they will stay."""
+    for step in refining(region, upto, threads):
+        region = step.region
+    return region
+
+
+def refining(region: Region, upto: int = 0, threads: Executor | None = None) -> Iterator[Step]:
+    """The steps of a refinement, coarse to fine, some milliseconds each.  Any may be the last that is asked for; the
+    levels that its region has are finished, and a later refinement goes on from there."""
+    for n in reversed(range(upto, len(region.levels))):
+        if region.fresh(n):
+            continue
+        sources = region.levels[n].sources
+        for done, found in _refining_level(region, n, threads):
+            sources = found
+            yield Step(region, n, done)
+        level = Filled(region.masks[n], region._above(n), sources)
+        region = replace(region, levels=(*region.levels[:n], level, *region.levels[n + 1 :]))
+        yield Step(region, n, 1.0)
+
+
+def _refining_level(region: Region, n: int, threads: Executor | None) -> Iterator[tuple[float, Tiles]]:
+    """The part done, and the sources so far, which hold nothing but finished squares."""
+    old = region.levels[n]
+    sources = old.sources
+    squares = _squares(region, n)
+    for k, (square, room) in enumerate(squares):
+        window = _window(region, n, square, room)
+        rect = square.grown(room)
+        for done in _correcting(region, n, window, threads):
+            yield (k + done) / len(squares), sources
+        kept = window.planes if _coarsest(region, n) else window.planes[1:]
+        sources = tiles.laid(sources, rect, kept, OUTSIDE, square)
+    yield 1.0, sources
+
+
+def _coarsest(region: Region, n: int) -> bool:
+    return n == len(region.levels) - 1
+
+
+def _passes(region: Region, n: int) -> int:
+    return COARSEST_PASSES if _coarsest(region, n) else region.exemplar.parameters.passes
+
+
+def _squares(region: Region, n: int) -> list[tuple[Rect, int]]:
+    """Rectangles that hold all that can change at a level, and how much around each takes part in its refinement."""
+    old = region.levels[n]
+    altered = tiles.changed_rect(old.mask, region.masks[n], 0)
+    altered = altered.union(tiles.changed_rect(old.above, region._above(n), OUTSIDE).zoomed(1))
+    if altered.empty:
+        return []
+    reach = REACH * _passes(region, n)
+    whole = altered.grown(RADIUS + reach)
+    if max(whole.width, whole.height) <= _AT_ONCE:
+        return [(whole, MARGIN)]
+    keys = tiles.changed(old.mask, region.masks[n])
+    near = [tiles.rect_of(key).grown(RADIUS + reach) for key in keys]
+    if not _coarsest(region, n):
+        above = tiles.changed(old.above, region._above(n))
+        near += [tiles.rect_of(key).zoomed(1).grown(RADIUS + reach) for key in above]
+    found = {key for rect in near for key in _square_keys(rect)}
+    rects = [Rect.at(x * _SQUARE, y * _SQUARE, _SQUARE, _SQUARE).intersect(whole) for y, x in sorted(found)]
+    return [(rect, reach + MARGIN) for rect in rects if not rect.empty]
+
+
+def _square_keys(rect: Rect) -> Iterator[tuple[int, int]]:
+    for y in range(rect.y0 // _SQUARE, (rect.y1 - 1) // _SQUARE + 1):
+        for x in range(rect.x0 // _SQUARE, (rect.x1 - 1) // _SQUARE + 1):
+            yield y, x
+
+
+def _window(region: Region, n: int, square: Rect, room: int) -> Window:
+    """A square with `room` pixels around it, ready for its first pass."""
+    old = region.levels[n]
+    rect = square.grown(room)
+    size = rect.height, rect.width
+    mask, was = np.zeros((2, 1, *size), np.uint8)
+    tiles.gathered(region.masks[n], rect, mask)
+    tiles.gathered(old.mask, rect, was)
+    planes = np.full((_passes(region, n) + 1, *size), OUTSIDE, np.int32)
+    tiles.gathered(old.sources, rect, planes if _coarsest(region, n) else planes[1:])
+    hashes = hash_plane(fold_key(_DOMAIN, region.seed, n), rect.x0, rect.y0, rect.width, rect.height)
+    window = correction.window_of(mask[0], was[0], planes, hashes, (rect.y0 & 1, rect.x0 & 1))
+    if _coarsest(region, n):
+        _start_coarsest(region, window, rect)
+    else:
+        above = rect.zoomed(-1)
+        parents, before = np.full((2, 1, above.height, above.width), OUTSIDE, np.int32)
+        tiles.gathered_last(region._above(n), above, parents)
+        tiles.gathered_last(old.above, above, before)
+        correction.start_finer(window, parents[0], before[0], _example(region.exemplar, n))
+    return window
+
+
+def _start_coarsest(region: Region, window: Window, rect: Rect) -> None:
+    exemplar = region.exemplar
+    block = exemplar.block
+    x, y = rect.x0 // block, rect.y0 // block
+    columns, rows = (rect.x1 - 1) // block + 1 - x, (rect.y1 - 1) // block + 1 - y
+    patches = hash_plane(fold_key(_PATCHES, region.seed), x, y, columns, rows)
+    n = len(exemplar.levels) - 1
+    offset = rect.y0 - y * block, rect.x0 - x * block
+    arrays = patches, exemplar.blocks
+    correction.start_coarsest(window, *arrays, block, offset, _example(exemplar, n), _rules(exemplar, n))
+
+
+def _correcting(region: Region, n: int, window: Window, threads: Executor | None) -> Iterator[float]:
+    """The part done, 0..1, after each piece of work."""
+    example, rules = _example(region.exemplar, n), _rules(region.exemplar, n)
+    passes = len(window.planes) - 1
+    for p in range(1, passes + 1):
+        if window.mask.size <= _TOGETHER:
+            correction.correct_all(window, p, example, rules)
+            yield p / passes
+            continue
+        for done in _sliced_pass(window, p, example, rules, threads):
+            yield (p - 1 + done) / passes
+
+
+def _sliced_pass(window: Window, p: int, example: Example, rules: Rules, threads: Executor | None) -> Iterator[float]:
+    height, width = window.mask.shape
+    places = np.empty(window.mask.size // 4 + height + width + 1, np.int32)
+    found = np.empty(places.size, np.int32)
+    for turn in range(SUBPASSES):
+        count = correction.wanted(window, p, turn, places)
+        for last in _corrected(window, places, count, p, example, rules, found, threads):
+            yield (turn + last / count) / SUBPASSES
+        correction.settle(window, places, count, found, p, turn, example)
+
+
+def _corrected(window, places, count, p, example, rules, found, threads):
+    """Corrects places[:count] in slices; gives how many are done after each."""
+    step = _SLICE
+    if threads is None:
+        for first in range(0, count, step):
+            correction.correct(window, places, first, min(first + step, count), p, example, rules, found)
+            yield min(first + step, count)
+        return
+    jobs = [
+        threads.submit(correction.correct, window, places, first, min(first + step, count), p, example, rules, found)
+        for first in range(0, count, step)
+    ]
+    for k, job in enumerate(jobs):
+        job.result()
+        yield min((k + 1) * step, count)
+
+
+def _example(exemplar: Exemplar, n: int) -> Example:
+    level = exemplar.levels[n]
+    return Example(level.compared.reshape(-1), level.region, level.bits, level.order, level.starts)
+
+
+def _rules(exemplar: Exemplar, n: int) -> Rules:
+    given = exemplar.parameters
+    coarsest = n == len(exemplar.levels) - 1
+    size = SIDE * SIDE / given.neighbourhood**2
+    penalty = int(min(given.e_max * _E_MAX_DECAY**n * size, _MOST) * 65025 * WEIGHT)
+    return Rules(
+        weights(given.neighbourhood),
+        square_bits(given.neighbourhood),
+        penalty,
+        int(256 * (1.0 + given.kappa)),
+        given.every if coarsest else 0,
+        exemplar.boundary,
+    )

@@ -1,0 +1,112 @@
+"""Planes over the unbounded plane as values: what was is kept by whoever holds it, and tiles that did not change are
+the same objects, so that what changed is found by comparing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from immutables import Map
+from numba import njit
+
+from engine.numeric.address import Rect
+
+SIDE = 64  # pixels along a tile
+Key = tuple[int, int]  # row and column of a tile, of any size
+Tiles = Map[Key, np.ndarray]  # read-only arrays (planes, SIDE, SIDE); a tile that is not there is empty
+NONE: Tiles = Map()
+
+
+def keys_of(rect: Rect) -> Iterator[Key]:
+    """The tiles that meet a rectangle, row by row."""
+    if rect.empty:
+        return
+    for row in range(rect.y0 // SIDE, (rect.y1 - 1) // SIDE + 1):
+        for column in range(rect.x0 // SIDE, (rect.x1 - 1) // SIDE + 1):
+            yield row, column
+
+
+def rect_of(key: Key) -> Rect:
+    return Rect.at(key[1] * SIDE, key[0] * SIDE, SIDE, SIDE)
+
+
+def gathered(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
+    """Copies what tiles hold of a rectangle into `out` (planes, h, w), and leaves the rest of it alone."""
+    for key in keys_of(rect):
+        tile = tiles.get(key)
+        if tile is not None:
+            place = rect_of(key)
+            both = place.intersect(rect)
+            out[(slice(None), *both.slices(rect))] = tile[(slice(None), *both.slices(place))]
+    return out
+
+
+def gathered_last(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
+    """The same with the last plane of each tile alone; `out` (1, h, w)."""
+    for key in keys_of(rect):
+        tile = tiles.get(key)
+        if tile is not None:
+            place = rect_of(key)
+            both = place.intersect(rect)
+            out[0][both.slices(rect)] = tile[-1][both.slices(place)]
+    return out
+
+
+def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect) -> Tiles:
+    """With `values` (planes, h, w), which cover `rect`, laid on the part `within` of it.
+
+    Tiles that keep their values stay the same objects; those that are wholly `empty` are left out.
+    """
+    changing = tiles.mutate()
+    for key in keys_of(within):
+        place = rect_of(key)
+        both = place.intersect(within)
+        new = values[(slice(None), *both.slices(rect))]
+        old = tiles.get(key)
+        held = (slice(None), *both.slices(place))
+        if old is not None and np.array_equal(old[held], new):
+            continue
+        tile = np.full((len(values), SIDE, SIDE), empty, values.dtype) if old is None else old.copy()
+        tile[held] = new
+        tile.flags.writeable = False
+        if (tile == empty).all():
+            changing.pop(key, None)
+        else:
+            changing[key] = tile
+    return changing.finish()
+
+
+def changed(old: Tiles, new: Tiles) -> set[Key]:
+    """The tiles that differ."""
+    if old is new:
+        return set()
+    keys = {key for key, tile in new.items() if old.get(key) is not tile}
+    keys.update(key for key in old if key not in new)
+    return keys
+
+
+def changed_rect(old: Tiles, new: Tiles, empty: int) -> Rect:
+    """The smallest rectangle around what differs, in the last of the planes."""
+    found = Rect(0, 0, 0, 0)
+    bounds = np.empty(4, np.int64)
+    for key in changed(old, new):
+        kind = (new if key in new else old)[key].dtype
+        nothing = np.full((1, SIDE, SIDE), empty, kind)
+        _bounds(old.get(key, nothing)[-1], new.get(key, nothing)[-1], bounds)
+        if bounds[1] > bounds[0]:
+            y0, y1, x0, x1 = (int(n) for n in bounds)
+            x, y = key[1] * SIDE, key[0] * SIDE
+            found = found.union(Rect(x + x0, y + y0, x + x1, y + y1))
+    return found
+
+
+@njit(cache=True, nogil=True)
+def _bounds(one, other, bounds):
+    """Rows [0, 1) and columns [2, 3) within which two arrays (SIDE, SIDE) differ; 0 where they do not."""
+    y0, y1, x0, x1 = SIDE, 0, SIDE, 0
+    for y in range(SIDE):
+        for x in range(SIDE):
+            if one[y, x] != other[y, x]:
+                y0, y1 = min(y0, y), max(y1, y + 1)
+                x0, x1 = min(x0, x), max(x1, x + 1)
+    bounds[0], bounds[1], bounds[2], bounds[3] = y0, y1, x0, x1

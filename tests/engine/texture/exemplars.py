@@ -1,0 +1,35 @@
+"""Small examples with a rim, made here."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.texture.example.exemplar import Exemplar, analysed
+from engine.texture.example.parameters import Parameters
+
+
+def blob(side: int = 64, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """Dotted blue with a white, ragged, half transparent rim: uint8 RGBA (side, side, 4), and its mask."""
+    random = np.random.default_rng(seed)
+    y, x = np.mgrid[:side, :side] - (side - 1) / 2.0
+    angle = np.arctan2(y, x)
+    depth = side * (0.44 + 0.02 * np.sin(5 * angle) + 0.01 * np.sin(11 * angle)) - np.hypot(x, y)
+    depth += 0.6 * random.standard_normal((side, side))
+    mask = depth > 0
+    dots = ((x + 0.4 * y) % 8 < 3) & ((y - 0.4 * x) % 8 < 3)
+    colours = np.where(dots[..., None], (230, 200, 60), (40, 90, 150)) + random.integers(-12, 13, (side, side, 1))
+    colours = np.where((depth < 4)[..., None], (240, 240, 235), colours)
+    alpha = np.clip(90 + 60 * depth, 0, 255)
+    pixels = np.dstack([colours, alpha]) * mask[..., None]
+    return np.clip(pixels, 0, 255).astype(np.uint8), mask
+
+
+def bounded(side: int = 64, **values) -> Exemplar:
+    return analysed(blob(side)[0], None, Parameters(**values))
+
+
+def unbounded(side: int = 48, **values) -> Exemplar:
+    """The same without its rim: it fills its picture."""
+    inner = blob(2 * side)[0][side // 2 : -side // 2, side // 2 : -side // 2].copy()
+    inner[..., 3] = 255
+    return analysed(inner, None, Parameters(**values))

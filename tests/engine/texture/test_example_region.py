@@ -1,0 +1,153 @@
+"""What is painted with an example depends on the region, the example and the seed alone."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from exemplars import bounded, unbounded
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.numeric.address import Rect
+from engine.texture.example import region as regions
+from engine.texture.example import tiles
+from engine.texture.example.exemplar import analysed
+from engine.texture.example.region import empty, painted, refined, refining
+
+EXEMPLARS = {"bounded": bounded(), "unbounded": unbounded(), "two passes": bounded(passes=2, neighbourhood=5)}
+places = st.tuples(st.integers(-40, 60), st.integers(-40, 60), st.integers(1, 24))
+
+
+def disc(radius):
+    y, x = np.mgrid[-radius : radius + 1, -radius : radius + 1]
+    return x * x + y * y <= radius * radius
+
+
+def dabbed(region, dab, erase=False, at=(0, 0)):
+    x, y, radius = dab
+    side = 2 * radius + 1
+    return painted(region, Rect.at(at[0] + x - radius, at[1] + y - radius, side, side), disc(radius), erase)
+
+
+def same(one, other):
+    """All levels' sources and masks are alike, tile by tile."""
+    for a, b in zip(one.levels, other.levels, strict=True):
+        for left, right in ((a.sources, b.sources), (a.mask, b.mask)):
+            assert set(left) == set(right)
+            for key, tile in left.items():
+                assert np.array_equal(tile, right[key]), key
+
+
+def sources(region, rect, level=0):
+    out = np.full((1, rect.height, rect.width), -1, np.int32)
+    return tiles.gathered_last(region.levels[level].sources, rect, out)[0]
+
+
+@pytest.mark.parametrize("name", EXEMPLARS)
+@settings(deadline=None, max_examples=12)
+@given(dabs=st.lists(places, min_size=1, max_size=6), again=st.randoms(), seed=st.integers(0, 9))
+def test_many_dabs_in_any_order_are_one_shot(name, dabs, again, seed):
+    start = empty(EXEMPLARS[name], seed)
+    grown = whole = shuffled = start
+    for dab in dabs:
+        grown = refined(dabbed(grown, dab))
+        whole = dabbed(whole, dab)
+    order = list(dabs)
+    again.shuffle(order)
+    for k, dab in enumerate(order):  # some levels wait for the next dab
+        shuffled = refined(dabbed(shuffled, dab), upto=k % 3 if k + 1 < len(order) else 0)
+    same(grown, refined(whole))
+    same(grown, shuffled)
+
+
+@pytest.mark.parametrize("name", EXEMPLARS)
+@settings(deadline=None, max_examples=8)
+@given(dabs=st.lists(places, min_size=1, max_size=4), gone=places)
+def test_what_was_erased_leaves_no_trace(name, dabs, gone):
+    first = dabbed(empty(EXEMPLARS[name], 3), gone)
+    there = refined(first)
+    for dab in dabs:
+        there = refined(dabbed(there, dab))
+    there = refined(dabbed(there, gone, erase=True))
+    plain = empty(EXEMPLARS[name], 3)
+    for dab in dabs:
+        plain = dabbed(plain, dab)
+    same(there, refined(dabbed(plain, gone, erase=True)))
+
+
+@settings(deadline=None, max_examples=6)
+@given(dabs=st.lists(places, min_size=2, max_size=5), stops=st.integers(1, 30))
+def test_a_refinement_may_stop_anywhere(dabs, stops):
+    start = whole = empty(EXEMPLARS["bounded"], 1)
+    for dab in dabs:
+        start, whole = dabbed(start, dab), dabbed(whole, dab)
+        for n, step in enumerate(refining(start), 1):
+            start = step.region
+            if n == stops:
+                break
+    same(refined(start), refined(whole))
+
+
+@pytest.mark.parametrize("name", EXEMPLARS)
+def test_threads_and_squares_do_not_matter(name, monkeypatch):
+    random = np.random.default_rng(2)
+    mask = np.kron(random.integers(0, 2, (12, 15)), np.ones((16, 16))).astype(bool)
+    start = painted(empty(EXEMPLARS[name], 5), Rect.at(-17, 33, 240, 192), mask)
+    plain = refined(start)
+    assert (sources(plain, Rect.at(-17, 33, 240, 192)) >= 0).sum() == mask.sum()
+    with ThreadPoolExecutor(2) as pool:
+        monkeypatch.setattr(regions, "_TOGETHER", 0)
+        monkeypatch.setattr(regions, "_SLICE", 97)
+        same(plain, refined(start, threads=pool))
+        monkeypatch.setattr(regions, "_AT_ONCE", 32)
+        monkeypatch.setattr(regions, "_SQUARE", 64)
+        same(plain, refined(start, threads=pool))
+        more = np.ones((50, 60), bool)
+        rect = Rect.at(100, 100, 60, 50)
+        after = refined(painted(plain, rect, more), threads=pool)
+    same(after, refined(painted(start, rect, more)))
+
+
+def test_places_may_be_anywhere():
+    """Far away everything goes on alike: the same region there is another texture, and as good."""
+    for far in (1 << 32, -(1 << 32), 3 << 70):
+        grown = whole = empty(EXEMPLARS["bounded"], 1)
+        for dab in ((-20, 3, 16), (8, 0, 20), (30, -6, 14)):
+            grown = refined(dabbed(grown, dab, at=(far, far)))
+            whole = dabbed(whole, dab, at=(far, far))
+        same(grown, refined(whole))
+        found = sources(grown, Rect.at(far - 40, far - 40, 100, 100))
+        assert (found >= 0).sum() > 1500
+
+
+def test_seeds_differ_and_only_what_can_be_reached_changes():
+    exemplar = EXEMPLARS["bounded"]
+    whole = Rect.at(0, 0, 300, 100)
+    one, other = (refined(painted(empty(exemplar, s), whole, np.ones((100, 300), bool))) for s in (1, 2))
+    assert (sources(one, whole) != sources(other, whole)).mean() > 0.5
+    more = refined(dabbed(one, (300, 50, 20)))
+    far = Rect.at(0, 0, 100, 100)
+    assert np.array_equal(sources(one, far), sources(more, far))
+    assert one.levels[0].sources[(0, 0)] is more.levels[0].sources[(0, 0)]
+    assert one.fresh(0)
+    assert not dabbed(one, (300, 50, 20)).fresh(0)
+    assert dabbed(one, (300, 50, 20)).finest == len(one.levels)
+
+
+def test_levels_come_one_after_another():
+    start = dabbed(empty(EXEMPLARS["bounded"], 1), (10, 10, 20))
+    ends = [step.level for step in refining(start) if step.done == 1.0]
+    assert sorted(set(ends), reverse=True) == list(reversed(range(len(start.levels))))
+    coarse = refined(start, upto=1)
+    assert coarse.finest == 1
+    same(refined(coarse), refined(start))
+    assert not list(refining(refined(start)))
+    assert painted(start, Rect(0, 0, 0, 0), np.zeros((0, 0), bool)) is start
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (2, 3), (5, 40)])
+def test_tiny_examples(shape):
+    pixels = np.random.default_rng(0).integers(1, 256, (*shape, 4)).astype(np.uint8)
+    for mask in (None, np.indices(shape).sum(0) % 3 == 0):
+        done = refined(dabbed(empty(analysed(pixels, mask), 1), (10, 10, 12)))
+        assert (sources(done, Rect.at(-2, -2, 25, 25)) >= 0).sum() == disc(12).sum()
