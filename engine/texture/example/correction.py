@@ -349,7 +349,7 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
         count = fewer if k == 0 else more
         first, last = np.int64(example.starts[count]), np.int64(example.starts[count + 1])
         stride = max(1, (last - first) // _RIM_CANDIDATES)
-        first += np.int64(h % np.uint64(stride))  # type: ignore[call-overload]
+        first += np.int64(h % np.uint64(stride))  # type: ignore[arg-type]
         found = _searched(window, y, x, example, rules, bits, True, limit, best, first, last, stride)
         if found != best and last > first:
             best = found

@@ -38,7 +38,7 @@ class Parameters:
     smooth: float = 0.0
     block: int = 14
     passes: int = 1
-    feather: int = 0
+    feather: int = 2
     method: str = "correction"
 
 
