@@ -53,7 +53,6 @@ MAKERS = {
 }
 # Makers that match histograms: they make a texture of one size, whole.
 MATCHED = ("match", "mix", "solid")
-LATER = ("example",)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -63,13 +62,16 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     name = options.maker
+    if name == "example":
+        from app.cli import example
+
+        return example.run(options.words)
     if name in MATCHED:
         from app.cli import matched, solid
 
         return solid.run(options.words) if name == "solid" else matched.run(name, options.words)
     if name not in MAKERS:
-        note = ", which comes in a later release" if name in LATER else ""
-        raise Refused(f"texture: found the maker {name[:40]!a}{note}, expected one of {_known()}")
+        raise Refused(f"texture: found the maker {name[:40]!a}, expected one of {_known()}")
     given = _parser(name).parse_args(options.words)
     checked_output(given.out, (".png",))
     if os.path.exists(given.out) and os.path.exists(given.picture) and os.path.samefile(given.out, given.picture):
@@ -84,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _known() -> str:
-    return ", ".join((*MAKERS, *MATCHED))
+    return ", ".join((*MAKERS, *MATCHED, "example"))
 
 
 def _parser(name: str) -> Parser:

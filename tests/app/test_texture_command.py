@@ -211,7 +211,7 @@ def test_the_ink_of_a_recording_is_the_same_texture(tmp_path, maker):
 WRONG = {
     "no maker": [],
     "unknown maker": ["moss", "in.png", "--out", "o.png"],
-    "later maker": ["example", "in.png", "--out", "o.png"],
+    "example without a region": ["example", "in.png", "--out", "o.png"],
     "no picture": ["spectrum", "--out", "o.png"],
     "no out": ["spectrum", "in.png"],
     "missing picture": ["spectrum", "none.png", "--out", "o.png"],

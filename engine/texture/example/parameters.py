@@ -115,22 +115,20 @@ def check(name: str, value: Any, place: str) -> None:
         raise FieldError(place, _shown(value), row.expected)
 
 
-def read_toml(data: bytes, name: str) -> Parameters:
-    """The parameters in a file's bytes; FieldError names the file, the line and the field."""
+def read_toml(data: bytes) -> Parameters:
+    """The parameters in a file's bytes; FieldError names the line and the field."""
     try:
         text = data.decode("utf-8")
         told = tomllib.loads(text)
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise FieldError(f"{name}, line {line}", "bytes that are not UTF-8", "TOML") from None
+        raise FieldError(f"line {line}", "bytes that are not UTF-8", "TOML") from None
     except tomllib.TOMLDecodeError as error:
-        raise _of_syntax(str(error), name, text) from None
+        raise _of_syntax(str(error), text) from None
     except RecursionError:
-        raise FieldError(name, "brackets too deep", "TOML") from None
-    if not isinstance(group := told.pop("group", ""), str):  # where a palette lists the example
-        raise FieldError(f"{name}, line {line_of(text, 'group')}, group", _shown(group), "a name in quotes")
+        raise FieldError("line 1", "brackets too deep", "TOML") from None
     for field, value in told.items():
-        check(field, value, f"{name}, line {line_of(text, field)}, {_clipped(field)}")
+        check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
     return changed(Parameters(), told)
 
 
@@ -142,9 +140,10 @@ def line_of(text: str, field: str) -> int:
     return next((number for number, line in enumerate(lines, 1) if start.match(line)), 1)
 
 
-def _of_syntax(message: str, name: str, text: str) -> FieldError:
+def _of_syntax(message: str, text: str) -> FieldError:
     found = re.search(r"^(.*?) \(at line (\d+), column (\d+)\)$", message)
     if found is None:
-        return FieldError(f"{name}, line {max(1, len(text.splitlines()))}", message[:80], "field = value")
+        told = message.removesuffix(" (at end of document)").lower()
+        return FieldError(f"line {max(1, len(text.splitlines()))}", _clipped(told), "field = value")
     told, line, column = found.groups()
-    return FieldError(f"{name}, line {line}, column {column}", told[:80].lower(), "field = value")
+    return FieldError(f"line {line}, column {column}", _clipped(told.lower()), "field = value")
