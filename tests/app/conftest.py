@@ -97,6 +97,13 @@ class Program:
                 return False
         return True
 
+    def canvas_unlike(self, picture: np.ndarray, seconds: float = 60.0) -> np.ndarray:
+        """The canvas when it shows something else than this and has come to rest: kernels may still be compiled."""
+        end = time.monotonic() + seconds
+        while np.array_equal(now := self.canvas(calm=8), picture):
+            assert time.monotonic() < end, "the canvas stays as it was"
+        return now
+
     def close(self) -> None:
         self.process.terminate()
         self.process.wait(10)
