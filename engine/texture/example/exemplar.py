@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from engine.numeric.colour import to_rgba16
 from engine.numeric.halving import halved, halved_region
 from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
 from engine.texture.example.parameters import MOST_LEVELS, Parameters
@@ -45,7 +46,11 @@ class ExampleLevel:
 class Exemplar:
     """`pixels`: the picture, uint8 or uint16 RGBA (h, w, 4), not premultiplied; `mask`: bool (h, w); `levels`, the
     finest first; `blocks`: int32 names of the upper left pixels of patches, `block` pixels along, that lie wholly
-    inside at the coarsest level; `boundary`: whether the region's rim is one."""
+    inside at the coarsest level; `boundary`: whether the region's rim is one.
+
+    `finer`: what there is of the example in levels below the finest of `levels`, the coarsest of them first:
+    premultiplied float32 (h, w, 4) in 0..1, twice as large each; `within`: the regions of these, uint8, padded by PAD.
+    """
 
     pixels: np.ndarray
     mask: np.ndarray
@@ -54,6 +59,8 @@ class Exemplar:
     blocks: np.ndarray
     block: int
     boundary: bool
+    finer: tuple[np.ndarray, ...] = ()
+    within: tuple[np.ndarray, ...] = ()
 
     @cached_property
     def average(self) -> np.ndarray:
@@ -66,10 +73,7 @@ class Exemplar:
 
         Levels beyond the ones compared are not there.
         """
-        found = [(np.where(self.mask[..., None], premultiplied(self.pixels), np.float32(0.0)), self.mask)]
-        for _ in self.levels[1:]:
-            found.append(_coarser(*found[-1]))
-        return tuple(colours for colours, _ in found)
+        return tuple(_frozen(colours) for colours, _ in _pyramid(self, len(self.levels)))
 
 
 def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Parameters | None = None) -> Exemplar:
@@ -89,6 +93,32 @@ def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Par
         levels.append(_level(colours, region, parameters, boundary))
     blocks, block = _blocks(levels[-1], parameters.block)
     return Exemplar(_frozen(pixels), _frozen(mask), parameters, tuple(levels), blocks, block, boundary)
+
+
+def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
+    """The example at 1 / 2^detail of its size: synthesis begins so many octaves coarser, and `finer` holds the octaves
+    that are left out, for zooming in.  Its pixels are uint16."""
+    if detail <= 0:
+        return exemplar
+    *below, (colours, region) = _pyramid(exemplar, detail + 1)
+    pixels = to_rgba16(np.ascontiguousarray(colours.transpose(2, 0, 1)))
+    levels, blocks, block = exemplar.levels[detail:], exemplar.blocks, exemplar.block
+    if not levels:  # there are no levels left of it: one pixel or so may be all
+        levels = (_level(colours, region, exemplar.parameters, exemplar.boundary),)
+        blocks, block = _blocks(levels[-1], exemplar.parameters.block)
+    finer = *(_frozen(colours) for colours, _ in reversed(below)), *exemplar.finer
+    within = *(_frozen(np.pad(inside, PAD).astype(np.uint8)) for _, inside in reversed(below)), *exemplar.within
+    about = exemplar.parameters, levels, blocks, block, exemplar.boundary, finer, within
+    return Exemplar(_frozen(pixels), _frozen(region), *about)
+
+
+def _pyramid(exemplar: Exemplar, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
+    """So many levels of colours, 0 outside the region, and region."""
+    mask = exemplar.mask
+    found = [(np.where(mask[..., None], premultiplied(exemplar.pixels), np.float32(0.0)), mask)]
+    for _ in range(count - 1):
+        found.append(_coarser(*found[-1]))
+    return found
 
 
 def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters) -> np.ndarray:

@@ -12,9 +12,9 @@ from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
-from engine.numeric.grid import snapped
+from engine.numeric.grid import snap, snapped
 from engine.texture.example import tiles
-from engine.texture.example.correction import OUTSIDE
+from engine.texture.example.correction import OUTSIDE, children
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
 
@@ -28,6 +28,48 @@ def sources(region: Region, rect: Rect, level: int = 0) -> np.ndarray:
 def picture(region: Region, rect: Rect, level: int = 0) -> np.ndarray:
     """Colours of a rectangle of a level: premultiplied float32 (4, h, w) in 0..1, on the grid."""
     return snapped(_blended(region, rect, level)[0])
+
+
+def preview(region: Region, rect: Rect) -> np.ndarray:
+    """Colours of the region's pixels in a rectangle of level 0, as far as they are known: premultiplied float32
+    (4, h, w) in 0..1, on the grid; 0 outside.
+
+    Each pixel has the colour of the finest level that has a source for it, be it one of before the region changed, and
+    the example's average where no level has one.  Where the region is refined it is `picture`.
+    """
+    mask = tiles.gathered(region.masks[0], rect, np.zeros((1, rect.height, rect.width), np.uint8))[0]
+    out = _blended(region, rect, 0)[0]
+    out *= mask
+    left = _left(mask, sources(region, rect))
+    for n in range(1, len(region.levels)):
+        if not left:
+            break
+        above = rect.zoomed(-n)
+        place = rect.y0 - (above.y0 << n), rect.x0 - (above.x0 << n)
+        left = _fill(out, mask, sources(region, above, n), region.exemplar.colours[n], n, *place)
+    if left:
+        out[:, mask > 0] = region.exemplar.average[:, None]
+    return snapped(out)
+
+
+def finer(region: Region, k: int, rect: Rect) -> np.ndarray:
+    """What the example shows `k` levels below the region's pixels, 0 <= k <= len(exemplar.finer), over a rectangle of
+    that level: premultiplied float32 (4, h, w) in 0..1, on the grid.
+
+    Below a pixel lies what lies below its source, at 2^k times its place; 0 outside, where the region's pixels end.
+    Seams are not blended.
+    """
+    exemplar = region.exemplar
+    place = rect.zoomed(-k)
+    names = sources(region, place)
+    for j in range(1, k + 1):
+        place = rect.zoomed(j - k)
+        found = np.empty((place.height, place.width), np.int32)
+        children(np.ones_like(found, np.uint8), names, place.y0 & 1, place.x0 & 1, exemplar.within[j - 1], found)
+        names = found
+    out = np.zeros((4, rect.height, rect.width), np.float32)
+    _copy(names, exemplar.finer[k - 1] if k else exemplar.colours[0], out)
+    return out
 
 
 def pixels(region: Region, rect: Rect) -> np.ndarray:
@@ -53,6 +95,48 @@ def _blended(region: Region, rect: Rect, level: int) -> tuple[np.ndarray, np.nda
     around = sources(region, rect.grown(reach), level)
     _blend(around, exemplar.colours[level], exemplar.levels[level].region, weights, out, blended)
     return out, blended
+
+
+@njit(cache=True, nogil=True)
+def _left(mask, names):
+    """Takes the pixels that have a source off the mask, uint8 (h, w); gives how many are left."""
+    left = 0
+    for y in range(mask.shape[0]):
+        for x in range(mask.shape[1]):
+            if mask[y, x] and names[y, x] >= 0:
+                mask[y, x] = 0
+            left += mask[y, x]
+    return left
+
+
+@njit(cache=True, nogil=True)
+def _fill(out, mask, names, colours, n, top, left_side):
+    """Gives the pixels of a mask the colours of sources `n` levels coarser, the first of which begins `top` and
+    `left_side` pixels before; takes them off the mask, and gives how many are left."""
+    left = 0
+    for y in range(mask.shape[0]):
+        for x in range(mask.shape[1]):
+            if mask[y, x] == 0:
+                continue
+            source = names[(y + top) >> n, (x + left_side) >> n]
+            if source < 0:
+                left += 1
+                continue
+            mask[y, x] = 0
+            for c in range(4):
+                out[c, y, x] = colours[(source >> 16) - PAD, (source & 0xFFFF) - PAD, c]
+    return left
+
+
+@njit(cache=True, nogil=True)
+def _copy(names, colours, out):
+    """The colours of sources, on the grid, into `out` (4, h, w)."""
+    for y in range(names.shape[0]):
+        for x in range(names.shape[1]):
+            source = names[y, x]
+            if source >= 0:
+                for c in range(4):
+                    out[c, y, x] = snap(colours[(source >> 16) - PAD, (source & 0xFFFF) - PAD, c])
 
 
 @njit(cache=True, nogil=True)
