@@ -116,7 +116,10 @@ def check(name: str, value: Any, place: str) -> None:
 
 
 def read_toml(data: bytes) -> Parameters:
-    """The parameters in a file's bytes; FieldError names the line and the field."""
+    """The parameters in a file's bytes; `group`, under which a palette lists the example, is none of them.
+
+    FieldError names the line and the field.
+    """
     try:
         text = data.decode("utf-8")
         told = tomllib.loads(text)
@@ -127,6 +130,9 @@ def read_toml(data: bytes) -> Parameters:
         raise _of_syntax(str(error), text) from None
     except RecursionError:
         raise FieldError("line 1", "brackets too deep", "TOML") from None
+    group = told.pop("group", "")
+    if not isinstance(group, str):
+        raise FieldError(f"line {line_of(text, 'group')}, group", _shown(group), "a name to list the example under")
     for field, value in told.items():
         check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
     return changed(Parameters(), told)
