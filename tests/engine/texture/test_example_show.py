@@ -87,8 +87,6 @@ def test_a_shrunk_example_keeps_what_is_finer(detail):
         small = shrunk(exemplar, detail)
         sides = [-(-len(exemplar.pixels) // 2**n) for n in reversed(range(detail))]
         assert [len(colours) for colours in small.finer] == sides
-            ::-1
-        ]
         assert np.array_equal(small.finer[-1], exemplar.colours[0])
         assert (small.boundary, small.parameters) == (exemplar.boundary, exemplar.parameters)
         region = exemplar.mask
