@@ -24,6 +24,7 @@ OUTSIDE = -1  # instead of a source, where there is no region
 
 _FAR = np.int32(2**31 - 1)
 _RIM_CANDIDATES = 32
+_COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours inside, and pixels of the shape
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
@@ -314,7 +315,7 @@ def _corrected(window, y, x, p, example, rules, tried):
         last = example.order.size
         return _searched(window, y, x, example, rules, bits, rim, limit, best, first, last, rules.stride)
     if bits != rules.square and p == 1:
-        return _searched_rim(window, y, x, example, rules, bits, limit, best, h)
+        return _searched_rim(window, y, x, example, rules, bits, least, best, h)
     return best
 
 
@@ -338,23 +339,52 @@ def _searched(window, y, x, example, rules, bits, rim, limit, best, first, last,
 
 @njit(cache=True, nogil=True)
 def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
-    """The best of those with as many neighbours inside; where there are none, with the next fewer and more."""
-    fewer = more = ones(window.bits[y, x])
-    if example.starts[fewer] == example.starts[fewer + 1]:
-        while fewer > 0 and example.starts[fewer] == example.starts[fewer + 1]:
-            fewer -= 1
-        while more < SIDE * SIDE and example.starts[more] == example.starts[more + 1]:
-            more += 1
-    for k in range(1 if fewer == more else 2):
-        count = fewer if k == 0 else more
-        first, last = np.int64(example.starts[count]), np.int64(example.starts[count + 1])
-        stride = max(1, (last - first) // _RIM_CANDIDATES)
-        first += np.int64(h % np.uint64(stride))  # type: ignore[arg-type]
-        found = _searched(window, y, x, example, rules, bits, True, limit, best, first, last, stride)
-        if found != best and last > first:
-            best = found
-            limit = _energy(window, y, x, example, best, rules, bits, False, limit)
+    """The best of those with about as many neighbours inside whose shapes are nearest, if it is below `limit`.
+
+    What is another shape weighs as it is, only colours weigh (1 + kappa) times as much as those of what continues the
+    neighbours: so shapes override colours, whatever the rim looks like (Ritter et al. 2006, section 5).
+    """
+    first, last = _alike(example.starts, ones(window.bits[y, x]))
+    nearest = np.int32(SIDE * SIDE + 1)
+    for i in range(first, last):
+        nearest = min(nearest, _apart(bits, example, example.order[i], rules))
+    count = 0
+    for i in range(first, last):
+        count += _apart(bits, example, example.order[i], rules) <= nearest + _SHAPES_APART
+    stride = max(1, count // _RIM_CANDIDATES)
+    skipped = np.int64(h % np.uint64(stride))
+    for i in range(first, last):
+        name = example.order[i]
+        apart = _apart(bits, example, name, rules)
+        if apart > nearest + _SHAPES_APART:
+            continue
+        skipped += 1
+        shape = np.int32(rules.penalty * apart)
+        if skipped % stride or shape >= limit:
+            continue
+        e = _energy(window, y, x, example, name, rules, bits, True, limit)
+        if e < limit:
+            e = np.int64(shape) + np.int64(e - shape) * rules.kappa // 256
+            if e < limit:
+                limit, best = np.int32(e), name
     return best
+
+
+@njit(inline="always")
+def _apart(bits, example, name, rules):
+    """Pixels by which a shape differs from the one around a pixel of the example."""
+    return np.int32(ones(bits ^ (example.bits[name >> 16, name & 0xFFFF] & rules.square)))
+
+
+@njit(cache=True, nogil=True)
+def _alike(starts, count):
+    """The part of the order with about so many neighbours inside, or with the next fewer and more."""
+    low, high = max(0, count - _COUNTS_APART), min(SIDE * SIDE, count + _COUNTS_APART)
+    while low > 0 and starts[low] == starts[count]:
+        low -= 1
+    while high < SIDE * SIDE and starts[high + 1] == starts[count + 1]:
+        high += 1
+    return np.int64(starts[low]), np.int64(starts[high + 1])
 
 
 @njit(cache=True, nogil=True)
