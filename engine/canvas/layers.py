@@ -11,10 +11,13 @@ import math
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from engine.canvas.store import Pyramid
 from engine.numeric.blend import BLENDS
+
+if TYPE_CHECKING:
+    from engine.canvas.growth import Growth
 
 MAX_DEPTH = 32  # groups inside one another, the root not counted
 MAX_NAME = 200  # characters
@@ -64,6 +67,7 @@ class Layer:
 
     `id`: a number that stays when the layer is renamed, unique in its painting, used in files.  `opacity`: 0..1.
     `blend`: a row of `BLENDS`.  `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
+    `pyramid`: the paint; `growth`: what was painted with examples, over it.
     """
 
     id: int
@@ -74,6 +78,7 @@ class Layer:
     locked: bool = False
     alpha_locked: bool = False
     pyramid: Pyramid = field(default_factory=Pyramid)
+    growth: Growth = ()
 
     def __post_init__(self) -> None:
         _check_common(self)
@@ -285,12 +290,22 @@ def rename(root: Group, name: str, to: str) -> Group:
 
 
 def with_pyramid(root: Group, name: str, pyramid: Pyramid) -> Group:
-    """With a layer's paint replaced: what a stroke does.  Only the path down to the layer is rebuilt."""
+    """With a layer's paint replaced: what a stroke does."""
+    return _repainted(root, name, pyramid=pyramid)
+
+
+def with_growth(root: Group, name: str, growth: Growth) -> Group:
+    """With what was painted on a layer with examples replaced."""
+    return _repainted(root, name, growth=growth)
+
+
+def _repainted(root: Group, name: str, **paint: Any) -> Group:
+    """Only the path down to the layer is rebuilt."""
     trail, node = _locate(root, name)
     if not isinstance(node, Layer):
         raise LayerError(f"layer: found {name!r}, which is a group, expected a layer")
     i = trail[-1]
-    painted = replace(node, pyramid=pyramid)
+    painted = replace(node, **paint)
     return _edited(root, trail[:-1], lambda siblings: (*siblings[:i], painted, *siblings[i + 1 :]))
 
 

@@ -15,6 +15,7 @@ SIDE = 64  # pixels along a tile
 Key = tuple[int, int]  # row and column of a tile, of any size
 Tiles = Map[Key, np.ndarray]  # read-only arrays (planes, SIDE, SIDE); a tile that is not there is empty
 NONE: Tiles = Map()
+_LAST = slice(-1, None)
 
 
 def keys_of(rect: Rect) -> Iterator[Key]:
@@ -55,9 +56,10 @@ def gathered_last(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
 def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect) -> Tiles:
     """With `values` (planes, h, w), which cover `rect`, laid on the part `within` of it.
 
-    Tiles that keep their values stay the same objects; those that are wholly `empty` are left out.
+    Tiles that keep their values stay the same objects, and so do `tiles` if all do; those that are wholly `empty` are
+    left out.
     """
-    changing = tiles.mutate()
+    changing, altered = tiles.mutate(), False
     for key in keys_of(within):
         place = rect_of(key)
         both = place.intersect(within)
@@ -66,6 +68,9 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
         held = (slice(None), *both.slices(place))
         if old is not None and np.array_equal(old[held], new):
             continue
+        if old is None and (new == empty).all():
+            continue
+        altered = True
         tile = np.full((len(values), SIDE, SIDE), empty, values.dtype) if old is None else old.copy()
         tile[held] = new
         tile.flags.writeable = False
@@ -73,7 +78,7 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
             changing.pop(key, None)
         else:
             changing[key] = tile
-    return changing.finish()
+    return changing.finish() if altered else tiles
 
 
 def changed(old: Tiles, new: Tiles) -> set[Key]:
@@ -88,16 +93,27 @@ def changed(old: Tiles, new: Tiles) -> set[Key]:
 def changed_rect(old: Tiles, new: Tiles, empty: int) -> Rect:
     """The smallest rectangle around what differs, in the last of the planes."""
     found = Rect(0, 0, 0, 0)
+    for rect in changed_rects(old, new, empty):
+        found = found.union(rect)
+    return found
+
+
+def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> Iterator[Rect]:
+    """What differs in each tile, in the last of the planes or in those named: the smallest rectangle around it."""
     bounds = np.empty(4, np.int64)
     for key in changed(old, new):
-        kind = (new if key in new else old)[key].dtype
-        nothing = np.full((1, SIDE, SIDE), empty, kind)
-        _bounds(old.get(key, nothing)[-1], new.get(key, nothing)[-1], bounds)
-        if bounds[1] > bounds[0]:
-            y0, y1, x0, x1 = (int(n) for n in bounds)
-            x, y = key[1] * SIDE, key[0] * SIDE
-            found = found.union(Rect(x + x0, y + y0, x + x1, y + y1))
-    return found
+        kind = (new if key in new else old)[key]
+        nothing = np.full(kind.shape, empty, kind.dtype)
+        nothing.flags.writeable = False  # as tiles are: so the kernel is compiled once for each type
+        x, y = key[1] * SIDE, key[0] * SIDE
+        found = Rect(0, 0, 0, 0)
+        for one, other in zip(old.get(key, nothing)[planes], new.get(key, nothing)[planes], strict=True):
+            _bounds(one, other, bounds)
+            if bounds[1] > bounds[0]:
+                y0, y1, x0, x1 = (int(n) for n in bounds)
+                found = found.union(Rect(x + x0, y + y0, x + x1, y + y1))
+        if not found.empty:
+            yield found
 
 
 @njit(cache=True, nogil=True)

@@ -1,0 +1,289 @@
+"""What a region painted with an example looks like on the canvas: tiles at its own level and at the coarser ones, kept
+and followed where the region changes; and any rectangle at any level, read from them.
+
+All values are premultiplied and on the grid.  A coarser pixel is the snapped mean of four, a finer one the B-spline of
+those around it, as everywhere on the canvas, with the detail that the example itself has below its pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.address import Rect
+from engine.numeric.grid import snap
+from engine.numeric.pyramid import expand_into, reduce
+from engine.texture.example import show, tiles
+from engine.texture.example.correction import OUTSIDE
+from engine.texture.example.region import Region
+from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
+
+Shown = tuple[Tiles, ...]  # float32 (4, SIDE, SIDE) tiles, from the region's own level to coarser ones
+FEW = 4  # tiles: with no more of them, a level is coarse enough to be the last that is kept
+_HALF = SIDE // 2
+_RGBA = np.arange(4)
+_HALO = 3  # pixels around the ancestors of a rectangle: what all finer levels of it can read
+_SMALL = 1 << 10  # pixels of a rectangle that is looked at for being of one colour
+_ONE = np.float32(1.0)
+
+
+# --- following the region -----------------------------------------------------------------------------------------
+
+
+def followed(shown: Shown, drawn: Region | None, region: Region) -> Shown:
+    """As `following`, at once."""
+    steps = following(shown, drawn, region)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def following(shown: Shown, drawn: Region | None, region: Region) -> Generator[None, None, Shown]:
+    """What `region` looks like, from what `drawn`, an earlier state of it (None: nothing of it), looks like; pauses
+    after each tile.  Tiles that look alike stay the same objects."""
+    base = shown[0] if shown else NONE
+    held: dict[Key, np.ndarray] = {}
+    touched: set[Key] = set()
+    for key, part in _stale(base, drawn, region).items():
+        old = held.get(key, base.get(key))
+        new = show.preview(region, part)
+        if _lay(held, key, old, part.slices(tiles.rect_of(key)), new):
+            touched.add(key)
+        yield
+    return _with_coarser(shown, _put(base, held), touched)
+
+
+def _stale(base: Tiles, drawn: Region | None, region: Region) -> dict[Key, Rect]:
+    """Tiles of the region's own level that may look different, and the part of each."""
+    found: dict[Key, Rect] = {}
+    masks, names = region.masks[0], region.levels[0].sources
+
+    def add(area: Rect) -> None:
+        for key in keys_within(area, (masks, base)):
+            found[key] = found.get(key, Rect(0, 0, 0, 0)).union(area.intersect(tiles.rect_of(key)))
+
+    for area in tiles.changed_rects(drawn.masks[0] if drawn else NONE, masks, 0):
+        add(area)
+    feather = region.exemplar.parameters.feather
+    for area in tiles.changed_rects(drawn.levels[0].sources if drawn else NONE, names, OUTSIDE):
+        add(area.grown(feather))
+    for n in range(1, len(region.levels)):  # a coarser level shows where a pixel has no source of its own
+        was = drawn.levels[n].sources if drawn else NONE
+        for area in tiles.changed_rects(was, region.levels[n].sources, OUTSIDE):
+            for key in keys_within(area.zoomed(n), (masks,)):
+                part = _sourceless(masks[key], names.get(key), key).intersect(area.zoomed(n))
+                if not part.empty:
+                    add(part)
+    return found
+
+
+def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:
+    """The tiles of some maps that meet a rectangle, of any size."""
+    rows = range(area.y0 // SIDE, (area.y1 - 1) // SIDE + 1)
+    columns = range(area.x0 // SIDE, (area.x1 - 1) // SIDE + 1)
+    found: set[Key] = set()
+    if area.empty:
+        return found
+    for held in maps:
+        if (rows.stop - rows.start) * (columns.stop - columns.start) < len(held):
+            found.update((row, column) for row in rows for column in columns if (row, column) in held)
+        else:
+            found.update(key for key in held if key[0] in rows and key[1] in columns)
+    return found
+
+
+def _sourceless(mask: np.ndarray, names: np.ndarray | None, key: Key) -> Rect:
+    """The smallest rectangle around a tile's pixels that have no source."""
+    at = tiles.rect_of(key)
+    if names is None:
+        return at
+    y0, y1, x0, x1 = _bounds_of(mask[0], names[-1])
+    return Rect(at.x0 + x0, at.y0 + y0, at.x0 + x1, at.y0 + y1)
+
+
+@njit(cache=True, nogil=True)
+def _bounds_of(mask, names):
+    """Rows [0, 1) and columns [2, 3) that hold the pixels of a mask (n, n) without a source; 0 if there are none."""
+    y0, y1, x0, x1 = mask.shape[0], 0, mask.shape[1], 0
+    for y in range(mask.shape[0]):
+        for x in range(mask.shape[1]):
+            if mask[y, x] and names[y, x] < 0:
+                y0, y1 = min(y0, y), y + 1
+                x0, x1 = min(x0, x), max(x1, x + 1)
+    return (y0, y1, x0, x1) if y1 else (0, 0, 0, 0)
+
+
+def _lay(held: dict[Key, np.ndarray], key: Key, old: np.ndarray | None, place: tuple, new: np.ndarray) -> bool:
+    """`held` with `new` laid on the part `place` of the tile `old`; whether that changes it."""
+    if not new.any() if old is None else np.array_equal(old[:, *place], new):
+        return False
+    tile = np.zeros((4, SIDE, SIDE), np.float32) if old is None else old.copy()
+    tile[:, *place] = new
+    tile.flags.writeable = False
+    held[key] = tile
+    return True
+
+
+def _put(level: Tiles, held: dict[Key, np.ndarray]) -> Tiles:
+    """A level with some of its tiles replaced; those that are empty are left out."""
+    if not held:
+        return level
+    changing = level.mutate()
+    for key, tile in held.items():
+        if tile.any():
+            changing[key] = tile
+        else:
+            changing.pop(key, None)
+    return changing.finish()
+
+
+def _with_coarser(shown: Shown, base: Tiles, touched: set[Key]) -> Shown:
+    levels = [base]
+    while len(levels[-1]) > FEW:
+        n = len(levels)
+        if n < len(shown):
+            level, touched = coarser(shown[n], levels[-1], touched)
+        else:
+            level, touched = coarser(NONE, levels[-1], set(levels[-1]))
+        levels.append(level)
+    return tuple(levels)
+
+
+def coarser(old: Tiles, finer: Tiles, touched: set[Key]) -> tuple[Tiles, set[Key]]:
+    """The level above `finer`, of whose tiles `touched` are not those that `old` was made of; what differs in it."""
+    held: dict[Key, np.ndarray] = {}
+    for row, column in touched:
+        key = row >> 1, column >> 1
+        child = finer.get((row, column))
+        new = np.zeros((4, _HALF, _HALF), np.float32) if child is None else reduce(child)
+        top, left = (row & 1) * _HALF, (column & 1) * _HALF
+        _lay(held, key, held.get(key, old.get(key)), (slice(top, top + _HALF), slice(left, left + _HALF)), new)
+    return _put(old, held), set(held)
+
+
+# --- reading ------------------------------------------------------------------------------------------------------
+
+
+def over(out: np.ndarray, shown: Shown, region: Region, finer: int, rect: Rect) -> None:
+    """Lays what is shown of a region over `out` (C, h, w), which covers `rect` of the level `finer` levels below the
+    region's own (above it, if negative).  Planes from the fourth on, ink, are weakened alone."""
+    if finer > 0:
+        above = _expanded(shown[0], region, finer, rect) if shown else None
+        if above is not None:
+            over_tile(out, 0, 0, above, 0, 0, rect.height, rect.width)
+        return
+    level = at_level(shown, -finer, rect)
+    for key in keys_within(rect, (level,)):
+        place = tiles.rect_of(key)
+        part = place.intersect(rect)
+        above, height, width = level[key], part.height, part.width
+        over_tile(
+            out, part.y0 - rect.y0, part.x0 - rect.x0, above, part.y0 - place.y0, part.x0 - place.x0, height, width
+        )
+
+
+def meets(shown: Shown, finer: int, rect: Rect) -> bool:
+    """Whether tiles that `over` would read are there."""
+    if finer > 0:
+        return bool(shown) and bool(keys_within(rect.zoomed(-finer).grown(_HALO), shown[:1]))
+    n = min(-finer, len(shown) - 1)
+    return bool(shown) and bool(keys_within(rect.zoomed(-finer - n), shown[n : n + 1]))
+
+
+def at_level(shown: Shown, up: int, rect: Rect) -> Tiles:
+    """The tiles `up` levels above the region's own, those that meet a rectangle of it at least."""
+    if up < len(shown):
+        return shown[up]
+    if not shown or not keys_within(rect.zoomed(up - len(shown) + 1), shown[-1:]):
+        return NONE
+    level = shown[-1]
+    for _ in range(up - len(shown) + 1):
+        if not level:  # a pixel that is small against the grid is nothing
+            break
+        level, _ = coarser(NONE, level, set(level))
+    return level
+
+
+@njit(cache=True, nogil=True)
+def over_tile(out, top, left, above, row, column, height, width):
+    """out = above + snap((1 - alpha of above) out) for height x width pixels; `out` (C, h, w), `above` (4, h, w)."""
+    for y in range(height):
+        alpha = above[3, row + y][column : column + width]
+        for c in range(out.shape[0]):
+            below = out[c, top + y][left : left + width]
+            if c < 4:
+                own = above[c, row + y][column : column + width]
+                for i in range(width):
+                    below[i] = own[i] + snap((_ONE - alpha[i]) * below[i])
+            else:
+                for i in range(width):
+                    below[i] = snap((_ONE - alpha[i]) * below[i])
+
+
+def _expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> np.ndarray | None:
+    """What is shown `finer` levels below the region's own: float32 (4, h, w) of `rect`, None where it is empty."""
+
+    def needed(k: int) -> Rect:
+        return rect.evened() if k == finer else rect.zoomed(k - finer).grown(_HALO).evened()
+
+    at = needed(0)
+    if not keys_within(at, (base,)):
+        return None
+    value = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
+    detailed = len(region.exemplar.finer)
+    known = _inside(region, at) if detailed else None
+    for k in range(1, finer + 1):
+        if k > detailed and at.area <= _SMALL and (value == value[:, :1, :1]).all():
+            flat = np.broadcast_to(value[:, :1, :1], (4, rect.height, rect.width))
+            return _clamped(flat) if value.any() else None
+        inner = needed(k)
+        value = _expand(value, at, inner)
+        if known is not None and k <= detailed:
+            _add_detail(value, region, k, inner, known, needed(0))
+        at = inner
+    rows, columns = rect.slices(at)
+    return _clamped(value[:, rows, columns])
+
+
+def _clamped(value: np.ndarray) -> np.ndarray:
+    """0 <= alpha <= 1 and 0 <= colour <= alpha: a copy, read-only as tiles are, so that kernels are compiled once."""
+    out = np.empty_like(value, order="C")
+    np.clip(value[3], 0.0, 1.0, out=out[3])
+    np.clip(value[:3], 0.0, out[3], out=out[:3])
+    out.flags.writeable = False
+    return out
+
+
+def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:
+    out = np.empty((4, inner.height, inner.width), np.float32)
+    top, left = (inner.y0 >> 1) - 1 - at.y0, (inner.x0 >> 1) - 1 - at.x0
+    expand_into(value, top, left, _RGBA, out, 0, inner.height)
+    return out
+
+
+def _inside(region: Region, rect: Rect) -> np.ndarray:
+    """The pixels all of whose neighbours, and they themselves, have a source: bool (h, w)."""
+    wide = rect.grown(1)
+    known = tiles.gathered(region.masks[0], wide, np.zeros((1, wide.height, wide.width), np.uint8))[0] > 0
+    known &= show.sources(region, wide) >= 0
+    down = known[:-2] & known[1:-1] & known[2:]
+    return down[:, :-2] & down[:, 1:-1] & down[:, 2:]
+
+
+def _add_detail(value: np.ndarray, region: Region, k: int, inner: Rect, known: np.ndarray, at: Rect) -> None:
+    """Adds S_k - E S_(k-1) of the example, well inside what is refined: a rim is left as smooth as the mask is.
+
+    `known`: bool, over `at` of the region's level.
+    """
+    rows = [((inner.y0 + i) >> k) - at.y0 for i in range(inner.height)]
+    columns = [((inner.x0 + i) >> k) - at.x0 for i in range(inner.width)]
+    where = known[np.ix_(rows, columns)]
+    if not where.any():
+        return
+    around = inner.parents()
+    detail = show.finer(region, k, inner) - _expand(show.finer(region, k - 1, around), around, inner)
+    value += np.where(where, detail, np.float32(0.0))
