@@ -11,6 +11,7 @@ from app.cli.outcome import DONE
 from app.cli.output import opened
 
 if TYPE_CHECKING:
+    from engine.canvas.growth import Plot
     from engine.canvas.layers import Group, Node
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
@@ -79,7 +80,24 @@ def _row(root: Group, node: Node) -> dict[str, Any]:
             "bytes": pyramid.nbytes,
             "bounds": bounds(pyramid),
         }
+        if node.growth:
+            row["examples"] = [_plot(plot) for plot in node.growth]
     return row
+
+
+def _plot(plot: Plot) -> dict[str, Any]:
+    """What was painted with one example at one depth; its rectangle and pixels are those of its level."""
+    from engine.canvas.growth import bounds
+
+    masks = plot.region.masks[0].values()
+    rect = bounds((plot,), plot.level)
+    return {
+        "name": plot.name,
+        "depth": plot.depth,
+        "level": plot.level,
+        "pixels": sum(int(mask.sum()) for mask in masks),
+        "bounds": [rect.x0, rect.y0, rect.width, rect.height],
+    }
 
 
 def bounds(pyramid: Pyramid) -> list[int] | None:
@@ -129,12 +147,22 @@ def _print(told: dict[str, Any]) -> None:
     print("layers, from the top:")
     for row in reversed(told["layers"]):
         print("  " + _line(row))
+        for plot in reversed(row.get("examples", [])):
+            print("    " + _told_plot(plot))
     for key in told["inks"]:
         print(f"ink: {key[0]}, base level {key[1]}, {', '.join(map(str, key[2:])) or 'no parameters'}")
     for name, kind in told["textures"].items():
         print(f"texture: {name}, {kind}")
     if told["commands"] is not None:
         print(f"recording: {told['commands']} commands")
+
+
+def _told_plot(plot: dict[str, Any]) -> str:
+    x, y, width, height = plot["bounds"]
+    return (
+        f"example {plot['name']!r} at depth {plot['depth']:g}: {plot['pixels']:,} pixels,"
+        f" {width} x {height} at {x}, {y} of level {plot['level']}"
+    )
 
 
 def _line(row: dict[str, Any]) -> str:

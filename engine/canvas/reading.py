@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from engine.canvas.evaluate import TileCache, evaluate, evaluate_sparse, shown
+from engine.canvas.growth import Growth, meets, over
 from engine.canvas.layers import Layer
 from engine.numeric.address import Rect
 from engine.texture.planes import Planes
-
-if TYPE_CHECKING:
-    from engine.canvas.growth import Growth
 
 
 def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None = None) -> np.ndarray | None:
@@ -30,11 +26,7 @@ def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None =
 
 def covered(paint: np.ndarray | None, growth: Growth, level: int, rect: Rect) -> np.ndarray | None:
     """A layer's paint, (4, h, w) or None, with a growth over it; the same array where that shows nothing."""
-    if not growth:
-        return paint
-    from engine.canvas.growth import meets, over
-
-    if not meets(growth, level, rect):
+    if not growth or not meets(growth, level, rect):
         return paint
     out = np.zeros((4, rect.height, rect.width), np.float32) if paint is None else np.array(paint, order="C")
     over(out, growth, level, rect)
@@ -46,8 +38,6 @@ def layer_ink(layer: Layer, level: int, rect: Rect, cache: TileCache | None = No
     found = evaluate(layer.pyramid, level, rect, cache)
     if not layer.growth:
         return found
-    from engine.canvas.growth import over
-
     data = np.array(found.data, order="C")
     over(data, layer.growth, level, rect)
     return Planes(data, found.inks)

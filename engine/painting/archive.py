@@ -187,7 +187,7 @@ class Plan:
         if self._is_ground(layer):
             assert layer.pyramid.ground is not None
             return layer.pyramid.ground.rect
-        place = reach(layer.pyramid, self._level, self._frame)
+        place = reach(layer, self._level, self._frame)
         return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
     def pictures(self) -> list[tuple[Job, IO[bytes]]]:

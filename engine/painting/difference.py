@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from engine.canvas import growth as growths
 from engine.canvas.layers import Group, Layer
 from engine.canvas.store import changed_rects
 from engine.numeric.address import Rect
@@ -20,9 +21,14 @@ def areas(old: Painting, new: Painting) -> Areas:
     def where(level: int) -> list[Rect] | None:
         if pairs is None:
             return None
-        return [rect for a, b in pairs for rect in changed_rects(a.pyramid, b.pyramid, level)]
+        return [rect for a, b in pairs for rect in _changed(a, b, level)]
 
     return where
+
+
+def _changed(old: Layer, new: Layer, level: int) -> list[Rect]:
+    found = changed_rects(old.pyramid, new.pyramid, level)
+    return found + growths.changed_rects(old.growth, new.growth, level) if old.growth is not new.growth else found
 
 
 def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
@@ -39,9 +45,9 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
                 return None
             out += inner
         elif isinstance(a, Layer) and isinstance(b, Layer) and _plain(a) == _plain(b):
-            if a.pyramid is not b.pyramid:
-                if a.pyramid.uid != b.pyramid.uid:
-                    return None
+            if a.pyramid is not b.pyramid and a.pyramid.uid != b.pyramid.uid:
+                return None
+            if a.pyramid is not b.pyramid or a.growth is not b.growth:
                 out.append((a, b))
         else:
             return None

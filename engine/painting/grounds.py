@@ -49,7 +49,9 @@ def lay(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> Pyramid
 def whole(layer: Layer, frame: Rect) -> bool:
     """Whether a layer is its ground and nothing else, all of it within `frame`: then its picture shows it fully."""
     ground = layer.pyramid.ground
-    return ground is not None and layer.pyramid.levels is ground.levels and ground.rect.intersect(frame) == ground.rect
+    if ground is None or layer.growth or layer.pyramid.levels is not ground.levels:
+        return False
+    return ground.rect.intersect(frame) == ground.rect
 
 
 def painted_since(pyramid: Pyramid) -> list[tuple[TileKey, Record]]:

@@ -10,7 +10,9 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from engine.canvas import growth as growths
 from engine.canvas import layers
+from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.store import Pyramid, Record, changed_rects
 from engine.painting.value import Painting
@@ -77,11 +79,14 @@ class History:
 
 def difference(old: Group, new: Group) -> tuple[int, int]:
     """Bytes that only `old` holds, and bytes that only `new` holds."""
-    before = {layer.id: layer.pyramid for layer in layers.layers(old)}
-    after = {layer.id: layer.pyramid for layer in layers.layers(new)}
+    before = {layer.id: layer for layer in layers.layers(old)}
+    after = {layer.id: layer for layer in layers.layers(new)}
     lost = gained = 0
     for number in before.keys() | after.keys():
-        a, b = before.get(number), after.get(number)
+        one, other = before.get(number), after.get(number)
+        fewer, more = _regrown(one.growth if one else (), other.growth if other else ())
+        lost, gained = lost + fewer, gained + more
+        a, b = one.pyramid if one else None, other.pyramid if other else None
         if a is b:
             continue
         if a is None or b is None or a.uid != b.uid:
@@ -92,6 +97,14 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
         gained += sum(record.nbytes for record in _only(b, a))
         gained += b.last.nbytes if b.last is not None and b.last is not a.last else 0
     return lost, gained
+
+
+def _regrown(old: Growth, new: Growth) -> tuple[int, int]:
+    """The same of what was painted on a layer with examples."""
+    if old is new:
+        return 0, 0
+    before, after = growths.arrays(old), growths.arrays(new)
+    return sum(n for k, n in before.items() if k not in after), sum(n for k, n in after.items() if k not in before)
 
 
 def _only(one: Pyramid, other: Pyramid) -> Iterator[Record]:

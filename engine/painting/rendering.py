@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
-from engine.canvas import layers
+from engine.canvas import growth, layers
 from engine.canvas.composite import Read, composite
-from engine.canvas.evaluate import shown
 from engine.canvas.fold import fold
 from engine.canvas.layers import Group, Layer
-from engine.canvas.store import Pyramid
+from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.painting.fault import Cancelled
 
@@ -75,7 +74,7 @@ def sheets(
             check(cancelled)
             part = places[layer.id].intersect(band)
             if not part.empty:
-                found = shown(layer.pyramid, level, part)
+                found = layer_planes(layer, level, part)
                 known[layer.id] = np.zeros((4, part.height, part.width), np.float32) if found is None else found
         yield known, composite(root, level, band, _parts(known, places, band))
 
@@ -119,7 +118,7 @@ def _reader(piece: Rect) -> Read:
 
     def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         if layer.id not in known:
-            known[layer.id] = shown(layer.pyramid, level, piece)
+            known[layer.id] = layer_planes(layer, level, piece)
         planes = known[layer.id]
         if planes is None:
             return None
@@ -129,10 +128,10 @@ def _reader(piece: Rect) -> Read:
     return read
 
 
-def reach(pyramid: Pyramid, level: int, frame: Rect) -> Rect:
+def reach(layer: Layer, level: int, frame: Rect) -> Rect:
     """A rectangle of `level` within `frame` outside which a layer is empty there."""
-    whole = Rect(0, 0, 0, 0)
-    for key, record in pyramid.all_records():
+    whole = growth.bounds(layer.growth, level).intersect(frame)
+    for key, record in layer.pyramid.all_records():
         x, y, r = key.rect.x0, key.rect.y0, record.rect
         placed = Rect(x + r.x0, y + r.y0, x + r.x1, y + r.y1)
         # What lies on a coarser level spreads by less than two of its pixels when it is expanded.

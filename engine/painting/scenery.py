@@ -14,9 +14,10 @@ from engine.brush.foretell import AREA_CAP
 from engine.brush.mask import StrokeMask
 from engine.brush.raster import Read, Scene
 from engine.brush.record import Brush
-from engine.canvas import evaluate, layers
+from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group, Layer
+from engine.canvas.reading import layer_ink
 from engine.numeric.address import Rect
 from engine.numeric.formula import variables
 from engine.numeric.prediction import Predictor
@@ -74,6 +75,6 @@ def _reader(root: Group, name: str, level: int, cache: TileCache | None) -> Read
     assert isinstance(layer, Layer)
 
     def read(rect: Rect) -> Planes:
-        return evaluate.evaluate(layer.pyramid, level, rect, cache)
+        return layer_ink(layer, level, rect, cache)
 
     return read

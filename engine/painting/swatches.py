@@ -9,12 +9,12 @@ import numpy as np
 
 from engine.brush.record import Brush
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.layers import Layer
+from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.painting import apply
 from engine.painting.requests import Swatch
+from engine.painting.settling import settled_root
 from engine.painting.value import Painting
 
 _GROUND = "#5b6470"
@@ -35,12 +35,7 @@ def painted(request: Swatch, of: Painting) -> np.ndarray:
         painting = apply(painting, replace(stroke, brush=_at_home(stroke.brush, painting, width)))
     level = request.zoom
     middle = Rect.at((width << level) // 2 - width // 2, (height << level) // 2 - height // 2, width, height)
-    return composite(painting.root, level, middle, _read)
-
-
-def _read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-    found = evaluate_sparse(layer.pyramid, level, rect, None)
-    return None if found is None else found.rgba
+    return composite(settled_root(painting.root, 1), level, middle, layer_planes)
 
 
 def _fill(brush: Brush, width: int, height: int) -> list[c.Stroke]:

@@ -91,7 +91,7 @@ def test_one_layer(painting, tmp_path):
 def test_reach_holds_all_that_shows(painting, level):
     frame = painting.frame.zoomed(level)
     for layer in layers.layers(painting.root):
-        place = reach(layer.pyramid, level, frame)
+        place = reach(layer, level, frame)
         found = evaluate_sparse(layer.pyramid, level, frame, None)
         if found is None:
             continue
