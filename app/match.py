@@ -41,7 +41,7 @@ class MatchState:
     split: int = 2
     pressed: bool = False  # the weight goes with the pen's pressure
     bands: dict[Spot, tuple[float, Curve]] = field(default_factory=dict)
-    axes: list[float] = field(default_factory=lambda: [1.0, 1.0, 1.0])
+    axes: list[float] = field(default_factory=lambda: [1.0, 1.0, 1.0, 1.0])
     chosen: Spot = (0, 0)
     marking: int | None = None
     marked: tuple[float, float, float, float] | None = None

@@ -19,6 +19,7 @@ _AXES = (
     ("Light", "The first axis of the example's colours, along which they differ most"),
     ("Tint", "The second axis: mostly warm against cold"),
     ("Rest", "The third axis, of the finest differences"),
+    ("Last", "The fourth axis, which examples with transparency have"),
 )
 
 
@@ -76,7 +77,7 @@ class MatchSettings:
         imgui.text_disabled("Axes of colour")
         side, gap = imgui.get_frame_height(), 2 * desk.scale
         wide = (imgui.get_content_region_avail().x - gap * (len(colours) - 1)) / len(colours)
-        for k, colour in enumerate(colours[:3]):
+        for k, colour in enumerate(colours[: len(_AXES)]):
             if k:
                 imgui.same_line(0, gap)
             name, hint = _AXES[k]

@@ -125,13 +125,17 @@ def resolve(
         base += shift
         if curve is None or stages == 1:
             found[made] += amplitude
-            if isinstance(own, Image) and own.cover is not None:
-                found[own.cover] -= component.amount * under
+            hidden = _cover(own)
+            if hidden is not None:
+                found[hidden] -= component.amount * under
             continue
         for k in range(stages):
             part = named(sway.at_weight(component, k / (stages - 1)), textures, level, seed, place)
             made = shaped(part, component.shaping, brush.shaping)
-            swayed.append(Swayed(made, amplitude.astype(np.float32), Hat(curve, k, stages)))
+            hat, hidden = Hat(curve, k, stages), _cover(part)
+            swayed.append(Swayed(made, amplitude.astype(np.float32), hat))
+            if hidden is not None and under.any():
+                swayed.append(Swayed(hidden, (-component.amount * under).astype(np.float32), hat))
     return Ink(base.astype(np.float32), _loaded(found, swayed), tuple(swayed))
 
 
@@ -146,11 +150,19 @@ def _loaded(found: Mapping[Instance, np.ndarray], swayed: list[Swayed]) -> tuple
     )
 
 
+def _cover(own: Instance) -> Instance | None:
+    """What a texture with alpha hides, as a texture."""
+    found: Instance | None = getattr(own, "cover", None)
+    return found
+
+
 def _mixed(own: Instance, component: Component, under: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The amplitude of S that a component is, and what it adds to the base colour: float64 (3,) each."""
     rgb = np.array(component.rgb)
-    if isinstance(own, Image):  # premultiplied, 0..1: its own alpha hides the brush's colour
-        return component.amount * rgb, -component.amount * under if own.cover is None else np.zeros(3)
+    if _cover(own) is not None:  # premultiplied, 0..1: its own alpha hides the brush's colour
+        return component.amount * rgb, np.zeros(3)
+    if isinstance(own, Image):
+        return component.amount * rgb, -component.amount * under
     if getattr(own, "coloured", False):  # its own colours, s X, in place of the brush's
         return component.amount * rgb / 2.0, component.amount * (rgb / 2.0 - under)
     half = component.amount * (rgb - under) / 2.0

@@ -157,10 +157,10 @@ class Matcher:
                 self._show(name, example.planes)
 
     def _show(self, name: str, planes: np.ndarray) -> None:
-        """Planes (1 or 3, h, w) of 0..1."""
+        """Planes (1, 3 or 4, h, w) of 0..1."""
         out = np.full((*planes.shape[1:], 4), 255, np.uint8)
         scaled = np.clip(planes, 0.0, 1.0) * np.float32(255) + np.float32(0.5)
-        out[..., :3] = scaled.astype(np.uint8).transpose(1, 2, 0)
+        out[..., : max(len(planes), 3)] = scaled.astype(np.uint8).transpose(1, 2, 0)
         self.host.send(q.Picture(name, q.frozen(out)))
 
     def _tell(self, work: _Work) -> None:
@@ -188,7 +188,7 @@ def _colours(pattern: Pattern) -> tuple[tuple[float, float, float], ...]:
     axes = pattern.colours.coarse if isinstance(pattern.colours, SplitColours) else pattern.colours
     assert isinstance(axes, ColourAxes)
     found = []
-    for column in axes.axes.T:
+    for column in axes.axes[:3].T:
         step = column / max(float(np.abs(column).max()), 1e-6) * 0.35
         r, g, b = np.broadcast_to(np.clip(0.5 + step, 0.0, 1.0), (3,))
         found.append((float(r), float(g), float(b)))

@@ -1,7 +1,8 @@
 """Textures matched to examples, as texture commands describe them (Heeger & Bergen 1995).
 
 `match` makes noise, or a start picture, like one example; `mix` makes it like two; a mix of several `stages` is a
-series of textures between the two, of the same noise, one below the other in one picture.
+series of textures between the two, of the same noise, one below the other in one picture.  Alpha is matched with the
+colours, as one band more.
 """
 
 from __future__ import annotations
@@ -48,13 +49,14 @@ EXAMPLE_SIDE = 512  # and then its middle is looked at
 SIDE_CAP = 2048
 STAGES_CAP = 9
 _BANDS_CAP = 300
-_AXES_CAP = 3
+_AXES_CAP = 4
 _SHORT = 16  # digits of an example's sha
 
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """A picture: `planes` float32 (1 or 3, h, w) of 0..1; `sha`: of its pixels, by which it is known again."""
+    """A picture: `planes` float32 (1, 3 or 4, h, w) of 0..1, grey, RGB or premultiplied RGBA; `sha`: of its pixels, by
+    which it is known again."""
 
     sha: str
     planes: np.ndarray = field(compare=False, repr=False)
@@ -65,7 +67,7 @@ class Plan:
     """What is asked for.
 
     `examples`: one, or two to be mixed `how`; `size`: height and width; `stages`: how many textures, 1 unless it is a
-    series; `start`: a picture to begin with, float32 (1 or 3, *size).
+    series; `start`: a picture to begin with, float32 (1, 3 or 4, *size).
     """
 
     examples: tuple[Example, ...]
@@ -83,7 +85,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Made:
-    """How far the work is, 0..1; `colours`: now and then the texture as it is, float32 (1 or 3, stages h, w)."""
+    """How far the work is, 0..1; `colours`: now and then the texture as it is, float32 (1, 3 or 4, stages h, w)."""
 
     done: float
     colours: np.ndarray | None = None
@@ -97,10 +99,11 @@ class Pictures(Protocol):
 
 def read(maker: str, members: Fields, place: Pictures) -> Plan:
     """What a command `match` or `mix` asks for, its pictures read.  FormatError names the member."""
-    given = [_example(members, "path", place)]
+    shas = _known(members)
+    given = [_example(members, "path", place, shas[0])]
     stages, how, mix = 1, "palette", Mix()
     if maker == "mix":
-        given.append(_example(_other(members, "pattern"), "pattern", place))
+        given.append(_example(_other(members, "pattern"), "pattern", place, shas[1]))
         how = members.take("how", "palette")
         if how not in MIXES:
             raise members.fault("how", f"one of {', '.join(MIXES)}")
@@ -124,7 +127,7 @@ def steps(plan: Plan) -> Iterator[Made]:
         pattern = pattern_of(plan, k)
         yield Made(k / plan.stages)
         for step in matching(pattern, _beginning(plan, pattern), plan.iterations):
-            colours = None if step.planes is None else _opaque(picture(pattern, step.planes))
+            colours = None if step.planes is None else _valid(picture(pattern, step.planes))
             if colours is not None:
                 shown = [*done, *[colours] * (plan.stages - k)]
                 colours = np.concatenate(shown, axis=1)
@@ -148,9 +151,9 @@ def _pattern(examples: tuple[Example, ...], shape: Shape, how: str, mix: Mix) ->
 
 
 def rgba(colours: np.ndarray) -> np.ndarray:
-    """An opaque picture (4, h, w) on the grid, of colours (1 or 3, h, w)."""
+    """A picture (4, h, w) on the grid, opaque unless the colours (1, 3 or 4, h, w) are premultiplied RGBA."""
     out = np.ones((4, *colours.shape[1:]), np.float32)
-    out[:3] = np.clip(colours, 0.0, 1.0)
+    out[: max(len(colours), 3)] = np.clip(colours, 0.0, 1.0)
     return snapped(out)
 
 
@@ -188,14 +191,30 @@ def _other(members: Fields, name: str) -> Fields:
     return Fields(value, members.at(name))
 
 
-def _example(members: Fields, name: str, place: Pictures) -> Example:
-    """A picture, halved until it is short enough; of a large one the middle."""
+def _known(members: Fields) -> list[Any]:
+    """The shas of both examples when the command was recorded; None where it was not."""
+    known = members.all().get("examples")
+    return [*(known if isinstance(known, list) else ()), None, None][:2]
+
+
+def _example(members: Fields, name: str, place: Pictures, known: Any = None) -> Example:
+    """A picture.  One that is `known` by the sha that it had without its alpha is the one without: it was recorded
+    before alpha counted."""
     if "path" not in members and "rect" not in members:
         raise FormatError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
     given = place.picture(members)
-    if not given[3].any():
+    opaque = flattened(given)
+    found = _looked_at(opaque if (given[3] == 1.0).all() else given)
+    if len(found.planes) == 4 and known is not None and known != found.sha:
+        without = _looked_at(opaque)
+        return without if known == without.sha else found
+    if len(found.planes) == 4 and not found.planes[3].any():
         raise FormatError(members.at("rect" if "rect" in members else "path"), "nothing but transparency", "a picture")
-    planes = flattened(given)
+    return found
+
+
+def _looked_at(planes: np.ndarray) -> Example:
+    """Halved until it is short enough; of a large picture the middle."""
     while max(planes.shape[1:]) > SHRUNK and min(planes.shape[1:]) > 1:
         even = planes[:, : planes.shape[1] // 2 * 2, : planes.shape[2] // 2 * 2]
         planes = reduce(np.ascontiguousarray(even))
@@ -252,5 +271,8 @@ def _beginning(plan: Plan, pattern: Pattern) -> np.ndarray:
     return started(pattern, axes_of(plan.start).planes(plan.start), plan.seed)
 
 
-def _opaque(colours: np.ndarray) -> np.ndarray:
-    return colours if len(colours) in (1, 3) else colours[:3]
+def _valid(colours: np.ndarray) -> np.ndarray:
+    """Colours no brighter than their alpha."""
+    if len(colours) == 4:
+        np.clip(colours[:3], 0.0, np.clip(colours[3], 0.0, 1.0), out=colours[:3])
+    return colours

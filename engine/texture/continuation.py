@@ -42,8 +42,9 @@ _USUAL = 0.5  # where a picture is too small to measure a slope
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Octave:
-    """`tile`: float32 (1 or 3, 256, 256), periodic, of mean zero, in units of S, as strong as the octave at the end
-    of the picture's own pixels would be; `slope`: of the picture's subbands, amplitude per octave, 0.1..0.85."""
+    """`tile`: float32 (1 or 3 colours and alpha, 256, 256), periodic, of mean zero, in units of S, as strong as the
+    octave at the end of the picture's own pixels would be; `slope`: of the picture's subbands, amplitude per octave,
+    0.1..0.85."""
 
     tile: np.ndarray
     slope: float
@@ -54,17 +55,19 @@ def octave_of(source: ImageSource) -> Octave:
     """What continues a picture."""
     assert source.data is not None
     count = 3 if sample.coloured(source) else 1
-    picture = np.ascontiguousarray(source.data[:count, :LOOKED_AT, :LOOKED_AT])
+    # What is opaque is looked at without its alpha: another channel would be another sum of float32 numbers.
+    channels = [*range(count), *([] if source.opaque else [3])]
+    picture = np.ascontiguousarray(source.data[channels, :LOOKED_AT, :LOOKED_AT])
     pattern = analysed(picture, _SHAPE)
     if not pattern.shape.levels or not pattern.bands:
-        return Octave(np.zeros((count, SIDE, SIDE), np.float32), _USUAL)
+        return Octave(np.zeros((count + 1, SIDE, SIDE), np.float32), _USUAL)
     finest, slope = measured(pattern)
     axes = pattern.colours
     assert isinstance(axes, ColourAxes)
     planes = _filtered(_noise(pattern, finest, slope))
     tile = 2.0 * np.einsum("cr,rhw->chw", axes.axes, planes)
     tile -= tile.mean((1, 2), keepdims=True)
-    tile = np.ascontiguousarray(tile, np.float32)
+    tile = np.concatenate([tile, np.zeros((count + 1 - len(tile), SIDE, SIDE))]).astype(np.float32)
     tile.flags.writeable = False
     return Octave(tile, slope)
 

@@ -3,46 +3,116 @@
 Down to its native level S is the tile's pyramid (`engine.texture.spectral`).  Each finer level adds an octave of noise
 matched to the texture's finest subbands (`engine.texture.continuation`), as strong as the roughness says: by default
 the slope that was measured across the subbands, so that the spectrum goes on as it came; 0 is smooth.
+
+A texture with alpha is a picture like any other: premultiplied RGBA, whose alpha is a texture too, of the same noise at
+every level.  As ink, its alpha hides what its colours are laid over.  An octave is strong wherever it falls, also where
+the picture is clear, or opaque, all around.  So beyond its own pixels alpha is sent through a curve: what is nearer to
+0 or 1 than noise reaches is 0 or 1; colours keep what they are where they are seen.  A curve is no linear thing, so
+there the bandpass is what two levels differ by, as of `engine.texture.shaped`.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.hashing import fold_key
 from engine.texture import sample
 from engine.texture.continuation import STEEPEST, octave_of
 from engine.texture.image import ImageSource, tiled
-from engine.texture.octaves import Continuation
+from engine.texture.octaves import Continuation, octave_weights
 from engine.texture.spectral import Tiled
 
 _DOMAIN = 0x6D6F6374  # "moct": tells these hashes from those of other textures
 _SIZE = 1.0  # log2 of an octave's features in pixels of its level
+_LOUD = 0.125  # roughness below which octaves are too faint to be seen in alpha
+_REACH, _FARTHEST = 1.25, 0.12  # how far noise reaches: standard deviations of it, and at most
+_TINY = np.float32(1e-6)
 
 
 @dataclass(frozen=True)
 class Matched(Tiled):
-    """One texture, repeated from pixel (0, 0) of the base level on."""
+    """One texture, repeated from pixel (0, 0) of the base level on.
+
+    S is as of other samples; with alpha, premultiplied RGBA (4, h, w) as of an image, and the bandpass its colours'.
+    """
 
     kind: ClassVar[str] = "matched"
 
+    @property
+    def picture(self) -> ImageSource:
+        """The picture of this texture, with its alpha."""
+        return self.source
+
+    @property
+    def shown(self) -> ImageSource:
+        return self.picture
+
+    @property
+    def cover(self) -> Matched | None:
+        """What it hides of another colour that it lies over: its alpha as a texture.  None if it is opaque."""
+        if self.source.data is None or self.source.opaque:
+            return None
+        return _COVERS[self.kind](**{field.name: getattr(self, field.name) for field in fields(self)})
+
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        seen, cover = super().appearance(level, rect), self.cover
+        if cover is None:
+            return seen
+        out = np.empty((4, rect.height, rect.width), np.float32)
+        out[:3] = _unit(seen)
+        if not self._curved(level):
+            out[3:] = cover.appearance(level, rect)
+            return out
+        alpha = _unit(Tiled.appearance(cover, level, rect))[0]
+        out[3] = self._curve(alpha, level)
+        out[:3] = np.clip(out[:3] / np.maximum(alpha, _TINY), 0.0, 1.0) * out[3]
+        return out
+
+    def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        if self.source.opaque or self.source.data is None:
+            return super().bandpass(level, rect)
+        if not self._curved(level) or level <= self.base or rect.empty:
+            found = super().bandpass(level, rect)
+            return None if found is None else found * np.float32(0.5)
+        even = rect.evened()
+        fine = self.appearance(level, even)[:3]
+        subtract_expanded(fine, self.appearance(level - 1, parents(even))[:3])
+        return cut(fine, rect, even)
+
+    def _curved(self, level: int) -> bool:
+        """Whether noise added to the alpha may be seen."""
+        return self.source.data is not None and level > self.native and self.roughness >= _LOUD
+
+    def _curve(self, alpha: np.ndarray, level: int) -> np.ndarray:
+        """0 up to t, as it is from 2.5 t on; 1 likewise."""
+        t = np.float32(_reach(self.picture, self.period, self.roughness, level - self.native))
+        near = np.clip(np.minimum(alpha, np.float32(1.0) - alpha), np.float32(0.0), np.float32(0.5))
+        near = np.minimum(near, np.maximum(near - t, np.float32(0.0)) * np.float32(2.5 / 1.5))
+        return np.where(alpha < np.float32(0.5), near, np.float32(1.0) - near)
+
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
-        tile = octave_of(self.shown).tile
+        tile = self._planes(octave_of(self.picture).tile)
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % tile.shape[2], (h >> 32) % tile.shape[1]
         out = tiled(tile, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))
         out *= np.float32(_stretched(self.shown, self.period, self.roughness))
         return out
 
+    def _planes(self, octave: np.ndarray) -> np.ndarray:
+        """Those of an octave that continue what is shown."""
+        return octave[:-1]
+
     @property
     def form(self) -> Continuation:
-        return _form(self.shown, self.period, self.roughness)
+        """The same for colours and alpha, so that they stay together."""
+        return _form(self.picture, self.period, self.roughness)
 
 
 @dataclass(frozen=True)
@@ -68,14 +138,66 @@ class Series(Matched):
         return sample.coloured(self.source)
 
     @property
-    def shown(self) -> ImageSource:
+    def picture(self) -> ImageSource:
         lost = self.source.data is None or self.source.height < self.stages
         return self.source if lost else stage(self.source, self.stages, self.weight)
+
+
+class _Alpha(Matched):
+    """The alpha of a matched texture, 0..1: S and the bandpass (1, h, w)."""
+
+    @property
+    def shown(self) -> ImageSource:
+        return self.picture if self.source.data is None else _alpha(self.picture)
+
+    @property
+    def coloured(self) -> bool:
+        return False
+
+    @property
+    def cover(self) -> None:
+        return None
+
+    def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        seen = super().appearance(level, rect)
+        if self.source.data is None:
+            return seen
+        return self._curve(_unit(seen), level) if self._curved(level) else _unit(seen)
+
+    def _planes(self, octave: np.ndarray) -> np.ndarray:
+        return octave[-1:]
+
+
+@dataclass(frozen=True)
+class MatchedCover(_Alpha, Matched):
+    """The alpha of a matched texture."""
+
+    kind: ClassVar[str] = "matched-cover"
+
+
+@dataclass(frozen=True)
+class SeriesCover(_Alpha, Series):
+    """The alpha of a texture of a series."""
+
+    kind: ClassVar[str] = "series-cover"
+
+
+_COVERS: dict[str, type[Matched]] = {"matched": MatchedCover, "series": SeriesCover}
+
+
+def _unit(planes: np.ndarray) -> np.ndarray:
+    """0..1 of -1..1, on the grid if they are."""
+    return (planes + np.float32(1.0)) * np.float32(0.5)
 
 
 def series(base: int, period: int, roughness: float, stages: int, weight: float, source: ImageSource) -> Series:
     """The texture at `weight` of a series."""
     return Series(base, period, roughness, source, stages, weight)
+
+
+def series_cover(base: int, period: int, roughness: float, stages: int, weight: float, source: ImageSource) -> Series:
+    """Its alpha."""
+    return SeriesCover(base, period, roughness, source, stages, weight)
 
 
 def weights(stages: int) -> tuple[float, ...]:
@@ -96,6 +218,15 @@ def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
     return ImageSource(whole.name, f"{whole.sha}/{stages}/{weight!r}", np.ascontiguousarray(data))
 
 
+@lru_cache(maxsize=64)
+def _alpha(picture: ImageSource) -> ImageSource:
+    """The alpha of a picture, as an opaque grey one."""
+    assert picture.data is not None
+    data = np.ones_like(picture.data)
+    data[:3] = picture.data[3]
+    return ImageSource(picture.name, f"{picture.sha}/alpha", data)
+
+
 def _stretched(source: ImageSource, period: int, roughness: float) -> float:
     """How much weaker an octave is because the native level is wider than the picture's own pixels."""
     wide = sample.tile(source, period).levels[-1].shape[2] / max(source.width, 1)
@@ -103,11 +234,27 @@ def _stretched(source: ImageSource, period: int, roughness: float) -> float:
 
 
 @lru_cache(maxsize=256)
-def _form(source: ImageSource, period: int, roughness: float) -> Continuation:
+def _form(picture: ImageSource, period: int, roughness: float) -> Continuation:
     """How strong an octave is to the texture, and how large the features of both are."""
-    tile = sample.tile(source, period)
-    own, octave = (
-        float(np.square(planes, dtype=np.float64).mean()) for planes in (tile.levels[-1], octave_of(source).tile)
-    )
-    strength = math.sqrt(octave / own) * _stretched(source, period, roughness) if own > 0.0 else 0.0
-    return replace(tile.form, strength=round(strength, 6), octave=_SIZE)
+    tiles = [sample.tile(picture, period)]
+    octave = octave_of(picture).tile
+    if picture.opaque:
+        octave = octave[:-1]
+    else:
+        tiles.append(sample.tile(_alpha(picture), period))
+    own, added = (_energy(planes) for planes in (np.concatenate([tile.levels[-1] for tile in tiles]), octave))
+    strength = math.sqrt(added / own) * _stretched(picture, period, roughness) if own > 0.0 else 0.0
+    loudest = max(tiles, key=lambda tile: _energy(tile.levels[-1]))
+    return replace(loudest.form, strength=round(strength, 6), octave=_SIZE)
+
+
+@lru_cache(maxsize=1024)
+def _reach(picture: ImageSource, period: int, roughness: float, depth: int) -> float:
+    """How far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
+    weights = octave_weights(depth, roughness, _form(picture, period, roughness))[:depth]
+    own = math.sqrt(_energy(octave_of(picture).tile[-1:])) / 2.0 * _stretched(picture, period, roughness)
+    return round(min(_REACH * own * math.sqrt(float(np.square(weights, dtype=np.float64).sum())), _FARTHEST), 5)
+
+
+def _energy(planes: np.ndarray) -> float:
+    return float(np.square(planes, dtype=np.float64).mean())

@@ -70,7 +70,7 @@ class Tile:
     form: Continuation
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)  # of a series with alpha, two of each stage
 def tile(source: ImageSource, period: int) -> Tile:
     n = finer(source, period)
     native = _native(source, period, n)

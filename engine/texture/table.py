@@ -14,7 +14,7 @@ from typing import Any
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.field_error import FieldError
 from engine.texture.image import Cover, Image, ImageSource
-from engine.texture.matched import Matched, series
+from engine.texture.matched import Matched, MatchedCover, series, series_cover
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance
 from engine.texture.rock import Rock
@@ -115,8 +115,12 @@ _ROWS = (
     Kind("series", _SERIES, series, "Textures between two examples, tiled", pictured=True),
     Kind("sparse", _SPARSE, Sparse, "An endless field of scattered copies of a sample", pictured=True),
 )
-# Not for the brush to name: the alpha that an image brings along where it is translucent.
-_COVER = Kind("cover", _IMAGE, Cover, "", pictured=True)
+# Not for the brush to name: the alpha that a texture brings along where it is translucent.
+_COVERS: dict[str, Kind] = {
+    "cover": Kind("cover", _IMAGE, Cover, "", pictured=True),
+    "matched-cover": Kind("matched-cover", _SAMPLE, MatchedCover, "", pictured=True),
+    "series-cover": Kind("series-cover", _SERIES, series_cover, "", pictured=True),
+}
 KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 
 
@@ -155,7 +159,7 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         raise TextureError("key", _shown(key), "[kind, base level, parameters ...]")
     if key[0] == "shaped":
         return _shaped_from_key(key, images)
-    row = _COVER if key[0] == _COVER.name else _row(key[0])
+    row = (_COVERS.get(key[0]) if isinstance(key[0], str) else None) or _row(key[0])
     _check_level(key[1])
     count = 2 + len(row.parameters) + (2 if row.pictured else 0)
     if len(key) != count:

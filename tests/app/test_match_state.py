@@ -38,7 +38,7 @@ def test_what_is_not_changed_is_not_told():
     made.axes[1] = 0.5
     told = made.arguments()
     assert {dict(band).get("level") for band in told["bands"]} == {0, -1}
-    assert told["axes"] == (1.0, 0.5, 1.0)
+    assert told["axes"] == (1.0, 0.5, 1.0, 1.0)
 
 
 def test_a_mixture_is_one_and_a_series_only_for_use():

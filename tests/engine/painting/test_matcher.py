@@ -73,6 +73,30 @@ def test_a_preview_grows_step_by_step(desk, example):
     assert not desk.easel.pending
 
 
+def test_a_translucent_example_is_seen_and_used_so(desk, example):
+    pixels = np.random.default_rng(4).integers(0, 256, (12, 14, 4), np.uint8)
+    pixels[3:9, 3:9, 3] = 0
+    Image.fromarray(pixels).resize((56, 48)).save(example / "a.png")
+    given = members(example)
+    desk.ask(q.MatchSet("match", given))
+    desk.rest()
+    for ident in ("match example", "match texture"):
+        seen = desk.pictures(ident)[-1]
+        assert seen[..., 3].min() < 20
+        assert (seen[..., :3] <= seen[..., 3:]).all()
+    assert len(desk.scene.colours) == 4
+    assert all(len(colour) == 3 for colour in desk.scene.colours)
+    desk.ask(q.MatchUse("Lace", "match", given))
+    desk.rest()
+    made = desk.easel.session.painting.textures["Lace"]
+    assert np.abs(made.source.data.transpose(1, 2, 0) * 255 - desk.pictures("match texture")[-1]).max() < 0.51
+    assert made.instance({}, 0, 0).cover is not None
+    given = given.set("axes", (1.0, 1.0, 0.5, 0.0))
+    desk.ask(q.MatchSet("match", given))
+    desk.rest()
+    assert not desk.scene.fault
+
+
 def test_the_newest_settings_win_and_tiles_come_first(desk, example):
     desk.ask(q.MatchSet("match", members(example)))
     for _ in range(8):

@@ -28,9 +28,11 @@ from engine.painting.makers import MAKERS
 from engine.painting.opening import open_painting
 from engine.painting.painting import Around, Painting, Refusal, apply
 from engine.painting.replay import replay
+from engine.painting.samples import flattened
 from engine.painting.session import Session
 from engine.painting.strictjson import Fields
 from engine.texture.adjusting import Band, adjusted
+from engine.texture.image import ImageSource
 from engine.texture.matching import Shape, analysed, noise, picture
 from engine.texture.matching import matched as matched_planes
 
@@ -72,7 +74,8 @@ DEFINITIONS = {
     "palette": texture("mix", path="colour.png", pattern="grey.png", **SMALL),
     "bands": texture("mix", path="colour.png", pattern={"path": "grey.png"}, how="bands", split=1, **SMALL),
     "average": texture("mix", path="colour.png", pattern="alpha.png", how="average", weight=0.3, **SMALL),
-    "series": texture("mix", path="colour.png", pattern="alpha.png", how="average", stages=3, **SMALL),
+    "series": texture("mix", path="colour.png", pattern="grey.png", how="average", stages=3, **SMALL),
+    "series with alpha": texture("mix", path="colour.png", pattern="alpha.png", how="average", stages=3, **SMALL),
 }
 
 
@@ -93,7 +96,11 @@ def assert_same(one, other):
 
 
 PAINTED = [(name, None) for name in DEFINITIONS]
-PAINTED += [(name, weight) for name in ("match", "series") for weight in (0.4, "pressure", [[0, 0.2], [1, 0.9]])]
+PAINTED += [
+    (name, weight)
+    for name in ("match", "series", "series with alpha")
+    for weight in (0.4, "pressure", [[0, 0.2], [1, 0.9]])
+]
 
 
 @pytest.mark.parametrize(("name", "weight"), PAINTED)
@@ -242,6 +249,109 @@ def test_axes_of_colour_can_be_taken_away():
     colours = pattern.colours.unclipped(planes).reshape(3, -1)
     spreads = np.sqrt(np.maximum(np.linalg.eigvalsh(np.cov(colours)), 0.0))
     assert spreads[-1] > 20 * spreads[-2]
+
+
+# ---- alpha ----
+
+
+def torn(folder):
+    """A picture with holes, soft at their rims: its pixels, premultiplied RGBA (4, h, w) of 0..1."""
+    rng = np.random.default_rng(8)
+    colours = Image.fromarray(rng.integers(60, 256, (12, 12, 3), np.uint8)).resize((48, 48))
+    alpha = Image.fromarray(rng.integers(0, 256, (9, 9), np.uint8)).resize((48, 48))
+    alpha = alpha.point(lambda value: min(max(3 * value - 300, 0), 255))
+    colours.putalpha(alpha)
+    colours.save(folder / "torn.png")
+    return Place(folder, None).picture(Fields({"path": "torn.png"}, ""))
+
+
+TORN = texture("match", path="torn.png", size=[64, 48], levels=3)
+
+
+def flat_stroke(**component):
+    brush = {"radius": 60, "hardness": 1, "dynamics": {}, "colour": "#339966", "ink": [{"texture": "t", **component}]}
+    return {"do": "stroke", "points": [[0, 20], [48, 20]], "brush": brush}
+
+
+def test_alpha_is_matched_with_the_colours(folder):
+    example = torn(folder)
+    made = replay(lines(TORN, folder=folder)).painting.textures["t"].source.data
+    assert (made[:3] <= made[3]).all()
+    for own, found in zip(example, made, strict=True):
+        assert found.mean() == pytest.approx(own.mean(), abs=0.03)
+        assert found.std() == pytest.approx(own.std(), rel=0.12)
+    assert np.corrcoef(made[0].ravel(), made[3].ravel())[0, 1] == pytest.approx(
+        np.corrcoef(example[0].ravel(), example[3].ravel())[0, 1], abs=0.12
+    )
+    pattern = analysed(example, Shape("steerable", 3, 4))
+    planes = matched_planes(pattern, noise(pattern.colours.count, (48, 64), 0))
+    assert pattern.colours.count == 4
+    wanted = picture(pattern, planes)
+    assert np.array_equal(made, np.minimum(wanted, wanted[3]))
+
+
+def test_ink_covers_where_its_alpha_says(folder):
+    torn(folder)
+    green = np.array([0.2, 0.6, 0.4], np.float32)[:, None, None]
+    drawn = [flat_stroke(), flat_stroke(amount=0.5), flat_stroke(colour="#8080ff")]
+    for line, amount, tint in zip(
+        drawn, (1.0, 0.5, 1.0), ((1, 1, 1), (1, 1, 1), (128 / 255, 128 / 255, 1)), strict=True
+    ):
+        painting = replay(lines(TORN, line, folder=folder)).painting
+        made = painting.textures["t"].source.data[:, :40, :48]
+        seen = evaluate(next(iter(layers(painting.root))).pyramid, 0, FRAME).data
+        tinted = made[:3] * np.array(tint, np.float32)[:, None, None]
+        assert np.abs(seen[:3] - (green + amount * (tinted - made[3] * green))).max() < 4 * Q
+        assert (seen[3] == 1.0).all()
+
+
+@pytest.mark.parametrize("curve", [None, "negate"])
+def test_where_alpha_is_nothing_the_brush_s_colour_stays_at_every_depth(folder, curve):
+    torn(folder)
+    component = {} if curve is None else {"shaping": curve}
+    painting = replay(lines(TORN, flat_stroke(roughness=0.5, **component), folder=folder)).painting
+    made = painting.textures["t"].instance({"roughness": 0.5}, 0, 0)
+    pyramid = next(iter(layers(painting.root))).pyramid
+    green = np.array([0.2, 0.6, 0.4], np.float32)[:, None, None]
+    for level in (0, 2, 4):
+        rect = Rect.at(8 << level, 8 << level, 96, 96)
+        seen, alpha = evaluate(pyramid, level, rect).data[:3], made.cover.appearance(level, rect)[0]
+        clear = np.abs(alpha) < 0.004
+        assert clear.sum() > 40
+        assert np.median(np.abs(seen - green).max(0)[clear]) < 0.02
+        assert seen.std() > 0.05
+
+
+def test_a_series_with_alpha_goes_with_the_pressure(folder):
+    torn(folder)
+    define = texture("mix", path="colour.png", pattern="torn.png", how="average", stages=3, **SMALL)
+
+    def painted(pressure, **component):
+        line = {**flat_stroke(**component), "points": [[0, 20, pressure], [48, 20, pressure]]}
+        return shown(replay(lines(define, line, folder=folder)).painting)
+
+    for pressure in (0.0, 0.5, 1.0):
+        for a, b in zip(painted(pressure, weight="pressure"), painted(0.7, weight=pressure), strict=True):
+            assert np.array_equal(a[:4], b[:4])
+    opaque, clear = painted(0.0, weight="pressure")[1], painted(1.0, weight="pressure")[1]
+    green = np.array([0.2, 0.6, 0.4], np.float32)[:, None, None]
+    assert (np.abs(clear[:3] - green).max(0) < 0.02).mean() > 0.1 + (np.abs(opaque[:3] - green).max(0) < 0.02).mean()
+
+
+def test_what_was_recorded_before_alpha_counted_is_as_it_was(folder):
+    """Then an example was known by the pixels that it has without its alpha."""
+    example = torn(folder)
+    without = flattened(example)
+    sha = ImageSource.of("", matches.rgba(without)).sha[:16]
+    made = replay(lines({**TORN, "examples": [sha]}, folder=folder)).painting.textures["t"].source
+    assert made.opaque
+    pattern = analysed(without, Shape("steerable", 3, 4))
+    planes = matched_planes(pattern, noise(pattern.colours.count, (48, 64), 0))
+    assert np.array_equal(made.data[:3], picture(pattern, planes))
+    both = texture("mix", path="torn.png", pattern="torn.png", how="average", **SMALL, examples=[sha, sha])
+    assert replay(lines(both, folder=folder)).painting.textures["t"].source.opaque
+    with pytest.raises(FileError, match="are not those recorded"):
+        replay(lines({**TORN, "examples": ["0" * 16]}, folder=folder))
 
 
 # ---- the weight under the pen ----

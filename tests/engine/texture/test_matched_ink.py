@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from specimens import bark, granite, photograph, sand
+from specimens import bark, granite, photograph, rock, sand, steep
 
 from engine.numeric import histograms
 from engine.numeric.address import Rect
@@ -19,6 +19,7 @@ from engine.texture.continuation import octave_of
 from engine.texture.image import ImageSource
 from engine.texture.matched import stage, weights
 from engine.texture.matching import Shape, analysed
+from engine.texture.spectral import Tiled
 from engine.texture.table import from_key, instance
 
 ORIGINS = st.one_of(st.integers(-300, 300), st.integers(-(2**90), 2**90), st.just((1 << 40) - 20))
@@ -30,12 +31,23 @@ def source(picture, name="sample"):
     return ImageSource.of(name, snapped(np.concatenate([planes, np.ones_like(planes[:1])]).astype(np.float32)))
 
 
+def translucent(size=(64, 64), seed=1):
+    """Premultiplied RGBA: granite where rock is high, with soft rims."""
+    height, width = size
+    alpha = steep(rock(size, 12, 0.5, seed + 40), 0.5, 0.25)[None]
+    colours = granite(size, seed)[:, :height, :width] * alpha
+    return ImageSource.of("translucent", snapped(np.concatenate([colours, alpha]).astype(np.float32)))
+
+
 def noise(b, size=(256, 256)):
     return 0.5 + 0.5 * texture_of(drawn("noise", size, {"b": b, "from": 0.0, "to": 1.5}), 3).reshape(1, *size)
 
 
 GRANITE, GRAVEL = source(granite((64, 64))), source(photograph("gravel", (47, 64)))
 BOTH = source(np.concatenate([granite((40, 48), k) for k in (1, 2, 3)], axis=1))
+CLEAR = translucent()
+STAGES = [BOTH.data[:, :40], *(translucent((40, 48), k).data for k in (2, 3))]
+PARTLY = ImageSource.of("partly", np.concatenate(STAGES, axis=1))
 
 
 @st.composite
@@ -46,8 +58,10 @@ def textures(draw):
         "stages": 3,
         "weight": draw(st.sampled_from([0.0, 0.3, 0.5, 1.0])),
     }
-    kind, picture = draw(st.sampled_from([("matched", GRANITE), ("matched", GRAVEL), ("series", BOTH)]))
-    return instance(kind, parameters, -3, 9, picture)
+    pictures = [("matched", GRANITE), ("matched", GRAVEL), ("series", BOTH), ("matched", CLEAR), ("series", PARTLY)]
+    kind, picture = draw(st.sampled_from(pictures))
+    made = instance(kind, parameters, -3, 9, picture)
+    return made.cover if made.cover is not None and draw(st.booleans()) else made
 
 
 @settings(deadline=None, max_examples=40)
@@ -63,15 +77,16 @@ def test_any_rectangle_holds_the_same_bits(made, x, y, up, data):
             assert big is small or not (big if small is None else small).any()
         else:
             assert (small == big[:, *part.slices(whole)]).all()
-            assert small.shape[0] == (3 if made.coloured else 1)
+            seen = 4 if made.cover is not None else 3 if made.coloured else 1
+            assert len(small) == (seen if values == made.appearance else min(seen, 3))
 
 
 @settings(deadline=None, max_examples=30)
 @given(textures(), ORIGINS, ORIGINS, st.sampled_from([1, 2, 3, 5, 9, 30]))
 def test_bandpass_is_what_expand_leaves_out(made, x, y, up):
     rect = Rect.at(x, y, 40, 36).evened()
-    left = made.appearance(up - 3, rect)
-    subtract_expanded(left, made.appearance(up - 4, parents(rect)))
+    left = made.appearance(up - 3, rect)[:3]
+    subtract_expanded(left, made.appearance(up - 4, parents(rect))[:3])
     added = made.bandpass(up - 3, rect)
     assert np.abs(cut(left, rect, rect) - (0 if added is None else added)).max() < 2e-5
 
@@ -157,9 +172,75 @@ def test_a_series_holds_its_stages_and_what_lies_between():
     assert stage(BOTH, 3, 0.5) is stage(BOTH, 3, 0.5)
 
 
+# ---- alpha ----
+
+
+def test_a_translucent_texture_is_its_picture_and_its_cover_the_alpha():
+    made = instance("matched", {}, 5, 0, CLEAR)
+    rect = Rect.at(-10, 3, 90, 80)
+    seen = made.appearance(5, rect)
+    assert np.abs(made.appearance(5, Rect.at(0, 0, 64, 64)) - CLEAR.data).max() < 1e-6
+    assert (made.cover.appearance(5, rect) == seen[3:]).all()
+    small = instance("matched", {"period": 16}, 5, 0, CLEAR)
+    for level in (5, 6):
+        fine = small.appearance(level + 1, rect.zoomed(1))
+        assert np.abs(small.appearance(level, rect) - reduce(fine)).max() < 5e-5
+    assert made.cover.cover is None
+    assert instance("matched", {}, 5, 0, GRANITE).cover is None
+
+
+def test_detail_of_colours_and_alpha_goes_together():
+    """Where the picture is opaque by its colours, detail of alpha follows that of the colours as in the picture."""
+    made = instance("matched", {"roughness": octave_of(CLEAR).slope}, 0, 0, CLEAR)
+    rect = Rect.at(0, 0, 256, 256)
+    for level in (1, 2):
+        colour, alpha = made.bandpass(level, rect), made.cover.bandpass(level, rect)
+        together = np.corrcoef(colour.mean(0).ravel(), alpha.ravel())[0, 1]
+        own = [np.diff(CLEAR.data[part], axis=-1).mean(0).ravel() for part in (slice(0, 3), slice(3, 4))]
+        assert together == pytest.approx(np.corrcoef(*own)[0, 1], abs=0.12)
+        assert together > 0.5
+    deep = made.appearance(9, Rect.at(3**40, 5, 256, 256))
+    assert deep[:3].std() > 0.02
+    assert deep[3].std() > 0.02
+
+
+@pytest.mark.parametrize("roughness", [0.3, 0.6, 0.85])
+def test_beyond_its_pixels_it_is_a_picture_all_the_same(roughness):
+    made = instance("matched", {"period": 40, "roughness": roughness}, 0, 0, CLEAR)
+    for level in (1, 2, 3, 6, 40):
+        seen = made.appearance(level, Rect.at(77, 5, 160, 128))
+        assert -1e-6 < seen[:3].min() <= seen[:3].max() < 1.0 + 1e-6
+        assert (seen[:3] <= seen[3] + 1e-6).all()
+        assert (made.cover.appearance(level, Rect.at(77, 5, 160, 128)) == seen[3:]).all()
+    native = made.appearance(made.native, Rect.at(0, 0, 80, 80))[3]
+    finer, rect = made.native + 1, Rect.at(0, 0, 160, 160)
+    for opaque in (0.0, 1.0):  # where there is no rim, most of the noise stays away
+        there = np.repeat(np.repeat(native == opaque, 2, axis=0), 2, axis=1)
+        seen, noisy = (
+            np.abs(planes[-1][there] - opaque).mean()
+            for planes in (made.appearance(finer, rect), Tiled.appearance(made.cover, finer, rect) / 2 + 0.5)
+        )
+        assert seen < 0.45 * noisy
+
+
+def test_a_series_may_begin_opaque():
+    made = [instance("series", {"stages": 3, "weight": w}, 0, 0, PARTLY) for w in weights(3)]
+    rect = Rect.at(0, 0, 96, 80)
+    assert np.abs(made[0].cover.appearance(3, rect) - 1).max() < 1e-6
+    assert made[0].cover.bandpass(3, rect) is None or np.abs(made[0].cover.bandpass(3, rect)).max() < 1e-6
+    assert made[2].cover.appearance(3, rect).std() > 0.1
+
+
 def test_keys_come_back():
-    for kind, picture in (("matched", GRANITE), ("series", BOTH)):
+    pictures = (("matched", GRANITE), ("series", BOTH), ("matched", CLEAR), ("series", PARTLY))
+    for kind, picture in pictures:
         made = instance(kind, {"period": 20, "roughness": 0.3, "stages": 3, "weight": 0.25}, 2, 0, picture)
+        if made.cover is not None:
+            cover = from_key(made.cover.key, {picture.sha: picture})
+            assert cover == made.cover
+            assert cover != made
+            assert (cover.appearance(4, Rect.at(3, 4, 9, 9)) == made.appearance(4, Rect.at(3, 4, 9, 9))[3:]).all()
+            assert not from_key(made.cover.key, {}).appearance(4, Rect.at(3, 4, 9, 9)).any()
         again = from_key(made.key, {picture.sha: picture})
         assert again == made
         assert again.key == made.key
