@@ -31,6 +31,11 @@ ABOUT = {
     "match": "Texture like an example, of any size, that tiles without seams",
     "mix": "Texture between two examples, of any size, that tiles without seams",
 }
+# What the command line does otherwise than `engine.painting.matches`, whose examples are read while one paints.
+WHOLE = (
+    "Examples are looked at whole, as they are.  As a brush's ink and in the window, one longer than 1024 pixels is "
+    "halved until it is not, and the middle 512 x 512 are looked at."
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,7 +76,7 @@ def run(name: str, words: list[str]) -> int:
 
 
 def _parser(name: str) -> Parser:
-    parser = Parser(prog=f"inkfall texture {name}", description=ABOUT[name], allow_abbrev=False)
+    parser = Parser(prog=f"inkfall texture {name}", description=ABOUT[name], epilog=WHOLE, allow_abbrev=False)
     if name == "match":
         parser.add_argument("example", metavar="EXAMPLE", help=PICTURE)
         parser.add_argument("--start", metavar="IMAGE", help="begin with a picture, stretched to the size, not noise")

@@ -13,6 +13,7 @@ from PIL import Image
 
 from app.__main__ import main
 from app.cli import solid
+from engine.painting import matches
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"L": 1, "RGB": 3, "RGBA": 4}
@@ -98,6 +99,14 @@ def test_the_whole_command_as_a_program(tmp_path):
         tmp_path, "match", path, "--size", "24x16", "--levels", "9", "--orientations", "3", "--seed", "-4", out="b.png"
     )
     assert np.array_equal(np.asarray(Image.open(out)), again)
+
+
+@pytest.mark.parametrize("name", ["match", "mix"])
+def test_what_is_done_otherwise_than_while_painting_is_told(name, capsys):
+    assert main(["texture", name, "--help"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert f"longer than {matches.SHRUNK} pixels is halved" in told
+    assert f"the middle {matches.EXAMPLE_SIDE} x {matches.EXAMPLE_SIDE}" in told
 
 
 def test_options_change_what_is_made(tmp_path, capsys):
