@@ -8,10 +8,18 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+import pytest
+from PIL import Image
+
 from app import presets as palette
 from engine.brush import kinds, presets
+from engine.canvas.evaluate import evaluate
+from engine.canvas.layers import layers
+from engine.numeric.address import Rect
 from engine.painting import commands
 from engine.painting.definitions import used
+from engine.painting.painting import apply
 from engine.painting.recording import read
 from engine.painting.requests import Swatch
 from engine.painting.swatches import painted
@@ -67,3 +75,40 @@ def test_every_preset_brings_all_it_needs_and_draws_itself():
         picture = painted(Swatch(preset.name, preset.brush, (104, 44), textures=preset.textures), Painting())
         assert picture[3].max() > 0.1, preset.name
         assert len(used(preset.brush, preset.textures)) == len(preset.textures), preset.name
+
+
+@pytest.mark.parametrize("name", ["Thaw", "Stony grass"])
+def test_the_pen_chooses_between_two_matched_textures(name):
+    """A light touch paints the first example, a hard one the second: their colours, and how rough they are."""
+    (preset,) = (found for found in palette.load(PALETTES / "brushes")[0] if found.name == name)
+    (command,) = preset.textures
+    painting = apply(Painting(Rect.at(0, 0, 200, 80)), command)
+
+    def painted_at(pressure):
+        points = np.array([[x, 40.0, pressure, 0.0, 0.0, x / 200] for x in (40.0, 160.0)])
+        layer = next(iter(layers(apply(painting, commands.Stroke(0, (0, 0), points, preset.brush)).root)))
+        return evaluate(layer.pyramid, 0, Rect.at(50, 28, 100, 24)).data[:3]
+
+    light, middle, hard = (painted_at(pressure) for pressure in (0.1, 0.55, 1.0))
+    for seen, member in ((light, "path"), (hard, "pattern")):
+        example = np.asarray(Image.open(command.arguments[member]), np.float32).transpose(2, 0, 1) / 255
+        assert np.abs(seen.mean((1, 2)) - example.mean((1, 2))).max() < 0.08
+        assert seen.std() == pytest.approx(example.std(), rel=0.3)
+    ends = [picture.mean((1, 2)) for picture in (light, hard)]
+    along = (middle.mean((1, 2)) - ends[0]) @ (ends[1] - ends[0]) / np.square(ends[1] - ends[0]).sum()
+    assert 0.3 < along < 0.7
+
+
+def test_script_cuts_the_same_examples_again(tmp_path):
+    for folder in ("examples", "brushes/examples"):
+        (tmp_path / folder).mkdir(parents=True)
+    own = PALETTES / "brushes" / "examples"
+    names = sorted(file.name for file in own.glob("*.png"))
+    assert names == ["gravel.png", "snow.png", "turf.png"]
+    for file in [*(PALETTES / "examples").glob("*.png"), own / "make_examples.py"]:
+        (tmp_path / file.relative_to(PALETTES)).write_bytes(file.read_bytes())
+    script = tmp_path / "brushes" / "examples" / "make_examples.py"
+    assert subprocess.run([sys.executable, script], check=False).returncode == 0
+    for name in names:
+        made, bundled = (np.asarray(Image.open(folder / name)) for folder in (script.parent, own))
+        assert np.array_equal(made, bundled)
