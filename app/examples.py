@@ -1,0 +1,257 @@
+"""Examples to paint with: those that come along, the artist's own, and what the panel knows of them.
+
+An example is a picture, NAME.png, the region of it that is grown, NAME.mask.png, and NAME.toml, which tells how
+(Ritter et al. 2006, section 3).
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import platformdirs
+from immutables import Map
+
+from app.mask import Mask
+from engine.brush.record import Brush
+from engine.painting.commands import DefineTexture
+from engine.painting.requests import Request, Swatch
+from engine.texture.example.parameters import Parameters, changed, read_toml
+from engine.texture.field_error import FieldError
+
+OWN = "Own"  # the group of the artist's own
+ALL = ""  # the group of every example
+_RANK = {OWN: 0, "Watercolour": 1, "Paper": 2}  # others follow, by name
+MASK, PICTURE, PARAMETERS = ".mask.png", ".png", ".toml"
+PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+SIZES = (-2, -1, 0, 1, 2)  # octaves by which a texture is larger than the canvas pixels seen when it was chosen
+REACH = 8  # levels from a stroke's to that of the example's pixels
+TOO_FINE = 4  # levels that a stroke may be coarser: each makes four times the pixels
+DEPTHS = (-99, 99)
+SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
+TABS = ("palette", "region", "settings")
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """An example.  `revision`: another number when the artist's own region is another one."""
+
+    name: str
+    group: str
+    picture: Path
+    mask: Path | None
+    parameters: Parameters
+    own: bool
+    revision: int = 0
+
+    @property
+    def ident(self) -> str:
+        return f"{'own' if self.own else 'bundled'} {self.name}"
+
+    @property
+    def title(self) -> str:
+        """What it is called: `wash-indigo` is a wash, indigo."""
+        text = self.name.replace("-", " ").replace("_", " ").strip() or self.name
+        return text[:1].upper() + text[1:]
+
+
+def bundled_folder() -> Path:
+    """The examples that come with the program; the folder lies beside the packages."""
+    return Path(__file__).resolve().parent.parent / "palettes" / "examples"
+
+
+def own_folder() -> Path:
+    """Where the artist's own are kept."""
+    return platformdirs.user_data_path("inkfall") / "examples"
+
+
+def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
+    """The examples of a folder by group and name, and a line for each file of parameters that is none."""
+    found, faults = [], []
+    pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith(MASK)) if folder.is_dir() else ()
+    for path in sorted(pictures):
+        group, parameters, fault = _told(path.with_suffix(PARAMETERS))
+        faults += [f"{path.stem}{PARAMETERS}: {fault}"] if fault else []
+        mask = path.with_name(path.stem + MASK)
+        there = mask if mask.is_file() else None
+        revision = _stamp(there) if own else 0
+        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, revision))
+    return arranged(found), faults
+
+
+def arranged(entries: Iterable[Entry]) -> list[Entry]:
+    """By group, in the order in which these are listed, and by name."""
+    return sorted(entries, key=lambda e: (_RANK.get(e.group, 3), e.group, e.name))
+
+
+def _stamp(path: Path | None) -> int:
+    return 0 if path is None else path.stat().st_mtime_ns
+
+
+def _told(path: Path) -> tuple[str, Parameters, str]:
+    """Group and parameters in a file, and what is wrong with it."""
+    if not path.is_file():
+        return "Other", Parameters(), ""
+    try:
+        data = path.read_bytes()
+        parameters = read_toml(data)
+        return str(tomllib.loads(data.decode()).get("group", "Other")), parameters, ""
+    except (OSError, FieldError) as error:
+        return "Other", Parameters(), str(error)
+
+
+@dataclass(slots=True)
+class ExampleState:
+    """`chosen`: the entry that is painted with or looked at, by its ident; `size`: one of SIZES; `base`: the level that
+    was shown when it was chosen; `eraser`: the depth that the eraser takes away, None for everything; `drafts`: by
+    ident, parameters that are being tried; `used`: those that are painted with; `masks`: regions that are being
+    painted; `spot`: where the region is on the screen, corner and pixels of the screen per pixel of it."""
+
+    entries: tuple[Entry, ...] = ()
+    chosen: str = ""
+    group: str = ALL
+    tab: str = "palette"
+    size: int = 0
+    base: int = 0
+    depth: int = 0
+    radius: float = 36.0  # of the brush when it begins to paint with examples, pixels of the screen
+    eraser: int | None = None
+    swapping: bool = False
+    drafts: dict[str, Map[str, Any]] = field(default_factory=dict)
+    used: dict[str, Map[str, Any]] = field(default_factory=dict)
+    masks: dict[str, Mask] = field(default_factory=dict)
+    spot: tuple[float, float, float] | None = None
+    sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
+    _asked: Any = None
+    _since: float = 0.0
+    _sent: float = 0.0
+
+    @property
+    def entry(self) -> Entry | None:
+        return next((entry for entry in self.entries if entry.ident == self.chosen), None)
+
+    @property
+    def mask(self) -> Mask | None:
+        """The region that is being painted."""
+        return self.masks.get(self.chosen)
+
+    def groups(self) -> list[str]:
+        return list(dict.fromkeys(entry.group for entry in self.entries))
+
+    def label(self, entry: Entry) -> str:
+        """An example's title without a first word that several of its group share: a wash among washes."""
+        first, _, rest = entry.title.partition(" ")
+        same = [e for e in self.entries if e.group == entry.group and e.title.partition(" ")[0] == first]
+        return rest[:1].upper() + rest[1:] if rest and len(same) > 2 and not entry.own else entry.title
+
+    def listed(self) -> list[Entry]:
+        return [entry for entry in self.entries if self.group in (ALL, entry.group)]
+
+    # --- the region --------------------------------------------------------------------------------------------------
+
+    def over(self, x: float, y: float) -> bool:
+        """Whether a point of the screen is on the region."""
+        if self.spot is None or self.mask is None or self.tab != "region":
+            return False
+        u, v = self.place(x, y)
+        height, width = self.mask.inside.shape
+        return 0.0 <= u < width and 0.0 <= v < height
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """A point of the screen in pixels of the example."""
+        left, top, scale = self.spot if self.spot is not None else (0.0, 0.0, 1.0)
+        return (x - left) / scale, (y - top) / scale
+
+    # --- parameters --------------------------------------------------------------------------------------------------
+
+    def draft(self, entry: Entry) -> Parameters:
+        """The parameters that the settings show."""
+        return changed(entry.parameters, self.drafts.get(entry.ident, self.used.get(entry.ident, Map())))
+
+    def set(self, entry: Entry, name: str, value: Any) -> None:
+        """Another value of one of them."""
+        now = asdict(replace(self.draft(entry), **{name: value}))
+        own = asdict(entry.parameters)
+        self.drafts[entry.ident] = Map({key: told for key, told in now.items() if told != own[key]})
+
+    def reset(self, entry: Entry) -> None:
+        """As the example's file has them."""
+        self.drafts[entry.ident] = Map()
+
+    def tried(self, entry: Entry) -> bool:
+        """Whether the settings differ from what is painted with."""
+        used = self.used.get(entry.ident, Map())
+        return self.drafts.get(entry.ident, used) != used
+
+    def command(self, entry: Entry, draft: bool = False) -> DefineTexture:
+        """The definition of its texture, as it is painted with or as the settings are."""
+        usual = self.used.get(entry.ident, Map())
+        told = self.drafts.get(entry.ident, usual) if draft else usual
+        return definition(entry, told)
+
+    # --- the brush ---------------------------------------------------------------------------------------------------
+
+    def levels(self) -> dict[str, int]:
+        """The members of a brush that tell how large the texture is."""
+        return {"example_level": self.base - max(self.size, 0), "example_detail": max(-self.size, 0)}
+
+    def erasing(self, brush: Brush) -> Brush:
+        """A brush that erases, of everything or of one depth alone."""
+        return replace(brush, depth=None if self.eraser is None else float(self.eraser), example_level=None)
+
+    def within_reach(self, level: int) -> bool:
+        """Whether a stroke at a level may have the texture's size."""
+        far = self.levels()["example_level"] - level
+        return -REACH <= far <= TOO_FINE
+
+    def at_home(self, brush: Brush) -> Brush:
+        """The brush as it paints a small picture at level 0."""
+        if brush.mode != "example":
+            return brush
+        return replace(brush, example_level=-max(self.size, 0))
+
+    def ask(self, post: Callable[[Request], None], now: float) -> None:
+        """Posts the sample stroke that the panel shows, no faster than it can be seen."""
+        entry = self.entry
+        wanted = None if entry is None else (self.command(entry, self.tab == "settings"), entry.revision, self.sampled)
+        if wanted != self._asked:
+            self._asked, self._since = wanted, self._since or max(now, self._sent + SETTLE)
+        if self._since and now >= self._since:
+            self._since, self._sent = 0.0, now
+            if wanted is not None and min(self.sampled) > 0:
+                post(sample(wanted[0], self.sampled))
+
+
+def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
+    """The command that makes an example's texture; `told`: parameters other than its own."""
+    if not entry.own:
+        return DefineTexture(entry.title, "example", Map({"bundled": entry.name, **told}))
+    given: dict[str, Any] = {"path": str(entry.picture), **asdict(entry.parameters), **told}
+    if entry.mask is not None:
+        given |= {"mask": str(entry.mask), "mask_sha": mask_sha(entry.mask, entry.revision)}
+    return DefineTexture(entry.title, "example", Map(given))
+
+
+def sample(command: DefineTexture, size: tuple[int, int]) -> Swatch:
+    """A broad stroke with an example."""
+    brush = Brush(radius=size[1] * 0.24, mode="example", example=command.name, hardness=1.0)
+    return Swatch("example sample", brush, size, textures=(command,), soon=True)
+
+
+_SHAS: dict[tuple[Path, int], str] = {}
+
+
+def mask_sha(path: Path, revision: int) -> str:
+    """What a definition calls the region that a file holds now: with another region it defines another texture."""
+    if (path, revision) not in _SHAS:
+        from engine.painting.exemplars import read_mask  # here: the engine is loaded by now
+        from engine.texture.image import ImageSource
+
+        inside = read_mask(path)
+        planes = np.repeat(inside[None].astype(np.float32), 4, axis=0)
+        _SHAS[path, revision] = ImageSource.of(path.stem, planes).sha
+    return _SHAS[path, revision]

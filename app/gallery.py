@@ -1,0 +1,41 @@
+"""Pictures as imgui shows them: each a texture on the card, under a name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+
+from engine.numeric.address import Rect
+
+PAPER = 244  # grey of the paper under pictures with holes
+
+
+class Gallery:
+    """`shown`: by name, the references that imgui takes.  All calls from the thread that owns the context."""
+
+    def __init__(self, ctx: moderngl.Context, shown: dict[str, Any]) -> None:
+        self._ctx, self._shown = ctx, shown
+        self._textures: dict[str, moderngl.Texture] = {}
+
+    def hang(self, name: str, pixels: np.ndarray) -> None:
+        """A picture, uint8 (h, w, 4) premultiplied, over paper."""
+        alpha = pixels[..., 3:].astype(np.uint16)
+        flat = (pixels[..., :3] + (255 - alpha) * PAPER // 255).clip(0, 255).astype(np.uint8)
+        self._of(name, pixels.shape[1], pixels.shape[0]).write(np.ascontiguousarray(flat), alignment=1)
+
+    def touch(self, name: str, size: tuple[int, int], box: Rect, pixels: np.ndarray) -> None:
+        """A part, uint8 (h, w, 3), of a picture of `size` (width, height)."""
+        viewport = (box.x0, box.y0, box.width, box.height)
+        self._of(name, *size).write(np.ascontiguousarray(pixels), viewport=viewport, alignment=1)
+
+    def _of(self, name: str, width: int, height: int) -> moderngl.Texture:
+        old = self._textures.get(name)
+        if old is None or old.size != (width, height):
+            if old is not None:
+                old.release()
+            old = self._textures[name] = self._ctx.texture((width, height), 3, alignment=1)
+            self._shown[name] = imgui.ImTextureRef(old.glo)
+        return old

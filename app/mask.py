@@ -1,0 +1,246 @@
+"""The region of an example as it is painted: in and out with a round brush, by transparency, by colour, with undo."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from engine.numeric.address import Rect
+
+STEPS = 100  # that can be taken back
+DIM, TINT = 0.22, (28, 32, 40)  # how much of what is outside still shows, and over what; sRGB
+CHECKER, LIGHT, DARK = 8, 226, 198  # the paper under a picture with holes: side of its squares, pixels; greys
+SMOOTH = 2  # pixels that one smoothing reaches, each of PASSES times
+PASSES = 3
+RADII = (0.5, 300.0)
+WAYS = ("in", "out", "colour")
+
+
+@dataclass(slots=True, eq=False)
+class Mask:
+    """`pixels`: the picture, uint8 RGBA (h, w, 4), not premultiplied; `inside`: its region, bool (h, w).
+
+    `radius`: of the brush, in pixels of the picture; `way`: what a stroke does, of WAYS; `tolerance`: how far a colour
+    may be from the one that is clicked, 0..1; `joined`: only what hangs together with it; `dirty`: what has changed
+    since it was last shown.
+    """
+
+    pixels: np.ndarray
+    inside: np.ndarray
+    radius: float = 12.0
+    way: str = "in"
+    tolerance: float = 0.1
+    joined: bool = True
+    version: int = 0
+    saved: int = 0
+    dirty: Rect | None = None
+    _before: list[bytes] = field(default_factory=list)
+    _after: list[bytes] = field(default_factory=list)
+    _at: tuple[float, float] | None = None
+    _clicked: tuple[int, int, int] | None = None  # where a colour was picked last, and the version that made
+
+    def __post_init__(self) -> None:
+        self.dirty = self._whole
+
+    @property
+    def _whole(self) -> Rect:
+        return Rect(0, 0, self.inside.shape[1], self.inside.shape[0])
+
+    @property
+    def modified(self) -> bool:
+        return self.version != self.saved
+
+    @property
+    def can_undo(self) -> bool:
+        return bool(self._before)
+
+    @property
+    def can_redo(self) -> bool:
+        return bool(self._after)
+
+    # --- strokes -----------------------------------------------------------------------------------------------------
+
+    def begin(self, x: float, y: float) -> None:
+        """The pen touches the picture at a point in its pixels."""
+        if self.way == "colour":
+            self.pick(int(x // 1), int(y // 1))
+            return
+        self._remember()
+        self._at = None
+        self.to(x, y)
+
+    def to(self, x: float, y: float) -> None:
+        """The pen has moved there."""
+        if self.way == "colour":
+            return
+        start, self._at = self._at or (x, y), (x, y)
+        reach = self.radius + 1.0
+        xs, ys = (start[0], x), (start[1], y)
+        box = Rect(
+            int(min(xs) - reach), int(min(ys) - reach), int(max(xs) + reach) + 1, int(max(ys) + reach) + 1
+        ).intersect(self._whole)
+        if box.empty:
+            return
+        taken = _near(box, start, (x, y)) <= self.radius**2
+        self.inside[box.slices(self._whole)][taken] = self.way == "in"
+        self._changed(box)
+
+    def abandon(self) -> None:
+        """The stroke in progress is dropped."""
+        if self.way != "colour":
+            self.step(-1)
+            self._after.clear()
+
+    def pick(self, x: int, y: int) -> None:
+        """Everything of the colour at a pixel leaves the region."""
+        if not (0 <= x < self._whole.width and 0 <= y < self._whole.height):
+            return
+        self._remember()
+        self._apply(x, y)
+
+    def tolerate(self, tolerance: float, joined: bool) -> None:
+        """Another tolerance; the colour that was picked just now is picked again with it."""
+        if (tolerance, joined) == (self.tolerance, self.joined):
+            return
+        self.tolerance, self.joined = tolerance, joined
+        if self._clicked is not None and self._clicked[2] == self.version and self._before:
+            x, y, _ = self._clicked
+            self.inside = self._unpacked(self._before[-1])
+            self._apply(x, y)
+
+    def _apply(self, x: int, y: int) -> None:
+        self.inside &= ~alike(self.pixels, x, y, self.tolerance, self.joined)
+        self._changed(self._whole)
+        self._clicked = x, y, self.version
+
+    def resize(self, factor: float) -> None:
+        """Another size of the brush."""
+        self.radius = round(max(RADII[0], min(RADII[1], self.radius * factor)), 1)
+
+    # --- all at once -------------------------------------------------------------------------------------------------
+
+    def by_transparency(self) -> None:
+        """The region is where the picture is not transparent."""
+        self._set(self.pixels[..., 3] > 0)
+
+    def everything(self) -> None:
+        self._set(np.ones_like(self.inside))
+
+    def invert(self) -> None:
+        self._set(~self.inside)
+
+    def smooth(self) -> None:
+        """Rounds corners off, and takes specks and pinholes away."""
+        self._set(smoothed(self.inside))
+
+    def _set(self, inside: np.ndarray) -> None:
+        self._remember()
+        self.inside = inside
+        self._changed(self._whole)
+
+    # --- steps -------------------------------------------------------------------------------------------------------
+
+    def step(self, by: int) -> None:
+        """Takes the last step back (-1), or does it again (1)."""
+        taken, given = (self._before, self._after) if by < 0 else (self._after, self._before)
+        if taken:
+            given.append(self._packed())
+            self.inside = self._unpacked(taken.pop())
+            self._changed(self._whole)
+
+    def _remember(self) -> None:
+        self._before.append(self._packed())
+        del self._before[:-STEPS]
+        self._after.clear()
+
+    def _packed(self) -> bytes:
+        return np.packbits(self.inside).tobytes()
+
+    def _unpacked(self, bits: bytes) -> np.ndarray:
+        flat = np.unpackbits(np.frombuffer(bits, np.uint8), count=self.inside.size)
+        return flat.reshape(self.inside.shape).astype(bool)
+
+    def _changed(self, box: Rect) -> None:
+        self.version += 1
+        self.dirty = box if self.dirty is None else self.dirty.union(box)
+
+    # --- looks -------------------------------------------------------------------------------------------------------
+
+    def shown(self, box: Rect) -> np.ndarray:
+        """A part of the picture over paper, what is outside dimmed and the region’s edge marked: uint8 (h, w, 3)."""
+        around = box.grown(1).intersect(self._whole)
+        inside = self.inside[around.slices(self._whole)]
+        flat = over_paper(self.pixels[around.slices(self._whole)], around.x0, around.y0).astype(np.float32)
+        dimmed = np.array(TINT, np.float32) + DIM * (flat - np.array(TINT, np.float32))
+        out = np.where(inside[..., None], flat, dimmed)
+        out[_edge(inside)] = 0.25 * out[_edge(inside)] + 0.75 * 255
+        return out[box.slices(around)].round().astype(np.uint8)
+
+
+def over_paper(pixels: np.ndarray, x: int = 0, y: int = 0) -> np.ndarray:
+    """RGBA (h, w, 4), not premultiplied, over a checker whose pixel (x, y) is the first: uint8 (h, w, 3)."""
+    height, width = pixels.shape[:2]
+    rows, columns = (np.arange(height) + y) // CHECKER, (np.arange(width) + x) // CHECKER
+    paper = np.where((rows[:, None] + columns) % 2, DARK, LIGHT)[..., None].astype(np.uint32)
+    alpha = pixels[..., 3:].astype(np.uint32)
+    mixed = (pixels[..., :3] * alpha + paper * (255 - alpha) + 127) // 255
+    found: np.ndarray = mixed.astype(np.uint8)
+    return found
+
+
+def alike(pixels: np.ndarray, x: int, y: int, tolerance: float, joined: bool) -> np.ndarray:
+    """Where RGBA pixels, uint8 (h, w, 4), are like the one at (x, y), in every channel by at most `tolerance` (0..1);
+    `joined`: only those that hang together with it.  Bool (h, w)."""
+    colours = pixels.astype(np.int32)
+    alpha = colours[..., 3:]
+    seen = np.concatenate([colours[..., :3] * alpha // 255, alpha], axis=2)
+    near: np.ndarray = np.abs(seen - seen[y, x]).max(axis=2) <= round(255 * tolerance)
+    if not joined:
+        return near
+    from scipy import ndimage  # here: it takes its time to load
+
+    parts, _ = ndimage.label(near)
+    found: np.ndarray = parts == parts[y, x]
+    return found
+
+
+def smoothed(inside: np.ndarray) -> np.ndarray:
+    """Where most of the surroundings are inside: bool (h, w).  The picture goes on past its edges as it ends there."""
+    soft = inside.astype(np.float64)
+    for _ in range(PASSES):
+        for axis in (0, 1):
+            soft = _averaged(soft, axis)
+    found: np.ndarray = soft > 0.5
+    return found
+
+
+def _averaged(soft: np.ndarray, axis: int) -> np.ndarray:
+    """The mean of 2 SMOOTH + 1 values along an axis."""
+    ends = [(0, 0), (0, 0)]
+    ends[axis] = (SMOOTH + 1, SMOOTH)
+    total = np.pad(soft, ends, mode="edge").cumsum(axis=axis)
+    count, size = 2 * SMOOTH + 1, soft.shape[axis]
+    upper, lower = np.arange(count, count + size), np.arange(size)
+    return (total.take(upper, axis) - total.take(lower, axis)) / count
+
+
+def _near(box: Rect, start: tuple[float, float], end: tuple[float, float]) -> np.ndarray:
+    """Squared distances of the middles of a box's pixels from a line: float64 (h, w)."""
+    x = np.arange(box.x0, box.x1) + 0.5 - start[0]
+    y = (np.arange(box.y0, box.y1) + 0.5 - start[1])[:, None]
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    length = dx * dx + dy * dy
+    part = np.clip((x * dx + y * dy) / length, 0.0, 1.0) if length else np.zeros((box.height, box.width))
+    found: np.ndarray = (x - part * dx) ** 2 + (y - part * dy) ** 2
+    return found
+
+
+def _edge(inside: np.ndarray) -> np.ndarray:
+    """Pixels outside that touch the region."""
+    grown = inside.copy()
+    grown[1:] |= inside[:-1]
+    grown[:-1] |= inside[1:]
+    grown[:, 1:] |= inside[:, :-1]
+    grown[:, :-1] |= inside[:, 1:]
+    return grown & ~inside
