@@ -55,6 +55,7 @@ def _in_pictures(folder: Path, as_json: bool) -> int:
     from engine.painting.export import export
     from engine.painting.recording import read
     from engine.painting.replay import replay
+    from engine.painting.settling import settled
 
     places = [Rectangle(*place) for place in json.loads(PLACES.read_text())["zoom"]]
     try:
@@ -64,15 +65,16 @@ def _in_pictures(folder: Path, as_json: bool) -> int:
     recording = read(RECORDING)
     with Progress("painting", len(recording.commands)) as tell:
         session = replay(recording, tell=tell)
+        painting = settled(session.painting)
     written = [folder / "demo.ora", folder / "demo.png"]
     with Progress("writing", len(places) + 2) as tell:
-        save(written[0], Snapshot(session.painting, session.recording()))
+        save(written[0], Snapshot(painting, session.recording()))
         tell(1)
-        export(written[1], picture_of(session.painting, None))
+        export(written[1], picture_of(painting, None))
         for number, place in enumerate(places):
             tell(number + 2)
             written.append(folder / f"demo-zoom-{number:02}.png")
-            export(written[-1], picture_of(session.painting, place))
+            export(written[-1], picture_of(painting, place))
     if as_json:
         print(json.dumps({"written": [os.fspath(path) for path in written]}))
     else:

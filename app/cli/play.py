@@ -8,6 +8,7 @@ import os
 import time
 
 from app.cli.arguments import count, rectangle, seed
+from app.cli.matched import MOST, whole
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output, picture_of
 from app.cli.progress import Progress
@@ -20,6 +21,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="level, and rectangle in its pixels")
     parser.add_argument("--until", type=count, metavar="N", help="only the first N commands")
     parser.add_argument("--seed", type=seed, metavar="S", help="of the textures, instead of the recording's")
+    parser.add_argument("--threads", type=whole(1, MOST), metavar="N", help="default: as many as there are cores")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -32,6 +34,7 @@ def run(options: argparse.Namespace) -> int:
     from engine.painting.export import export
     from engine.painting.recording import read
     from engine.painting.replay import replay
+    from engine.painting.settling import settled
 
     recording = read(options.recording)
     if options.until is not None:
@@ -39,13 +42,14 @@ def run(options: argparse.Namespace) -> int:
     start = time.perf_counter()
     with Progress("playing", len(recording.commands)) as tell:
         session = replay(recording, seed=options.seed, tell=tell)
+        painting = settled(session.painting, options.threads)
     seconds = time.perf_counter() - start
     if options.save is not None:
         with Progress("saving", 100) as tell:
-            save(options.save, Snapshot(session.painting, session.recording()), tell.part)
+            save(options.save, Snapshot(painting, session.recording()), tell.part)
     if options.png is not None:
         with Progress("writing", 100) as tell:
-            export(options.png, picture_of(session.painting, options.rect), tell.part)
+            export(options.png, picture_of(painting, options.rect), tell.part)
     _tell(options, len(recording.commands), seconds)
     return DONE
 

@@ -55,6 +55,13 @@ def number(value: Any, place: str, lo: float, hi: float) -> float:
     return float(value) + 0.0  # no negative zero
 
 
+def integer(value: Any, place: str, lo: int, hi: int) -> int:
+    """An integer of [lo, hi]."""
+    if not is_number(value) or not lo <= value <= hi or value != int(value):
+        raise BrushError(place, shown(value), f"an integer from {lo} to {hi}")
+    return int(value)
+
+
 def text(value: Any, place: str, what: str = "a name", cap: int = TEXT_CAP) -> str:
     if not isinstance(value, str) or not 0 < len(value) <= cap or _UNPRINTABLE.search(value):
         raise BrushError(place, shown(value), f"{what}, a text of 1 to {cap} printable characters")

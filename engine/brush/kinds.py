@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from engine.brush import coat
-from engine.brush.checks import BrushError, shown
+from engine.brush.checks import BrushError
 from engine.brush.covered import Covered, Read
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.raster import Raster, Scene
-from engine.brush.record import Brush, to_json
+from engine.brush.record import Brush
 from engine.brush.relief import Relief
 from engine.brush.stamp import Edit, Stamp
 from engine.numeric.address import TILE, TileKey
@@ -143,7 +143,8 @@ _NOTHING = np.zeros((COLOURS, TILE, TILE), np.float32)
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A row of the table: what the mode is called, what it does, and the class of its edits; None: not yet."""
+    """A row of the table: what the mode is called, what it does, and the class of its edits; None if it makes none,
+    since it grows."""
 
     name: str
     label: str
@@ -158,19 +159,15 @@ MODES: dict[str, Mode] = {
         Mode("erase", "Erase", "Takes away paint and the detail under it", Erasing),
         Mode("smooth", "Smooth", "Blurs, and removes the detail that zooming in would show", Smoothing),
         Mode("raster", "Raster operation", "Changes the colour that is there", Raster),
-        Mode("example", "Example", "Grows a texture from an example", None),
+        Mode("example", "Example", "Grows a texture like an example, rim included", None),
     )
 }
 
 
 def check(brush: Brush, where: str = "brush") -> None:
-    """BrushError, naming the field, if the brush asks for something that this version cannot paint with."""
-    usable = ", ".join(name for name, mode in MODES.items() if mode.edit is not None)
-    if MODES[brush.mode].edit is None:
-        raise BrushError(f"{where}.mode", f'"{brush.mode}"', f"a mode that this version paints with: {usable}")
-    for name in ("example", "depth"):
-        if getattr(brush, name) is not None:
-            raise BrushError(f"{where}.{name}", shown(to_json(brush)[name]), "none: this version paints without")
+    """BrushError, naming the field, if the brush lacks what its mode needs."""
+    if brush.mode == "example" and brush.example is None:
+        raise BrushError(f"{where}.example", "none", "the name of a texture of the maker example")
 
 
 def edit(
@@ -186,14 +183,15 @@ def edit(
 
     `ink` (`ink.resolve`) is needed to paint; `read`, which gives the old values of any rectangle of the stroke's
     level, to smooth; `relief` (`relief.resolve`) thins the coverage; a raster-op takes
-    `raster.mixture` for its ink, and looks at `scene`, as ink does that goes with the pressure.  BrushError as `check`.
+    `raster.mixture` for its ink, and looks at `scene`, as ink does that goes with the pressure.  BrushError if the
+    brush's mode makes no edits.
     """
-    check(brush)
     coverage = mask.coverage() if isinstance(mask, StrokeMask) else mask
     if relief is not None:
         coverage = relief.over(coverage)
     made = MODES[brush.mode].edit
-    assert made is not None
+    if made is None:
+        raise BrushError("brush.mode", f'"{brush.mode}"', "a mode that edits what is there")
     if made is Raster:
         return Raster(coverage, brush, ink, alpha_locked, read, scene or Scene())
     if made is Painting and scene is not None:

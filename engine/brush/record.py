@@ -20,6 +20,9 @@ from engine.numeric.curves import Shape
 __all__ = ["COMPONENTS_CAP", "SETTINGS", "Brush", "Component", "Curve", "Setting", "from_json", "to_json"]
 
 MODE_NAMES = ("paint", "erase", "smooth", "raster", "example")
+LEVEL_LIMIT = 1 << 16  # of an example's pixels
+DEEPEST = 2.0**31  # of the layers of examples
+MOST_DETAIL = 4
 
 Curve = str | Knots  # "pressure", or knots [in, out]
 
@@ -97,6 +100,8 @@ SETTINGS: dict[str, Setting] = {
 class Brush:
     """A brush; immutable and hashable.  BrushError if a number is out of its range.
 
+    `example`: the texture that mode "example" grows, on the layer of depth `depth`, in pixels of `example_level` (None:
+    the stroke's own); `example_detail`: how many levels of the example are finer than these.
     `dynamics`: by setting, the curve of pen pressure by which its value is multiplied; the value of a setting without
     a curve stays as it is.  `extra`: members of the JSON form that this version does not know.
     """
@@ -118,6 +123,8 @@ class Brush:
     extent: bool = False
     example: str | None = None
     depth: float | None = None
+    example_level: int | None = None
+    example_detail: int = 0
     dynamics: Map[str, Any] = field(default_factory=lambda: Map({"opacity": "pressure"}))
     extra: Map[str, Any] = field(default_factory=Map)
 
@@ -163,6 +170,8 @@ _RARE: dict[str, Any] = {
     "extent": False,
     "example": None,
     "depth": None,
+    "example_level": None,
+    "example_detail": 0,
 }
 
 
@@ -207,6 +216,8 @@ _READERS: dict[str, Callable[[Any, str], Any]] = {
     "tip": _optional(parts.tip),
     "extent": parts.flag,
     "example": _optional(lambda value, place: checks.text(value, place, "an example's name")),
-    "depth": _optional(lambda value, place: checks.number(value, place, -(2.0**31), 2.0**31)),
+    "depth": _optional(lambda value, place: checks.number(value, place, -DEEPEST, DEEPEST)),
+    "example_level": _optional(lambda value, place: checks.integer(value, place, -LEVEL_LIMIT, LEVEL_LIMIT)),
+    "example_detail": lambda value, place: checks.integer(value, place, 0, MOST_DETAIL),
     "dynamics": _dynamics,
 }

@@ -22,6 +22,7 @@ from engine.painting.fault import FileError
 from engine.painting.images import read_image
 from engine.painting.limits import LIMITS
 from engine.painting.rendering import strips
+from engine.painting.settling import settled_root
 from engine.painting.strictjson import Fields
 from engine.texture.image import ImageSource
 
@@ -77,4 +78,6 @@ def captured(members: Fields, root: Group) -> np.ndarray:
     name = members.text("layer", None)
     shown = root if name is None else layers.alone(layers.find(root, name))
     rect = Rect.at(x, y, width, height).zoomed(detail)
-    return snapped(np.concatenate([strip.copy() for strip in strips(shown, level + detail, rect)], axis=1))
+    return snapped(
+        np.concatenate([strip.copy() for strip in strips(settled_root(shown), level + detail, rect)], axis=1)
+    )

@@ -161,8 +161,22 @@ class DefineTexture:
     arguments: Map = field(default_factory=Map)
 
 
+@dataclass(frozen=True, slots=True)
+class Swap:
+    """Another example for the region that lies on top at pixel `at` of `level`, on a layer (None: the active one), of
+    one depth or (None) of any; `detail` as the brush's."""
+
+    level: int
+    at: tuple[int, int]
+    example: str
+    layer: str | None = None
+    depth: float | None = None
+    detail: int = 0
+    extra: Map = _NOTHING
+
+
 LayerCommand = AddLayer | SelectLayer | RemoveLayer | RenameLayer | DuplicateLayer | MoveLayer | SetLayer
-Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture
+Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap
 
 
 def parse(value: Any, where: str = "") -> Command:
@@ -324,6 +338,30 @@ def _write_texture(command: DefineTexture) -> dict[str, Any]:
     return {"name": command.name, "maker": command.maker, **thawed(command.arguments)}
 
 
+def _read_swap(members: Fields) -> Swap:
+    x, y = members.integers("at", 2, limit=PLACE_LIMIT)
+    return Swap(
+        members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT),
+        (x, y),
+        members.text("example"),
+        None if members.take("layer", None) is None else members.text("layer"),
+        None if members.take("depth", None) is None else members.number("depth", lo=-record.DEEPEST, hi=record.DEEPEST),
+        members.integer("example_detail", 0, lo=0, hi=record.MOST_DETAIL),
+        members.rest(),
+    )
+
+
+def _write_swap(swap: Swap) -> dict[str, Any]:
+    out: dict[str, Any] = {"level": swap.level, "at": list(swap.at), "example": swap.example}
+    if swap.layer is not None:
+        out["layer"] = swap.layer
+    if swap.depth is not None:
+        out["depth"] = plain(swap.depth)
+    if swap.detail:
+        out["example_detail"] = swap.detail
+    return {**out, **thawed(swap.extra)}
+
+
 class Form(NamedTuple):
     """How a command is read from its members and written to them."""
 
@@ -339,5 +377,6 @@ COMMANDS: dict[str, Form] = {
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), _read_view, _write_view),
     "texture": Form((DefineTexture,), _read_texture, _write_texture),
+    "swap": Form((Swap,), _read_swap, _write_swap),
 }
 NAMES = {record: name for name, form in COMMANDS.items() for record in form.records}

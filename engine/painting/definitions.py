@@ -22,7 +22,7 @@ FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out,
 USUAL = {"spectrum": "tile", "sparse": "sparse", "impulse": "sparse"}  # what makers do where nothing is said
 MATCHED = ("match", "mix")  # makers that match noise to examples
 COUNT_CAP = 16  # of one brush
-_REFERRING = ("texture", "density", "grain", "tip")  # members of a brush that may hold a texture's name
+_REFERRING = ("texture", "density", "grain", "tip", "example")  # members of a brush that may hold a texture's name
 
 Known = Mapping[str, tuple[str, Mapping[str, Any]]]  # textures of a painting: name -> kind, parameters
 
@@ -83,7 +83,10 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 
 # A maker adds what it found out itself, never a member of those by which pictures are named.
 _NAMING = frozenset(
-    ("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field")
+    (
+        *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
+        *("bundled", "mask", "mask_strokes", "params"),
+    )
 )
 _MISSING = object()
 
@@ -98,7 +101,7 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
         maker = "impulse" if "window" in parameters else "spectrum" if "field" in parameters else kind
     elif kind in ("matched", "series"):
         maker = "mix" if "pattern" in parameters else "match"
-    given = {key: value for key, value in parameters.items() if key not in ("sha", "examples")}
+    given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "examples")}
     found = DefineTexture(name, maker, Map(given))
     return found if kind_of(found) == kind else None
 
@@ -114,7 +117,8 @@ def _reachable(value: Any) -> bool:
 
 
 def _is_path(key: str, value: Any) -> bool:
-    return isinstance(value, str) and (key in ("path", "pattern", "start") or (key == "phase" and "." in value))
+    named = key in ("path", "pattern", "start", "mask", "params") or (key == "phase" and "." in str(value))
+    return isinstance(value, str) and named
 
 
 def fitted(

@@ -17,6 +17,7 @@ from engine.painting.imports import open_image
 from engine.painting.opening import open_painting
 from engine.painting.recording import Recording, read
 from engine.painting.session import Session
+from engine.painting.settling import settled
 from engine.painting.stroke import POINTS_CAP
 from engine.painting.value import Painting
 
@@ -144,9 +145,9 @@ def opened(path: Path, live: bool = False) -> Document:
 
 def save(path: Path, painting: Painting, recording: Recording | None) -> None:
     """The painting as .ora, with its recording if that is known, replaced in one step; WriteError if that failed."""
-    archive.save(path, archive.Snapshot(painting, recording))
+    archive.save(path, archive.Snapshot(settled(painting), recording))
 
 
 def write_picture(request: q.Export, painting: Painting) -> None:
     """The frame, or the rectangle asked for, as a picture; WriteError if that failed."""
-    export.export(request.path, export.Picture(painting, request.level, request.area))
+    export.export(request.path, export.Picture(settled(painting), request.level, request.area))

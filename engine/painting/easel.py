@@ -21,13 +21,14 @@ from engine.painting import swatches
 from engine.painting.difference import areas
 from engine.painting.examine import Examiner
 from engine.painting.filing import Filing
+from engine.painting.grower import Grower
+from engine.painting.growing import Live
 from engine.painting.lab import Lab
 from engine.painting.matcher import Matcher
 from engine.painting.outline import rows
 from engine.painting.points import rounded
 from engine.painting.ready import ready
 from engine.painting.session import Session
-from engine.painting.stroke import LiveStroke
 from engine.painting.viewer import Viewer
 
 
@@ -37,10 +38,10 @@ class Easel:
     def __init__(self, send: Callable[[q.Result], None]) -> None:
         self.send = send
         self.session = Session()
-        self.live: LiveStroke | None = None
+        self.live: Live | None = None
         self._telling = threading.Lock()
         self.viewer, self.filing = Viewer(self), Filing(self)
-        self.lab, self.examiner, self.matcher = Lab(self), Examiner(self), Matcher(self)
+        self.lab, self.examiner, self.matcher, self.grower = Lab(self), Examiner(self), Matcher(self), Grower(self)
         self._handlers: dict[type, Callable[[Any], None]] = {
             q.Do: lambda r: self.carry_out(r.command),
             q.Begin: self._begin,
@@ -72,17 +73,22 @@ class Easel:
 
     @property
     def pending(self) -> int:
-        return self.viewer.pending + self.lab.pending + self.examiner.pending + self.matcher.pending
+        parts = (self.viewer, self.grower, self.lab, self.examiner, self.matcher)
+        return self.grower.behind + sum(part.pending for part in parts)
 
     def step(self) -> bool:
-        """The most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, textures being
-        matched, analysis."""
-        if self.viewer.fresh:
+        """The most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, examples being
+        grown, textures being matched, analysis."""
+        if self.grower.behind:
+            self.grower.follow()
+        elif self.viewer.fresh:
             self.viewer.send_fresh()
         elif self.lab.pending:
             self.lab.step()
         elif self.viewer.pending:
             self.viewer.send_tile()
+        elif self.grower.pending:
+            self.grower.step()
         elif self.matcher.pending:
             self.matcher.step()
         elif self.examiner.pending:
@@ -140,9 +146,8 @@ class Easel:
         if self.live is None:  # its beginning was refused
             return
         rect = self.live.add(points)
-        if rect.empty:
-            return
-        self.viewer.grew(self.live.level, rect)
+        if not rect.empty:
+            self.viewer.grew(self.live.level, rect)
         if self.live.full:
             stroke = self.live.to_command()
             self.finish()
@@ -150,6 +155,8 @@ class Easel:
 
     def finish(self) -> None:
         """The pen lifts."""
+        if self.grower.behind:
+            self.grower.follow()
         live, self.live = self.live, None
         if live is None:
             return
@@ -158,6 +165,10 @@ class Easel:
         except Exception:
             self.viewer.unsee(live)  # its preview is on the screen, and will not be paint
             raise
+        if live.flattened:
+            self.viewer.changed(areas(live.before, after))
+            self.tell()
+            return
         other = areas(live.base, after)
         # At the stroke's own level the preview is what was committed: nothing changes.
         self.viewer.changed(lambda level: [] if level == live.level else other(level))

@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 from engine.painting import documents
 from engine.painting import requests as q
+from engine.painting.growing import Live
 from engine.painting.session import Session
-from engine.painting.stroke import LiveStroke
 from engine.painting.value import Painting
 
 
@@ -19,7 +19,7 @@ class Host(documents.Stage, Protocol):
     """What filing needs of the easel."""
 
     session: Session
-    live: LiveStroke | None
+    live: Live | None
 
     @property
     def pending(self) -> int: ...
@@ -37,7 +37,7 @@ class Filing:
         self.path: Path | None = None
         self.serial = 0
         self.due: float | None = None
-        self._saved: Painting | None = host.session.painting
+        self._saved: object = host.session.state  # as the file has it; None for none
         self._script: documents.Playing | None = None
         self._known = True  # whether the session's log leads from nothing to the painting
         self._writers: list[threading.Thread] = []
@@ -50,12 +50,12 @@ class Filing:
 
     @property
     def modified(self) -> bool:
-        return self.host.session.painting is not self._saved
+        return self.host.session.state is not self._saved
 
     def shown(self, session: Session, path: Path | None) -> None:
         """Another painting is on the easel."""
         self._script, self.due, self._known = None, None, True
-        self.path, self._saved = path, session.painting
+        self.path, self._saved = path, session.state
         self.serial += 1
 
     def close(self) -> None:
@@ -82,7 +82,7 @@ class Filing:
         self.due = self._script.advance(self.host)
         if self.due is None:
             self._script = None
-            self._saved = None if self.host.session.log else self.host.session.painting
+            self._saved = None if self.host.session.log else self.host.session.state
             self.host.tell()
             self.host.send(q.Note("The recording has ended"))
 
@@ -103,14 +103,14 @@ class Filing:
         """Writes on a thread of its own, from the painting as it is now; painting goes on meanwhile."""
         if self.host.live is not None:
             self.host.finish()
-        painting = self.host.session.painting
+        painting, state = self.host.session.painting, self.host.session.state
         recording = self.host.session.recording() if self._known else None
         serial = self.serial
 
         def write() -> None:
             documents.save(request.path, painting, recording)
             if serial == self.serial:  # the same painting is still on the easel
-                self.path, self._saved = request.path, painting
+                self.path, self._saved = request.path, state
                 self.host.tell()
             self.host.send(q.Saved(request.path))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from engine.canvas import growth as growths
 from engine.canvas import layers
@@ -70,6 +70,19 @@ class History:
         self._done.append(step)
         self.held += step.lost - step.gained
         return step.after
+
+    def amend(self, root: Group) -> None:
+        """The layers as they are now, further refined, are `root`."""
+        if self._done:
+            step = self._done[-1]
+            new = Step(step.before, replace(step.after, root=root), *difference(step.before.root, root))
+            self._done[-1] = new
+            self.held += new.lost - step.lost
+        if self._undone:
+            step = self._undone[-1]
+            new = Step(replace(step.before, root=root), step.after, *difference(root, step.after.root))
+            self._undone[-1] = new
+            self.held += new.gained - step.gained
 
     def _forget(self) -> None:
         """Drops the oldest steps beyond the limit."""

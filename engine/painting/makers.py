@@ -1,5 +1,5 @@
-"""The makers of textures: a procedural one with its parameters, a picture, a piece of the canvas, Lewis' three, and
-Heeger's and Bergen's two.
+"""The makers of textures: a procedural one with its parameters, a picture, a piece of the canvas, Lewis' three,
+Heeger's and Bergen's two, and examples to be grown.
 
 The command line, a recording and the window define textures by the same command, so they get the same texture.
 """
@@ -14,7 +14,7 @@ import numpy as np
 
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
-from engine.painting import matches, samples
+from engine.painting import examples, matches, samples
 from engine.painting.capture import Place, captured, read_picture
 from engine.painting.commands import DefineTexture
 from engine.painting.definitions import FIELDS, USUAL, kind_of
@@ -24,7 +24,7 @@ from engine.painting.textures import Around, Texture
 from engine.texture.image import ImageSource
 from engine.texture.table import KINDS
 
-LATER = ("solid", "example")
+LATER = ("solid",)
 
 NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
@@ -32,8 +32,7 @@ NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one i
 def define(command: DefineTexture, root: Group, around: Around) -> Texture:
     """The texture that a command defines over a painting with the layers `root`.
 
-    FormatError, TextureError, BrushError or LayerError name what is wrong with it, FileError the picture that cannot
-    be read.
+    FormatError, FieldError or LayerError name what is wrong with it, FileError the picture that cannot be read.
     """
     make = MAKERS.get(command.maker)
     if make is None:
@@ -92,6 +91,10 @@ def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
     return Texture(kind_of(command), parameters, source)
 
 
+def _example(command: DefineTexture, root: Group, around: Around) -> Texture:
+    return examples.of_definition(command, around)
+
+
 def _known(command: DefineTexture, members: Fields, around: Around) -> ImageSource | None:
     """The picture of a definition that was carried out before."""
     sha = members.text("sha", None, cap=64)
@@ -116,4 +119,5 @@ MAKERS: dict[str, Maker] = {
     "impulse": partial(_sampled, samples.of_photograph),
     "match": _matched,
     "mix": _matched,
+    "example": _example,
 }

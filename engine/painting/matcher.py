@@ -23,10 +23,10 @@ from engine.painting import matches
 from engine.painting import requests as q
 from engine.painting.capture import Place
 from engine.painting.fault import FileError
+from engine.painting.growing import Live
 from engine.painting.matches import Plan
 from engine.painting.session import Session
 from engine.painting.strictjson import Fields, FormatError
-from engine.painting.stroke import LiveStroke
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
@@ -39,7 +39,7 @@ class Host(Protocol):
 
     session: Session
     send: Callable[[q.Result], None]
-    live: LiveStroke | None
+    live: Live | None
 
     def carry_out(self, command: c.Command) -> None: ...
 

@@ -9,21 +9,20 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from engine.brush.checks import BrushError
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, LayerError
 from engine.painting import commands as c
+from engine.painting.growing import begun, swapped
 from engine.painting.makers import define
 from engine.painting.strictjson import FormatError
-from engine.painting.stroke import LiveStroke
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, with_node
-from engine.texture.table import TextureError
+from engine.texture.field_error import FieldError
 
 __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
 
 NOWHERE = Around()
-_CAUSES = (LayerError, BrushError, TextureError, FormatError)
+_CAUSES = (LayerError, FieldError, FormatError)
 
 
 def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> Painting:
@@ -41,9 +40,13 @@ def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> P
 
 
 def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
-    live = LiveStroke(painting, command.level, command.origin, command.brush, around.cache, command.layer, command.seed)
+    live = begun(painting, command.level, command.origin, command.brush, around.cache, command.layer, command.seed)
     live.lay(command.points)
     return live.commit()
+
+
+def _swap(painting: Painting, command: c.Swap, around: Around) -> Painting:
+    return swapped(painting, command)
 
 
 def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
@@ -115,6 +118,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.MoveLayer: _move,
     c.SetLayer: _set,
     c.DefineTexture: _texture,
+    c.Swap: _swap,
 }
 # The commands that undo takes back.  Selecting is no step, nor is defining a texture: strokes keep the one they had.
 STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.DefineTexture}

@@ -56,6 +56,20 @@ def checked_points(table: np.ndarray, place: str) -> np.ndarray:
     return table
 
 
+def fitted(given: np.ndarray) -> tuple[np.ndarray, int]:
+    """What a pen told, float64 (n, 2..6), as points (n, 6): within their columns' bounds, without those that are no
+    points (not finite, or too far away), and how many these were."""
+    table = np.empty((len(given), len(POINT_COLUMNS)))
+    table[:, : given.shape[1]] = given
+    table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] :]
+    table += 0.0  # no negative zeros
+    if ((table >= _LOWEST) & (table <= _HIGHEST)).all():
+        return table, 0
+    table[:, 3:] = np.nan_to_num(table[:, 3:], nan=0.0, posinf=0.0, neginf=0.0)
+    good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= REACH).all(axis=1)
+    return np.clip(table[good], _LOWEST, _HIGHEST), int((~good).sum())
+
+
 def rounded(points: np.ndarray) -> np.ndarray:
     """What a pen told, rounded to far finer than it can tell, so that it is short as text: float64 (n, 6)."""
     out = np.array(points, np.float64)

@@ -402,8 +402,30 @@ class Pending:
     files: int = 0
 
 
+@dataclass(frozen=True, slots=True)
+class Growing:
+    """How far what is painted with examples has grown: the part done, 0..1, and where it has not, as (level,
+    rectangle); nowhere, and all of it is as it will stay."""
+
+    done: float
+    rects: tuple[tuple[int, Rect], ...] = ()
+
+
 Result = (
-    Ready | Patch | Same | Scene | Note | Saved | Picture | Picked | Looked | Pending | LabScene | Found | MatchScene
+    Ready
+    | Patch
+    | Same
+    | Scene
+    | Note
+    | Saved
+    | Picture
+    | Picked
+    | Looked
+    | Pending
+    | LabScene
+    | Found
+    | MatchScene
+    | Growing
 )
 
 

@@ -16,6 +16,7 @@ from engine.brush.raster import Read, Scene
 from engine.brush.record import Brush
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
+from engine.canvas.growth import is_settled, settled
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import layer_ink
 from engine.numeric.address import Rect
@@ -73,6 +74,7 @@ def _reader(root: Group, name: str, level: int, cache: TileCache | None) -> Read
         raise BrushError("brush.op.layer", f"{name!a}, {found}", f"a layer: {listed}")
     layer = layers.find(root, name)
     assert isinstance(layer, Layer)
+    layer = layer if is_settled(layer.growth) else replace(layer, growth=settled(layer.growth))
 
     def read(rect: Rect) -> Planes:
         return layer_ink(layer, level, rect, cache)

@@ -16,10 +16,10 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.painting import commands as c
+from engine.painting.growing import Live, begun
 from engine.painting.history import History
 from engine.painting.painting import STEPS, apply
 from engine.painting.recording import Header, Recording
-from engine.painting.stroke import LiveStroke
 from engine.painting.textures import Around, recorded
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource
@@ -31,6 +31,7 @@ SMALLEST_CACHE = 64 << 20
 class Session:
     """One painting being worked on.  Not for several threads at once; the paintings it hands out are.
 
+    `state`: another object as soon as the painting is another one; the same while it is only refined;
     `log`: commands that led to `painting`, if they are known; `lent`: a picture that the next definition may name by
     its sha; `folder`: what paths in commands are relative to;
     `extra`: members of the recording's header that this version does not know.
@@ -46,6 +47,7 @@ class Session:
         extra: Map | None = None,
     ) -> None:
         self.painting = painting if painting is not None else Painting()
+        self.state: object = object()
         self.cache = cache if cache is not None else TileCache(cache_budget())
         self.folder = folder
         self.log: list[c.Command] = list(log)
@@ -77,11 +79,11 @@ class Session:
 
     def begin(
         self, level: int, origin: tuple[int, int], brush, layer: str | None = None, seed: int | None = None
-    ) -> LiveStroke:
+    ) -> Live:
         """A stroke whose points are still to come; hand it to `finish`."""
-        return LiveStroke(self.painting, level, origin, brush, self.cache, layer, seed)
+        return begun(self.painting, level, origin, brush, self.cache, layer, seed)
 
-    def finish(self, live: LiveStroke) -> Painting:
+    def finish(self, live: Live) -> Painting:
         """The stroke done: the same as its command, without doing the work twice.  One without a point is nothing."""
         if live.empty:
             return self.painting
@@ -106,8 +108,14 @@ class Session:
         if isinstance(command, c.DefineTexture) and isinstance(last, c.DefineTexture) and last.name == command.name:
             self.log.pop()  # nothing was done with that one
         self.log.append(command)
-        self.painting = after
+        if after is not self.painting:
+            self.painting, self.state = after, object()
         return after
+
+    def amend(self, painting: Painting) -> None:
+        """The same painting, with what is painted with examples further refined: no step, and nothing to record."""
+        self.painting = painting
+        self._history.amend(painting.root)
 
     def _travel(self, command: c.Undo | c.Redo) -> Painting:
         undoing = isinstance(command, c.Undo)
@@ -122,7 +130,7 @@ class Session:
         active = self.painting.active
         if active is None or not layers.has(found.root, active):
             active = found.active
-        self.painting = replace(found, textures=self.painting.textures, active=active)
+        self.painting, self.state = replace(found, textures=self.painting.textures, active=active), object()
         self.log.append(replace(command, count=count))
         return self.painting
 

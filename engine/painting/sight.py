@@ -49,6 +49,16 @@ class Sight:
         """The tiles of a level that the window holds and an area meets."""
         return [k for k, held in self._wanted.items() if k[0] == level and held >= 0 and area.meets(tile_rect(k))]
 
+    @property
+    def near(self) -> tuple[int, Rect] | None:
+        """The most urgent tile's level, and what is in sight of it."""
+        if not self._wanted:
+            return None
+        level, area = next(iter(self._wanted))[0], Rect(0, 0, 0, 0)
+        for key in self._wanted:
+            area = area.union(tile_rect(key)) if key[0] == level else area
+        return level, area
+
     def old_part(self, key: Key) -> Rect | None:
         """What of a tile is to be sent anew: empty if the window's copy is good, None if there is nothing to tell."""
         held = self._wanted.get(key)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from immutables import Map
@@ -10,29 +12,35 @@ from immutables import Map
 from engine.brush import kinds, raster, relief, tip
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
+from engine.brush.footprint import Footprint
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
 from engine.brush.record import Brush
 from engine.brush.stamp import Edit
 from engine.canvas import commit, evaluate, layers
+from engine.canvas import growth as growths
 from engine.canvas.evaluate import TileCache
+from engine.canvas.flatten import flattened
+from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
-from engine.numeric.address import Rect
+from engine.numeric.address import Rect, TileKey
+from engine.painting.bed import Bed, lies_in
 from engine.painting.commands import Stroke
-from engine.painting.points import POINT_COLUMNS, REACH
+from engine.painting.points import fitted
 from engine.painting.scenery import Scenery
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.texture.planes import Planes
 
 POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
-_DEFAULTS, _LOWEST, _HIGHEST = (np.array(column) for column in list(zip(*POINT_COLUMNS, strict=True))[1:])
 
 
 class LiveStroke:
     """A stroke that still grows, on the painting as it was when the pen touched down.
 
     `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
-    points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
+    points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording;
+    `bed`: what is painted with examples on the layer, if the stroke erases it; `flattened`: whether it was made paint
+    because the stroke goes over it.
     Refusal if the layer is locked or the brush cannot be used.
     """
 
@@ -47,6 +55,8 @@ class LiveStroke:
         seed: int | None = None,
     ) -> None:
         kinds.check(brush)
+        if kinds.MODES[brush.mode].edit is None:
+            raise BrushError("brush.mode", f'"{brush.mode}"', "a mode that edits what is there")
         self.base, self.layer = layer_for(painting, layer)
         self.before = painting
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
@@ -66,6 +76,14 @@ class LiveStroke:
         self._scenery = Scenery(brush, self.base.root, level, origin, own, cache) if looking else None
         self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
         self._edit: Edit | None = None
+        self.flattened, self.bed = False, self._new_bed()
+
+    def _new_bed(self) -> Bed | None:
+        if self.brush.mode != "erase" or not self.layer.growth or self.layer.alpha_locked:
+            return None
+        level = self.level
+        begin = partial(Footprint, self.brush, self.origin, 0, self._tip)
+        return Bed(self.layer.growth, level, begin, lambda growth, rect, mask: growths.cut(growth, level, rect, mask))
 
     @property
     def full(self) -> bool:
@@ -83,7 +101,9 @@ class LiveStroke:
         are taken as they are.
         Returns the pixels of the level whose preview may have changed.
         """
-        return self.lay(self._fit(np.atleast_2d(np.asarray(points, np.float64))))
+        table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
+        self.dropped += dropped
+        return self.lay(table)
 
     def lay(self, points: np.ndarray) -> Rect:
         """As `add`, for points float64 (n, 6) that are known to be good.
@@ -93,17 +113,35 @@ class LiveStroke:
         if not len(points):
             return Rect(0, 0, 0, 0)
         try:
-            dirty = tile_bounds(self._mask.paint(self._stroker.walk(points)))
+            touched = self._mask.paint(self._stroker.walk(points))
+            dirty = tile_bounds(touched)
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
             if self._scenery is not None:
                 dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
+            if self.bed is not None:
+                self.bed.lay(points)
         except BrushError:
             self._again()
             raise
         self._points.append(points)
         self._count += len(points)
         self._edit = None
+        if self.bed is None and self.layer.growth and not self.flattened:
+            self._flatten(touched)
         return dirty
+
+    def _flatten(self, touched: Iterable[TileKey]) -> None:
+        """Makes paint of what is painted with examples on the layer, if the stroke meets any of it."""
+        reach = self._relief.reach
+        if any(lies_in(self.layer.growth, self.level, key.rect.grown(reach)) for key in touched):
+            self.flattened = True
+            self.layer = flattened(self.layer, self.cache)
+            root = layers.with_pyramid(self.base.root, self.layer.name, self.layer.pyramid)
+            self.base = replace(self.base, root=layers.with_growth(root, self.layer.name, ()))
+
+    def rebase(self, painting: Painting, base: Group) -> None:
+        """The painting below, further refined: with and without the layer that the stroke made."""
+        self.before, self.base = painting, replace(self.base, root=base)
 
     def _again(self) -> None:
         """Lays the points that were kept, and nothing else."""
@@ -113,23 +151,17 @@ class LiveStroke:
         for points in self._points:
             self._mask.paint(self._stroker.walk(points))
 
-    def _fit(self, given: np.ndarray) -> np.ndarray:
-        table = np.empty((len(given), len(POINT_COLUMNS)))
-        table[:, : given.shape[1]] = given
-        table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] :]
-        table += 0.0  # no negative zeros
-        if ((table >= _LOWEST) & (table <= _HIGHEST)).all():
-            return table
-        table[:, 3:] = np.nan_to_num(table[:, 3:], nan=0.0, posinf=0.0, neginf=0.0)
-        good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= REACH).all(axis=1)
-        self.dropped += int((~good).sum())
-        return np.clip(table[good], _LOWEST, _HIGHEST)
-
     @property
     def rect(self) -> Rect:
         """A rectangle of pixels of the level outside which nothing changes."""
         rect = self._mask.rect
-        return rect if rect.empty else rect.grown(self._relief.spread)
+        rect = rect if rect.empty else rect.grown(self._relief.spread)
+        return rect if self.bed is None else rect.union(self.bed.rect)
+
+    @property
+    def root(self) -> Group:
+        """The layers as they are to be seen, but for the stroke's own paint."""
+        return self.base.root if self.bed is None else self.bed.over(self.base.root, self.layer.name)
 
     @property
     def edit(self) -> Edit:
@@ -145,17 +177,20 @@ class LiveStroke:
         return evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache)
 
     def preview(self, rect: Rect) -> Planes:
-        """The layer's pixels of `rect` at the stroke's level, as they will be."""
+        """The layer's paint in `rect` at the stroke's level, as it will be."""
         return commit.preview(self.layer.pyramid, self.edit, rect, self.cache)
 
     def commit(self) -> Painting:
         """The painting with the stroke on its layer."""
         if self.empty:
             return self.before
+        root, name = self.base.root, self.layer.name
         pyramid = commit.commit(self.layer.pyramid, self.edit, self.cache)
-        if pyramid is self.layer.pyramid:
-            return self.base
-        return replace(self.base, root=layers.with_pyramid(self.base.root, self.layer.name, pyramid))
+        if pyramid is not self.layer.pyramid:
+            root = layers.with_pyramid(root, name, pyramid)
+        if self.bed is not None and self.bed.growth is not self.layer.growth:
+            root = layers.with_growth(root, name, self.bed.growth)
+        return self.base if root is self.base.root else replace(self.base, root=root)
 
     def to_command(self) -> Stroke:
         """The command that does the same; Refusal if there is no point."""

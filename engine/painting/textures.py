@@ -19,11 +19,13 @@ from engine.texture.table import instance
 @dataclass(frozen=True, eq=False, slots=True)
 class Texture:
     """`kind`: a row of KINDS; `parameters`: those that the definition gives, a brush may give others on top;
-    `source`: the picture of an image."""
+    `source`: the picture of an image; `mask`: of an example, white where the region is that is grown, None where that
+    goes by alpha."""
 
     kind: str
     parameters: Map[str, Any]
     source: ImageSource | None = None
+    mask: ImageSource | None = None
 
     def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance:
         return instance(self.kind, {**self.parameters, **parameters}, level, seed, self.source)
@@ -44,4 +46,6 @@ def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:
     if texture.source is None:
         return command
     found = {name: value for name, value in texture.parameters.items() if name not in command.arguments}
+    if texture.mask is not None:
+        found["mask_sha"] = texture.mask.sha
     return replace(command, arguments=command.arguments.update(found, sha=texture.source.sha))

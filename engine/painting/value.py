@@ -41,15 +41,16 @@ def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SA
     return replace(painting, root=root, active=node.name if isinstance(node, Layer) else painting.active)
 
 
-def layer_for(painting: Painting, name: str | None) -> tuple[Painting, Layer]:
-    """The layer that a stroke goes to: the one named, else the active one; a first one is made where there is none."""
+def layer_for(painting: Painting, name: str | None, what: str = "stroke") -> tuple[Painting, Layer]:
+    """The layer that a stroke, or `what` else, goes to: the one named, else the active one; a first one is made where
+    there is none."""
     wanted = painting.active if name is None else name
     if wanted is None:
         wanted = layers.unique_name(painting.root)
         painting = with_node(painting, Layer(layers.next_id(painting.root), wanted))
     node = layers.find(painting.root, wanted)
     if not isinstance(node, Layer):
-        raise Refusal(f"stroke: found {wanted!r}, which is a group, expected a layer")
+        raise Refusal(f"{what}: found {wanted!r}, which is a group, expected a layer")
     if layers.is_locked(painting.root, wanted):
-        raise Refusal(f"stroke: found layer {wanted!r} locked, expected one that is not")
+        raise Refusal(f"{what}: found layer {wanted!r} locked, expected one that is not")
     return painting, node

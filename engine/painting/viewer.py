@@ -8,12 +8,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.layers import Layer
+from engine.canvas.reading import covered, layer_planes
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import requests as q
 from engine.painting.difference import Areas
+from engine.painting.growing import Live
 from engine.painting.session import Session
 from engine.painting.sight import Key, Sight, tile_rect
 from engine.painting.stroke import LiveStroke
@@ -26,7 +27,7 @@ class Host(Protocol):
 
     session: Session
     send: Callable[[q.Result], None]
-    live: LiveStroke | None
+    live: Live | None
 
 
 class Viewer:
@@ -61,9 +62,10 @@ class Viewer:
         self._fresh = _NOTHING
         self.sight.changed(where)
 
-    def unsee(self, live: LiveStroke) -> None:
+    def unsee(self, live: Live) -> None:
         """The preview of a stroke that came to nothing goes from the screen."""
-        self.changed(lambda level: [live.rect] if level == live.level else [])
+        whole = live.flattened or live.bed is not None  # seen at other levels too
+        self.changed(lambda level: None if whole else [live.rect] if level == live.level else [])
 
     def forget(self) -> None:
         """Another painting is to be seen."""
@@ -99,7 +101,7 @@ class Viewer:
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         live = self.host.live
-        root = live.base.root if live is not None else self.host.session.painting.root
+        root = live.root if live is not None else self.host.session.painting.root
         known: dict[int, np.ndarray | None] = {}
 
         def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
@@ -113,15 +115,14 @@ class Viewer:
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self.host.live
         if (
-            live is not None
+            isinstance(live, LiveStroke)
             and not live.empty
             and layer.name == live.layer.name
             and level == live.level
             and rect.meets(live.rect)
         ):
-            return live.preview(rect).rgba
-        found = evaluate_sparse(layer.pyramid, level, rect, self.host.session.cache)
-        return None if found is None else found.rgba
+            return covered(live.preview(rect).rgba, layer.growth, level, rect)
+        return layer_planes(layer, level, rect, self.host.session.cache)
 
     def _pick(self, request: q.Pick) -> None:
         pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]

@@ -114,6 +114,7 @@ _ROWS = (
     ),
     Kind("series", _SERIES, series, "Textures between two examples, tiled", pictured=True),
     Kind("sparse", _SPARSE, Sparse, "An endless field of scattered copies of a sample", pictured=True),
+    Kind("example", _IMAGE, Image, "An example that brushes grow; as ink, its picture, tiled", pictured=True),
 )
 # Not for the brush to name: the alpha that a texture brings along where it is translucent.
 _COVERS: dict[str, Kind] = {

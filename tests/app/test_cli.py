@@ -168,7 +168,7 @@ HOSTILE = {
     '{"do": "stroke", "points": [[0, 0]]}',
     "missing image": '{"do": "texture", "name": "t", "maker": "image", "path": "../none.png"}',
     "image is a device": '{"do": "texture", "name": "t", "maker": "image", "path": "/dev/zero"}',
-    "later maker": '{"do": "texture", "name": "t", "maker": "example"}',
+    "later maker": '{"do": "texture", "name": "t", "maker": "solid"}',
     "raster op": '{"do": "stroke", "points": [[0, 0]], "brush": {"mode": "raster", "op": "dissolve"}}',
     "endless stroke": '{"do": "stroke", "points": [[0, 0], [16777216, 16777216]], "brush": {"radius": 4000}}',
 }

@@ -337,7 +337,7 @@ def test_smoothing_reads_no_farther_than_its_cap():
     assert seen == [KEY.rect.grown(64)]
 
 
-def test_an_edit_of_a_mode_of_a_later_version_is_refused():
+def test_a_mode_that_makes_no_edit_is_refused():
     brush = from_json({"mode": "example"})
     with pytest.raises(BrushError, match=r"brush\.mode"):
         edit(brush, StrokeMask(0, (0, 0)), Ink(np.zeros(3, np.float32)))

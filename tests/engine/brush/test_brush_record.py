@@ -42,6 +42,8 @@ EVERYTHING = {
     "extent": True,
     "example": "leaves",
     "depth": 2,
+    "example_level": -3,
+    "example_detail": 2,
     "dynamics": {"radius": "pressure", "opacity": [[0, 0.1], [1, 1]], "sparkle": {"of": "later"}},
     "of a later version": {"x": [1, 2.5, "three", None, True]},
 }
@@ -165,6 +167,12 @@ HOSTILE = [
     ({"extent": None}, "brush.extent"),
     ({"example": 3}, "brush.example"),
     ({"depth": "deep"}, "brush.depth"),
+    ({"depth": True}, "brush.depth"),
+    ({"depth": 1e30}, "brush.depth"),
+    ({"example_level": 0.5}, "brush.example_level"),
+    ({"example_level": 1 << 20}, "brush.example_level"),
+    ({"example_detail": 5}, "brush.example_detail"),
+    ({"example_detail": None}, "brush.example_detail"),
     ({"dynamics": []}, "brush.dynamics"),
     ({"dynamics": {"radius": "speed"}}, "brush.dynamics.radius"),
     ({"dynamics": {"radius": []}}, "brush.dynamics.radius"),
@@ -203,13 +211,13 @@ def test_a_brush_made_in_the_program_is_checked_too():
 @pytest.mark.parametrize(
     ("data", "place"),
     [
-        ({"mode": "example", "example": "leaves"}, "brush.mode"),
-        ({"example": "leaves"}, "brush.example"),
+        ({"mode": "example"}, "brush.example"),
+        ({"mode": "example", "depth": 2}, "brush.example"),
     ],
 )
-def test_what_this_version_cannot_paint_is_kept_but_refused_at_use(data, place):
+def test_a_brush_that_lacks_what_its_mode_needs_is_kept_but_refused_at_use(data, place):
     brush = from_json(data)
-    assert to_json(brush)[place.split(".")[1]] == next(v for k, v in data.items() if k == place.split(".")[1])
+    assert to_json(brush)["mode"] == "example"
     with pytest.raises(BrushError) as caught:
         check(brush)
     assert caught.value.place == place
@@ -224,6 +232,9 @@ def test_what_this_version_cannot_paint_is_kept_but_refused_at_use(data, place):
         {"shaping": "negate", "op": "toward"},
         {"grain": "p", "density": "p"},
         {"mode": "erase"},
+        {"mode": "erase", "depth": -1.5},
+        {"mode": "example", "example": "leaves"},
+        {"example": "leaves", "depth": 3},
     ],
 )
 def test_ordinary_brushes_are_usable(data):

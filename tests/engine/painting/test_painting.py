@@ -103,7 +103,7 @@ REFUSED = {
     "group into itself": ([layer(add="g", kind="group"), layer(move="g", to=0, group="g")], "found itself"),
     "blend": ([layer(add="a"), layer(set="a", blend="burn")], "blend: found 'burn'"),
     "alpha lock of a group": ([layer(add="g", kind="group"), layer(set="g", alpha_locked=True)], "alpha_locked"),
-    "later mode": ([stroke(brush={"mode": "example"})], "brush.mode"),
+    "no example": ([stroke(brush={"mode": "example"})], "brush.example"),
     "clone of no layer": (
         [stroke(brush={"mode": "raster", "op": {"name": "clone", "layer": "x"}})],
         "brush.op.layer: found 'x', none of that name",
@@ -119,7 +119,8 @@ REFUSED = {
     "unknown texture": ([stroke(brush={"ink": [{"texture": "moss"}]})], "brush.ink[0].texture"),
     "texture's parameter": ([stroke(brush={"ink": [{"texture": "rock", "period": 0}]})], "brush.ink[0].period"),
     "a huge stroke": ([stroke(points=[[0, 0], [1e7, 1e7]], brush={"radius": 4000})], "tiles"),
-    "later maker": ([{"do": "texture", "name": "t", "maker": "example"}], "comes in a later release"),
+    "later maker": ([{"do": "texture", "name": "t", "maker": "solid"}], "comes in a later release"),
+    "example of nothing": ([{"do": "texture", "name": "t", "maker": "example"}], "path: found nothing"),
     "unknown maker": ([{"do": "texture", "name": "t", "maker": "moss"}], "maker: found 'moss', expected one of"),
     "maker's parameter": ([{"do": "texture", "name": "t", "maker": "rock", "period": "x"}], "period: found"),
     "image without path": ([{"do": "texture", "name": "t", "maker": "image"}], "path: found nothing"),

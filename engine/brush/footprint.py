@@ -1,0 +1,132 @@
+"""The pixels that a stroke takes: those that one of its dabs covers at least half.
+
+What is grown from an example has no half-covered pixels.  A pixel is in or out, whatever opacity and flow are; radius,
+hardness, tip and spacing, and what pressure makes of them, tell which.  Each dab counts for itself, so that a stroke
+and its pieces take the same pixels where their dabs are the same.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numba import njit
+
+from engine.brush import discs as kernels
+from engine.brush.checks import BrushError
+from engine.brush.dabs import Stroker
+from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
+from engine.brush.record import Brush
+from engine.brush.tip import Pattern
+from engine.numeric.address import TILE, Rect
+
+WIDEST = 2048.0  # px: radius of a dab
+TILES_CAP = 1 << 12  # of one stroke
+_SIDE = 64  # pixels along these
+_TOGETHER = 1 << 18  # pixels of a rectangle whose dabs are laid at once
+_HALF = 0.5
+
+
+class Footprint:
+    """Grows with a stroke at `level` from `origin`, on pixels that are `finer` levels finer (coarser, if negative)."""
+
+    def __init__(self, brush: Brush, origin: tuple[int, int], finer: int = 0, tip: Pattern | None = None) -> None:
+        dynamics = brush.dynamics
+        for name in ("opacity", "flow"):
+            dynamics = dynamics.delete(name) if name in dynamics else dynamics
+        self._brush = replace(brush, opacity=1.0, flow=1.0, dynamics=dynamics)
+        self._stroker = Stroker(self._brush)
+        self._scale, self._tip = 2.0**finer, tip
+        places = [value << finer if finer >= 0 else value >> -finer for value in origin]
+        self._origin = places[0], places[1]
+        left_over = (value & ((1 << -finer) - 1) if finer < 0 else 0 for value in origin)
+        self._shift = tuple(left_over)
+        self._tiles: set[tuple[int, int]] = set()
+        self._laid = 0
+
+    def lay(self, points: np.ndarray) -> list[tuple[Rect, np.ndarray]]:
+        """More points, float64 (n, 6), known to be good: rectangles and what is taken of them, bool (h, w).
+
+        BrushError if the stroke becomes too large; the points may not be laid again then.
+        """
+        dabs = self._stroker.walk(points)
+        dabs[:, 0] = (dabs[:, 0] + self._shift[0]) * self._scale
+        dabs[:, 1] = (dabs[:, 1] + self._shift[1]) * self._scale
+        dabs[:, 2] *= self._scale
+        discs = kernels.as_discs(dabs, 0.0, 0.0, np.array([np.inf, np.inf, -np.inf, -np.inf]))
+        boxes = _boxes(discs)
+        self._count(discs, boxes)
+        found = []
+        for first, last, box in _groups(boxes):
+            mask = np.zeros((box.height, box.width), np.bool_)
+            if self._tip is None:
+                _take(mask, discs[first:last], float(box.x0), float(box.y0))
+            else:
+                self._stamp(mask, discs, range(first, last), box)
+            x, y = self._origin
+            found.append((Rect(box.x0 + x, box.y0 + y, box.x1 + x, box.y1 + y), mask))
+        self._laid += len(dabs)
+        return found
+
+    def _count(self, discs: np.ndarray, boxes: np.ndarray) -> None:
+        widest = float(discs[:, ROUT].max()) - 0.5 if len(discs) else 0.0
+        if widest > WIDEST:
+            raise BrushError("brush.radius", f"{widest:g} px on the example's level", f"at most {WIDEST:g} px there")
+        for x0, y0, x1, y1 in (boxes // _SIDE).tolist():
+            self._tiles.update((y, x) for y in range(y0, y1 + 1) for x in range(x0, x1 + 1))
+            if len(self._tiles) > TILES_CAP:
+                raise BrushError("stroke", f"one that meets {len(self._tiles)} squares of {_SIDE} px", f"{TILES_CAP}")
+
+    def _stamp(self, mask: np.ndarray, discs: np.ndarray, which: range, box: Rect) -> None:
+        """Dabs in the shape of the tip's pattern, each for itself."""
+        assert self._tip is not None
+        for index in which:
+            x0, y0, x1, y1 = (int(v) for v in _boxes(discs[index : index + 1])[0])
+            for y in range(y0, y1, TILE):
+                for x in range(x0, x1, TILE):
+                    tile = np.zeros((TILE, TILE), np.float32)
+                    self._tip.lay(tile, discs, np.array([index]), self._laid, (x, y))
+                    place = Rect.at(x, y, TILE, TILE).intersect(box)
+                    mask[place.slices(box)] |= tile[place.slices(Rect.at(x, y, TILE, TILE))] >= _HALF
+
+
+def _boxes(discs: np.ndarray) -> np.ndarray:
+    """The pixels that discs may meet: int64 (n, 4), x0, y0, x1, y1."""
+    out = np.empty((len(discs), 4), np.int64)
+    outer = discs[:, ROUT]
+    for column, centre in ((0, discs[:, CX]), (1, discs[:, CY])):
+        out[:, column], out[:, column + 2] = np.floor(centre - outer), np.ceil(centre + outer)
+    return out
+
+
+def _groups(boxes: np.ndarray) -> Iterator[tuple[int, int, Rect]]:
+    """Runs of dabs that lie near one another, and the rectangle around each."""
+    first, around = 0, Rect(0, 0, 0, 0)
+    for i, row in enumerate(boxes.tolist()):
+        more = around.union(Rect(*row))
+        if i > first and more.area > _TOGETHER:
+            yield first, i, around
+            first, more = i, Rect(*row)
+        around = more
+    if len(boxes) > first:
+        yield first, len(boxes), around
+
+
+@njit(cache=True, nogil=True)
+def _take(mask, discs, left, top):
+    """Marks the pixels of a mask, bool (h, w), that a disc covers at least half: d = 1/2 halfway between Rin and Rout
+    in r^2."""
+    for k in range(discs.shape[0]):
+        disc = discs[k]
+        if disc[CEILING] < 0.5:
+            continue
+        cx, cy = disc[CX] - left, disc[CY] - top
+        limit = 0.5 * (disc[RIN2] + disc[ROUT] * disc[ROUT])
+        reach = math.sqrt(limit)
+        for y in range(max(0, math.ceil(cy - reach - 0.5)), min(mask.shape[0], math.floor(cy + reach - 0.5) + 1)):
+            dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)
+            half = math.sqrt(max(0.0, limit - dy2))
+            for x in range(max(0, math.ceil(cx - half - 0.5)), min(mask.shape[1], math.floor(cx + half - 0.5) + 1)):
+                mask[y, x] = True

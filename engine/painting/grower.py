@@ -1,0 +1,133 @@
+"""What is painted with examples, refined while nothing more urgent waits, step by step, from coarse to fine."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import replace
+from typing import Protocol
+
+from engine.canvas.growth import Growth, is_settled, progress, settling
+from engine.canvas.layers import Group, Layer
+from engine.numeric.address import Rect
+from engine.painting import requests as q
+from engine.painting.bed import Bed
+from engine.painting.difference import areas
+from engine.painting.growing import Live
+from engine.painting.session import Session
+from engine.painting.settling import MOST_THREADS, waiting, with_grown
+from engine.painting.viewer import Viewer
+
+TELL = 0.1  # seconds between two results about the progress
+
+
+class Host(Protocol):
+    """What it needs of the easel."""
+
+    session: Session
+    send: Callable[[q.Result], None]
+    live: Live | None
+    viewer: Viewer
+
+
+class Grower:
+    """All calls come from the engine's thread.  The stroke in progress comes first, then the active layer.
+
+    The layer under a stroke in progress stays as it is until the stroke ends; only what the stroke grows is refined.
+    """
+
+    def __init__(self, host: Host) -> None:
+        self.host = host
+        self._steps: Iterator[Growth] | None = None
+        self._at: Growth = ()  # what the steps have come to
+        self._known: tuple[Group | None, list[Layer]] = None, []
+        self._told: float | None = None  # when the window last heard that something grows
+        self._pool: Executor | None = None
+
+    @property
+    def behind(self) -> bool:
+        """Whether the stroke in progress laid dabs that cannot be seen yet."""
+        live = self.host.live
+        return live is not None and live.bed is not None and live.bed.behind
+
+    def follow(self) -> None:
+        """Makes them seen, at the coarsest level."""
+        live = self.host.live
+        if live is not None and live.bed is not None:
+            self._seen(live, live.bed.follow())
+
+    @property
+    def pending(self) -> bool:
+        return self._told is not None or self._bed() is not None or bool(self._waiting())
+
+    def step(self) -> None:
+        """A piece of the refinement, some milliseconds."""
+        bed, layers = self._bed(), self._waiting()
+        if bed is not None:
+            assert self.host.live is not None
+            grown = self._advance(bed.growth)
+            if grown is not bed.growth:
+                self._seen(self.host.live, bed.follow(grown))
+        elif layers:
+            grown = self._advance(layers[0].growth)
+            if grown is not layers[0].growth:
+                self._amend(layers[0], grown)
+        self._tell()
+
+    def _bed(self) -> Bed | None:
+        """What the stroke in progress grows, if that is not done."""
+        bed = None if self.host.live is None else self.host.live.bed
+        return None if bed is None or is_settled(bed.growth) else bed
+
+    def _waiting(self) -> list[Layer]:
+        """The layers of the painting that are to be refined, the active one first."""
+        painting, live = self.host.session.painting, self.host.live
+        if self._known[0] is not painting.root:
+            self._known = painting.root, waiting(painting.root)
+        found = [layer for layer in self._known[1] if live is None or layer.id != live.layer.id]
+        return sorted(found, key=lambda layer: layer.name != painting.active)
+
+    def _advance(self, growth: Growth) -> Growth:
+        """The growth after the next step; what was begun with another one is dropped."""
+        if self._steps is None or self._at is not growth:
+            self._steps = settling(growth, self.host.viewer.sight.near, self._threads())
+        self._at = next(self._steps, growth)
+        if is_settled(self._at):
+            self._steps = None
+        return self._at
+
+    def _threads(self) -> Executor | None:
+        """One core is left to the window."""
+        count = min((os.cpu_count() or 1) - 1, MOST_THREADS)
+        if self._pool is None and count > 1:
+            self._pool = ThreadPoolExecutor(count, "inkfall examples")
+        return self._pool
+
+    def _seen(self, live: Live, area: Rect) -> None:
+        if not area.empty:
+            self.host.viewer.grew(live.level, area)
+
+    def _amend(self, layer: Layer, grown: Growth) -> None:
+        """The painting with a layer further refined, also under the stroke in progress."""
+        session, live = self.host.session, self.host.live
+        before = session.painting
+        after = replace(before, root=with_grown(before.root, layer.name, layer.growth, grown))
+        session.amend(after)
+        if live is not None:
+            live.rebase(after, with_grown(live.base.root, layer.name, layer.growth, grown))
+        self.host.viewer.changed(areas(before, after))
+
+    def _tell(self) -> None:
+        """How far all of it is, now and then, and that it is done."""
+        now = time.monotonic()
+        bed = self._bed()
+        growths = [layer.growth for layer in self._waiting()] + ([] if bed is None else [bed.growth])
+        if growths and (self._told is None or now - self._told > TELL):
+            self._told = now
+            rects, done = progress(tuple(plot for growth in growths for plot in growth))
+            self.host.send(q.Growing(done, tuple(rects)))
+        elif not growths and self._told is not None:
+            self._told = None
+            self.host.send(q.Growing(1.0))

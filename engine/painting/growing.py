@@ -1,0 +1,184 @@
+"""The stroke in progress that is painted with an example, or erases what was: no paint, but regions that grow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from immutables import Map
+
+from engine.brush import kinds, tip
+from engine.brush.checks import BrushError, shown
+from engine.brush.footprint import Footprint
+from engine.brush.record import Brush
+from engine.canvas import growth as growths
+from engine.canvas import layers
+from engine.canvas.evaluate import TileCache
+from engine.canvas.layers import Group
+from engine.numeric.address import Rect
+from engine.painting.bed import Bed, Change
+from engine.painting.commands import Stroke, Swap
+from engine.painting.examples import KIND, exemplar_of, key_of
+from engine.painting.points import fitted
+from engine.painting.stroke import POINTS_CAP, LiveStroke
+from engine.painting.value import Painting, Refusal, layer_for
+from engine.texture.example.exemplar import Exemplar
+
+FURTHEST = 8  # levels from the stroke's to that of the example's pixels
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sown:
+    """What a stroke or a swap plants: an example under the name it has in the painting, and its content's key."""
+
+    name: str
+    key: str
+    exemplar: Exemplar
+
+
+def sown(painting: Painting, name: str, detail: int, where: str) -> Sown:
+    """The example of that name, whose finest `detail` levels are for zooming in; BrushError at `where` if there is
+    none."""
+    texture = painting.textures.get(name)
+    if texture is None or texture.kind != KIND:
+        what = "nothing of that name" if texture is None else f"a texture of kind {texture.kind}"
+        known = ", ".join(ascii(n) for n, t in sorted(painting.textures.items()) if t.kind == KIND)
+        raise BrushError(where, f"{name!a}, {what}", f"a texture of the maker example{': ' if known else ''}{known}")
+    return Sown(name, key_of(texture, detail), exemplar_of(texture, detail))
+
+
+class LiveGrowth:
+    """A stroke with an example that still grows; otherwise as `LiveStroke`."""
+
+    flattened = False  # what the layer has of examples stays that
+
+    def __init__(
+        self,
+        painting: Painting,
+        level: int,
+        origin: tuple[int, int],
+        brush: Brush,
+        cache: TileCache | None = None,
+        layer: str | None = None,
+        seed: int | None = None,
+    ) -> None:
+        kinds.check(brush)
+        self.base, self.layer = layer_for(painting, layer)
+        self.before = painting
+        if self.layer.alpha_locked:
+            raise Refusal(f"stroke: found layer {self.layer.name!r} with locked alpha, expected one without")
+        self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
+        self.dropped = 0
+        self.extra: Map = Map()
+        self._named = layer
+        self._points: list[np.ndarray] = []
+        self._count = 0
+        own = painting.seed if seed is None else seed
+        grid = _grid(brush, level)
+        shape = tip.resolve(brush, painting.textures, level, own)
+        begin = partial(Footprint, brush, origin, grid - level, shape)
+        self.bed = Bed(self.layer.growth, level, begin, _change(brush, grid, painting, own))
+
+    @property
+    def full(self) -> bool:
+        return self._count >= POINTS_CAP
+
+    @property
+    def empty(self) -> bool:
+        return self._count == 0
+
+    def add(self, points: np.ndarray) -> Rect:
+        """As `LiveStroke.add`, but nothing looks different before the bed is followed."""
+        table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
+        self.dropped += dropped
+        return self.lay(table)
+
+    def lay(self, points: np.ndarray) -> Rect:
+        """As `add`, for points float64 (n, 6) that are known to be good; BrushError if the stroke becomes too large."""
+        if len(points):
+            self.bed.lay(points)
+            self._points.append(points)
+            self._count += len(points)
+        return Rect(0, 0, 0, 0)
+
+    @property
+    def rect(self) -> Rect:
+        """Pixels of the stroke's level outside which nothing looks different."""
+        return self.bed.rect
+
+    @property
+    def root(self) -> Group:
+        """The layers as they are to be seen."""
+        return self.bed.over(self.base.root, self.layer.name)
+
+    def rebase(self, painting: Painting, base: Group) -> None:
+        """The painting below, further refined: with and without the layer that the stroke made."""
+        self.before, self.base = painting, replace(self.base, root=base)
+
+    def commit(self) -> Painting:
+        """The painting with the stroke on its layer, refined as far as it is."""
+        if self.empty:
+            return self.before
+        if self.bed.growth is self.layer.growth:
+            return self.base
+        return replace(self.base, root=layers.with_growth(self.base.root, self.layer.name, self.bed.growth))
+
+    def to_command(self) -> Stroke:
+        """The command that does the same; Refusal if there is no point."""
+        if self.empty:
+            raise Refusal("stroke: found no point, expected one at least")
+        points = np.concatenate(self._points)
+        points.flags.writeable = False
+        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra)
+
+
+def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
+    """What the brush makes of a growth where it takes pixels of level `grid`."""
+    if brush.mode == "erase":
+        return lambda growth, rect, mask: growths.cut(growth, grid, rect, mask, brush.depth)
+    assert brush.example is not None
+    plant = sown(painting, brush.example, brush.example_detail, "brush.example")
+    depth = 0.0 if brush.depth is None else brush.depth
+    about = depth, grid, plant.name, plant.key, plant.exemplar, seed
+    return lambda growth, rect, mask: growths.laid(growth, *about, rect, mask)
+
+
+def _grid(brush: Brush, level: int) -> int:
+    """The level whose pixels are taken."""
+    grid = level if brush.example_level is None else brush.example_level
+    if abs(grid - level) > FURTHEST:
+        raise BrushError(
+            "brush.example_level", shown(grid), f"from {level - FURTHEST} to {level + FURTHEST} at level {level}"
+        )
+    return grid
+
+
+Live = LiveStroke | LiveGrowth
+
+
+def begun(
+    painting: Painting,
+    level: int,
+    origin: tuple[int, int],
+    brush: Brush,
+    cache: TileCache | None = None,
+    layer: str | None = None,
+    seed: int | None = None,
+) -> Live:
+    """The stroke that begins: one that paints, or one that grows an example or erases what was grown at a depth."""
+    grows = brush.mode == "example" or (brush.mode == "erase" and brush.depth is not None)
+    make = LiveGrowth if grows else LiveStroke
+    return make(painting, level, origin, brush, cache, layer, seed)
+
+
+def swapped(painting: Painting, command: Swap) -> Painting:
+    """With another example for the topmost region at a place.  Refusal if there is none, BrushError if it is no
+    example."""
+    _, layer = layer_for(painting, command.layer, "swap")
+    plot = growths.at(layer.growth, command.level, *command.at, command.depth)
+    if plot is None:
+        raise Refusal(f"swap: found nothing painted with an example there on layer {layer.name!r}, expected a region")
+    plant = sown(painting, command.example, command.detail, "swap.example")
+    grown = growths.swapped(layer.growth, plot, plant.name, plant.key, plant.exemplar)
+    return replace(painting, root=layers.with_growth(painting.root, layer.name, grown))

@@ -1,0 +1,64 @@
+"""Paintings whose examples are grown to the end: what is written, and what is looked at by what comes later, must not
+depend on how far that had come."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import replace
+
+from engine.canvas import layers
+from engine.canvas.growth import Growth, is_settled
+from engine.canvas.growth import settled as settled_growth
+from engine.canvas.layers import Group, Layer
+from engine.painting.value import Painting
+
+MOST_THREADS = 8
+
+
+@contextmanager
+def threads(count: int | None = None) -> Iterator[Executor | None]:
+    """What grows examples on `count` threads, as many as there are cores if that is None; None for one."""
+    count = min(os.cpu_count() or 1, MOST_THREADS) if count is None else count
+    if count == 1:
+        yield None
+        return
+    with ThreadPoolExecutor(count, "inkfall examples") as pool:
+        try:
+            yield pool
+        except BaseException:
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise
+
+
+def settled(painting: Painting, count: int | None = None) -> Painting:
+    """The same painting with all that is painted with examples as it will stay, grown on `count` threads."""
+    root = settled_root(painting.root, count)
+    return painting if root is painting.root else replace(painting, root=root)
+
+
+def settled_root(root: Group, count: int | None = None) -> Group:
+    """The same layers, grown to the end."""
+    found = waiting(root)
+    if not found:
+        return root
+    with threads(count) as pool:
+        for layer in found:
+            root = layers.with_growth(root, layer.name, settled_growth(layer.growth, pool))
+    return root
+
+
+def waiting(root: Group) -> list[Layer]:
+    """The layers on which something is still to be grown."""
+    return [layer for layer in layers.layers(root) if not is_settled(layer.growth)]
+
+
+def with_grown(root: Group, name: str, old: Growth, new: Growth) -> Group:
+    """With `new` for the growth of a layer if that is `old`: the same one, further refined."""
+    if not layers.has(root, name):
+        return root
+    node = layers.find(root, name)
+    same = isinstance(node, Layer) and node.growth is old
+    return layers.with_growth(root, name, new) if same else root
