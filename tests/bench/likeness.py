@@ -111,10 +111,12 @@ def _coverage(cells: np.ndarray, source: np.ndarray) -> float:
     return float(np.exp(-(used[held] * np.log(used[held] / (counts[held] / counts.sum()))).sum()))
 
 
-def rim(example, mask, made, region) -> float:
-    """1-Wasserstein distance of colour and alpha at each distance from the outline, times 1000, in deviations."""
+def rim(example, mask, made, region, part=None) -> float:
+    """1-Wasserstein distance of colour and alpha at each distance from the outline, times 1000, in deviations; `part`:
+    where the texture is looked at, else all of its region."""
     here, there = (ndimage.distance_transform_edt(np.pad(where, 1))[1:-1, 1:-1] for where in (mask, region))
     spread = example[mask].std(0) + 1e-3
+    there = there if part is None else there * part
     found = []
     for d in range(RIMS):
         a, b = example[(here > d) & (here <= d + 1)], made[(there > d) & (there <= d + 1)]
