@@ -93,14 +93,16 @@ def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
 
     Ink that adds no texture down to this level is left out on the way: half the work where there is any.
     """
-    coarsest = pyramid.coarsest
-    if coarsest is None or level < coarsest:
+    start = pyramid.coarsest if level < 0 or pyramid.bare is None else 0
+    if start is None or level < start:
         return None
     rects = [rect.evened()]
-    for _ in range(level - coarsest):
+    for _ in range(level - start):
         rects.append(rects[-1].parents().evened())
-    value, above = None, rects[-1]
-    for k, inner in zip(range(coarsest, level + 1), reversed(rects), strict=True):
+    above = rects[-1]
+    known, value = _of_ground(pyramid, start, above)
+    for k in range(start + known, level + 1):
+        inner = rects[level - k]
         value = step(pyramid, value, above, k, inner, level)
         above = inner
     return None if value is None else value.rgba[:, *rect.slices(rects[0])]
@@ -108,7 +110,7 @@ def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
 
 def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Planes | None:
     """As `evaluate`, but None where nothing lies."""
-    known, value = _from_cache(pyramid, level, rect, cache)
+    known, value = _known(pyramid, level, rect, cache)
     if known:
         return value
     rects = [rect.evened()]
@@ -118,7 +120,7 @@ def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache |
     while coarsest is not None and start > coarsest:
         start -= 1
         rects.append(rects[-1].parents().evened() if start != level else rects[-1])
-        known, value = _from_cache(pyramid, start, rects[-1], cache)
+        known, value = _known(pyramid, start, rects[-1], cache)
         if known:
             rects.pop()
             break
@@ -215,6 +217,20 @@ def without_empty_inks(planes: Planes) -> Planes | None:
         return planes
     wanted = [*range(COLOURS), *(COLOURS + 3 * i + c for i in kept for c in range(3))]
     return Planes(data[wanted], tuple(inks[i] for i in kept))
+
+
+def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:
+    """(known, value) of what need not be worked out."""
+    known, value = _of_ground(pyramid, level, rect)
+    return (known, value) if known else _from_cache(pyramid, level, rect, cache)
+
+
+def _of_ground(pyramid: Pyramid, level: int, rect: Rect) -> tuple[bool, Planes | None]:
+    """The picture that a layer is, where it is nothing else."""
+    ground = pyramid.bare
+    if level != 0 or ground is None:
+        return False, None
+    return True, without_empty_inks(Planes(ground.values(rect), ()))
 
 
 def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:

@@ -2,7 +2,8 @@
 
 It is what the commit of an opaque edit makes on nothing.  There, rule U has no mismatch to keep: every coarser level
 is the mean of the finer one, and every residual is v - expand(v above).  The picture stands for all these residuals:
-a file that holds its pixels need not hold them.
+a file that holds its pixels need not hold them, and those of the finest level, three quarters of all, are only made
+where they are looked at.  As long as nobody has painted on it, the value of that level is the picture.
 """
 
 from __future__ import annotations
@@ -14,22 +15,25 @@ import numpy as np
 
 from engine.canvas import kernels
 from engine.canvas.compact import compact
-from engine.canvas.store import Change, Ground, Level, Pyramid, Record
+from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 
 Tile = Callable[[Rect], np.ndarray]
 _COLOURS = np.arange(4)
 _WHOLE = Rect(0, 0, TILE, TILE)
+_TOUCHED = np.ones((TILE, TILE), np.uint8)
+_BYTES = 4 * TILE * TILE * 2  # of a whole tile's data, as a rule
 
 
 def laid(tile: Tile, rect: Rect, pixels: bytes | None = None, level: int = 0) -> Pyramid:
     """The pyramid of a picture that covers `rect` of `level`.
 
-    `tile` gives its values over any part of `rect`: float32 (4, h, w), premultiplied, on the grid.  `pixels`: the
-    picture as a PNG, kept so that files can hold it in place of the residuals.
+    `tile` gives its values over any part of `rect`: float32 (4, h, w), premultiplied, on the grid; always the same
+    ones, as long as the pyramid is there.  `pixels`: the picture as a PNG, kept so that files can hold it in place of
+    the residuals.
     """
     levels: dict[int, Level] = {}
-    below = _Picture(tile, rect)
+    picture = below = _Picture(tile, rect)
     above = below.reduced(rect.evened().zoomed(-1))
     while True:
         records = _records(below, above, level)
@@ -44,7 +48,7 @@ def laid(tile: Tile, rect: Rect, pixels: bytes | None = None, level: int = 0) ->
         return Pyramid()
     stored = immutables.Map(levels)
     change = Change(max(levels), rect, None, None)
-    return Pyramid(stored, change, ground=None if pixels is None else Ground(rect, stored, pixels))
+    return Pyramid(stored, change, ground=None if pixels is None else Ground(rect, stored, pixels, picture.read))
 
 
 class _Picture:
@@ -58,7 +62,7 @@ class _Picture:
         """Values over `rect`, zero outside the picture: float32 (4, h, w)."""
         part = rect.intersect(self.rect)
         if part == rect:
-            return self._tile(rect)
+            return np.ascontiguousarray(self._tile(rect))
         out = np.zeros((4, rect.height, rect.width), np.float32)
         if not part.empty:
             rows, columns = part.slices(rect)
@@ -70,7 +74,7 @@ class _Picture:
         values = np.zeros((4, rect.height, rect.width), np.float32)
         for key in rect.zoomed(1).tiles(0):
             part = key.rect.intersect(rect.zoomed(1))
-            fine = np.ascontiguousarray(self.read(part))
+            fine = self.read(part)
             kernels.halve(fine, _COLOURS, values, (part.y0 >> 1) - rect.y0, (part.x0 >> 1) - rect.x0)
         return _Dense(values, rect)
 
@@ -86,19 +90,85 @@ class _Dense(_Picture):
 def _records(below: _Picture, above: _Dense, level: int) -> dict[tuple[int, int], Record]:
     """All residuals of a level: v - expand(v above), where a pixel or a parent of it is painted."""
     records = {}
-    touched = np.ones((TILE, TILE), np.uint8)
     data, used = np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32)
+    put_off = {} if isinstance(below, _Dense) else _spanned(below, above)
     for key in below.rect.grown(2).tiles(level):
-        value, at = np.ascontiguousarray(below.read(key.rect)), key.rect.parents()
-        if at.intersect(above.rect) == at:
-            coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
-        else:
-            coarse, top, left = np.ascontiguousarray(above.read(at)), 0, 0
-        extent = kernels.first_residual(value, coarse, top, left, _COLOURS, touched, data, used)
-        record = compact(_WHOLE, data, (), 1, (extent, used))
+        if put_off.get((key.x, key.y)):
+            records[key.x, key.y] = _later(below, key)
+            continue
+        record = _record(below, above, key, data, used)
         if record is not None:
             records[key.x, key.y] = record
     return records
+
+
+def _record(below: _Picture, above: _Dense, key: TileKey, data: np.ndarray, used: np.ndarray) -> Record | None:
+    """The residual of a tile; `data` int32 (4, 128, 128) and `used` int32 (4,) are written to."""
+    value, at = below.read(key.rect), key.rect.parents()
+    if at.intersect(above.rect) == at:
+        coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
+    else:
+        coarse, top, left = above.read(at), 0, 0
+    extent = kernels.first_residual(value, coarse, top, left, _COLOURS, _TOUCHED, data, used)
+    return compact(_WHOLE, data, (), 1, (extent, used))
+
+
+# ---- the finest level ----
+
+
+def _spanned(below: _Picture, above: _Dense) -> dict[tuple[int, int], bool]:
+    """The tiles whose residual certainly reaches all four of their sides, as their first and last rows show."""
+    x0, x1 = below.rect.x0 // TILE, (below.rect.x1 - 1) // TILE + 1
+    found = {}
+    for y in range(below.rect.y0 // TILE, (below.rect.y1 - 1) // TILE + 1):
+        first = _reached(below, above, Rect(x0 * TILE, y * TILE, x1 * TILE, y * TILE + 2))
+        last = _reached(below, above, Rect(x0 * TILE, y * TILE + TILE - 2, x1 * TILE, y * TILE + TILE))
+        columns = (first | last).any(axis=0).reshape(-1, TILE)
+        rows = first[0].reshape(-1, TILE).any(axis=1) & last[1].reshape(-1, TILE).any(axis=1)
+        for x, spans in enumerate((rows & columns[:, 0] & columns[:, -1]).tolist(), x0):
+            found[x, y] = spans
+    return found
+
+
+def _reached(below: _Picture, above: _Dense, rect: Rect) -> np.ndarray:
+    """Where the residual within an even rectangle is not zero: bool (h, w)."""
+    value, coarse = below.read(rect), above.read(rect.parents())
+    data, touched = np.empty(value.shape, np.int32), np.ones(value.shape[1:], np.uint8)
+    kernels.first_residual(value, coarse, 0, 0, _COLOURS, touched, data, np.empty(4, np.int32))
+    return np.asarray(data.any(axis=0))
+
+
+class _Later(Record):
+    """A record of a whole tile whose data are made when they are first asked for, and kept."""
+
+    __slots__ = ("source",)
+    source: tuple[_Picture, TileKey]
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        """The data, while there are none."""
+        if name != "data":
+            raise AttributeError(name)
+        picture, key = self.source
+        above = picture.reduced(key.rect.parents())
+        record = _record(picture, above, key, np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32))
+        assert record is not None
+        assert record.rect == self.rect
+        object.__setattr__(self, "data", record.data)  # two threads may do so at a time: it is the same
+        return record.data
+
+    @property
+    def nbytes(self) -> int:
+        return _BYTES + RECORD_OVERHEAD
+
+
+def _later(picture: _Picture, key: TileKey) -> Record:
+    record = object.__new__(_Later)
+    for name, value in (("rect", _WHOLE), ("inks", ()), ("depth", 1), ("source", (picture, key))):
+        object.__setattr__(record, name, value)
+    return record
+
+
+# ---- what is asked of it ----
 
 
 def unchanged(pyramid: Pyramid, key: TileKey, record: Record) -> bool:

@@ -12,7 +12,7 @@ Above the coarsest stored level v = 0.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import immutables
@@ -77,12 +77,14 @@ Level = immutables.Map[tuple[int, int], Record]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Ground:
-    """A picture laid down before anything was painted: its `rect` of level 0, the records that it made, and its
-    `pixels` as a PNG, from which they can be made again."""
+    """A picture laid down before anything was painted: its `rect` of level 0, the records that it made, its `pixels`
+    as a PNG, from which they can be made again, and its `values` over any rectangle of level 0, float32 (4, h, w) on
+    the grid, new each time."""
 
     rect: Rect
     levels: immutables.Map[int, Level]
     pixels: bytes
+    values: Callable[[Rect], np.ndarray]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -110,6 +112,11 @@ class Pyramid:
     @property
     def finest(self) -> int | None:
         return max(self.levels, default=None)
+
+    @property
+    def bare(self) -> Ground | None:
+        """The ground, if it is all that there is: nobody has painted on it."""
+        return self.ground if self.ground is not None and self.ground.levels is self.levels else None
 
     def branched(self) -> Pyramid:
         """The same state at the start of a line of history of its own."""

@@ -5,7 +5,7 @@ import pytest
 from strokes import ArrayEdit, fill
 
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import evaluate
+from engine.canvas.evaluate import TileCache, evaluate, shown
 from engine.canvas.fold import fold
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.store import Pyramid
@@ -33,6 +33,36 @@ def test_the_records_are_those_of_the_commit(width, height, x, y):
         assert (key, a.rect, a.data.dtype) == (other, b.rect, b.data.dtype)
         assert (a.data == b.data).all()
     assert (evaluate(fast, 0, rect).data == values).all()
+
+
+@pytest.mark.parametrize("level", [-3, -1, 0, 1, 3])
+def test_a_ground_shows_its_picture_before_its_finest_residuals_are_made(level):
+    values = from_rgba8(np.random.default_rng(1).integers(0, 256, (400, 520, 4), np.uint8))
+    rect = Rect.at(-77, 35, 520, 400)
+    ground = laid(lambda part: values[:, *part.slices(rect)], rect, b"png")
+    slow = commit(Pyramid(), ArrayEdit(0, -77, 35, np.zeros((400, 520), np.float32), values))
+    at = Rect(-90, 20, 460, 450).zoomed(level)
+    at = at.intersect(Rect.at(at.x1 - 600, at.y1 - 600, 600, 600))
+    expected = evaluate(slow, level, at).data
+    for cache in (None, TileCache(1 << 24)):
+        assert (evaluate(ground, level, at, cache).data == expected).all()
+    assert (shown(ground, level, at) == expected).all()
+    assert to_be_made(ground) == 6  # of 5 x 4 tiles, those that reach beyond the picture are made
+    painted = commit(ground, fill(0, 150, 200, 20, 20))
+    assert to_be_made(painted) == 5
+    again = commit(slow, fill(0, 150, 200, 20, 20))
+    assert (evaluate(painted, level, at).data == evaluate(again, level, at).data).all()
+
+
+def to_be_made(pyramid):
+    """How many records have no data yet."""
+    missing = 0
+    for _, record in pyramid.all_records():
+        try:
+            object.__getattribute__(record, "data")
+        except AttributeError:
+            missing += 1
+    return missing
 
 
 def test_paint_changes_only_the_records_it_touches():
