@@ -33,7 +33,6 @@ NAMES = ("orange-peel", "bread", "torn-sugar-paper", "mossy-gravel", "felt")
 PAPER = np.float32([0.93, 0.91, 0.87])
 LABELS = np.float32([[1, 1, 1], [0.9, 0.2, 0.2], [0.95, 0.8, 0.1], [0.3, 0.6, 1], [0.2, 0.7, 0.3], [0.5, 0.2, 0.6]])
 PANEL, GAP = 400, 12  # of the sheet
-LEVELS = 3  # on coarser ones no outline of an example is like those drawn
 NEAR = 3.0  # pixels from an interface
 BAND = 4.0  # pixels from the outline of an example: its rim; one more, as no outline is quite like another
 
@@ -64,11 +63,12 @@ def scene(size: int, side: int) -> Scene:
 
 
 def _exemplar(name: str, side: int) -> Exemplar:
+    """A bundled example reduced, with as many levels as its size asks for."""
     size = side, side
     small = Image.open(FOLDER / f"{name}.png").convert("RGBa").resize(size, Image.Resampling.BOX).convert("RGBA")
     mask = Image.open(FOLDER / f"{name}.mask.png").convert("L").resize(size, Image.Resampling.BOX)
     told = tomllib.loads((FOLDER / f"{name}.toml").read_text("utf-8"))
-    told = {field: value for field, value in told.items() if field != "group"} | {"levels": LEVELS}
+    told = {field: value for field, value in told.items() if field not in ("group", "levels")}
     return analysed(np.asarray(small), np.asarray(mask) >= 128, changed(Parameters(), told))
 
 
