@@ -127,6 +127,7 @@ def _open(name: str) -> Check:
 
 def _escape(desk: Desk) -> None:
     desk.match.marking = None
+    desk.examples.swapping = False
     desk.erasing = False
     desk.tool = "brush"
 
@@ -223,6 +224,9 @@ ACTIONS: dict[str, Action] = {
     ),
     "match": A(
         "Match a texture", "View", ("T",), "Make a texture like an example", _strip("match"), _ready, _open("match")
+    ),
+    "examples": A(
+        "Examples", "View", ("P",), "Paint with textures that have a rim", _strip("examples"), _ready, _open("examples")
     ),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
     "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),

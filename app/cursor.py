@@ -5,6 +5,9 @@ Both are drawn light and dark, to show on any colour.
 
 from __future__ import annotations
 
+import math
+import time
+
 import glfw
 from imgui_bundle import ImVec2, imgui
 
@@ -12,6 +15,8 @@ from app import theme
 from app.desk import Desk
 from app.tools import TOOLS
 
+PATIENCE = 0.35  # seconds that something grows before that is shown
+MARKS = 16  # at most
 _SHAPES = {"pan": glfw.RESIZE_ALL_CURSOR, "turn": glfw.RESIZE_ALL_CURSOR, "zoom": glfw.CROSSHAIR_CURSOR}
 
 
@@ -39,7 +44,7 @@ def draw_outline(desk: Desk) -> None:
     """The brush's circle, above the canvas and below the panels; or the rectangle that is being marked."""
     if desk.match.marked is not None:
         _draw_marked(desk.match.marked)
-    if desk.match.marking is not None:
+    if desk.match.marking is not None or desk.examples.swapping:
         return
     if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.tool].outline:
         return
@@ -47,6 +52,25 @@ def draw_outline(desk: Desk) -> None:
     at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, desk.brush.radius)
     painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
     painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)
+
+
+def draw_growing(desk: Desk) -> None:
+    """A small ring over what still grows, filled as far as it is done; not at once, so that little work shows none."""
+    growing, radius = desk.growing, 7.0 * desk.scale
+    if growing is None or time.monotonic() - desk.grows < PATIENCE:
+        return
+    painter, (x0, y0, x1, y1) = imgui.get_background_draw_list(), desk.free_area()
+    for level, rect in growing.rects[:MARKS]:
+        ends = [desk.view.pixel_to_screen(level, x, y) for x in (rect.x0, rect.x1) for y in (rect.y0, rect.y1)]
+        xs, ys = zip(*ends, strict=True)
+        left, top, right, bottom = max(min(xs), x0), max(min(ys), y0), min(max(xs), x1), min(max(ys), y1)
+        if left >= right or top >= bottom:
+            continue
+        at = ImVec2((left + right) / 2, (top + bottom) / 2)
+        painter.add_circle_filled(at, 1.7 * radius, theme.packed((0.0, 0.0, 0.0), 0.45), 32)
+        painter.add_circle(at, radius, theme.packed((1.0, 1.0, 1.0), 0.3), 32, 2.5 * desk.scale)
+        painter.path_arc_to(at, radius, -math.pi / 2, (2 * growing.done - 0.5) * math.pi, 32)
+        painter.path_stroke(theme.packed((1.0, 1.0, 1.0), 0.95), 2.5 * desk.scale)
 
 
 def _draw_marked(corners: tuple[float, float, float, float]) -> None:

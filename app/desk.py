@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from app.colours import RGB, to_hex
+from app.examples import ExampleState
 from app.glide import Glide
 from app.lab import LabState
 from app.match import MatchState
@@ -19,7 +20,7 @@ from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
-from engine.painting.requests import CurveRow, Found, Note, Request, Save, Scene
+from engine.painting.requests import CurveRow, Found, Growing, Note, Request, Save, Scene
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
@@ -80,6 +81,9 @@ class Desk:
     lab: LabState = field(default_factory=LabState)
     found: Found | None = None  # by the analysis
     match: MatchState = field(default_factory=MatchState)
+    examples: ExampleState = field(default_factory=ExampleState)
+    growing: Growing | None = None  # what is painted with examples and not yet as it will stay
+    grows: float = 0.0  # since when
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
 
@@ -159,4 +163,5 @@ class Desk:
         erase = self.erasing or eraser
         mode = "erase" if erase and self.brush.mode != "smooth" else self.brush.mode
         radius = self.brush.radius / self.view.scale(level)
-        return level, replace(self.brush, radius=radius, colour=to_hex(self.colour), mode=mode)
+        brush = replace(self.brush, radius=radius, colour=to_hex(self.colour), mode=mode)
+        return level, self.examples.erasing(brush) if mode == "erase" else brush

@@ -238,7 +238,8 @@ def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
 
 def sample(command: DefineTexture, size: tuple[int, int]) -> Swatch:
     """A broad stroke with an example."""
-    brush = Brush(radius=size[1] * 0.24, mode="example", example=command.name, hardness=1.0)
+    radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
+    brush = Brush(radius=radius, mode="example", example=command.name, hardness=1.0)
     return Swatch("example sample", brush, size, textures=(command,), soon=True)
 
 

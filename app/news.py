@@ -9,16 +9,18 @@ from typing import Any
 
 import moderngl
 import numpy as np
-from imgui_bundle import imgui
 
-from app import palette, presets
+from app import palette, presets, sowing
 from app.colours import to_hex
 from app.desk import Desk
+from app.gallery import Gallery
 from app.lab import only_with
 from app.panels.brush import PREVIEW
 from app.panels.brushes import THUMB
+from app.panels.examples import TILE
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
+from app.shelf import Shelf
 from app.trace import trace
 from app.view import SUBPIXEL, Place
 from engine.brush.record import Brush
@@ -26,7 +28,6 @@ from engine.painting import requests as q
 from engine.painting.worker import Worker
 
 COARSER = 3  # levels: a coarse layer of tiles around the view is kept for when it moves
-PAPER = 244  # grey of the paper under swatches
 SETTLE = 0.12  # seconds from one painting of the brush's swatches to the next
 
 
@@ -37,7 +38,8 @@ class News:
         self.desk, self.screen, self.ctx = desk, screen, ctx
         self.worker: Worker | None = None
         self._asked: tuple[Any, ...] = ()
-        self._textures: dict[str, moderngl.Texture] = {}
+        self.shelf: Shelf | None = None
+        self._gallery = Gallery(ctx, desk.pictures)
         self._ink: Any = None
         self._ink_since = self._ink_sent = 0.0
         self._serial: int | None = None
@@ -56,11 +58,13 @@ class News:
             q.Found: self._found,
             q.MatchScene: self._matched,
             q.Pending: self._pending,
+            q.Growing: self._growing,
         }
 
     def take(self, now: float) -> bool:
         """Takes in all results; True if there were any."""
         results = self.worker.results() if self.worker else []
+        results += self.shelf.take() if self.shelf else []
         for result in results:
             self._handlers[type(result)](result, now)
         return bool(results)
@@ -89,10 +93,11 @@ class News:
         self._ask_lab(now)
         if self.desk.strip == "match" and self.desk.panels:
             self.desk.match.ask(self.desk.post)
+        self._ask_examples(now)
 
     def _ask_swatches(self, now: float) -> None:
         """The stroke of the brush and the ink mixer's picture follow the brush, no faster than they can be seen."""
-        brush = replace(self.desk.brush, colour=to_hex(self.desk.colour))
+        brush = self.desk.examples.at_home(replace(self.desk.brush, colour=to_hex(self.desk.colour)))
         if brush != self._ink:
             self._ink, self._ink_since = brush, self._ink_since or max(now, self._ink_sent + SETTLE)
         if self._ink_since and now >= self._ink_since and self.worker:
@@ -116,6 +121,20 @@ class News:
             brush = replace(brush, colour=to_hex(desk.colour), radius=16.0, opacity=1.0, flow=1.0, mode="paint")
             desk.lab.ask(desk.post, now, brush)
 
+    def _ask_examples(self, now: float) -> None:
+        """Thumbnails, the sample stroke, and what was painted in the region, while they are to be seen."""
+        desk, state = self.desk, self.desk.examples
+        if self.shelf is not None and (desk.brush.mode == "example" or desk.strip == "examples"):
+            self.shelf.ask(state.entries, round(TILE * desk.scale))
+        if desk.strip != "examples" or not desk.panels:
+            return
+        state.ask(desk.post, now)
+        mask = state.mask
+        if mask is not None and mask.dirty is not None:
+            height, width = mask.inside.shape
+            self._gallery.touch(f"region {state.chosen}", (width, height), mask.dirty, mask.shown(mask.dirty))
+            mask.dirty = None
+
     def waiting(self) -> bool:
         """Whether a swatch is about to be asked for."""
         return self._ink_since > 0
@@ -132,6 +151,7 @@ class News:
         desk.papers = tuple(papers)
         for fault in faults + more + torn:
             desk.say(fault, bad=True)
+        sowing.stock(desk)
         if not desk.preset:
             first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
             desk.preset, desk.brush, desk.needs = first.name, first.brush, first.textures
@@ -163,16 +183,7 @@ class News:
 
     def _picture(self, r: q.Picture, _now: float) -> None:
         """A swatch over paper, as a texture for imgui."""
-        alpha = r.pixels[..., 3:].astype(np.uint16)
-        flat = (r.pixels[..., :3] + (255 - alpha) * PAPER // 255).clip(0, 255).astype(np.uint8)
-        size = (r.pixels.shape[1], r.pixels.shape[0])
-        old = self._textures.get(r.ident)
-        if old is None or old.size != size:
-            if old is not None:
-                old.release()
-            old = self._textures[r.ident] = self.ctx.texture(size, 3, alignment=1)
-            self.desk.pictures[r.ident] = imgui.ImTextureRef(old.glo)
-        old.write(np.ascontiguousarray(flat), alignment=1)
+        self._gallery.hang(r.ident, r.pixels)
 
     def _lab(self, r: q.LabScene, _now: float) -> None:
         before, self.desk.lab.scene = self.desk.lab.scene, r
@@ -198,6 +209,14 @@ class News:
             zoom += float(np.log2(min((x1 - x0) / r.size[0], (y1 - y0) / r.size[1])))
         place = Place(x, y, int(r.level // 1) + SUBPIXEL)
         self.desk.look_at(place, zoom, r.seconds)
+
+    def _growing(self, r: q.Growing, now: float) -> None:
+        desk = self.desk
+        done = r.done >= 1.0 or not r.rects
+        if done and desk.growing is not None:
+            trace("all has grown")
+        desk.grows = desk.grows if desk.growing is not None else now
+        desk.growing = None if done else r
 
     def _pending(self, r: q.Pending, _now: float) -> None:
         self.desk.pending, self.desk.files = r.tiles, r.files

@@ -12,7 +12,7 @@ from app.desk import Desk
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
-from app.tools import TOOLS, Gesture, mark, paint_lab, pan, pick, turn, zoom
+from app.tools import TOOLS, Gesture, mark, pan, pick, swap, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
@@ -57,9 +57,10 @@ class Router:
             self.desk.glide.zoom(self.desk.view, event.dy * NOTCH, event.x, event.y)
 
     def _press(self, event: PenEvent, covered: bool) -> None:
-        if covered and event.button == LEFT and self.layout.paints(self.desk, event.x, event.y):
+        stroke = self.layout.stroke(self.desk, event.x, event.y) if covered and event.button == LEFT else None
+        if stroke is not None:
             self._button = event.button
-            self.gesture = paint_lab(self.desk, event)
+            self.gesture = stroke(self.desk, event)
             self._send(None)
             return
         if covered:
@@ -83,6 +84,8 @@ class Router:
             begin = pick
         elif self.desk.match.marking is not None and self.desk.strip == "match":
             begin = mark
+        elif self.desk.examples.swapping:
+            begin = swap
         else:
             begin = TOOLS[self.desk.tool].gesture
         return begin(self.desk, event)

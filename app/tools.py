@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app import icons, palette
+from app import icons, palette, sowing
 from app.colours import to_hex
 from app.desk import Desk
 from app.input.events import PenEvent
@@ -40,6 +40,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     if layer:
         desk.say(f"Layer “{layer}” is locked", bad=True)
         return
+    sowing.reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
@@ -176,6 +177,34 @@ def mark(desk: Desk, first: PenEvent) -> Gesture:
         desk.say(f"An example has at least {SMALLEST} pixels along each side", bad=True)
         return
     match.show_area(index, level, rect)
+
+
+def paint_region(desk: Desk, first: PenEvent) -> Gesture:
+    """A stroke in the region of an example; as all strokes it may be dropped."""
+    mask = desk.examples.mask
+    if mask is None:
+        return
+    mask.begin(*desk.examples.place(first.x, first.y))
+    done = False
+    try:
+        while True:
+            event = yield
+            if event.kind in ("move", "up"):
+                mask.to(*desk.examples.place(event.x, event.y))
+            if event.kind == "up":
+                break
+        done = True
+    finally:
+        if not done:
+            mask.abandon()
+
+
+def swap(desk: Desk, first: PenEvent) -> Gesture:
+    """What was painted with an example, at the place touched, becomes like the chosen one."""
+    event = first
+    while event.kind != "up":
+        event = yield
+    sowing.swap(desk, event.x, event.y)
 
 
 class Tool(NamedTuple):

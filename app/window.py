@@ -13,7 +13,7 @@ import glfw  # isort: skip
 import moderngl
 from imgui_bundle.imgui import backends
 
-from app import cursor, theme
+from app import cursor, sowing, theme
 from app.actions import close
 from app.desk import Desk
 from app.input.choose import pen_source
@@ -23,6 +23,7 @@ from app.news import News
 from app.panels.layout import Layout
 from app.router import Router
 from app.screen import Screen
+from app.shelf import Shelf
 from app.view import Place, View
 from engine.painting.requests import Open
 from engine.painting.worker import Worker
@@ -104,6 +105,7 @@ class Window:
             return
         x, y = self._pointer()
         taken = self.desk.strip == "match" and self.desk.panels and self.desk.match.dropped(Path(paths[0]), x, y)
+        taken = taken or sowing.dropped(self.desk, Path(paths[0]))
         if not taken:
             self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
 
@@ -125,6 +127,7 @@ class Window:
         self.pen = pen_source(self.handle)
         self.desk.post = worker.post
         self.news.worker = worker
+        self.news.shelf = Shelf(glfw.post_empty_event)
 
     def frame(self) -> bool:
         """Takes in what happened and draws; True while something still moves."""
@@ -164,6 +167,7 @@ class Window:
         backends.glfw_new_frame()
         imgui.new_frame()
         cursor.draw_frame(self.desk)
+        cursor.draw_growing(self.desk)
         cursor.draw_outline(self.desk)
         self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
         self.router.hover()

@@ -8,9 +8,10 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import actions, icons, theme
+from app import actions, icons, sowing, theme
 from app.desk import LARGEST, SMALLEST, Desk
 from app.knots import at
+from app.panels import growing
 from app.panels import widgets as w
 from app.panels.brushes import BrushList
 from app.panels.curves import CurveEditor
@@ -26,6 +27,7 @@ _MODES = (
     ("erase", "Erase", "Takes paint away, at all depths"),
     ("smooth", "Smooth", "Softens the paint and takes away the detail that zooming would show"),
     ("raster", "Change", "Changes the paint that is there: darker, another hue, blurred, copied…"),
+    ("example", "Grow", "Grows a texture like an example where you paint, rim and all"),
 )
 _PRESSURES: dict[str, Any] = {
     "pressure": "pressure",
@@ -42,6 +44,7 @@ _PRESSURE_ROWS = (
         "firm", "Firm pen", "Light touches count for less", tuple(at(_PRESSURES["firm"], i / 20) for i in range(21))
     ),
 )
+_UNFELT = ("opacity", "flow")  # by what is grown
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 
 
@@ -64,16 +67,21 @@ class BrushPanel:
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
-            unfolded += _height_of(lambda: self._raster(desk))
+            unfolded += _height_of(lambda: self._special(desk))
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
             unfolded += _height_of(lambda: self._dynamics(desk))
         self._below = imgui.get_cursor_pos().y - top - unfolded
 
-    def _raster(self, desk: Desk) -> None:
-        if desk.brush.mode == "raster":
+    def _special(self, desk: Desk) -> None:
+        """What only this mode has."""
+        if desk.erasing or desk.brush.mode == "erase":
+            growing.draw_eraser(desk)
+        elif desk.brush.mode == "raster":
             self._operations.draw(desk)
+        elif desk.brush.mode == "example":
+            growing.draw(desk)
 
     def _preview(self, desk: Desk) -> None:
         """A stroke of the brush as it is set now."""
@@ -114,13 +122,18 @@ class BrushPanel:
             on = desk.brush.mode == mode
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
             if w.text_button(label, hint, width=words[i] + spare):
-                desk.brush = replace(desk.brush, mode=mode)
                 desk.tool, desk.erasing = "brush", False
+                if mode == "example" and desk.brush.example is None:
+                    sowing.take(desk)
+                else:
+                    desk.brush = replace(desk.brush, mode=mode)
             imgui.pop_style_color()
         imgui.pop_style_var()
 
     def _settings(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
+            if desk.brush.mode == "example" and name in _UNFELT:
+                continue
             lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
             form = "%.1f px" if row.unit == "px" else "%.2f"
             hint = f"{row.tooltip}  ([ and ])" if name == "radius" else row.tooltip

@@ -189,6 +189,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "lab picture": files.choosing_spectrum,
     "match picture 0": files.choosing_example(0),
     "match picture 1": files.choosing_example(1),
+    "example picture": files.choosing_own,
     "unsaved": lambda desk: Unsaved(),
     "keys": lambda desk: Keys(),
     "about": lambda desk: About(),

@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle import portable_file_dialogs as pfd
 from immutables import Map
 
-from app import icons, pictured, theme
+from app import icons, pictured, sowing, theme
 from app.desk import Desk
 from app.panels import widgets as w
 from engine.painting.requests import Export, Open, Save
@@ -188,6 +188,11 @@ def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
         d.match.show_file(index, path)
 
     return lambda desk: _chooser("Make a texture like a picture", _folder(desk), PICTURES, False, choose)
+
+
+def choosing_own(desk: Desk) -> SystemDialog | Browser:
+    """For an example of the artist's own."""
+    return _chooser("Add an example", _folder(desk), PICTURES, False, sowing.add)
 
 
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:

@@ -14,7 +14,7 @@ from app.panels.colour import ColourPanel
 from app.panels.dialogs import Dialogs
 from app.panels.ink import InkPanel
 from app.panels.layers import LayersPanel
-from app.panels.strip import StripPanel
+from app.panels.strip import Painting, StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
 NARROW = 640.0  # points: a strip needs more
@@ -34,7 +34,7 @@ class Layout:
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip = Dialogs(), StripPanel()
         self._covered: list[tuple[float, float, float, float]] = []
-        self._popup, self._strip = False, ""
+        self._popup, self._strip = False, ("", "palette")
 
     def covers(self, x: float, y: float) -> bool:
         """Whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
@@ -49,9 +49,9 @@ class Layout:
         """Closes the topmost of them."""
         imgui.internal.close_popup_to_level(max(0, len(imgui.get_current_context().open_popup_stack) - 1), True)
 
-    def paints(self, desk: Desk, x: float, y: float) -> bool:
-        """Whether a press there begins a stroke in the texture lab."""
-        return not self._popup and self.strip.paints(desk, x, y)
+    def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
+        """The stroke that a press there begins in a panel; None if it begins none."""
+        return None if self._popup else self.strip.stroke(desk, x, y)
 
     def draw(self, desk: Desk, pointer_name: str) -> None:
         self._covered = []
@@ -101,9 +101,9 @@ class Layout:
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:
         """What was in the middle stays there when the strip opens or closes."""
         x, y = desk.middle()
-        strip, self._strip = self._strip, desk.strip
+        strip, self._strip = self._strip, (desk.strip, desk.examples.tab)
         desk.insets = insets
-        if strip != desk.strip and not desk.painting:
+        if strip != self._strip and not desk.painting:
             desk.view = desk.view.held(desk.view.to_canvas(x, y), *desk.middle())
 
     def _begin(self, name: str, box: tuple[float, float, float, float], flags: int = 0) -> bool:

@@ -21,6 +21,9 @@ def draw(desk: Desk, pointer_name: str) -> None:
     if text and now < until:
         sign = f"{icons.WARNING}  " if bad else ""
         imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
+    elif desk.examples.swapping:
+        name = desk.examples.entry.title if desk.examples.entry else ""
+        imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
     elif not desk.ready:
         imgui.text_disabled("Loading the paint engine…")
     else:
@@ -39,7 +42,8 @@ def draw(desk: Desk, pointer_name: str) -> None:
 def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
     """(text, hint, least width in ems), left to right."""
     view = desk.view
-    work = f"{desk.pending} tiles to do" if desk.pending else f"{icons.DISK} writing" if desk.files else ""
+    growing = f"growing {desk.growing.done * 100:.0f} %" if desk.growing else ""
+    work = growing or f"{desk.pending} tiles to do" if desk.pending else f"{icons.DISK} writing" if desk.files else ""
     out = [
         (work, "Detail that is still being computed, or a file being written", 6.0),
         (pointer_name, "The device that last moved the pointer", 0.0),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 from imgui_bundle import imgui
@@ -9,11 +10,16 @@ from imgui_bundle import imgui
 from app import icons, theme
 from app.actions import ACTIONS, Action
 from app.desk import Desk
+from app.input.events import PenEvent
 from app.panels import widgets as w
 from app.panels.analysis import AnalysisPanel
+from app.panels.examples import ExamplesPanel
 from app.panels.lab import LabPanel
 from app.panels.matching import MatchingPanel
+from app.tools import Gesture, paint_lab, paint_region
 from engine.painting.requests import LabStep
+
+Painting = Callable[[Desk, PenEvent], Gesture]
 
 
 class Panel(Protocol):
@@ -29,10 +35,12 @@ class Strip(NamedTuple):
     height: float  # points
 
 
-PART, HIGHEST = 0.4, 560.0  # of the window's height; points
+GROW = 1.15  # of a brush, by a key
+PART, PART_LARGE, HIGHEST = 0.4, 0.58, 640.0  # of the window's height; points
 STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", 356.0),
     "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", 356.0),
+    "examples": Strip("Examples", icons.EXAMPLES, "Textures that grow where you paint, rim and all", 356.0),
     "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 320.0),
 }
 
@@ -43,12 +51,14 @@ class StripPanel:
     def __init__(self) -> None:
         self.lab = LabPanel()
         self._panels: dict[str, Panel] = {"lab": self.lab, "analysis": AnalysisPanel(), "match": MatchingPanel()}
+        self._panels["examples"] = ExamplesPanel()
 
     def height(self, desk: Desk) -> float:
         """What it takes of the screen, framebuffer pixels."""
         if not desk.strip:
             return 0.0
-        return max(STRIPS[desk.strip].height * desk.scale, min(PART * desk.view.height, HIGHEST * desk.scale))
+        part = PART_LARGE if desk.strip == "examples" and desk.examples.tab == "region" else PART
+        return max(STRIPS[desk.strip].height * desk.scale, min(part * desk.view.height, HIGHEST * desk.scale))
 
     def draw(self, desk: Desk) -> None:
         """Into the present window."""
@@ -65,14 +75,27 @@ class StripPanel:
         if closed:
             desk.strip = ""
 
-    def paints(self, desk: Desk, x: float, y: float) -> bool:
-        """Whether a press there is a stroke in the lab."""
-        return desk.strip == "lab" and desk.panels and desk.lab.over(x, y)
+    def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
+        """The stroke that a press there begins: in the lab's spectrum, or in an example's region."""
+        if not desk.panels:
+            return None
+        if desk.strip == "lab" and desk.lab.over(x, y):
+            return paint_lab
+        return paint_region if desk.strip == "examples" and desk.examples.over(x, y) else None
 
     def takes(self, desk: Desk, action: Action) -> bool:
-        """Undo and redo over the lab's spectrum are the lab's."""
+        """Undo and redo over what is painted in a panel are the panel's; so is the size of its brush."""
         steps = {ACTIONS["undo"]: -1, ACTIONS["redo"]: 1}
-        if action not in steps or not self.paints(desk, desk.pointer.x, desk.pointer.y):
+        sizes = {ACTIONS["smaller"]: 1 / GROW, ACTIONS["larger"]: GROW}
+        painted = self.stroke(desk, desk.pointer.x, desk.pointer.y)
+        if painted is paint_lab and action in steps:
+            desk.post(LabStep(steps[action]))
+            return True
+        mask = desk.examples.mask
+        if painted is not paint_region or mask is None or action not in {**steps, **sizes}:
             return False
-        desk.post(LabStep(steps[action]))
+        if action in steps:
+            mask.step(steps[action])
+        else:
+            mask.resize(sizes[action])
         return True

@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import theme
+from app import icons, theme
 
 Col = imgui.Col_
 
@@ -154,6 +154,29 @@ def _part(value: float, lo: float, hi: float, curved: bool) -> float:
     if curved and lo > 0:
         return math.log(value / lo) / math.log(hi / lo)
     return (value - lo) / (hi - lo)
+
+
+def stepper(label: str, value: int, bounds: tuple[int, int], hint: str) -> tuple[bool, int]:
+    """A whole number between two buttons that make it smaller or larger by one.  (changed, value)"""
+    side, gap = imgui.get_frame_height(), 2 * imgui.get_style().font_scale_dpi
+    wide = imgui.get_content_region_avail().x - 2 * (side + gap)
+    before = value
+    if icon_button(f"{label} less", icons.MINUS, hint, enabled=value > bounds[0], size=side):
+        value -= 1
+    imgui.same_line(0, gap)
+    corner = imgui.get_cursor_screen_pos()
+    imgui.dummy(ImVec2(wide, side))
+    tooltip(hint)
+    painter, pad = imgui.get_window_draw_list(), imgui.get_style().frame_padding
+    end, text = ImVec2(corner.x + wide, corner.y + side), str(value).replace("-", "−")
+    painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), imgui.get_style().frame_rounding)
+    painter.add_text(ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label)
+    at = ImVec2(end.x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
+    painter.add_text(at, theme.packed(theme.TEXT), text)
+    imgui.same_line(0, gap)
+    if icon_button(f"{label} more", icons.ADD, hint, enabled=value < bounds[1], size=side):
+        value += 1
+    return value != before, value
 
 
 def gradient_slider(

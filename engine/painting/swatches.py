@@ -53,7 +53,7 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     pressure = np.sin(np.pi * (0.06 + 0.9 * t)) ** 0.8
     radius = min(max(brush.radius, 2.0), height * 0.24)
     wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
-    if brush.mode == "paint":
+    if brush.mode in ("paint", "example"):
         return [wave]
     raster = brush.mode == "raster"
     bars = []

@@ -1,0 +1,164 @@
+"""The examples: thumbnails to choose from, the region of the one chosen, and how it is grown (Ritter et al. 2006)."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import examples, icons, shelf, sowing, theme
+from app.desk import Desk
+from app.examples import Entry
+from app.panels import widgets as w
+from app.panels.growthsettings import GrowthSettings
+from app.panels.region import RegionPanel
+from app.panels.widgets import Col
+
+TILE = 68.0  # side of a thumbnail, points
+NAME = 0.82  # of the font's size
+SIDE = 250.0  # width of what is told of the one chosen, points
+_STILL = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
+_TABS = (
+    ("palette", "Palette", "All examples: click one to paint with it"),
+    ("region", "Region", "Paint which part of the picture is grown"),
+    ("settings", "Settings", "How it is grown: pieces, rim, seams"),
+)
+
+
+class ExamplesPanel:
+    """Draws the strip."""
+
+    def __init__(self) -> None:
+        self._region, self._settings = RegionPanel(), GrowthSettings()
+
+    def draw(self, desk: Desk) -> None:
+        state = desk.examples
+        state.spot = None
+        if state.tab == "region" and state.mask is None:
+            sowing.edit(desk)
+        if state.entry is None or (state.tab == "region" and state.mask is None):
+            state.tab = "palette"
+        if state.tab == "region":
+            self._region.draw(desk)
+        elif state.tab == "settings":
+            self._settings.draw(desk)
+        else:
+            self._palette(desk)
+
+    def bar(self, desk: Desk) -> None:
+        """The three sides of the panel, in the strip's title line."""
+        state, scale = desk.examples, desk.scale
+        wide = 220 * scale
+        imgui.same_line(imgui.get_window_width() - wide - imgui.get_frame_height() - 28 * scale)
+        imgui.begin_disabled(state.entry is None)
+        imgui.begin_child("tabs", ImVec2(wide, imgui.get_frame_height()))
+        state.tab = w.segments("tab", state.tab, _TABS, wide) or state.tab
+        imgui.end_child()
+        imgui.end_disabled()
+
+    # --- the palette -------------------------------------------------------------------------------------------------
+
+    def _palette(self, desk: Desk) -> None:
+        gap = imgui.get_style().item_spacing.x
+        left = imgui.get_content_region_avail().x - SIDE * desk.scale - gap
+        imgui.begin_child("all examples", ImVec2(left, 0), 0, _STILL)
+        self._filters(desk)
+        imgui.begin_child("thumbnails", ImVec2(0, 0))
+        self._thumbnails(desk)
+        imgui.end_child()
+        imgui.end_child()
+        imgui.same_line()
+        imgui.begin_child("chosen", ImVec2(0, 0), 0, _STILL)
+        self._chosen(desk)
+        imgui.end_child()
+
+    def _filters(self, desk: Desk) -> None:
+        """Which group is listed; a button to add one."""
+        state, side, gap = desk.examples, imgui.get_frame_height(), 3 * desk.scale
+        groups = [(examples.ALL, f"All {len(state.entries)}"), *((group, group) for group in state.groups())]
+        picked = w.choice("group", state.group, groups, "Which examples are listed", 150 * desk.scale)
+        if picked is not None:
+            state.group = picked
+        imgui.same_line(0, gap)
+        if w.icon_button("add", icons.ADD, "Add a picture of your own, or drop one on the window", size=side):
+            desk.ask("example picture")
+
+    def _thumbnails(self, desk: Desk) -> None:
+        gap, wide = 6 * desk.scale, TILE * desk.scale
+        room = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
+        across = max(1, int((room + gap) / (wide + gap)))
+        gap = (room - across * wide) / max(1, across - 1) if across > 1 else gap
+        listed = desk.examples.listed()
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, 4 * desk.scale))
+        for i, entry in enumerate(listed):
+            if i % across:
+                imgui.same_line()
+            self._thumbnail(desk, entry, wide)
+        imgui.pop_style_var()
+        if not listed:
+            imgui.text_disabled("No examples here yet: drop a picture on the window")
+
+    def _thumbnail(self, desk: Desk, entry: Entry, wide: float) -> None:
+        size = imgui.get_font_size()
+        corner, tall = imgui.get_cursor_screen_pos(), wide + size * NAME + 4 * desk.scale
+        if imgui.invisible_button(entry.ident, ImVec2(wide, tall)):
+            sowing.choose(desk, entry)
+        chosen, hovered = desk.examples.chosen == entry.ident, imgui.is_item_hovered()
+        own = "\nRight click to delete it" if entry.own else ""
+        w.tooltip(f"{entry.title}\n{entry.group}: click to paint with it{own}")
+        if entry.own:
+            _deletes(desk, entry)
+        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + wide)
+        rounding, white = 5 * desk.scale, theme.packed((1.0, 1.0, 1.0))
+        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+        picture = desk.pictures.get(shelf.ident(entry))
+        if picture is not None:
+            painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, rounding)
+        if chosen or hovered:
+            colour = theme.packed(theme.ACCENT if chosen else (0.6,) * 3)
+            painter.add_rect(corner, end, colour, rounding, thickness=(2.5 if chosen else 1.5) * desk.scale)
+        grey = theme.TEXT if chosen else (0.72,) * 3
+        _named(desk.examples.label(entry), ImVec2(corner.x, end.y + 1.5 * desk.scale), wide, grey)
+
+    # --- the one chosen ----------------------------------------------------------------------------------------------
+
+    def _chosen(self, desk: Desk) -> None:
+        state, entry = desk.examples, desk.examples.entry
+        room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
+        line = imgui.get_frame_height_with_spacing()
+        imgui.align_text_to_frame_padding()
+        imgui.text_unformatted(entry.title if entry else "Choose an example")
+        tall = room.y - 2 * line
+        state.sampled = max(1, round(room.x)), max(1, round(tall))
+        shown = desk.pictures.get("example sample") if entry else None
+        w.picture(shown, (room.x, tall), "A stroke with this example")
+        wide = (room.x - gap.x) / 2
+        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
+        painting = entry is not None and desk.brush.mode == "example" and not desk.erasing and desk.tool == "brush"
+        text = f"{icons.BRUSH} Painting" if painting else f"{icons.BRUSH} Paint"
+        if w.text_button(f"{text}###paint", "Paint with this example", enabled=entry is not None, width=wide):
+            sowing.take(desk)
+        imgui.pop_style_color()
+        imgui.same_line()
+        hint = "Then click on a painted texture: it becomes like this one"
+        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if state.swapping else theme.RAISED))
+        if w.text_button(f"{icons.SWAP} Swap", hint, enabled=entry is not None, width=wide):
+            state.swapping = not state.swapping
+        imgui.pop_style_color()
+
+
+def _deletes(desk: Desk, entry: Entry) -> None:
+    """The menu of one of the artist's own."""
+    if not imgui.begin_popup_context_item(f"own {entry.name}"):
+        return
+    if imgui.selectable(f"Delete “{entry.title}”", False)[0]:
+        sowing.delete(desk, entry)
+    imgui.end_popup()
+
+
+def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:
+    """A name below its picture, in the middle; a long one ends with dots."""
+    size = imgui.get_font_size() * NAME
+    scale = size / imgui.get_font_size()
+    while len(name) > 1 and imgui.calc_text_size(name).x * scale > wide + 2:
+        name = name.removesuffix("…")[:-1].rstrip() + "…"
+    left = at.x + max(0.0, (wide - imgui.calc_text_size(name).x * scale) / 2)
+    imgui.get_window_draw_list().add_text(imgui.get_font(), size, ImVec2(left, at.y), theme.packed(grey), name)

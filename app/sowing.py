@@ -1,0 +1,204 @@
+"""Painting with an example: the brush takes one, at a size that fits what is seen; new ones come into the palette."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from immutables import Map
+
+from app import examples, keeping, palette
+from app.desk import Desk
+from app.examples import Entry
+from engine.brush.record import Brush
+from engine.painting.commands import Swap
+from engine.painting.requests import Do
+
+NEAR = 1  # levels: an example that is chosen so near to where the last one was has the same pixels
+
+
+def stock(desk: Desk) -> None:
+    """Puts all examples into the palette; says which files are none."""
+    found, faults = examples.load(examples.bundled_folder(), False)
+    own, more = examples.load(examples.own_folder(), True)
+    desk.examples.entries = tuple(examples.arranged([*found, *own]))
+    for fault in faults + more:
+        desk.say(fault, bad=True)
+
+
+def choose(desk: Desk, entry: Entry) -> None:
+    """The brush paints with an example from now on, as large as its pixels are where the view is now."""
+    state, level = desk.examples, desk.view.shown_level
+    state.chosen = entry.ident
+    if desk.brush.mode != "example" or abs(level - state.base) > NEAR:
+        state.base = level
+    if desk.brush.mode != "example":  # the tip and the width of a pencil, say, are not for this
+        desk.brush, desk.preset = Brush(radius=state.radius, hardness=1.0), ""
+    take(desk)
+
+
+def take(desk: Desk) -> None:
+    """The brush gets the chosen example with its settings, the painting with the first stroke; without one, the palette
+    opens."""
+    state, entry = desk.examples, desk.examples.entry
+    if entry is None:
+        desk.strip, desk.panels, state.tab = "examples", True, "palette"
+        return
+    command = state.command(entry)
+    desk.brush = replace(desk.brush, mode="example", example=command.name)
+    desk.needs = (*(need for need in desk.needs if need.name != command.name), command)
+    desk.tool, desk.erasing = "brush", False
+    follow(desk)
+
+
+def follow(desk: Desk) -> None:
+    """The brush has the size and depth that are set."""
+    state = desk.examples
+    if desk.brush.mode == "example":
+        members: dict[str, Any] = {**state.levels(), "depth": float(state.depth)}
+        desk.brush = replace(desk.brush, **members)
+
+
+def fit(desk: Desk) -> None:
+    """The texture's size goes by the pixels that are seen now."""
+    desk.examples.base = desk.view.shown_level
+    follow(desk)
+
+
+def reach(desk: Desk) -> None:
+    """Before a stroke: the texture's size is fitted anew where the view is too far from where it was chosen."""
+    if desk.brush.mode == "example" and not desk.examples.within_reach(desk.view.shown_level):
+        fit(desk)
+        desk.say("The texture’s size was set too far away: it fits this zoom now")
+
+
+def swap(desk: Desk, x: float, y: float) -> None:
+    """The texture at a point of the screen becomes like the chosen example."""
+    level = desk.view.shown_level
+    desk.examples.swapping = False
+    take(desk)
+    palette.provide(desk)
+    if desk.brush.example is not None:
+        at = desk.view.to_canvas(x, y).pixel(level)
+        desk.post(Do(Swap(level, at, desk.brush.example, detail=desk.brush.example_detail)))
+
+
+# --- the artist's own ------------------------------------------------------------------------------------------------
+
+
+def dropped(desk: Desk, path: Path) -> bool:
+    """Takes a picture that was dropped on the window while the palette is open; False if it is none."""
+    if desk.strip != "examples" or not desk.panels or path.suffix.lower() not in examples.PICTURES:
+        return False
+    add(desk, path)
+    return True
+
+
+def add(desk: Desk, path: Path) -> None:
+    """A picture becomes an example of the artist's own, whose region is to be painted."""
+    try:
+        name, smaller = keeping.add(path)
+    except keeping.FAULTS as error:
+        desk.say(str(error), bad=True)
+        return
+    _refresh(desk, name)
+    edit(desk)
+    size = f", made smaller: at most {keeping.SIDE} pixels" if smaller else ""
+    desk.say(f"Added the example “{name}”{size}")
+
+
+def edit(desk: Desk) -> None:
+    """Opens the chosen example's region."""
+    state, entry = desk.examples, desk.examples.entry
+    if entry is None:
+        return
+    try:
+        if entry.ident not in state.masks:
+            state.masks[entry.ident] = keeping.opened(entry)
+    except keeping.FAULTS as error:
+        desk.say(str(error), bad=True)
+    else:
+        state.tab = "region"
+
+
+def save_region(desk: Desk) -> None:
+    """Writes the region that was painted; one of an example that comes along goes to a copy of the artist's own."""
+    state, entry, mask = desk.examples, desk.examples.entry, desk.examples.mask
+    if entry is None or mask is None:
+        return
+    if not mask.inside.any():
+        desk.say("The region is empty: paint something in first", bad=True)
+        return
+    try:
+        name = entry.name if entry.own else keeping.copy(entry, state.draft(entry))
+        keeping.write_region(name, mask.inside)
+    except keeping.FAULTS as error:
+        desk.say(str(error), bad=True)
+        return
+    mask.saved = mask.version
+    state.masks[f"own {name}"] = state.masks.pop(entry.ident)
+    _refresh(desk, name)
+    desk.say(f"Saved the region of “{name}”" + ("" if entry.own else ", an example of your own now"))
+
+
+def use_settings(desk: Desk) -> None:
+    """Paints with the settings as they are; the artist's own example keeps them."""
+    state, entry = desk.examples, desk.examples.entry
+    if entry is None:
+        return
+    if not entry.own:
+        state.used[entry.ident] = state.drafts.get(entry.ident, state.used.get(entry.ident, Map()))
+        take(desk)
+        return
+    try:
+        keeping.write_parameters(entry.name, state.draft(entry))
+    except keeping.FAULTS as error:
+        desk.say(str(error), bad=True)
+        return
+    state.drafts.pop(entry.ident, None)
+    _refresh(desk, entry.name)
+
+
+def keep_settings(desk: Desk) -> None:
+    """Makes an example of the artist's own with the settings as they are."""
+    state, entry = desk.examples, desk.examples.entry
+    if entry is None:
+        return
+    try:
+        name = keeping.copy(entry, state.draft(entry))
+    except keeping.FAULTS as error:
+        desk.say(str(error), bad=True)
+        return
+    state.drafts.pop(entry.ident, None)
+    _refresh(desk, name)
+    desk.say(f"Saved as “{name}”, an example of your own")
+
+
+def delete(desk: Desk, entry: Entry) -> None:
+    """Takes one of the artist's own away."""
+    try:
+        keeping.delete(entry.name)
+    except keeping.FAULTS as error:
+        desk.say(f"The example was not deleted: {error}", bad=True)
+        return
+    state = desk.examples
+    state.masks.pop(entry.ident, None)
+    state.entries = tuple(one for one in state.entries if one is not entry)
+    if state.chosen == entry.ident:
+        state.chosen, state.tab = "", "palette"
+    desk.say(f"Deleted the example “{entry.title}”")
+
+
+def _refresh(desk: Desk, name: str) -> None:
+    """The palette lists the artist's own as their files are now; the brush takes one of them."""
+    state = desk.examples
+    own, faults = examples.load(examples.own_folder(), True)
+    state.entries = tuple(examples.arranged([*(entry for entry in state.entries if not entry.own), *own]))
+    for fault in faults:
+        desk.say(fault, bad=True)
+    entry = next((entry for entry in own if entry.name == name), None)
+    if entry is not None:
+        if state.group not in (examples.ALL, examples.OWN):
+            state.group = examples.ALL
+        choose(desk, entry)

@@ -1,0 +1,284 @@
+"""The palette of examples without a window: what is in it, what the brush gets, and the artist's own."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app import examples, keeping, shelf, sowing
+from app.desk import Desk
+from app.examples import Entry
+from app.view import Place, View
+from engine.brush.record import Brush
+from engine.painting.commands import Swap, parse, to_json
+from engine.painting.definitions import defined_by
+from engine.painting.requests import Do, Swatch
+from engine.texture.example.parameters import Parameters
+
+
+@pytest.fixture
+def own(tmp_path, monkeypatch):
+    monkeypatch.setattr(examples, "own_folder", lambda: tmp_path / "examples")
+    return tmp_path / "examples"
+
+
+@pytest.fixture
+def posted():
+    return []
+
+
+@pytest.fixture
+def desk(own, posted):
+    made = Desk(View(Place(0, 0, 0), 0, 0.0, 800, 600), posted.append)
+    made.ready, made.strip = True, "examples"
+    sowing.stock(made)
+    return made
+
+
+def named(desk, name):
+    return next(entry for entry in desk.examples.entries if entry.name == name)
+
+
+def picture(path, size=(40, 30), mode="RGBA"):
+    pixels = np.random.default_rng(3).integers(0, 255, (size[1], size[0], 4)).astype(np.uint8)
+    pixels[..., 3] = np.where(np.arange(size[0]) < size[0] // 2, 255, 0)
+    Image.fromarray(pixels).convert(mode).save(path)
+    return path
+
+
+def test_all_bundled_examples_are_listed_by_group(desk):
+    state = desk.examples
+    assert len(state.entries) == len(list(examples.bundled_folder().glob("*.toml"))) >= 10
+    assert state.groups()[:2] == ["Watercolour", "Paper"]
+    assert all(entry.mask is not None for entry in state.entries)
+    state.group = "Watercolour"
+    assert {state.label(entry) for entry in state.listed()} >= {"Indigo", "Sap green"}
+    assert named(desk, "wash-indigo").title == "Wash indigo"
+    assert desk.message[0] == ""
+
+
+def test_the_brush_grows_what_was_chosen_and_the_painting_gets_it_with_the_first_stroke(desk, posted):
+    desk.brush = Brush(radius=1.0, mode="paint", hardness=0.2)
+    sowing.choose(desk, named(desk, "felt"))
+    assert (desk.brush.mode, desk.brush.example, desk.brush.depth) == ("example", "Felt", 0.0)
+    assert desk.brush.radius > 10
+    assert not posted
+    assert [to_json(need) for need in desk.needs] == [
+        {"do": "texture", "name": "Felt", "maker": "example", "bundled": "felt"}
+    ]
+    level, brush = desk.stroke_brush(eraser=False)
+    assert (level, brush.example_level, brush.example_detail) == (0, 0, 0)
+
+
+@pytest.mark.parametrize(("size", "level", "detail"), [(-2, 5, 2), (-1, 5, 1), (0, 5, 0), (1, 4, 0), (2, 3, 0)])
+def test_sizes_go_by_the_zoom_at_which_it_was_chosen(desk, size, level, detail):
+    desk.view = desk.view.zoomed(5)
+    sowing.choose(desk, named(desk, "felt"))
+    desk.examples.size = size
+    sowing.follow(desk)
+    desk.view = desk.view.zoomed(-3)
+    assert (desk.brush.example_level, desk.brush.example_detail) == (level, detail)
+    sowing.fit(desk)
+    assert desk.brush.example_level == level - 3
+
+
+def test_strokes_too_far_from_the_size_fit_it_anew(desk):
+    sowing.choose(desk, named(desk, "felt"))
+    for levels, fitted in ((8, False), (-13, True), (-1, False)):
+        desk.view = desk.view.zoomed(levels)
+        before = desk.brush.example_level
+        sowing.reach(desk)
+        assert (desk.brush.example_level != before) == fitted
+        level, brush = desk.stroke_brush(eraser=False)
+        assert abs(brush.example_level - level) <= 8
+
+
+def test_another_example_chosen_near_by_has_the_same_pixels_and_far_away_its_own(desk):
+    sowing.choose(desk, named(desk, "felt"))
+    desk.view = desk.view.zoomed(1)
+    sowing.choose(desk, named(desk, "turf"))
+    assert desk.brush.example_level == 0
+    desk.view = desk.view.zoomed(3)
+    sowing.choose(desk, named(desk, "felt"))
+    assert desk.brush.example_level == 4
+
+
+def test_the_eraser_takes_everything_or_one_depth(desk):
+    sowing.choose(desk, named(desk, "felt"))
+    desk.examples.depth = 3
+    sowing.follow(desk)
+    _, brush = desk.stroke_brush(eraser=True)
+    assert (brush.mode, brush.depth) == ("erase", None)
+    desk.examples.eraser = 2
+    _, brush = desk.stroke_brush(eraser=True)
+    assert brush.depth == 2.0
+    _, brush = desk.stroke_brush(eraser=False)
+    assert (brush.mode, brush.depth) == ("example", 3.0)
+
+
+def test_growing_without_an_example_opens_the_palette(desk):
+    desk.strip = ""
+    sowing.take(desk)
+    assert desk.strip == "examples"
+    assert desk.brush.mode == "paint"
+
+
+def test_a_swap_defines_the_example_and_names_the_pixel(desk, posted):
+    sowing.choose(desk, named(desk, "felt"))
+    desk.examples.swapping = True
+    sowing.swap(desk, 430.0, 300.0)
+    assert not desk.examples.swapping
+    assert [type(request) for request in posted] == [Do, Do]
+    assert posted[1].command == Swap(0, (30, 0), "Felt")
+
+
+def test_settings_are_told_where_they_differ_and_are_used_on_demand(desk):
+    entry = named(desk, "felt")
+    sowing.choose(desk, entry)
+    state = desk.examples
+    state.set(entry, "kappa", 9.0)
+    assert state.tried(entry)
+    assert dict(state.command(entry).arguments) == {"bundled": "felt"}
+    assert dict(state.command(entry, draft=True).arguments) == {"bundled": "felt", "kappa": 9.0}
+    sowing.use_settings(desk)
+    assert not state.tried(entry)
+    assert desk.needs[-1].arguments["kappa"] == 9.0
+    state.reset(entry)
+    assert state.tried(entry)
+    sowing.use_settings(desk)
+    assert dict(desk.needs[-1].arguments) == {"bundled": "felt"}
+
+
+def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, posted):
+    entry, state = named(desk, "felt"), desk.examples
+    sowing.choose(desk, entry)
+    state.tab, state.sampled = "settings", (200, 100)
+    for now in (10.0, 10.01, 10.5):
+        state.ask(posted.append, now)
+    assert len(posted) == 1
+    for k, now in enumerate((11.0, 11.01, 11.02, 11.2)):
+        state.set(entry, "kappa", float(k))
+        state.ask(posted.append, now)
+    assert [type(request) for request in posted] == [Swatch] * 3
+    assert posted[-1].textures[0].arguments["kappa"] == 3.0
+    assert state.at_home(replace(desk.brush, example_level=77)).example_level == 0
+
+
+# --- the artist's own ------------------------------------------------------------------------------------------------
+
+
+def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp_path):
+    assert not sowing.dropped(desk, tmp_path / "a.ora")
+    assert sowing.dropped(desk, picture(tmp_path / "My rock.png"))
+    assert {path.name for path in own.iterdir()} == {"My rock.png", "My rock.mask.png", "My rock.toml"}
+    state = desk.examples
+    assert (state.entry.own, state.entry.group, state.tab) == (True, examples.OWN, "region")
+    assert state.mask.inside[:, :20].all()
+    assert not state.mask.inside[:, 20:].any()
+    assert desk.brush.example == "My rock"
+    sowing.add(desk, tmp_path / "My rock.png")
+    assert state.entry.name == "My rock 2"
+    desk.strip = ""
+    assert not sowing.dropped(desk, tmp_path / "My rock.png")
+
+
+def test_what_is_no_picture_is_told_and_leaves_nothing(desk, own, tmp_path):
+    (tmp_path / "bad.png").write_bytes(b"no picture")
+    sowing.add(desk, tmp_path / "bad.png")
+    assert desk.message[1]
+    assert not own.exists() or not list(own.iterdir())
+
+
+def test_a_large_picture_is_made_smaller(desk, tmp_path):
+    sowing.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
+    assert desk.examples.mask.pixels.shape == (10, 1024, 4)
+    assert "smaller" in desk.message[0]
+
+
+def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
+    sowing.add(desk, picture(tmp_path / "rock.png"))
+    state = desk.examples
+    first = state.command(state.entry)
+    assert parse(to_json(first)) == first
+    known = {**first.arguments}
+    assert defined_by(first, "example", known)
+    state.mask.everything()
+    sowing.save_region(desk)
+    second = state.command(state.entry)
+    assert not defined_by(second, "example", known)
+    assert keeping.opened(state.entry).inside.all()
+    assert not state.mask.modified
+
+
+def test_a_bundled_region_is_saved_as_a_copy(desk, own):
+    entry, state = named(desk, "felt"), desk.examples
+    sowing.choose(desk, entry)
+    sowing.edit(desk)
+    state.mask.begin(3.0, 3.0)
+    state.set(entry, "kappa", 9.0)
+    sowing.save_region(desk)
+    assert (state.entry.own, state.entry.name, state.entry.parameters.kappa) == (True, "felt", 9.0)
+    assert keeping.opened(state.entry).inside[3, 3]
+    assert not keeping.opened(entry).inside[3, 3]
+    state.mask.inside[:] = False
+    sowing.save_region(desk)
+    assert desk.message[1]
+    assert keeping.opened(state.entry).inside.any()
+    sowing.delete(desk, state.entry)
+    assert not list(own.iterdir())
+    assert state.entry is None
+
+
+def test_ones_own_settings_are_kept_in_its_file(desk, tmp_path):
+    sowing.add(desk, picture(tmp_path / "rock.png"))
+    state = desk.examples
+    for name, value in (("kappa", 4.5), ("channels", "luminance"), ("feather", 0), ("neighbourhood", 5)):
+        state.set(state.entry, name, value)
+    sowing.use_settings(desk)
+    (read,), faults = examples.load(examples.own_folder(), True)
+    assert not faults
+    assert read.parameters == replace(Parameters(), kappa=4.5, channels="luminance", feather=0, neighbourhood=5)
+    sowing.keep_settings(desk)
+    assert state.entry.name == "rock 2"
+    assert state.entry.parameters == read.parameters
+
+
+def test_a_file_of_parameters_that_is_none_is_told_by_its_line(own):
+    own.mkdir()
+    picture(own / "a.png")
+    (own / "a.toml").write_text('group = "X"\nkappa = "much"\n')
+    (entry,), (fault,) = examples.load(own, True)
+    assert entry.parameters == Parameters()
+    assert fault.startswith("a.toml: line 2, kappa")
+
+
+@pytest.mark.parametrize("stem", ["", "///", "..", "a\0b", "x" * 400, "Größe"])
+def test_any_stem_makes_a_name(stem, own):
+    name = keeping.free_name(stem)
+    assert 0 < len(name) <= 40
+    assert not set(name) & set("/\\\0.")
+
+
+def test_a_thumbnail_is_cut_out_by_the_region(desk):
+    seen = shelf.thumbnail(named(desk, "felt"), 64)
+    assert seen.shape == (64, 64, 4)
+    assert (seen[..., 3] == 255).all()
+    assert (seen[0, 0, :3] == shelf.PAPER).all()
+    assert (seen[32, 32, :3] != shelf.PAPER).any()
+
+
+def test_thumbnails_are_made_once_and_again_for_another_region(desk, tmp_path):
+    woken = []
+    made = shelf.Shelf(lambda: woken.append(1))
+    entry = named(desk, "felt")
+    for known in (
+        entry,
+        entry,
+        replace(entry, revision=1),
+        Entry("no", "X", tmp_path / "no.png", None, Parameters(), True),
+    ):
+        made.ask((known,), 32)
+        made._thread.join(20)
+    assert [picture.ident for picture in made.take()] == ["example bundled felt"] * 2
+    assert len(woken) == 2
