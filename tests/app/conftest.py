@@ -26,6 +26,7 @@ class Program:
             "DISPLAY": display,
             "PYTHONPATH": str(ROOT),
             "XDG_CONFIG_HOME": str(folder / "config"),
+            "XDG_DATA_HOME": str(folder / "data"),
             "INKFALL_TRACE": "1",
             "INKFALL_TRACEBACK": "1",
         }
