@@ -26,19 +26,21 @@ from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted
-from engine.painting import grounds, pictures
+from engine.painting import grounds, growths, pictures
 from engine.painting.atomic import replacing
 from engine.painting.cascade import Cascade
 from engine.painting.fault import FileError, WriteError
 from engine.painting.grounds import GroundEntry
+from engine.painting.growths import PlotEntry
 from engine.painting.implied import needed, ordered
 from engine.painting.jobs import Job, pack_jobs
 from engine.painting.limits import LIMITS
-from engine.painting.manifest import FORMAT, MANIFEST, RECORDING, Pack, PictureEntry, manifest_json
+from engine.painting.manifest import MANIFEST, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.painting.pngread import PngReader
 from engine.painting.pngstream import PngWriter
 from engine.painting.recording import Recording
 from engine.painting.rendering import Stop, check, folded, reach, sheets, strips
+from engine.painting.settling import settled_root
 from engine.painting.stackxml import ImageEntry, LayerEntry, StackEntry, stack_text
 from engine.painting.strictjson import dumps
 from engine.painting.value import Painting
@@ -76,9 +78,9 @@ def save(
     `progress` gets the part done, 0..1, on the calling thread; `cancelled` is asked from several.  WriteError if it
     cannot be done, Cancelled if it was asked for; either way nothing has changed.
     """
-    painting = replace(snapshot.painting, root=folded(snapshot.painting.root))
-    plan = Plan(painting, snapshot.recording, cancelled)
     try:
+        painting = replace(snapshot.painting, root=folded(settled_root(snapshot.painting.root)))
+        plan = Plan(painting, snapshot.recording, cancelled)
         with replacing(path, verify=lambda part: _verify(part, path, plan)) as file:
             writer = ZipWriter(file)
             writer.add("mimetype", MIMETYPE)
@@ -167,13 +169,15 @@ class Plan:
         self._places: dict[int, Rect] = {}
         self._pictures: list[PictureEntry] = []
         self._grounds: dict[int, GroundEntry] = {}
+        self._plots: dict[int, list[PlotEntry]] = {}
         for layer in layers.layers(painting.root):
             self._places[layer.id] = self._place(layer)
         laid = [job for layer in layers.layers(painting.root) for job in self._ground_jobs(layer)]
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
+        grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
         told = [] if recording is None else [Job(RECORDING, lambda: _told(recording), deflate=True)]
-        self.jobs = [*laid, *stored, *seen, *told]
+        self.jobs = [*laid, *stored, *grown, *seen, *told]
         self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
 
@@ -282,6 +286,13 @@ class Plan:
             f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], Cascade(layer.pyramid, needed(tiles))
         )
 
+    def _growth_jobs(self, layer: Layer) -> Iterator[Job]:
+        self._plots[layer.id] = []
+        for number, plot in enumerate(layer.growth):
+            entry, makes = growths.stored(plot, f"inkfall/layers/{layer.id}/plot{number}")
+            self._plots[layer.id].append(entry)
+            yield from (Job(name, make) for name, make in makes.items())
+
     def _picture_jobs(self, source) -> Iterator[Job]:
         packs: list[Pack] = []
         yield from pack_jobs(f"inkfall/pictures/{source.sha}", pictures.tiles(source), packs)
@@ -292,11 +303,11 @@ class Plan:
         root = self._entry(self._painting.root)
         assert isinstance(root, StackEntry)
         root = _with_sums(root, {name: entry.sha256 for name, entry in writer.written.items()})
-        attributes = {"format": str(FORMAT), "manifest": MANIFEST}
+        attributes = {"format": str(format_of(self._painting)), "manifest": MANIFEST}
         text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
         writer.add("stack.xml", text, deflate=True)
         members = {name: (entry.size, entry.sha256) for name, entry in writer.written.items()}
-        told = manifest_json(self._painting, self._packs, self._grounds, self._pictures, members)
+        told = manifest_json(self._painting, self._packs, self._grounds, self._plots, self._pictures, members)
         writer.add(MANIFEST, dumps(told).encode(), deflate=True)
 
 

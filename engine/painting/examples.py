@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -38,6 +38,15 @@ _ENDINGS = {"path": ".png", "mask": ".mask.png", "params": ".toml"}
 _HELD = 12  # analyses kept in memory
 _WHITE = 0.5
 _CHANGED = "is not what was there when it was recorded"
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """What an exemplar was made of, besides its parameters: its texture's picture and mask, and the detail left out."""
+
+    source: ImageSource
+    mask: ImageSource | None
+    detail: int
 
 
 def of_definition(command: c.DefineTexture, around: Around) -> Texture:
@@ -176,10 +185,11 @@ def key_of(texture: Texture, detail: int = 0) -> str:
 @lru_cache(maxsize=_HELD)
 def _analysed(source: ImageSource, mask: ImageSource | None, parameters: Parameters, detail: int) -> Exemplar:
     assert source.data is not None
+    origin = Origin(source, mask, detail)
     if detail:
-        return shrunk(_analysed(source, mask, parameters, 0), detail)
+        return replace(shrunk(_analysed(source, mask, parameters, 0), detail), origin=origin)
     _, height, width = source.data.shape
     if max(height, width) > SIDE:
         raise FieldError("example", f"{width} x {height} pixels", f"at most {SIDE} x {SIDE}")
     inside = None if mask is None or mask.data is None else mask.data[3] > _WHITE
-    return kept(to_rgba16(source.data), inside, parameters)
+    return replace(kept(to_rgba16(source.data), inside, parameters), origin=origin)

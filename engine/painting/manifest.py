@@ -16,18 +16,21 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect
-from engine.painting import grounds
+from engine.painting import grounds, growths
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.grounds import GroundEntry
+from engine.painting.growths import ExampleEntry, PlotEntry
 from engine.painting.implied import TEXTURES
 from engine.painting.recording import SIDE_LIMIT
 from engine.painting.strictjson import Fields, FormatError
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
+from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
 from engine.texture.table import TextureError
 
-FORMAT = 2  # 1: no tile without the colour that its ink implies; no `texture`
+FORMAT = 3  # 2: nothing of examples; 1: no tile without the colour that its ink implies, no `texture`
+WITHOUT_EXAMPLES = 2  # what a painting is written as that has none, so that older programs open all of it
 MANIFEST = "inkfall/manifest.json"
 RECORDING = "inkfall/recording.jsonl"
 _CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
@@ -55,7 +58,7 @@ class PictureEntry:
 @dataclass(frozen=True)
 class Manifest:
     """The parsed manifest.  `root` has layers without paint; `packs`: where their paint is, by the layer's id;
-    `members`: (size, SHA-256) of all members but the manifest."""
+    `plots`: what was painted there with `examples`; `members`: (size, SHA-256) of all members but the manifest."""
 
     frame: Rect
     seed: int
@@ -63,24 +66,33 @@ class Manifest:
     root: Group
     packs: Mapping[int, tuple[Pack, ...]]
     grounds: Mapping[int, GroundEntry]  # of the layers that began with a picture
-    textures: Mapping[str, tuple[str, Map, str | None]]  # name -> kind, parameters, sha of its picture
+    plots: Mapping[int, tuple[PlotEntry, ...]]
+    textures: Mapping[str, tuple[str, Map, str | None, str | None]]  # kind, parameters, sha of picture and mask
+    examples: Mapping[str, ExampleEntry] = field(default_factory=dict)
     pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
     members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
     texture: int = TEXTURES  # the revision of textures' pixels by which colour was left out
+    synthesis: int = SYNTHESIS  # and of what examples grow into
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """The named textures; FormatError if one cannot be made."""
         made = {}
-        for name, (kind, parameters, sha) in self.textures.items():
-            if sha is not None and sha not in pictures:
+        for name, (kind, parameters, *shas) in self.textures.items():
+            if any(sha is not None and sha not in pictures for sha in shas):
                 raise FormatError(f"textures.{name}", "no picture", "one of those in the file")
-            source = None if sha is None else ImageSource(name, sha, pictures[sha].data)
-            made[name] = Texture(kind, parameters, source)
+            source, mask = (None if sha is None else ImageSource(name, sha, pictures[sha].data) for sha in shas)
+            made[name] = Texture(kind, parameters, source, mask)
+            growths.check_texture(f"textures.{name}", made[name])
             try:
                 made[name].instance({}, 0, 0)
             except TextureError as error:
                 raise FormatError(f"textures.{name}.{error.place}", error.found, error.expected) from None
         return Map(made)
+
+    def grown_bytes(self) -> int:
+        """What all that was painted with examples takes in memory, about; FormatError if an example cannot be."""
+        sizes = {sha: entry.size for sha, entry in self.pictures.items()}
+        return growths.cost(self.examples, (plot for plots in self.plots.values() for plot in plots), sizes)
 
 
 # ---- writing ----
@@ -90,27 +102,31 @@ def manifest_json(
     painting: Painting,
     packs: Mapping[int, list[Pack]],
     laid: Mapping[int, GroundEntry],
+    plots: Mapping[int, list[PlotEntry]],
     pictures: list[PictureEntry],
     members: Mapping[str, tuple[int, str]],
 ) -> dict[str, Any]:
     """The JSON of a painting's manifest."""
     frame = painting.frame
+    examples = growths.entries(painting.root)
     return {
-        "inkfall": FORMAT,
+        "inkfall": format_of(painting),
         "texture": TEXTURES,
         **_CONSTANTS,
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
         "active": painting.active,
-        "layers": [_node_json(node, packs, laid) for node in painting.root.children],
+        "layers": [_node_json(node, packs, laid, plots) for node in painting.root.children],
         "textures": {
             name: {
                 "kind": t.kind,
                 "parameters": thawed(t.parameters),
                 **({"picture": t.source.sha} if t.source is not None else {}),
+                **({"mask": t.mask.sha} if t.mask is not None else {}),
             }
             for name, t in sorted(painting.textures.items())
         },
+        **({"synthesis": SYNTHESIS, "examples": growths.examples_json(examples)} if examples else {}),
         "pictures": {
             p.sha: {"name": p.name, "size": list(p.size), "packs": [_pack_json(k) for k in p.packs]} for p in pictures
         },
@@ -118,11 +134,22 @@ def manifest_json(
     }
 
 
+def format_of(painting: Painting) -> int:
+    """The format that tells all of a painting."""
+    grown = any(layer.growth for layer in layers.layers(painting.root))
+    return FORMAT if grown or any(t.kind == growths.KIND for t in painting.textures.values()) else WITHOUT_EXAMPLES
+
+
 def _pack_json(pack: Pack) -> list[Any]:
     return [pack.member, pack.tiles, pack.plain]
 
 
-def _node_json(node: Node, packs: Mapping[int, list[Pack]], laid: Mapping[int, GroundEntry]) -> dict[str, Any]:
+def _node_json(
+    node: Node,
+    packs: Mapping[int, list[Pack]],
+    laid: Mapping[int, GroundEntry],
+    plots: Mapping[int, list[PlotEntry]],
+) -> dict[str, Any]:
     common = {
         "id": node.id,
         "name": node.name,
@@ -134,8 +161,9 @@ def _node_json(node: Node, packs: Mapping[int, list[Pack]], laid: Mapping[int, G
     if isinstance(node, Layer):
         stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
         ground = {"ground": grounds.to_json(laid[node.id])} if node.id in laid else {}
-        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored, **ground}
-    children = [_node_json(child, packs, laid) for child in node.children]
+        grown = {"plots": [growths.plot_json(plot) for plot in plots[node.id]]} if plots.get(node.id) else {}
+        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored, **ground, **grown}
+    children = [_node_json(child, packs, laid, plots) for child in node.children]
     return {"kind": "group", **common, "isolated": node.isolated, "children": children}
 
 
@@ -154,9 +182,8 @@ def parse_manifest(value: Any) -> Manifest:
     x, y, width, height = members.integers("frame", 4, limit=PLACE_LIMIT)
     if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
         raise members.fault("frame", "a width and height from 1 to 2^40")
-    packs: dict[int, tuple[Pack, ...]] = {}
-    laid: dict[int, GroundEntry] = {}
-    nodes = tuple(_node(v, f"layers[{i}]", packs, laid, 0) for i, v in enumerate(_list(members, "layers")))
+    held = _Held()
+    nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
     root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
@@ -166,13 +193,25 @@ def parse_manifest(value: Any) -> Manifest:
         members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
         active,
         root,
-        packs,
-        laid,
+        held.packs,
+        held.grounds,
+        held.plots,
         {name: _texture(v, f"textures.{name}") for name, v in _object(members, "textures").items()},
+        growths.parse_examples(_object(members, "examples")) if "examples" in members else {},
         {sha: _picture(sha, v) for sha, v in _object(members, "pictures").items()},
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
+        members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
     )
+
+
+@dataclass(frozen=True)
+class _Held:
+    """What layers hold, by their ids."""
+
+    packs: dict[int, tuple[Pack, ...]] = field(default_factory=dict)
+    grounds: dict[int, GroundEntry] = field(default_factory=dict)
+    plots: dict[int, tuple[PlotEntry, ...]] = field(default_factory=dict)
 
 
 def _list(members: Fields, name: str) -> list:
@@ -189,7 +228,7 @@ def _object(members: Fields, name: str) -> dict[str, Any]:
     return value
 
 
-def _node(value: Any, where: str, packs: dict[int, tuple[Pack, ...]], laid: dict[int, GroundEntry], depth: int) -> Node:
+def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
     members = Fields(value, where)
     kind = members.take("kind", expected='"layer" or "group"')
     if kind not in ("layer", "group") or depth > layers.MAX_DEPTH + 1:
@@ -203,13 +242,16 @@ def _node(value: Any, where: str, packs: dict[int, tuple[Pack, ...]], laid: dict
         "locked": members.flag("locked"),
     }
     if kind == "layer":
-        packs[common["id"]] = _packs(members)
+        held.packs[common["id"]] = _packs(members)
         ground = members.take("ground", None)
         if ground is not None:
-            laid[common["id"]] = grounds.parse(ground, f"{where}.ground")
+            held.grounds[common["id"]] = grounds.parse(ground, f"{where}.ground")
+        plots = _list(members, "plots") if "plots" in members else []
+        if plots:
+            held.plots[common["id"]] = tuple(growths.parse_plot(v, f"{where}.plots[{i}]") for i, v in enumerate(plots))
         return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=Pyramid())
     inside = _list(members, "children")
-    children = tuple(_node(v, f"{where}.children[{i}]", packs, laid, depth + 1) for i, v in enumerate(inside))
+    children = tuple(_node(v, f"{where}.children[{i}]", held, depth + 1) for i, v in enumerate(inside))
     return Group(**common, isolated=members.flag("isolated"), children=children)
 
 
@@ -223,10 +265,10 @@ def _packs(members: Fields) -> tuple[Pack, ...]:
     return tuple(out)
 
 
-def _texture(value: Any, where: str) -> tuple[str, Map, str | None]:
+def _texture(value: Any, where: str) -> tuple[str, Map, str | None, str | None]:
     members = Fields(value, where)
     parameters = _object(members, "parameters")
-    return members.text("kind"), frozen(parameters), members.text("picture", None)
+    return members.text("kind"), frozen(parameters), members.text("picture", None), members.text("mask", None)
 
 
 def _picture(sha: str, value: Any) -> PictureEntry:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from engine.canvas import layers
 from engine.canvas.store import Record
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.grid import Q
+from engine.painting import growths
 from engine.painting.fault import FileError
 from engine.painting.implied import Tile
 from engine.painting.packing import RESIDUAL_CAP
@@ -20,22 +22,31 @@ from engine.texture.record import Instance
 
 
 def sources(painting: Painting) -> dict[str, ImageSource]:
-    """All pictures that a painting needs, by their sha, in the order of it."""
-    found: dict[str, ImageSource] = {}
-    for texture in painting.textures.values():
-        _collect(texture.source, found)
+    """All pictures that a painting needs, by their sha, in the order of it.
+
+    One that has several names goes by what inks call it, else textures, else plots; among those by the first name.
+    """
+    grown: list[ImageSource] = []
     inks: set[Instance] = set()
     for layer in layers.layers(painting.root):
+        for plot in layer.growth:
+            about = growths.origin(plot)
+            grown += [replace(source, name=plot.name) for source in (about.source, about.mask) if source is not None]
         for _, record in layer.pyramid.all_records():
             inks.update(record.inks)
-    for ink in inks:
-        _collect(getattr(ink, "source", None), found)
+    named = [source for texture in painting.textures.values() for source in (texture.source, texture.mask)]
+    found = _collected(grown) | _collected(named) | _collected(getattr(ink, "source", None) for ink in inks)
     return dict(sorted(found.items()))
 
 
-def _collect(source: Any, found: dict[str, ImageSource]) -> None:
-    if isinstance(source, ImageSource) and source.data is not None:
-        found[source.sha] = source
+def _collected(sources: Iterable[Any]) -> dict[str, ImageSource]:
+    found: dict[str, ImageSource] = {}
+    for source in sources:
+        if isinstance(source, ImageSource) and source.data is not None:
+            held = found.get(source.sha)
+            if held is None or source.name < held.name:
+                found[source.sha] = source
+    return found
 
 
 def tiles(source: ImageSource) -> list[Tile]:

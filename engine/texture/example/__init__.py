@@ -4,3 +4,5 @@
 coarse to fine by order-independent corrections (`correction`); `scanline`: the paper's own method, for reference;
 `show`: the pixels of a region.
 """
+
+SYNTHESIS = 1  # to be counted up when a region of the same pixels, example and seed comes to look otherwise

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -50,6 +51,7 @@ class Exemplar:
 
     `finer`: what there is of the example in levels below the finest of `levels`, the coarsest of them first:
     premultiplied float32 (h, w, 4) in 0..1, twice as large each; `within`: the regions of these, uint8, padded by PAD.
+    `origin`: what it was made of, for whoever has to make it again.
     """
 
     pixels: np.ndarray
@@ -61,6 +63,7 @@ class Exemplar:
     boundary: bool
     finer: tuple[np.ndarray, ...] = ()
     within: tuple[np.ndarray, ...] = ()
+    origin: Any = None
 
     @cached_property
     def average(self) -> np.ndarray:

@@ -22,6 +22,7 @@ from engine.painting import jobs, opening
 from engine.painting.archive import Snapshot, save, shown_level
 from engine.painting.fault import Cancelled, FileError, WriteError
 from engine.painting.limits import LIMITS
+from engine.painting.manifest import FORMAT
 from engine.painting.opening import open_painting
 from engine.painting.painting import Painting
 from engine.painting.rendering import strips
@@ -335,7 +336,7 @@ def test_other_merged_pictures_change_nothing(session, members, tmp_path):
 
 
 def test_a_newer_format_shows_its_pictures(members, tmp_path):
-    manifest = json.loads(members["inkfall/manifest.json"]) | {"inkfall": 3}
+    manifest = json.loads(members["inkfall/manifest.json"]) | {"inkfall": FORMAT + 1}
     found = opened(rewritten(members, {"inkfall/manifest.json": json.dumps(manifest).encode()}), tmp_path)
     assert not found.native
     assert found.notes[0] == opening.NEWER
