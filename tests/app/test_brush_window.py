@@ -9,7 +9,7 @@ import pytest
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
-RASTER, OPS, FORMULA, FIELD, SAVE = (209, 434), (100, 463), (50, 782), (100, 492), (229, 83)
+RASTER, OPS, FORMULA, FIELD, SAVE = (171, 434), (100, 463), (50, 782), (100, 492), (229, 83)
 
 
 def press(app, at):

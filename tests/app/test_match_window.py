@@ -55,6 +55,7 @@ def test_a_texture_like_the_view_is_ink(program):
 
     # A rectangle marked on the canvas is the second example; the two are mixed.
     click(app, SECOND_AREA)
+    parked(app)
     app.stroke((340, 90), (400, 110), (520, 150))
     mixed = until(app, lambda screen: screen[SECOND].std() > 6)
     assert changed(mixed[CANVAS], thrown[CANVAS]) < 50  # nothing was painted
