@@ -78,6 +78,7 @@ def _read(path: str) -> tuple[np.ndarray, list[str]]:
 
     from engine.numeric.colour import to_rgba8
     from engine.painting.rendering import folded, strips
+    from engine.painting.settling import settled_root
 
     found = opened(path)
     frame = found.painting.frame
@@ -86,7 +87,7 @@ def _read(path: str) -> tuple[np.ndarray, list[str]]:
     out = np.empty((frame.height, frame.width, 4), np.uint8)
     row = 0
     with Progress("drawing", frame.height) as tell:
-        for strip in strips(folded(found.painting.root), 0, frame):
+        for strip in strips(folded(settled_root(found.painting.root)), 0, frame):
             out[row : row + strip.shape[1]] = to_rgba8(strip)
             row += strip.shape[1]
             tell(row)

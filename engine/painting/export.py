@@ -17,6 +17,7 @@ from engine.painting.atomic import replacing
 from engine.painting.fault import WriteError
 from engine.painting.pngstream import PngWriter
 from engine.painting.rendering import folded, strips
+from engine.painting.settling import settled_root
 from engine.painting.tiffstream import write_tiff
 from engine.painting.value import Painting
 
@@ -73,11 +74,12 @@ def export(
     root = picture.painting.root
     if picture.layer is not None:
         root = layers.alone(layers.find(root, picture.layer))
+    root = folded(settled_root(root))
     to_pixels = to_rgba8 if picture.depth == 8 else to_rgba16
 
     def rows() -> Iterator[np.ndarray]:
         done = 0
-        for strip in strips(folded(root), picture.level, area, cancelled):
+        for strip in strips(root, picture.level, area, cancelled):
             yield to_pixels(strip)
             done += strip.shape[1]
             if progress is not None:

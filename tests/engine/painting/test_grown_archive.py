@@ -312,6 +312,8 @@ def test_others_see_what_is_grown(session, saved, members, tmp_path):
     export(tmp_path / "a.png", Picture(settled(session.painting)))
     ours = shown((tmp_path / "a.png").read_bytes())
     assert np.abs(ours - shown(members["mergedimage.png"])).max() <= 2
+    export(tmp_path / "b.png", Picture(open_painting(saved).painting))
+    assert (tmp_path / "b.png").read_bytes() == (tmp_path / "a.png").read_bytes()
     for layer in layers.layers(settled(session.painting).root):
         frame = next(e for e in stack_entries(members) if e.src == f"data/L{layer.id}.png")
         png = shown(members[f"data/L{layer.id}.png"])
