@@ -93,7 +93,8 @@ def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
 
     Ink that adds no texture down to this level is left out on the way: half the work where there is any.
     """
-    start = pyramid.coarsest if level < 0 or pyramid.bare is None else 0
+    bare = pyramid.bare
+    start = min(level, 0) if bare is not None and min(level, 0) in bare.values else pyramid.coarsest
     if start is None or level < start:
         return None
     rects = [rect.evened()]
@@ -228,9 +229,8 @@ def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) ->
 def _of_ground(pyramid: Pyramid, level: int, rect: Rect) -> tuple[bool, Planes | None]:
     """The picture that a layer is, where it is nothing else."""
     ground = pyramid.bare
-    if level != 0 or ground is None:
-        return False, None
-    return True, without_empty_inks(Planes(ground.values(rect), ()))
+    values = ground.values.get(level) if ground is not None else None
+    return (False, None) if values is None else (True, without_empty_inks(Planes(values(rect), ())))
 
 
 def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:

@@ -2,12 +2,13 @@
 
 It is what the commit of an opaque edit makes on nothing.  There, rule U has no mismatch to keep: every coarser level
 is the mean of the finer one, and every residual is v - expand(v above).  The picture stands for all these residuals:
-a file that holds its pixels need not hold them, and those of the finest level, three quarters of all, are only made
-where they are looked at.  As long as nobody has painted on it, the value of that level is the picture.
+a file that holds its pixels need not hold them, and those of the two finest levels, nearly all, are only made where
+they are needed.  As long as nobody has painted on it, the values of these levels are the picture and its reduction.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import immutables
@@ -21,38 +22,41 @@ from engine.numeric.address import TILE, Rect, TileKey
 Tile = Callable[[Rect], np.ndarray]
 _COLOURS = np.arange(4)
 _WHOLE = Rect(0, 0, TILE, TILE)
+_PIXELS = 1 << 16  # reduced at a time, so that all planes of them stay in the cache of the processor
 _TOUCHED = np.ones((TILE, TILE), np.uint8)
 _BYTES = 4 * TILE * TILE * 2  # of a whole tile's data, as a rule
 
 
-def laid(tile: Tile, rect: Rect, pixels: bytes | None = None, level: int = 0) -> Pyramid:
-    """The pyramid of a picture that covers `rect` of `level`.
+def laid(tile: Tile, rect: Rect, pixels: bytes | None = None) -> Pyramid:
+    """The pyramid of a picture that covers `rect` of level 0.
 
     `tile` gives its values over any part of `rect`: float32 (4, h, w), premultiplied, on the grid; always the same
     ones, as long as the pyramid is there.  `pixels`: the picture as a PNG, kept so that files can hold it in place of
     the residuals.
     """
     levels: dict[int, Level] = {}
-    picture = below = _Picture(tile, rect)
-    above = below.reduced(rect.evened().zoomed(-1))
-    while True:
+    picture = _Picture(tile, rect)
+    half = _Reduced(picture)
+    below: _Picture = picture
+    above: _Picture = half
+    for level in itertools.count(0, -1):
         records = _records(below, above, level)
         if records:
             levels[level] = immutables.Map(records)
-        if not above.values.any():
+        if isinstance(above, _Dense) and not above.values.any():
             break
-        level -= 1
-        at = above.rect.evened()
-        below, above = above, above.reduced(at.zoomed(-1))
+        below, above = above, above.reduced(above.rect.evened().zoomed(-1))
     if not levels:
         return Pyramid()
     stored = immutables.Map(levels)
     change = Change(max(levels), rect, None, None)
-    return Pyramid(stored, change, ground=None if pixels is None else Ground(rect, stored, pixels, picture.read))
+    if pixels is None:
+        return Pyramid(stored, change)
+    return Pyramid(stored, change, ground=Ground(rect, stored, pixels, {0: picture.read, -1: half.read}))
 
 
 class _Picture:
-    """The finest level: read tile by tile, twice."""
+    """The finest level, read part by part."""
 
     def __init__(self, tile: Tile, rect: Rect) -> None:
         self.rect = rect
@@ -71,23 +75,30 @@ class _Picture:
 
     def reduced(self, rect: Rect) -> _Dense:
         """The level above, over `rect`, the parents of all pixels."""
-        values = np.zeros((4, rect.height, rect.width), np.float32)
-        for key in rect.zoomed(1).tiles(0):
-            part = key.rect.intersect(rect.zoomed(1))
-            fine = self.read(part)
-            kernels.halve(fine, _COLOURS, values, (part.y0 >> 1) - rect.y0, (part.x0 >> 1) - rect.x0)
+        values = np.empty((4, rect.height, rect.width), np.float32)
+        rows = max(_PIXELS // (2 * rect.width), 1)
+        for y in range(rect.y0, rect.y1, rows):
+            part = Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1)).zoomed(1)
+            kernels.halve(self.read(part), _COLOURS, values, y - rect.y0, 0)
         return _Dense(values, rect)
 
 
+class _Reduced(_Picture):
+    """The level above another one, worked out anew each time."""
+
+    def __init__(self, finer: _Picture) -> None:
+        super().__init__(lambda part: finer.reduced(part).values, finer.rect.evened().zoomed(-1))
+
+
 class _Dense(_Picture):
-    """A coarser level, whole in memory."""
+    """A level, or a part of one, whole in memory."""
 
     def __init__(self, values: np.ndarray, rect: Rect) -> None:
         super().__init__(lambda part: values[:, *part.slices(rect)], rect)
         self.values = values
 
 
-def _records(below: _Picture, above: _Dense, level: int) -> dict[tuple[int, int], Record]:
+def _records(below: _Picture, above: _Picture, level: int) -> dict[tuple[int, int], Record]:
     """All residuals of a level: v - expand(v above), where a pixel or a parent of it is painted."""
     records = {}
     data, used = np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32)
@@ -102,10 +113,10 @@ def _records(below: _Picture, above: _Dense, level: int) -> dict[tuple[int, int]
     return records
 
 
-def _record(below: _Picture, above: _Dense, key: TileKey, data: np.ndarray, used: np.ndarray) -> Record | None:
+def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray, used: np.ndarray) -> Record | None:
     """The residual of a tile; `data` int32 (4, 128, 128) and `used` int32 (4,) are written to."""
     value, at = below.read(key.rect), key.rect.parents()
-    if at.intersect(above.rect) == at:
+    if isinstance(above, _Dense) and at.intersect(above.rect) == at:
         coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
     else:
         coarse, top, left = above.read(at), 0, 0
@@ -113,10 +124,10 @@ def _record(below: _Picture, above: _Dense, key: TileKey, data: np.ndarray, used
     return compact(_WHOLE, data, (), 1, (extent, used))
 
 
-# ---- the finest level ----
+# ---- the finest levels ----
 
 
-def _spanned(below: _Picture, above: _Dense) -> dict[tuple[int, int], bool]:
+def _spanned(below: _Picture, above: _Picture) -> dict[tuple[int, int], bool]:
     """The tiles whose residual certainly reaches all four of their sides, as their first and last rows show."""
     x0, x1 = below.rect.x0 // TILE, (below.rect.x1 - 1) // TILE + 1
     found = {}
@@ -130,7 +141,7 @@ def _spanned(below: _Picture, above: _Dense) -> dict[tuple[int, int], bool]:
     return found
 
 
-def _reached(below: _Picture, above: _Dense, rect: Rect) -> np.ndarray:
+def _reached(below: _Picture, above: _Picture, rect: Rect) -> np.ndarray:
     """Where the residual within an even rectangle is not zero: bool (h, w)."""
     value, coarse = below.read(rect), above.read(rect.parents())
     data, touched = np.empty(value.shape, np.int32), np.ones(value.shape[1:], np.uint8)
@@ -148,9 +159,10 @@ class _Later(Record):
         """The data, while there are none."""
         if name != "data":
             raise AttributeError(name)
-        picture, key = self.source
-        above = picture.reduced(key.rect.parents())
-        record = _record(picture, above, key, np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32))
+        whole, key = self.source
+        at = key.rect.parents()
+        below = _Dense(whole.read(at.zoomed(1)), at.zoomed(1))
+        record = _record(below, below.reduced(at), key, np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32))
         assert record is not None
         assert record.rect == self.rect
         object.__setattr__(self, "data", record.data)  # two threads may do so at a time: it is the same

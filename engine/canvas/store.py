@@ -78,13 +78,13 @@ Level = immutables.Map[tuple[int, int], Record]
 @dataclass(frozen=True, eq=False, slots=True)
 class Ground:
     """A picture laid down before anything was painted: its `rect` of level 0, the records that it made, its `pixels`
-    as a PNG, from which they can be made again, and its `values` over any rectangle of level 0, float32 (4, h, w) on
-    the grid, new each time."""
+    as a PNG, from which they can be made again, and what gives its values over any rectangle of some levels, float32
+    (4, h, w) on the grid, new each time."""
 
     rect: Rect
     levels: immutables.Map[int, Level]
     pixels: bytes
-    values: Callable[[Rect], np.ndarray]
+    values: Mapping[int, Callable[[Rect], np.ndarray]]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
