@@ -10,7 +10,6 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from immutables import Map
@@ -18,9 +17,8 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
-from engine.painting import grounds, maskpacks, pictures
+from engine.painting import grounds, pictures
 from engine.painting.fault import FileError, shown
-from engine.painting.growths import Nursery
 from engine.painting.implied import TEXTURES, Coded, restored
 from engine.painting.imports import STACK, Opened, read_raster
 from engine.painting.limits import LIMITS, Limits, memory_cap
@@ -32,8 +30,6 @@ from engine.painting.stackxml import parse_stack
 from engine.painting.strictjson import FormatError, loads
 from engine.painting.value import Painting
 from engine.painting.zipguard import ZipArchive
-from engine.texture.example import SYNTHESIS
-from engine.texture.example.tiles import Tiles
 from engine.texture.image import ImageSource
 from engine.texture.table import from_key
 
@@ -43,10 +39,6 @@ PIECE = 1 << 20
 UNREAD = ("mergedimage", "Thumbnails")  # members that are for other programs alone
 LOST = "deep detail is missing: this file was saved by another program"
 OTHER = "the textures of this version are not quite those it was saved with: the colour of {count} tiles differs{why}"
-REGROWN = (
-    "what was painted with examples is grown anew, and may look otherwise than it did: this version grows them"
-    " another way (revision {was}, now {now})"
-)
 CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
 NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is left out"
 
@@ -86,6 +78,7 @@ class _Opening:
         self._total = 1
         self._done = 0
         self._reading = threading.Lock()  # the file has one position
+        self._held: dict[str, bytes] = {}  # pictures that layers began with
 
     def run(self) -> Opened:
         try:
@@ -126,13 +119,20 @@ class _Opening:
             if name not in self._archive or self._archive.members[name].size != size:
                 return CHANGED.format(what=shown(name))
         summed = [name for name in read if not name.endswith(".tiles")]
+        kept = {found.member for found in manifest.grounds.values()}
         with ThreadPoolExecutor(WORKERS, "sum") as pool:
-            for name, sha in zip(summed, pool.map(self._sum, summed), strict=True):
+            for name, sha in zip(summed, pool.map(lambda name: self._sum(name, name in kept), summed), strict=True):
                 if sha != read[name][1]:
                     return CHANGED.format(what=shown(name))
         return ""
 
-    def _sum(self, name: str) -> str:
+    def _sum(self, name: str, kept: bool) -> str:
+        """The SHA-256 of a member, which is kept in memory where it will be needed."""
+        if kept:
+            check(self._cancelled)
+            with self._reading:
+                self._held[name] = self._archive.read(name, self._archive.members[name].size)
+            return hashlib.sha256(self._held[name]).hexdigest()
         digest = hashlib.sha256()
         with self._reading:
             stream = self._archive.open(name)
@@ -153,20 +153,16 @@ class _Opening:
         packs = [p for group in manifest.packs.values() for p in group]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
-        most = self._total + manifest.grown_bytes()
-        if most > memory_cap():
-            raise FileError(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
+        if self._total > memory_cap():
+            raise FileError(self._archive.name, f"its paint takes {self._total >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
         root, other = self._layers(manifest, sources)
-        root = self._grown(root, manifest, sources)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
         if other:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"
             notes = (*notes, OTHER.format(count=other, why=why))
-        if manifest.plots and manifest.synthesis != SYNTHESIS:
-            notes = (*notes, REGROWN.format(was=manifest.synthesis, now=SYNTHESIS))
         return Opened(painting, notes, True, recording, Map(sources))
 
     def _layers(self, manifest: Manifest, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
@@ -197,32 +193,15 @@ class _Opening:
                 for future in (*coloured, *laid.values()):
                     future.cancel()
 
-    def _grown(self, root: Group, manifest: Manifest, sources: Mapping[str, ImageSource]) -> Group:
-        """With what was painted with examples, which is still to be grown."""
-        plots = [plot for found in manifest.plots.values() for plot in found]
-        nursery = Nursery.of(manifest.examples, plots, sources)
-        for layer in list(layers.layers(root)):
-            if layer.id in manifest.plots:
-                where = f"{self._archive.name}: layer {shown(layer.name)}"
-                grown = nursery.growth(manifest.plots[layer.id], partial(self._masks, manifest), where)
-                root = layers.with_growth(root, layer.name, grown)
-        return root
-
-    def _masks(self, manifest: Manifest, member: str, count: int) -> Tiles:
-        check(self._cancelled)
-        data, sha = self._stored(member, manifest)
-        where = f"{self._archive.name}: member {shown(member)}"
-        if hashlib.sha256(data).hexdigest() != sha:
-            raise FileError(where, "its bytes are not those that the manifest names")
-        return maskpacks.unpack(data, where, count)
-
     def _ground(self, number: int, manifest: Manifest) -> Pyramid:
         """The picture that a layer began with, laid down again."""
         found = manifest.grounds[number]
         if found.member not in manifest.members:
             raise FileError(self._archive.name, f"{MANIFEST}: {shown(found.member)} is not among the members")
-        with self._reading:
-            png = self._archive.read(found.member, manifest.members[found.member][0])
+        png = self._held.get(found.member)
+        if png is None:
+            with self._reading:
+                png = self._archive.read(found.member, manifest.members[found.member][0])
         return grounds.restored(found, png, f"{self._archive.name}: member {shown(found.member)}", self._limits)
 
     def _levels(self, tiles: Sequence[Coded]) -> dict[int, dict[tuple[int, int], Record]]:
@@ -247,8 +226,7 @@ class _Opening:
             try:
                 for pack in packs:
                     check(self._cancelled)
-                    stored = self._stored(pack.member, manifest)
-                    waiting.append((pack, pool.submit(self._unpack, pack, stored, sources)))
+                    waiting.append((pack, pool.submit(self._unpack, pack, self._stored(pack, manifest), sources)))
                     if len(waiting) > AHEAD:
                         yield from self._next(waiting)
                 while waiting:
@@ -265,12 +243,12 @@ class _Opening:
             self._progress(self._done / self._total)
         return tiles
 
-    def _stored(self, member: str, manifest: Manifest) -> tuple[bytes, str]:
-        size, sha = manifest.members.get(member, (-1, ""))
+    def _stored(self, pack: Pack, manifest: Manifest) -> tuple[bytes, str]:
+        size, sha = manifest.members.get(pack.member, (-1, ""))
         if size < 0:
-            raise FileError(self._archive.name, f"{MANIFEST}: {shown(member)} is not among the members")
+            raise FileError(self._archive.name, f"{MANIFEST}: {shown(pack.member)} is not among the members")
         with self._reading:
-            return self._archive.read(member, size), sha
+            return self._archive.read(pack.member, size), sha
 
     def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Coded]:
         data, sha = stored

@@ -184,8 +184,11 @@ class ZipArchive:
     def __contains__(self, name: str) -> bool:
         return name in self.members
 
-    def open(self, name: str) -> MemberStream:
-        """The bytes of a member, inflated as they are read.  FileError if it is not there or not readable."""
+    def open(self, name: str, at_once: bool = False) -> MemberStream:
+        """The bytes of a member, inflated as they are read.  FileError if it is not there or not readable.
+
+        `at_once`: all of it will be asked for in one call.
+        """
         member = self.members.get(name)
         if member is None:
             raise FileError(self.name, f"no member {shown(name)}")
@@ -201,14 +204,16 @@ class ZipArchive:
         start += local[9] + local[10]
         if start + member.stored > self._directory:
             raise FileError(self.name, f"member {shown(name)} reaches into the directory")
-        return MemberStream(self.name, member, self._pieces(start, member.stored))
+        whole = at_once and member.method == STORED
+        pieces = self._pieces(start, member.stored, member.stored if whole else PIECE)
+        return MemberStream(self.name, member, pieces)
 
     def read(self, name: str, most: int) -> bytes:
         """A whole member of at most `most` bytes."""
         if name in self.members and self.members[name].size > most:
             found = self.members[name].size
             raise FileError(self.name, f"member {shown(name)}: {found} bytes; expected at most {most}")
-        stream = self.open(name)
+        stream = self.open(name, at_once=True)
         data = stream.read(stream.member.size)
         stream.finish()
         return data
@@ -219,11 +224,11 @@ class ZipArchive:
             if not name.endswith("/"):
                 self.open(name).finish()
 
-    def _pieces(self, start: int, count: int) -> Iterator[bytes]:
+    def _pieces(self, start: int, count: int, most: int) -> Iterator[bytes]:
         stop = start + count
         while start < stop:
             self._file.seek(start)
-            piece = self._file.read(min(PIECE, stop - start))
+            piece = self._file.read(min(most, stop - start))
             if not piece:
                 return
             start += len(piece)
@@ -244,9 +249,15 @@ class MemberStream(io.RawIOBase):
         return True
 
     def read(self, count: int = -1) -> bytes:
-        data = bytearray(self._left if count < 0 else min(count, self._left))
-        self.readinto(data)
-        return bytes(data)
+        count = self._left if count < 0 else min(count, self._left)
+        piece = self._source.piece(count) if isinstance(self._source, _Plain) else None
+        if piece is None:
+            data = bytearray(count)
+            self.readinto(data)
+            return bytes(data)
+        self._left -= count
+        self._crc = isal_zlib.crc32(piece, self._crc)
+        return piece
 
     def readinto(self, buffer: WriteableBuffer) -> int:
         """Fills `buffer`; fewer bytes only where the member ends."""
@@ -285,6 +296,16 @@ class _Plain:
     def __init__(self, pieces: Iterator[bytes]) -> None:
         self._pieces = pieces
         self._rest = memoryview(b"")
+
+    def piece(self, count: int) -> bytes | None:
+        """The next piece as it is, if it has so many bytes."""
+        if not self._rest:
+            self._rest = memoryview(next(self._pieces, b""))
+        whole = self._rest.obj
+        if count == 0 or len(self._rest) != count or not isinstance(whole, bytes) or len(whole) != count:
+            return None
+        self._rest = memoryview(b"")
+        return whole
 
     def readinto(self, view: memoryview) -> int:
         filled = 0
