@@ -161,7 +161,8 @@ def _ordered(plots: Iterable[Plot], before: Growth) -> Growth:
 
 def previewed(growth: Growth) -> Growth:
     """With the coarsest level of what is new synthesised, and shown: some milliseconds, while the pen moves."""
-    return tuple(_previewed(plot) for plot in growth)
+    found = tuple(_previewed(plot) for plot in growth)
+    return growth if all(one is other for one, other in zip(found, growth, strict=True)) else found
 
 
 def _previewed(plot: Plot) -> Plot:

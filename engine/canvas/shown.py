@@ -172,9 +172,10 @@ def over(out: np.ndarray, shown: Shown, region: Region, finer: int, rect: Rect) 
     """Lays what is shown of a region over `out` (C, h, w), which covers `rect` of the level `finer` levels below the
     region's own (above it, if negative).  Planes from the fourth on, ink, are weakened alone."""
     if finer > 0:
-        above = _expanded(shown[0], region, finer, rect) if shown else None
-        if above is not None:
-            over_tile(out, 0, 0, above, 0, 0, rect.height, rect.width)
+        found = _expanded(shown[0], region, finer, rect) if shown else None
+        if found is not None:
+            above, at = found
+            over_tile(out, 0, 0, above, rect.y0 - at.y0, rect.x0 - at.x0, rect.height, rect.width)
         return
     level = at_level(shown, -finer, rect)
     for key in keys_within(rect, (level,)):
@@ -224,8 +225,9 @@ def over_tile(out, top, left, above, row, column, height, width):
                     below[i] = snap((_ONE - alpha[i]) * below[i])
 
 
-def _expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> np.ndarray | None:
-    """What is shown `finer` levels below the region's own: float32 (4, h, w) of `rect`, None where it is empty."""
+def _expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.ndarray, Rect] | None:
+    """What is shown `finer` levels below the region's own: read-only float32 (4, h, w) of a rectangle around `rect`,
+    and that rectangle; None where nothing is."""
 
     def needed(k: int) -> Rect:
         return rect.evened() if k == finer else rect.zoomed(k - finer).grown(_HALO).evened()
@@ -238,24 +240,18 @@ def _expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> np.ndarray
     known = _inside(region, at) if detailed else None
     for k in range(1, finer + 1):
         if k > detailed and at.area <= _SMALL and (value == value[:, :1, :1]).all():
-            flat = np.broadcast_to(value[:, :1, :1], (4, rect.height, rect.width))
-            return _clamped(flat) if value.any() else None
+            at, value = rect, np.tile(value[:, :1, :1], (1, rect.height, rect.width))
+            break
         inner = needed(k)
         value = _expand(value, at, inner)
         if known is not None and k <= detailed:
             _add_detail(value, region, k, inner, known, needed(0))
         at = inner
-    rows, columns = rect.slices(at)
-    return _clamped(value[:, rows, columns])
-
-
-def _clamped(value: np.ndarray) -> np.ndarray:
-    """0 <= alpha <= 1 and 0 <= colour <= alpha: a copy, read-only as tiles are, so that kernels are compiled once."""
-    out = np.empty_like(value, order="C")
-    np.clip(value[3], 0.0, 1.0, out=out[3])
-    np.clip(value[:3], 0.0, out[3], out=out[:3])
-    out.flags.writeable = False
-    return out
+    if detailed:  # differences to what is blended over seams may lead out of 0 <= colour <= alpha <= 1
+        np.clip(value[3], 0.0, 1.0, out=value[3])
+        np.clip(value[:3], 0.0, value[3], out=value[:3])
+    value.flags.writeable = False  # as tiles are: so the kernel is compiled once
+    return value, at
 
 
 def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:

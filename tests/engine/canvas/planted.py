@@ -1,0 +1,128 @@
+"""Examples, dabs and plain forms of what is painted with them, for the tests of the canvas."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from engine.canvas import growth as growths
+from engine.numeric.address import Rect
+from engine.numeric.grid import snapped
+from engine.texture.example import show, tiles
+from engine.texture.example.exemplar import analysed, shrunk
+from engine.texture.example.parameters import Parameters
+
+
+def blob(hue: int, side: int = 64) -> np.ndarray:
+    """Stripes with a pale, half transparent rim: uint8 RGBA (side, side, 4)."""
+    random = np.random.default_rng(hue)
+    y, x = np.mgrid[:side, :side] - (side - 1) / 2.0
+    depth = side * 0.46 - np.hypot(x, y) + 0.6 * random.standard_normal((side, side))
+    stripes = (x + 0.5 * y) % 9 < 4
+    colours = np.where(stripes[..., None], (40 + 60 * hue, 200, 90), (20, 30 * hue, 160)).astype(float)
+    colours += random.integers(-15, 16, (side, side, 1))
+    colours = np.where((depth < 4)[..., None], 240, colours)
+    pixels = np.dstack([colours, np.clip(90 + 60 * depth, 0, 255)]) * (depth > 0)[..., None]
+    return np.clip(pixels, 0, 255).astype(np.uint8)
+
+
+@cache
+def example(key: str):
+    """Of the examples "a", "b", ...; "a+1" has one octave of finer detail."""
+    name, _, detail = key.partition("+")
+    found = analysed(blob("abcdef".index(name)), None, Parameters())
+    return shrunk(found, int(detail)) if detail else found
+
+
+def disc(radius: int) -> np.ndarray:
+    y, x = np.mgrid[-radius : radius + 1, -radius : radius + 1]
+    return x * x + y * y <= radius * radius
+
+
+def around(x: int, y: int, radius: int) -> Rect:
+    return Rect.at(x - radius, y - radius, 2 * radius + 1, 2 * radius + 1)
+
+
+def planted(growth, x, y, radius, key="a", depth=0.0, level=0, seed=1):
+    """With a disc of an example laid."""
+    about = depth, level, key, key, example(key), seed
+    return growths.laid(growth, *about, around(x, y, radius), disc(radius))
+
+
+def bitten(growth, x, y, radius, depth=None, level=0):
+    """With a disc cut out."""
+    return growths.cut(growth, level, around(x, y, radius), disc(radius), depth)
+
+
+def masked(plot, rect: Rect) -> np.ndarray:
+    """A plot's own pixels: bool (h, w)."""
+    return tiles.gathered(plot.region.masks[0], rect, np.zeros((1, rect.height, rect.width), np.uint8))[0] > 0
+
+
+def same(one, other) -> bool:
+    """Whether two growths have the same plots, and these the same pixels shown, tile by tile."""
+    if [plot.order for plot in one] != [plot.order for plot in other]:
+        return False
+    for left, right in zip(one, other, strict=True):
+        for a, b in zip(left.shown, right.shown, strict=True):
+            if set(a) != set(b) or not all(np.array_equal(tile, b[key]) for key, tile in a.items()):
+                return False
+    return True
+
+
+# --- plain forms ------------------------------------------------------------------------------------------------------
+
+
+def means(planes: np.ndarray) -> np.ndarray:
+    """The next coarser level of (C, 2h, 2w), in whole steps of the grid."""
+    steps = np.rint(planes.astype(np.float64) * 65536)
+    c, h, w = steps.shape
+    return np.rint(steps.reshape(c, h // 2, 2, w // 2, 2).mean(axis=(2, 4))) / 65536
+
+
+def splines(planes: np.ndarray) -> np.ndarray:
+    """The next finer level of (C, h, w), 0 outside: (C, 2h, 2w)."""
+    steps = np.pad(np.rint(planes.astype(np.float64) * 65536), ((0, 0), (1, 1), (1, 1)))
+    c, h, w = planes.shape
+    out = np.empty((c, 2 * h, 2 * w))
+    for r in (0, 1):
+        for s in (0, 1):
+            near, across = steps[:, 1:-1, 1:-1], steps[:, 1:-1, 2 * s : 2 * s + w]
+            down, both = steps[:, 2 * r : 2 * r + h, 1:-1], steps[:, 2 * r : 2 * r + h, 2 * s : 2 * s + w]
+            out[:, r::2, s::2] = np.rint((9 * near + 3 * across + 3 * down + both) / 16)
+    return out / 65536
+
+
+def dense(plot, whole: Rect, level: int) -> np.ndarray:
+    """What a settled plot shows of `whole`, a rectangle of its level that holds it with room, at another level."""
+    region = plot.region
+    found = show.picture(region, whole).astype(np.float64)
+    for _ in range(plot.level - level):
+        found = means(found)
+    if level <= plot.level:
+        return found
+    known = np.pad(show.sources(region, whole) >= 0, 1)
+    inside = np.all(
+        [known[dy : dy + whole.height, dx : dx + whole.width] for dy in range(3) for dx in range(3)], axis=0
+    )
+    before = show.finer(region, 0, whole)
+    for k in range(1, level - plot.level + 1):
+        found = splines(found)
+        if k <= len(region.exemplar.finer):
+            now = show.finer(region, k, whole.zoomed(k))
+            found += (now - splines(before)) * np.kron(inside, np.ones((1 << k, 1 << k)))
+            before = now
+    if region.exemplar.finer:
+        found[3] = np.clip(found[3], 0, 1)
+        found[:3] = np.clip(found[:3], 0, found[3])
+    return found
+
+
+def stacked(pictures, below: np.ndarray) -> np.ndarray:
+    """Pictures (4, h, w) over one another, the first one lowest, over what is below."""
+    out = below.astype(np.float32)
+    for picture in pictures:
+        above = picture.astype(np.float32)
+        out = above + snapped((np.float32(1.0) - above[3]) * out)
+    return out
