@@ -17,7 +17,7 @@ from app.gallery import Gallery
 from app.lab import only_with
 from app.panels.brush import PREVIEW
 from app.panels.brushes import THUMB
-from app.panels.examples import TILE
+from app.panels.examples import LARGE
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
 from app.shelf import Shelf
@@ -125,7 +125,7 @@ class News:
         """Thumbnails, the sample stroke, and what was painted in the region, while they are to be seen."""
         desk, state = self.desk, self.desk.examples
         if self.shelf is not None and (desk.brush.mode == "example" or desk.strip == "examples"):
-            self.shelf.ask(state.entries, round(TILE * desk.scale))
+            self.shelf.ask(state.entries, round(LARGE * desk.scale))
         if desk.strip != "examples" or not desk.panels:
             return
         state.ask(desk.post, now)

@@ -12,7 +12,7 @@ from app.panels.growthsettings import GrowthSettings
 from app.panels.region import RegionPanel
 from app.panels.widgets import Col
 
-TILE = 68.0  # side of a thumbnail, points
+TILE, LARGE = 68.0, 104.0  # side of a thumbnail, points: at least, and where there is room
 NAME = 0.82  # of the font's size
 SIDE = 250.0  # width of what is told of the one chosen, points
 _STILL = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
@@ -82,11 +82,11 @@ class ExamplesPanel:
             desk.ask("example picture")
 
     def _thumbnails(self, desk: Desk) -> None:
-        gap, wide = 6 * desk.scale, TILE * desk.scale
-        room = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
+        listed, gap = desk.examples.listed(), 6 * desk.scale
+        room, tall = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size, _below(desk)
+        wide = tile(len(desk.examples.entries), (room, imgui.get_content_region_avail().y), gap, tall, desk.scale)
         across = max(1, int((room + gap) / (wide + gap)))
-        gap = (room - across * wide) / max(1, across - 1) if across > 1 else gap
-        listed = desk.examples.listed()
+        gap = (room - across * wide) / (across - 1) if across > 1 else gap
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, 4 * desk.scale))
         for i, entry in enumerate(listed):
             if i % across:
@@ -97,8 +97,7 @@ class ExamplesPanel:
             imgui.text_disabled("No examples here yet: drop a picture on the window")
 
     def _thumbnail(self, desk: Desk, entry: Entry, wide: float) -> None:
-        size = imgui.get_font_size()
-        corner, tall = imgui.get_cursor_screen_pos(), wide + size * NAME + 4 * desk.scale
+        corner, tall = imgui.get_cursor_screen_pos(), wide + _below(desk)
         if imgui.invisible_button(entry.ident, ImVec2(wide, tall)):
             sowing.choose(desk, entry)
         chosen, hovered = desk.examples.chosen == entry.ident, imgui.is_item_hovered()
@@ -143,6 +142,22 @@ class ExamplesPanel:
         if w.text_button(f"{icons.SWAP} Swap", hint, enabled=entry is not None, width=wide):
             state.swapping = not state.swapping
         imgui.pop_style_color()
+
+
+def _below(desk: Desk) -> float:
+    """The height of a name under a thumbnail."""
+    return imgui.get_font_size() * NAME + 4 * desk.scale
+
+
+def tile(count: int, room: tuple[float, float], gap: float, name: float, scale: float) -> float:
+    """The side of thumbnails: as large as lets all be seen at once, between two bounds."""
+    side = int(LARGE * scale)
+    while side > TILE * scale:
+        across = max(1, int((room[0] + gap) / (side + gap)))
+        if -(-count // across) * (side + name + gap) <= room[1]:
+            break
+        side -= 1
+    return float(max(side, round(TILE * scale)))
 
 
 def _deletes(desk: Desk, entry: Entry) -> None:

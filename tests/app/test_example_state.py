@@ -9,6 +9,7 @@ from PIL import Image
 from app import examples, keeping, shelf, sowing
 from app.desk import Desk
 from app.examples import Entry
+from app.panels.examples import tile
 from app.view import Place, View
 from engine.brush.record import Brush
 from engine.painting.commands import Swap, parse, to_json
@@ -282,3 +283,11 @@ def test_thumbnails_are_made_once_and_again_for_another_region(desk, tmp_path):
         made._thread.join(20)
     assert [picture.ident for picture in made.take()] == ["example bundled felt"] * 2
     assert len(woken) == 2
+
+
+def test_thumbnails_grow_into_the_room_that_there_is():
+    assert tile(26, (450.0, 280.0), 6.0, 16.0, 1.0) == 68.0  # the list scrolls
+    wide = tile(26, (1096.0, 330.0), 6.0, 16.0, 1.0)
+    assert 68.0 < wide < 104.0
+    assert -(-26 // int(1102 / (wide + 6))) * (wide + 22) <= 330
+    assert tile(3, (1096.0, 330.0), 6.0, 16.0, 1.5) == 156.0
