@@ -77,7 +77,9 @@ class Footprint:
         for x0, y0, x1, y1 in (boxes // _SIDE).tolist():
             self._tiles.update((y, x) for y in range(y0, y1 + 1) for x in range(x0, x1 + 1))
             if len(self._tiles) > TILES_CAP:
-                raise BrushError("stroke", f"one that meets {len(self._tiles)} squares of {_SIDE} px", f"{TILES_CAP}")
+                raise BrushError(
+                    "stroke", f"one that meets {len(self._tiles)} squares of {_SIDE} px", f"at most {TILES_CAP}"
+                )
 
     def _stamp(self, mask: np.ndarray, discs: np.ndarray, which: range, box: Rect) -> None:
         """Dabs in the shape of the tip's pattern, each for itself."""
@@ -115,15 +117,27 @@ def _groups(boxes: np.ndarray) -> Iterator[tuple[int, int, Rect]]:
 
 
 @njit(cache=True, nogil=True)
+def _half(ceiling):
+    """The u at which a dab of that ceiling covers half: ceiling (1 - u)^2 (1 + 2u) = 1/2; 1/2 but for the tiniest."""
+    low, high = 0.0, 0.5
+    while ceiling < 1.0 and high - low > 1e-9:
+        u = 0.5 * (low + high)
+        if ceiling * (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u) < 0.5:
+            high = u
+        else:
+            low = u
+    return high
+
+
+@njit(cache=True, nogil=True)
 def _take(mask, discs, left, top):
-    """Marks the pixels of a mask, bool (h, w), that a disc covers at least half: d = 1/2 halfway between Rin and Rout
-    in r^2."""
+    """Marks the pixels of a mask, bool (h, w), that a disc covers at least half."""
     for k in range(discs.shape[0]):
         disc = discs[k]
         if disc[CEILING] < 0.5:
             continue
         cx, cy = disc[CX] - left, disc[CY] - top
-        limit = 0.5 * (disc[RIN2] + disc[ROUT] * disc[ROUT])
+        limit = disc[RIN2] + _half(disc[CEILING]) * (disc[ROUT] * disc[ROUT] - disc[RIN2])
         reach = math.sqrt(limit)
         for y in range(max(0, math.ceil(cy - reach - 0.5)), min(mask.shape[0], math.floor(cy + reach - 0.5) + 1)):
             dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)

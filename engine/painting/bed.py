@@ -6,6 +6,7 @@ date, and whoever has time refines `growth` further; the final pixels depend on 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -20,6 +21,7 @@ from engine.canvas.shown import keys_within
 from engine.numeric.address import Rect
 from engine.texture.example import tiles
 
+_LEAST_SQUARE, _SQUARES = 16, 3  # px along a square; 2^3 squares and less to a radius
 _SPREAD = 2  # pixels by which a pixel is seen beyond its place when zoomed in on
 Change = Callable[[Growth, Rect, np.ndarray], Growth]  # of the pixels of a mask, bool (h, w) over a rectangle
 
@@ -79,6 +81,33 @@ def _around(rects: list[Rect]) -> Rect:
     for rect in rects:
         whole = whole.union(rect)
     return whole
+
+
+class Meeting:
+    """Whether a stroke meets what is painted with examples: by squares of its dabs, so that it does not matter how many
+    of them come at once."""
+
+    def __init__(self, level: int, origin: tuple[int, int], radius: float) -> None:
+        self._level, self._origin = level, origin
+        self._side = max(_LEAST_SQUARE, 1 << math.ceil(math.log2(radius + 1.0)) >> _SQUARES)
+        self._known: set[tuple[int, int]] = set()
+
+    def any(self, growth: Growth, dabs: np.ndarray, spread: int) -> bool:
+        """Whether some of these dabs, float64 (n, 6), which reach `spread` pixels beyond their radius, do."""
+        side, reach = self._side, dabs[:, 2:3] + (1.0 + spread)
+        places = dabs[:, :2][dabs[:, 3] > 0.0], reach[dabs[:, 3] > 0.0]
+        first = np.floor((places[0] - places[1]) / side).astype(np.int64)
+        last = np.floor((places[0] + places[1]) / side).astype(np.int64)
+        for (x0, y0), (x1, y1) in zip(first.tolist(), last.tolist(), strict=True):
+            for y in range(y0, y1 + 1):
+                for x in range(x0, x1 + 1):
+                    if (x, y) in self._known:
+                        continue
+                    self._known.add((x, y))
+                    corner = self._origin[0] + x * side, self._origin[1] + y * side
+                    if lies_in(growth, self._level, Rect.at(*corner, side, side)):
+                        return True
+        return False
 
 
 def lies_in(growth: Growth, level: int, rect: Rect) -> bool:

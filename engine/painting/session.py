@@ -98,7 +98,8 @@ class Session:
 
     def around(self) -> Around:
         """Pictures of textures are known by their sha, wherever their files are now."""
-        sources = (self.lent, *(texture.source for texture in self.painting.textures.values()))
+        textures = self.painting.textures.values()
+        sources = (self.lent, *(t.source for t in textures), *(t.mask for t in textures))
         return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
 
     def _done(self, command: c.Command, after: Painting) -> Painting:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
@@ -23,8 +22,8 @@ from engine.canvas.evaluate import TileCache
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
-from engine.numeric.address import Rect, TileKey
-from engine.painting.bed import Bed, lies_in
+from engine.numeric.address import Rect
+from engine.painting.bed import Bed, Meeting
 from engine.painting.commands import Stroke
 from engine.painting.points import fitted
 from engine.painting.scenery import Scenery
@@ -77,6 +76,7 @@ class LiveStroke:
         self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
         self._edit: Edit | None = None
         self.flattened, self.bed = False, self._new_bed()
+        self._meeting = Meeting(level, origin, brush.radius)
 
     def _new_bed(self) -> Bed | None:
         if self.brush.mode != "erase" or not self.layer.growth or self.layer.alpha_locked:
@@ -113,8 +113,8 @@ class LiveStroke:
         if not len(points):
             return Rect(0, 0, 0, 0)
         try:
-            touched = self._mask.paint(self._stroker.walk(points))
-            dirty = tile_bounds(touched)
+            dabs = self._stroker.walk(points)
+            dirty = tile_bounds(self._mask.paint(dabs))
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
             if self._scenery is not None:
                 dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
@@ -127,13 +127,13 @@ class LiveStroke:
         self._count += len(points)
         self._edit = None
         if self.bed is None and self.layer.growth and not self.flattened:
-            self._flatten(touched)
+            self._flatten(dabs)
         return dirty
 
-    def _flatten(self, touched: Iterable[TileKey]) -> None:
+    def _flatten(self, dabs: np.ndarray) -> None:
         """Makes paint of what is painted with examples on the layer, if the stroke meets any of it."""
-        reach = self._relief.reach
-        if any(lies_in(self.layer.growth, self.level, key.rect.grown(reach)) for key in touched):
+        spread = max(self._relief.reach, self._relief.spread)
+        if self._meeting.any(self.layer.growth, dabs, spread):
             self.flattened = True
             self.layer = flattened(self.layer, self.cache)
             root = layers.with_pyramid(self.base.root, self.layer.name, self.layer.pyramid)
