@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from immutables import Map
@@ -17,8 +18,9 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
-from engine.painting import grounds, pictures
+from engine.painting import grounds, maskpacks, pictures
 from engine.painting.fault import FileError, shown
+from engine.painting.growths import Nursery
 from engine.painting.implied import TEXTURES, Coded, restored
 from engine.painting.imports import STACK, Opened, read_raster
 from engine.painting.limits import LIMITS, Limits, memory_cap
@@ -30,6 +32,8 @@ from engine.painting.stackxml import parse_stack
 from engine.painting.strictjson import FormatError, loads
 from engine.painting.value import Painting
 from engine.painting.zipguard import ZipArchive
+from engine.texture.example import SYNTHESIS
+from engine.texture.example.tiles import Tiles
 from engine.texture.image import ImageSource
 from engine.texture.table import from_key
 
@@ -39,6 +43,10 @@ PIECE = 1 << 20
 UNREAD = ("mergedimage", "Thumbnails")  # members that are for other programs alone
 LOST = "deep detail is missing: this file was saved by another program"
 OTHER = "the textures of this version are not quite those it was saved with: the colour of {count} tiles differs{why}"
+REGROWN = (
+    "what was painted with examples is grown anew, and may look otherwise than it did: this version grows them"
+    " another way (revision {was}, now {now})"
+)
 CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
 NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is left out"
 
@@ -153,16 +161,20 @@ class _Opening:
         packs = [p for group in manifest.packs.values() for p in group]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
-        if self._total > memory_cap():
-            raise FileError(self._archive.name, f"its paint takes {self._total >> 20} MB, more than this machine has")
+        most = self._total + manifest.grown_bytes()
+        if most > memory_cap():
+            raise FileError(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
         root, other = self._layers(manifest, sources)
+        root = self._grown(root, manifest, sources)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
         if other:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"
             notes = (*notes, OTHER.format(count=other, why=why))
+        if manifest.plots and manifest.synthesis != SYNTHESIS:
+            notes = (*notes, REGROWN.format(was=manifest.synthesis, now=SYNTHESIS))
         return Opened(painting, notes, True, recording, Map(sources))
 
     def _layers(self, manifest: Manifest, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
@@ -192,6 +204,25 @@ class _Opening:
             finally:
                 for future in (*coloured, *laid.values()):
                     future.cancel()
+
+    def _grown(self, root: Group, manifest: Manifest, sources: Mapping[str, ImageSource]) -> Group:
+        """With what was painted with examples, which is still to be grown."""
+        plots = [plot for found in manifest.plots.values() for plot in found]
+        nursery = Nursery.of(manifest.examples, plots, sources)
+        for layer in list(layers.layers(root)):
+            if layer.id in manifest.plots:
+                where = f"{self._archive.name}: layer {shown(layer.name)}"
+                grown = nursery.growth(manifest.plots[layer.id], partial(self._masks, manifest), where)
+                root = layers.with_growth(root, layer.name, grown)
+        return root
+
+    def _masks(self, manifest: Manifest, member: str, count: int) -> Tiles:
+        check(self._cancelled)
+        data, sha = self._stored(member, manifest)
+        where = f"{self._archive.name}: member {shown(member)}"
+        if hashlib.sha256(data).hexdigest() != sha:
+            raise FileError(where, "its bytes are not those that the manifest names")
+        return maskpacks.unpack(data, where, count)
 
     def _ground(self, number: int, manifest: Manifest) -> Pyramid:
         """The picture that a layer began with, laid down again."""
@@ -226,7 +257,8 @@ class _Opening:
             try:
                 for pack in packs:
                     check(self._cancelled)
-                    waiting.append((pack, pool.submit(self._unpack, pack, self._stored(pack, manifest), sources)))
+                    stored = self._stored(pack.member, manifest)
+                    waiting.append((pack, pool.submit(self._unpack, pack, stored, sources)))
                     if len(waiting) > AHEAD:
                         yield from self._next(waiting)
                 while waiting:
@@ -243,12 +275,12 @@ class _Opening:
             self._progress(self._done / self._total)
         return tiles
 
-    def _stored(self, pack: Pack, manifest: Manifest) -> tuple[bytes, str]:
-        size, sha = manifest.members.get(pack.member, (-1, ""))
+    def _stored(self, member: str, manifest: Manifest) -> tuple[bytes, str]:
+        size, sha = manifest.members.get(member, (-1, ""))
         if size < 0:
-            raise FileError(self._archive.name, f"{MANIFEST}: {shown(pack.member)} is not among the members")
+            raise FileError(self._archive.name, f"{MANIFEST}: {shown(member)} is not among the members")
         with self._reading:
-            return self._archive.read(pack.member, size), sha
+            return self._archive.read(member, size), sha
 
     def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Coded]:
         data, sha = stored
