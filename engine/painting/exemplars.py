@@ -20,7 +20,7 @@ from engine.texture.example.exemplar import ExampleLevel, Exemplar, analysed
 from engine.texture.example.parameters import Parameters, read_toml
 from engine.texture.field_error import FieldError
 
-VERSION = 1  # of the analysis: another one, another hash
+VERSION = 2  # of the analysis: another one, another hash
 KEPT = 64  # analyses at most; the ones unused for longest go first
 PARAMETERS_CAP = 1 << 20  # bytes of a parameter file
 # What of the parameters the analysis depends on.

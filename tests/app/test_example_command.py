@@ -81,7 +81,7 @@ def test_threads_and_the_cache_do_not_matter_but_the_options_do(tmp_path, own_ca
     assert len(list(own_cache.glob("*.npz"))) == 1
     assert np.array_equal(first, filled(tmp_path, given, "--region", place, "--threads", 2))
     assert len(list(own_cache.glob("*"))) == 1
-    words = [["--seed", 1], ["--levels", 1], ["--neighbourhood", 3], ["--kappa", 0], ["--kappa", 0, "--every", 1]]
+    words = [["--seed", 1], ["--levels", 2], ["--neighbourhood", 3], ["--kappa", 0], ["--kappa", 0, "--every", 1]]
     found = {filled(tmp_path, given, "--region", place, *more).tobytes() for more in words}
     assert len(found | {first.tobytes()}) == len(words) + 1
 

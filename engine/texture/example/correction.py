@@ -23,7 +23,8 @@ REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
 OUTSIDE = -1  # instead of a source, where there is no region
 
 _FAR = np.int32(2**31 - 1)
-_RIM_CANDIDATES = 32
+_RIM_CANDIDATES = 8
+_SHAPES = 64  # of which the nearest are searched
 _COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours inside, and pixels of the shape
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
@@ -345,22 +346,20 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     neighbours: so shapes override colours, whatever the rim looks like (Ritter et al. 2006, section 5).
     """
     first, last = _alike(example.starts, ones(window.bits[y, x]))
-    nearest = np.int32(SIDE * SIDE + 1)
-    for i in range(first, last):
-        nearest = min(nearest, _apart(bits, example, example.order[i], rules))
-    count = 0
-    for i in range(first, last):
-        count += _apart(bits, example, example.order[i], rules) <= nearest + _SHAPES_APART
-    stride = max(1, count // _RIM_CANDIDATES)
-    skipped = np.int64(h % np.uint64(stride))
-    for i in range(first, last):
+    step = max(1, (last - first) // _SHAPES)
+    first += np.int64(h % np.uint64(step))  # type: ignore[arg-type]
+    nearest, count = np.int32(SIDE * SIDE + 1), 0
+    for i in range(first, last, step):
+        apart = _apart(bits, example, example.order[i], rules)
+        if apart < nearest:
+            nearest, count = apart, 0
+        count += apart == nearest
+    near = nearest + (_SHAPES_APART if count < _RIM_CANDIDATES else 0)
+    for i in range(first, last, step):
         name = example.order[i]
         apart = _apart(bits, example, name, rules)
-        if apart > nearest + _SHAPES_APART:
-            continue
-        skipped += 1
         shape = np.int32(rules.penalty * apart)
-        if skipped % stride or shape >= limit:
+        if apart > near or shape >= limit:
             continue
         e = _energy(window, y, x, example, name, rules, bits, True, limit)
         if e < limit:
@@ -378,11 +377,12 @@ def _apart(bits, example, name, rules):
 
 @njit(cache=True, nogil=True)
 def _alike(starts, count):
-    """The part of the order with about so many neighbours inside, or with the next fewer and more."""
-    low, high = max(0, count - _COUNTS_APART), min(SIDE * SIDE, count + _COUNTS_APART)
+    """The part of the order with about so many neighbours inside, though not all, or with the next fewer and more."""
+    most = SIDE * SIDE
+    low, high = max(0, count - _COUNTS_APART), min(most - 1, count + _COUNTS_APART)
     while low > 0 and starts[low] == starts[count]:
         low -= 1
-    while high < SIDE * SIDE and starts[high + 1] == starts[count + 1]:
+    while high < most and starts[high + 1] == starts[count + 1]:
         high += 1
     return np.int64(starts[low]), np.int64(starts[high + 1])
 

@@ -21,7 +21,9 @@ from engine.texture.field_error import FieldError
 PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
 SIDE = 1024  # pixels along an example, at most
 COUNTS = 50  # of region pixels among 7 x 7
-_COARSEST = 11  # pixels along the shorter side of the coarsest level, at least
+# Pixels along the shorter side of the coarsest level, at least.  With a rim some more: neighbourhoods that lie
+# wholly inside have to be left, and the fewer levels there are, the less changes when a region grows.
+_COARSEST, _COARSEST_BOUNDED = 11, 17
 _CHOICES = 25  # of where a patch comes from, at least
 _SMOOTHED = 0.32  # of a smoothed mask: where its region ends, a little outside the old one
 _LUMINANCE = (0.2126, 0.7152, 0.0722)
@@ -87,7 +89,7 @@ def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Par
     parameters = parameters or Parameters()
     mask = _region_of(pixels, mask, parameters)
     boundary = parameters.boundary == "yes" or (parameters.boundary == "auto" and not mask.all())
-    count = _level_count(mask, parameters)
+    count = _level_count(mask, parameters, boundary)
     colours, region = premultiplied(pixels), mask
     levels = []
     for n in range(count):
@@ -144,14 +146,14 @@ def _smoothed(mask: np.ndarray, sigma: float) -> np.ndarray:
     return gaussian_filter(mask.astype(np.float32), sigma, mode="constant") > _SMOOTHED
 
 
-def _level_count(mask: np.ndarray, parameters: Parameters) -> int:
-    """As many as were asked for and there is room for, else so many that 11 to 22 pixels are left."""
+def _level_count(mask: np.ndarray, parameters: Parameters, boundary: bool) -> int:
+    """As many as were asked for and there is room for, else so many that the coarsest is small."""
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
     shorter = int(min(rows[-1] - rows[0], columns[-1] - columns[0])) + 1
-    most = max(1, shorter.bit_length())
     if parameters.levels:
-        return min(parameters.levels, most)
-    return min(MOST_LEVELS, max(1, (shorter // _COARSEST).bit_length()))
+        return min(parameters.levels, max(1, shorter.bit_length()))
+    least = _COARSEST_BOUNDED if boundary else _COARSEST
+    return min(MOST_LEVELS, max(1, (shorter // least).bit_length()))
 
 
 def _coarser(colours: np.ndarray, region: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -195,13 +197,14 @@ def _by_count(region: np.ndarray, bits: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def _blocks(level: ExampleLevel, block: int) -> tuple[np.ndarray, int]:
-    """Where patches of `block` pixels begin that lie wholly inside, as names; smaller ones where there are few."""
-    whole = (level.bits == FULL) & (level.region > 0)
-    inside = whole if whole.any() else level.region > 0
-    fits = _eroded(inside, block)
+    """Where patches of `block` pixels begin that lie wholly in the region, as names; smaller ones where there are few.
+
+    Some reach its rim: what there is to its inner side, for instance shading, is then copied with it.
+    """
+    fits = _eroded(level.region > 0, block)
     while block > 1 and fits.sum() < _CHOICES:
         block -= 1
-        fits = _eroded(inside, block)
+        fits = _eroded(level.region > 0, block)
     rows, columns = np.nonzero(fits)
     return _frozen(((rows << 16) | columns).astype(np.int32)), block
 

@@ -22,7 +22,9 @@ from engine.texture.example.correction import MARGIN, OUTSIDE, REACH, SUBPASSES,
 from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.tiles import NONE, Tiles
 
-COARSEST_PASSES = 4
+COARSEST_PASSES = 2
+_E_MAX_DECAY = 0.35  # a level: where pixels are large, few shapes of the example are like the stroke's
+_CANDIDATES = 96  # of a search at the coarsest level, at most
 _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
 _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
@@ -259,12 +261,12 @@ def _rules(exemplar: Exemplar, n: int) -> Rules:
     given = exemplar.parameters
     coarsest = n == len(exemplar.levels) - 1
     size = SIDE * SIDE / given.neighbourhood**2
-    penalty = int(min(given.e_max * size, _MOST) * 65025 * WEIGHT)
+    penalty = int(min(given.e_max * _E_MAX_DECAY**n * size, _MOST) * 65025 * WEIGHT)
     return Rules(
         weights(given.neighbourhood),
         square_bits(given.neighbourhood),
         penalty,
         int(256 * (1.0 + given.kappa)),
-        given.every if coarsest else 0,
+        max(given.every, exemplar.levels[n].order.size // _CANDIDATES) if coarsest else 0,
         exemplar.boundary,
     )
