@@ -24,7 +24,7 @@ from engine.texture.example.tiles import NONE, Tiles
 
 COARSEST_PASSES = 2
 _E_MAX_DECAY = 0.35  # a level: where pixels are large, few shapes of the example are like the stroke's
-_CANDIDATES = 96  # of a search at the coarsest level, at most
+_CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may be large and have but one
 _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
 _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
