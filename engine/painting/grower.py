@@ -20,7 +20,8 @@ from engine.painting.session import Session
 from engine.painting.settling import MOST_THREADS, waiting, with_grown
 from engine.painting.viewer import Viewer
 
-TELL = 0.1  # seconds between two results about the progress
+TELL = 0.1  # seconds between two results about the progress, at least
+SHARE = 40  # times as long as finding it out takes
 
 
 class Host(Protocol):
@@ -43,7 +44,7 @@ class Grower:
         self._steps: Iterator[Growth] | None = None
         self._at: Growth = ()  # what the steps have come to
         self._known: tuple[Group | None, list[Layer]] = None, []
-        self._told: float | None = None  # when the window last heard that something grows
+        self._told: float | None = None  # when the window hears of it again; None: it knows that nothing grows
         self._pool: Executor | None = None
 
     @property
@@ -124,10 +125,11 @@ class Grower:
         now = time.monotonic()
         bed = self._bed()
         growths = [layer.growth for layer in self._waiting()] + ([] if bed is None else [bed.growth])
-        if growths and (self._told is None or now - self._told > TELL):
-            self._told = now
+        if growths and (self._told is None or now > self._told):
             rects, done = progress(tuple(plot for growth in growths for plot in growth))
             self.host.send(q.Growing(done, tuple(rects)))
+            took = time.monotonic() - now
+            self._told = now + max(TELL, SHARE * took)
         elif not growths and self._told is not None:
             self._told = None
             self.host.send(q.Growing(1.0))

@@ -1,0 +1,247 @@
+"""Examples refined in the background: served between strokes, safe to undo, save, abandon and close in the middle."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from plantings import FRAME, alike, meadow, pixels, stroke, texture
+from test_easel import Window
+
+from engine.brush.record import from_json
+from engine.canvas import layers
+from engine.canvas.growth import is_settled
+from engine.painting import commands as c
+from engine.painting import requests as q
+from engine.painting.recording import Header, Recording
+from engine.painting.replay import replay
+from engine.painting.worker import Worker
+
+__all__ = ["meadow"]
+
+TILES = ((0, 0, 0), (-1, 0, 0), (1, 0, 0))
+LONG = [[10, 20], [85, 20], [85, 60], [10, 60]]
+
+
+def brush(**members):
+    return from_json({"radius": 9, "dynamics": {}, "mode": "example", "example": "a", **members})
+
+
+@pytest.fixture
+def window(meadow):
+    return begun(meadow)
+
+
+def begun(meadow):
+    one = Window()
+    one.easel.do(q.New(FRAME, 7))
+    for name in "ab":
+        one.easel.do(q.Do(texture(name, str(meadow / f"{name}.png"))))
+    one.look(*TILES)
+    one.work()
+    return one
+
+
+def points(rows):
+    out = np.zeros((len(rows), 6))
+    out[:, 2] = 1.0
+    out[:, :2] = rows
+    return out
+
+
+def steps(window, count):
+    for _ in range(count):
+        if window.easel.pending:
+            window.easel.step()
+
+
+def grows(window):
+    """Whether the painting is still to be refined."""
+    return any(not is_settled(layer.growth) for layer in layers.layers(window.easel.session.painting.root))
+
+
+def replayed(window):
+    log = window.easel.session.log
+    return replay(Recording(Header(FRAME, 7), tuple(log), folder=None)).painting
+
+
+def check(window):
+    window.look(*TILES)
+    window.work()
+    assert not grows(window)
+    window.check(*TILES)
+    assert alike(pixels(window.easel.session.painting), pixels(replayed(window)))
+
+
+def progress(window):
+    return [r for r in window.other if isinstance(r, q.Growing)]
+
+
+def test_a_stroke_is_seen_at_once_and_refined_afterwards(window):
+    easel = window.easel
+    easel.do(q.Begin(0, (0, 0), brush()))
+    easel.do(q.Points(points(LONG[:2])))
+    easel.step()
+    easel.step()
+    assert window.tiles[0, 0, 0][20, 40, 3] > 0  # seen before anything is refined
+    easel.do(q.Finish())
+    assert grows(window)
+    early = window.tiles[0, 0, 0].copy()
+    check(window)
+    assert not np.array_equal(early, window.tiles[0, 0, 0])
+    told = progress(window)
+    assert told[0].done < 1.0
+    assert told[0].rects[0][0] == 0
+    assert told[-1] == q.Growing(1.0)
+
+
+def test_the_stroke_in_progress_is_refined_too(window):
+    easel = window.easel
+    easel.do(q.Begin(0, (0, 0), brush()))
+    easel.do(q.Points(points(LONG[:2])))
+    window.work()
+    assert is_settled(easel.live.bed.growth)
+    kept = easel.live.bed.growth
+    easel.do(q.Finish())
+    assert layers.find(easel.session.painting.root, "Layer 1").growth is kept  # not done twice
+    check(window)
+
+
+ACTIONS = st.one_of(
+    st.builds(
+        lambda spots, **members: ("stroke", spots, members),
+        st.lists(st.tuples(st.integers(0, 95), st.integers(0, 79)), min_size=1, max_size=4),
+        example=st.sampled_from("ab"),
+        depth=st.sampled_from([None, 1]),
+    ),
+    st.builds(lambda at: ("stroke", [at], {"mode": "erase"}), st.tuples(st.integers(0, 95), st.integers(0, 79))),
+    st.builds(
+        lambda at: ("stroke", [at], {"mode": "paint", "radius": 3}), st.tuples(st.integers(0, 95), st.integers(0, 79))
+    ),
+    st.sampled_from(
+        [
+            ("do", c.Undo()),
+            ("do", c.Redo()),
+            ("do", c.Swap(0, (50, 40), "b")),
+            ("do", c.AddLayer("more")),
+            ("do", c.SelectLayer("Layer 1")),
+            ("abandon",),
+        ]
+    ),
+)
+
+
+@settings(deadline=None, max_examples=12)
+@given(st.lists(st.tuples(ACTIONS, st.integers(0, 12)), min_size=2, max_size=7))
+def test_whatever_comes_between_the_window_ends_up_with_the_painting(meadow, actions):
+    window = begun(meadow)
+    easel = window.easel
+    for (kind, *told), work in actions:
+        if kind == "stroke":
+            easel.do(q.Begin(0, (0, 0), brush(**told[1])))
+            for spot in told[0]:
+                easel.do(q.Points(points([spot])))
+                steps(window, work)
+            easel.do(q.Finish())
+        elif kind == "do":
+            try:
+                easel.do(q.Do(told[0]))
+            except ValueError:
+                continue
+        else:
+            easel.do(q.Begin(0, (0, 0), brush(example="b")))
+            easel.do(q.Points(points([[40, 40], [60, 40]])))
+            steps(window, work)
+            easel.do(q.Abandon())
+        window.look(*TILES)
+        steps(window, work)
+    check(window)
+
+
+def test_another_layer_is_refined_while_paint_is_laid(window):
+    easel = window.easel
+    easel.do(q.Do(stroke(LONG)))
+    easel.do(q.Do(c.AddLayer("more")))
+    easel.do(q.Begin(0, (0, 0), brush(mode="paint", radius=4)))
+    easel.do(q.Points(points([[30, 30], [60, 50]])))
+    before = easel.session.state
+    window.work()
+    assert not grows(window)
+    assert easel.live is not None
+    easel.do(q.Points(points([[70, 40]])))
+    easel.do(q.Finish())
+    assert easel.session.state is not before
+    assert len(easel.session.log[-1].points) == 3
+    check(window)
+    easel.do(q.Do(c.Undo()))
+    check(window)
+
+
+def test_undo_in_the_middle_and_back(window):
+    easel = window.easel
+    easel.do(q.Do(stroke(LONG)))
+    easel.do(q.Do(stroke([[45, 10], [45, 70]], example="b")))
+    steps(window, 6)
+    easel.do(q.Do(c.Undo()))
+    steps(window, 4)
+    easel.do(q.Do(c.Redo()))
+    steps(window, 3)
+    check(window)
+    easel.do(q.Do(c.Undo(2)))
+    check(window)
+    assert progress(window)[-1] == q.Growing(1.0)
+    assert not window.tiles[0, 0, 0].any()
+
+
+def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(window, tmp_path):
+    from engine.painting.opening import open_painting
+
+    easel = window.easel
+    easel.do(q.Do(stroke(LONG)))
+    steps(window, 3)
+    assert grows(window)
+    easel.do(q.Save(tmp_path / "p.ora"))
+    easel.do(q.Export(tmp_path / "p.png"))
+    easel.close()
+    assert not [r for r in window.other if isinstance(r, q.Note) and r.bad]
+    assert not window.scene().modified
+    window.work()
+    easel.tell()
+    assert not window.scene().modified
+    easel.do(q.Export(tmp_path / "q.png"))
+    easel.close()
+    assert (tmp_path / "p.png").read_bytes() == (tmp_path / "q.png").read_bytes()
+    opened = open_painting(tmp_path / "p.ora")
+    assert alike(pixels(opened.painting), pixels(easel.session.painting))
+    easel.do(q.Do(c.Undo()))
+    assert window.scene().modified
+
+
+def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
+    """Real thread: points are laid between steps, and the thread ends although work is left."""
+    results, woken = [], threading.Event()
+    worker = Worker(woken.set)
+    worker.post(q.New(FRAME, 7))
+    for name in "ab":
+        worker.post(q.Do(texture(name, str(meadow / f"{name}.png"))))
+    worker.post(q.Look(tuple((*tile, -1) for tile in TILES)))
+    for y in range(0, 400, 40):  # far more than is refined at once
+        worker.post(q.Do(stroke([[0, y], [600, y]], radius=20)))
+    end = time.monotonic() + 60
+    while not any(isinstance(r, q.Growing) for r in results):
+        woken.wait(1.0)
+        woken.clear()
+        results += worker.results()
+        assert time.monotonic() < end
+    worker.post(q.Begin(0, (0, 0), brush(example="b")))
+    worker.post(q.Points(points([[40, 40]])))
+    worker.post(q.Finish())
+    before = time.monotonic()
+    worker.close(30.0)
+    assert not worker._thread.is_alive()
+    assert time.monotonic() - before < 20
+    results += worker.results()
+    assert not [r for r in results if isinstance(r, q.Note) and r.bad]
+    assert not any(isinstance(r, q.Growing) and r.done == 1.0 for r in results)
