@@ -7,6 +7,7 @@ the same on every processor, whatever the order in which it adds.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -99,15 +100,18 @@ def region_bits(mask, out):
                 target[x] |= row[x] << np.uint64(SIDE * dy)
 
 
+@lru_cache(maxsize=8)
 def weights(side: int = SIDE, spread: float = 2.0) -> np.ndarray:
-    """A Gaussian of `spread` pixels over `side` x `side` pixels (3, 5 or 7): int16 (7 * 32), summing to about
-    49 * WEIGHT for each channel."""
+    """A Gaussian of `spread` pixels over `side` x `side` pixels (3, 5 or 7): int16 (7 * 32), read-only, summing to
+    about 49 * WEIGHT for each channel."""
     y, x = np.mgrid[-RADIUS : RADIUS + 1, -RADIUS : RADIUS + 1]
     plane = np.exp(-(x * x + y * y) / (2.0 * spread * spread)) * ((abs(x) <= side // 2) & (abs(y) <= side // 2))
     plane = np.maximum(np.rint(plane * (WEIGHT * plane.size / plane.sum())), plane > 0.0)
     out = np.zeros((SIDE, ROW // 4, 4), np.int16)
     out[:, :SIDE] = plane[:, :, None]
-    return out.reshape(-1)
+    flat = out.reshape(-1)
+    flat.flags.writeable = False
+    return flat
 
 
 def square_bits(side: int) -> np.uint64:

@@ -291,22 +291,15 @@ def _corrected(window, y, x, p, example, rules, tried):
     rim = bits != rules.square
     if not rules.rims:
         bits = rules.square
-    least, best, count = _FAR, np.int32(OUTSIDE), 0
-    for k in range(9):
-        if k == 0 and rules.stride:
-            continue  # at the coarsest level a pixel does not hold to itself
-        dy, dx = (k + 4) % 9 // 3 - 1, (k + 4) % 9 % 3 - 1
-        source = window.now[y + dy, x + dx]
-        if source < 0:
-            continue
-        name = np.int32(source - (dy << 16) - dx)
-        if example.region[name >> 16, name & 0xFFFF] == 0 or _holds(tried, count, name):
-            continue
-        tried[count] = name
-        count += 1
-        e = _energy(window, y, x, example, name, rules, bits, rim, least)
+    searched = rules.stride > 0 or (bits != rules.square and p == 1)
+    count = _continued(window, y, x, example, rules.stride > 0, tried)
+    if count == 1 and not searched:
+        return tried[0]
+    least, best = _FAR, np.int32(OUTSIDE)
+    for k in range(count):
+        e = _energy(window, y, x, example, tried[k], rules, bits, rim, least)
         if e < least:
-            least, best = e, name
+            least, best = e, tried[k]
     if least == 0:
         return best
     limit = least if best < 0 else np.int32(np.int64(least) * 256 // rules.kappa)
@@ -315,9 +308,28 @@ def _corrected(window, y, x, p, example, rules, tried):
         first = np.int64(h % np.uint64(min(rules.stride, example.order.size)))
         last = example.order.size
         return _searched(window, y, x, example, rules, bits, rim, limit, best, first, last, rules.stride)
-    if bits != rules.square and p == 1:
+    if searched:
         return _searched_rim(window, y, x, example, rules, bits, least, best, h)
     return best
+
+
+@njit(cache=True, nogil=True)
+def _continued(window, y, x, example, coarsest, names):
+    """The coherence search: lists the sources that continue those of a pixel and its neighbours; gives their number."""
+    count = 0
+    for k in range(9):
+        if k == 0 and coarsest:
+            continue  # at the coarsest level a pixel does not hold to itself
+        dy, dx = (k + 4) % 9 // 3 - 1, (k + 4) % 9 % 3 - 1
+        source = window.now[y + dy, x + dx]
+        if source < 0:
+            continue
+        name = np.int32(source - (dy << 16) - dx)
+        if example.region[name >> 16, name & 0xFFFF] == 0 or _holds(names, count, name):
+            continue
+        names[count] = name
+        count += 1
+    return count
 
 
 @njit(inline="always")
