@@ -30,9 +30,19 @@ _HALF = 0.5
 
 
 class Footprint:
-    """Grows with a stroke at `level` from `origin`, on pixels that are `finer` levels finer (coarser, if negative)."""
+    """Grows with a stroke from `origin`, on pixels that are `finer` levels finer than its own (coarser, if negative).
 
-    def __init__(self, brush: Brush, origin: tuple[int, int], finer: int = 0, tip: Pattern | None = None) -> None:
+    `within`: the only pixels that matter; without it, a stroke that takes too many of them is refused.
+    """
+
+    def __init__(
+        self,
+        brush: Brush,
+        origin: tuple[int, int],
+        finer: int = 0,
+        tip: Pattern | None = None,
+        within: Rect | None = None,
+    ) -> None:
         dynamics = brush.dynamics
         for name in ("opacity", "flow"):
             dynamics = dynamics.delete(name) if name in dynamics else dynamics
@@ -45,6 +55,7 @@ class Footprint:
         self._shift = tuple(left_over)
         self._tiles: set[tuple[int, int]] = set()
         self._laid = 0
+        self._within = None if within is None else _moved(within, -self._origin[0], -self._origin[1])
 
     def lay(self, points: np.ndarray) -> list[tuple[Rect, np.ndarray]]:
         """More points, float64 (n, 6), known to be good: rectangles and what is taken of them, bool (h, w).
@@ -57,16 +68,19 @@ class Footprint:
         dabs[:, 2] *= self._scale
         discs = kernels.as_discs(dabs, 0.0, 0.0, np.array([np.inf, np.inf, -np.inf, -np.inf]))
         boxes = _boxes(discs)
-        self._count(discs, boxes)
+        if self._within is None:
+            self._count(discs, boxes)
         found = []
-        for first, last, box in _groups(boxes):
+        for first, last, around in _groups(boxes):
+            box = around if self._within is None else around.intersect(self._within)
+            if box.empty:
+                continue
             mask = np.zeros((box.height, box.width), np.bool_)
             if self._tip is None:
                 _take(mask, discs[first:last], float(box.x0), float(box.y0))
             else:
                 self._stamp(mask, discs, range(first, last), box)
-            x, y = self._origin
-            found.append((Rect(box.x0 + x, box.y0 + y, box.x1 + x, box.y1 + y), mask))
+            found.append((_moved(box, *self._origin), mask))
         self._laid += len(dabs)
         return found
 
@@ -88,10 +102,17 @@ class Footprint:
             x0, y0, x1, y1 = (int(v) for v in _boxes(discs[index : index + 1])[0])
             for y in range(y0, y1, TILE):
                 for x in range(x0, x1, TILE):
+                    whole = Rect.at(x, y, TILE, TILE)
+                    place = whole.intersect(box)
+                    if place.empty:
+                        continue
                     tile = np.zeros((TILE, TILE), np.float32)
                     self._tip.lay(tile, discs, np.array([index]), self._laid, (x, y))
-                    place = Rect.at(x, y, TILE, TILE).intersect(box)
-                    mask[place.slices(box)] |= tile[place.slices(Rect.at(x, y, TILE, TILE))] >= _HALF
+                    mask[place.slices(box)] |= tile[place.slices(whole)] >= _HALF
+
+
+def _moved(rect: Rect, x: int, y: int) -> Rect:
+    return Rect(rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y)
 
 
 def _boxes(discs: np.ndarray) -> np.ndarray:

@@ -13,12 +13,12 @@ import numpy as np
 from engine.painting import archive, export, replay
 from engine.painting import commands as c
 from engine.painting import requests as q
+from engine.painting.drawn import POINTS_CAP
 from engine.painting.imports import open_image
 from engine.painting.opening import open_painting
 from engine.painting.recording import Recording, read
 from engine.painting.session import Session
 from engine.painting.settling import settled
-from engine.painting.stroke import POINTS_CAP
 from engine.painting.value import Painting
 
 LIVE_SECONDS = 70.0  # that the strokes of a recording take at most when it plays live

@@ -6,9 +6,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from immutables import Map
 
-from engine.brush import kinds, tip
+from engine.brush import tip
 from engine.brush.checks import BrushError, shown
 from engine.brush.footprint import Footprint
 from engine.brush.record import Brush
@@ -18,10 +17,10 @@ from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.painting.bed import Bed, Change
-from engine.painting.commands import Stroke, Swap
+from engine.painting.commands import Swap
+from engine.painting.drawn import Drawn
 from engine.painting.examples import KIND, exemplar_of, key_of
-from engine.painting.points import fitted
-from engine.painting.stroke import POINTS_CAP, LiveStroke
+from engine.painting.stroke import LiveStroke
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.texture.example.exemplar import Exemplar
 
@@ -48,7 +47,7 @@ def sown(painting: Painting, name: str, detail: int, where: str) -> Sown:
     return Sown(name, key_of(texture, detail), exemplar_of(texture, detail))
 
 
-class LiveGrowth:
+class LiveGrowth(Drawn):
     """A stroke with an example that still grows; otherwise as `LiveStroke`."""
 
     flattened = False  # what the layer has of examples stays that
@@ -63,43 +62,21 @@ class LiveGrowth:
         layer: str | None = None,
         seed: int | None = None,
     ) -> None:
-        kinds.check(brush)
-        self.base, self.layer = layer_for(painting, layer)
-        self.before = painting
+        super().__init__(painting, level, origin, brush, layer, seed)
         if self.layer.alpha_locked:
             raise Refusal(f"stroke: found layer {self.layer.name!r} with locked alpha, expected one without")
-        self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
-        self.dropped = 0
-        self.extra: Map = Map()
-        self._named = layer
-        self._points: list[np.ndarray] = []
-        self._count = 0
         own = painting.seed if seed is None else seed
         grid = _grid(brush, level)
         shape = tip.resolve(brush, painting.textures, level, own)
-        begin = partial(Footprint, brush, origin, grid - level, shape)
+        within = growths.bounds(self.layer.growth, grid) if brush.mode == "erase" else None
+        begin = partial(Footprint, brush, origin, grid - level, shape, within)
         self.bed = Bed(self.layer.growth, level, begin, _change(brush, grid, painting, own))
 
-    @property
-    def full(self) -> bool:
-        return self._count >= POINTS_CAP
-
-    @property
-    def empty(self) -> bool:
-        return self._count == 0
-
-    def add(self, points: np.ndarray) -> Rect:
-        """As `LiveStroke.add`, but nothing looks different before the bed is followed."""
-        table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
-        self.dropped += dropped
-        return self.lay(table)
-
     def lay(self, points: np.ndarray) -> Rect:
-        """As `add`, for points float64 (n, 6) that are known to be good; BrushError if the stroke becomes too large."""
+        """As `LiveStroke.lay`, but nothing looks different before the bed is followed."""
         if len(points):
             self.bed.lay(points)
-            self._points.append(points)
-            self._count += len(points)
+            self._keep(points)
         return Rect(0, 0, 0, 0)
 
     @property
@@ -112,10 +89,6 @@ class LiveGrowth:
         """The layers as they are to be seen."""
         return self.bed.over(self.base.root, self.layer.name)
 
-    def rebase(self, painting: Painting, base: Group) -> None:
-        """The painting below, further refined: with and without the layer that the stroke made."""
-        self.before, self.base = painting, replace(self.base, root=base)
-
     def commit(self) -> Painting:
         """The painting with the stroke on its layer, refined as far as it is."""
         if self.empty:
@@ -123,14 +96,6 @@ class LiveGrowth:
         if self.bed.growth is self.layer.growth:
             return self.base
         return replace(self.base, root=layers.with_growth(self.base.root, self.layer.name, self.bed.growth))
-
-    def to_command(self) -> Stroke:
-        """The command that does the same; Refusal if there is no point."""
-        if self.empty:
-            raise Refusal("stroke: found no point, expected one at least")
-        points = np.concatenate(self._points)
-        points.flags.writeable = False
-        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra)
 
 
 def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
@@ -146,7 +111,9 @@ def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
 
 def _grid(brush: Brush, level: int) -> int:
     """The level whose pixels are taken."""
-    grid = level if brush.example_level is None else brush.example_level
+    if brush.mode == "erase" or brush.example_level is None:
+        return level
+    grid = brush.example_level
     if abs(grid - level) > FURTHEST:
         raise BrushError(
             "brush.example_level", shown(grid), f"from {level - FURTHEST} to {level + FURTHEST} at level {level}"

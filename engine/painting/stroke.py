@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from immutables import Map
 
 from engine.brush import kinds, raster, relief, tip
 from engine.brush.checks import BrushError
@@ -24,23 +23,17 @@ from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
 from engine.numeric.address import Rect
 from engine.painting.bed import Bed, Meeting
-from engine.painting.commands import Stroke
-from engine.painting.points import fitted
+from engine.painting.drawn import Drawn
 from engine.painting.scenery import Scenery
-from engine.painting.value import Painting, Refusal, layer_for
+from engine.painting.value import Painting
 from engine.texture.planes import Planes
 
-POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
 
+class LiveStroke(Drawn):
+    """A stroke that edits what is there.
 
-class LiveStroke:
-    """A stroke that still grows, on the painting as it was when the pen touched down.
-
-    `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
-    points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording;
     `bed`: what is painted with examples on the layer, if the stroke erases it; `flattened`: whether it was made paint
-    because the stroke goes over it.
-    Refusal if the layer is locked or the brush cannot be used.
+    because the stroke goes over it.  BrushError if the brush cannot be used.
     """
 
     def __init__(
@@ -53,18 +46,10 @@ class LiveStroke:
         layer: str | None = None,
         seed: int | None = None,
     ) -> None:
-        kinds.check(brush)
+        super().__init__(painting, level, origin, brush, layer, seed)
         if kinds.MODES[brush.mode].edit is None:
             raise BrushError("brush.mode", f'"{brush.mode}"', "a mode that edits what is there")
-        self.base, self.layer = layer_for(painting, layer)
-        self.before = painting
-        self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
         self.cache = cache
-        self.dropped = 0
-        self.extra: Map = Map()
-        self._named = layer
-        self._points: list[np.ndarray] = []
-        self._count = 0
         self._stroker = Stroker(brush)
         own = painting.seed if seed is None else seed
         self._tip = tip.resolve(brush, painting.textures, level, own)
@@ -82,34 +67,11 @@ class LiveStroke:
         if self.brush.mode != "erase" or not self.layer.growth or self.layer.alpha_locked:
             return None
         level = self.level
-        begin = partial(Footprint, self.brush, self.origin, 0, self._tip)
+        within = growths.bounds(self.layer.growth, level)
+        begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within)
         return Bed(self.layer.growth, level, begin, lambda growth, rect, mask: growths.cut(growth, level, rect, mask))
 
-    @property
-    def full(self) -> bool:
-        """Whether the stroke has as many points as one command can hold: end it and begin another."""
-        return self._count >= POINTS_CAP
-
-    @property
-    def empty(self) -> bool:
-        return self._count == 0
-
-    def add(self, points: np.ndarray) -> Rect:
-        """More of what the pen told: float64 (n, 2..6) as POINT_COLUMNS, in pixels of the level from the origin.
-
-        Points that are no points are dropped and counted, the others brought within their bounds; those of a recording
-        are taken as they are.
-        Returns the pixels of the level whose preview may have changed.
-        """
-        table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
-        self.dropped += dropped
-        return self.lay(table)
-
     def lay(self, points: np.ndarray) -> Rect:
-        """As `add`, for points float64 (n, 6) that are known to be good.
-
-        BrushError if they make the stroke too large: it is as it was before.
-        """
         if not len(points):
             return Rect(0, 0, 0, 0)
         try:
@@ -123,10 +85,9 @@ class LiveStroke:
         except BrushError:
             self._again()
             raise
-        self._points.append(points)
-        self._count += len(points)
+        self._keep(points)
         self._edit = None
-        if self.bed is None and self.layer.growth and not self.flattened:
+        if self.brush.mode != "erase" and self.layer.growth:
             self._flatten(dabs)
         return dirty
 
@@ -138,10 +99,6 @@ class LiveStroke:
             self.layer = flattened(self.layer, self.cache)
             root = layers.with_pyramid(self.base.root, self.layer.name, self.layer.pyramid)
             self.base = replace(self.base, root=layers.with_growth(root, self.layer.name, ()))
-
-    def rebase(self, painting: Painting, base: Group) -> None:
-        """The painting below, further refined: with and without the layer that the stroke made."""
-        self.before, self.base = painting, replace(self.base, root=base)
 
     def _again(self) -> None:
         """Lays the points that were kept, and nothing else."""
@@ -191,11 +148,3 @@ class LiveStroke:
         if self.bed is not None and self.bed.growth is not self.layer.growth:
             root = layers.with_growth(root, name, self.bed.growth)
         return self.base if root is self.base.root else replace(self.base, root=root)
-
-    def to_command(self) -> Stroke:
-        """The command that does the same; Refusal if there is no point."""
-        if self.empty:
-            raise Refusal("stroke: found no point, expected one at least")
-        points = np.concatenate(self._points)
-        points.flags.writeable = False
-        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra)

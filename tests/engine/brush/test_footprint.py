@@ -15,10 +15,10 @@ from engine.numeric.address import Rect
 WHOLE = Rect(-600, -600, 1200, 1200)
 
 
-def taken(brush, points, origin=(0, 0), finer=0, portions=1, whole=WHOLE, pattern=None):
+def taken(brush, points, origin=(0, 0), finer=0, portions=1, whole=WHOLE, pattern=None, within=None):
     """All pixels of `whole` that a stroke takes: bool (h, w)."""
     out = np.zeros((whole.height, whole.width), bool)
-    footprint = Footprint(from_json(brush), origin, finer, pattern)
+    footprint = Footprint(from_json(brush), origin, finer, pattern, within)
     for part in np.array_split(rows(points), portions):
         for rect, mask in footprint.lay(part):
             assert mask.shape == (rect.height, rect.width)
@@ -96,6 +96,10 @@ def test_a_tip_gives_the_dab_its_shape():
     assert 0.3 < (found & full).sum() / full.sum() < 0.7
     assert not (found & ~full).any()
     assert np.array_equal(found, taken(brush, [(100, 100), (110, 100)], portions=2, pattern=pattern))
+    within = Rect(60, 90, 120, 300)
+    part = taken(brush, [(100, 100)], pattern=pattern, within=within)
+    assert np.array_equal(part[within.slices(WHOLE)], found[within.slices(WHOLE)])
+    assert part.sum() == part[within.slices(WHOLE)].sum() < found.sum()
 
 
 def test_strokes_that_are_too_large_are_refused():

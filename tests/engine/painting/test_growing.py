@@ -195,6 +195,23 @@ def test_a_live_stroke_of_paint_shows_what_its_commit_will_be(meadow):
         assert alike(pixels(after), pixels(direct.painting))
 
 
+def test_an_eraser_may_be_as_large_as_it_likes(meadow):
+    grown = [stroke([[20, 20]]), stroke([[60, 60]], depth=1)]
+    path = [[9, 9], [20, 20]]
+    session = done(fresh(meadow), [*grown, stroke(path, mode="erase", radius=4000, depth=1, example_level=8)])
+    assert [plot.depth for plot in growth(session)] == [0.0]
+    session.do(stroke([[9, 9]], mode="erase", radius=2500))
+    assert growth(session) == ()
+
+
+def test_an_eraser_under_alpha_lock_takes_nothing(meadow):
+    lock = c.SetLayer("Layer 1", alpha_locked=True)
+    session = done(fresh(meadow), [stroke([[20, 20]]), lock])
+    before = growth(session)
+    session.do(stroke([[20, 20]], mode="erase"))
+    assert growth(session) is before
+
+
 def test_swapping_an_example_is_one_step(meadow):
     session = done(fresh(meadow), [stroke([[20, 20], [60, 20]]), stroke([[20, 60], [60, 60]], depth=1)])
     before = pixels(session.painting)
