@@ -195,6 +195,19 @@ def test_a_live_stroke_of_paint_shows_what_its_commit_will_be(meadow):
         assert alike(pixels(after), pixels(direct.painting))
 
 
+def test_whatever_looks_at_the_canvas_sees_the_final_pixels(meadow):
+    canvas = c.parse({"do": "texture", "name": "piece", "maker": "canvas", "rect": [0, 10, 10, 40, 30]})
+    clone = stroke([[40, 60]], mode="raster", op={"name": "clone", "layer": "Layer 1", "offset": [0, -40]}, radius=8)
+    found = []
+    for after in (lambda session: None, refined):
+        session = done(fresh(meadow), [stroke([[10, 20], [70, 20]]), c.AddLayer("top")], after)
+        done(session, [canvas, stroke([[40, 60]], mode="paint", radius=20), clone], after)
+        found.append((session.painting.textures["piece"].source, pixels(session.painting)))
+    assert found[0][0] == found[1][0]
+    assert alike(found[0][1], found[1][1])
+    assert found[0][1][1][0, 76, 56] != 0.0
+
+
 def test_an_eraser_may_be_as_large_as_it_likes(meadow):
     grown = [stroke([[20, 20]]), stroke([[60, 60]], depth=1)]
     path = [[9, 9], [20, 20]]
