@@ -52,6 +52,11 @@ class Mask:
         return self.version != self.saved
 
     @property
+    def opaque(self) -> bool:
+        """Whether the picture has no holes."""
+        return bool(self.pixels[..., 3].min() > 0)
+
+    @property
     def can_undo(self) -> bool:
         return bool(self._before)
 

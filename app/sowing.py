@@ -104,6 +104,9 @@ def add(desk: Desk, path: Path) -> None:
         return
     _refresh(desk, name)
     edit(desk)
+    mask = desk.examples.mask
+    if mask is not None and mask.opaque:
+        mask.way = "colour"  # what is to be cut out of a photograph is its background
     size = f", made smaller: at most {keeping.SIDE} pixels" if smaller else ""
     desk.say(f"Added the example “{name}”{size}")
 

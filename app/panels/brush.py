@@ -132,7 +132,7 @@ class BrushPanel:
 
     def _settings(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
-            if desk.brush.mode == "example" and name in _UNFELT:
+            if desk.brush.mode == "example" and not desk.erasing and name in _UNFELT:
                 continue
             lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
             form = "%.1f px" if row.unit == "px" else "%.2f"

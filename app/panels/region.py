@@ -83,6 +83,8 @@ class RegionPanel:
             changed, radius = w.slider("Size", mask.radius, (1.0, 128.0), hint, form="%.1f px", curved=True)
             if changed:
                 mask.radius = round(max(RADII[0], min(RADII[1], radius)), 1)
+        if mask.way == "colour":
+            imgui.text_disabled("Click on the background")
         imgui.spacing()
         room = (imgui.get_content_region_avail().x - gap) / 2
         rows = (
@@ -94,7 +96,7 @@ class RegionPanel:
         for i, (label, hint, do) in enumerate(rows):
             if i % 2:
                 imgui.same_line(0, gap)
-            if w.text_button(label, hint, width=room):
+            if w.text_button(label, hint, enabled=i > 0 or not mask.opaque, width=room):
                 do()
         side = imgui.get_frame_height()
         if w.icon_button("undo", icons.UNDO, "Take back  (Ctrl+Z over the picture)", enabled=mask.can_undo, size=side):

@@ -195,6 +195,7 @@ def test_a_large_picture_is_made_smaller(desk, tmp_path):
     sowing.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
     assert desk.examples.mask.pixels.shape == (10, 1024, 4)
     assert "smaller" in desk.message[0]
+    assert desk.examples.mask.way == "colour"  # it has no holes: its background is to be clicked
 
 
 def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
