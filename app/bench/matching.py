@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -188,8 +189,8 @@ def _preview(example: np.ndarray, repeats: int) -> Figure:
 
 
 def _solid(example: np.ndarray, side: int, repeats: int) -> Figure:
-    """One turn of a cube against the transforms of all its slices."""
-    wanted = solid.patterns(example, side, SHAPE)
+    """One turn of a cube, without those of smaller ones, against the transforms of all its slices."""
+    wanted = replace(solid.patterns(example, side, SHAPE), coarser=None)
     start = solid.noise(wanted.oriented.colours.count, side, 1)
     made = matching.filters_for(start, wanted.oriented.shape)
 

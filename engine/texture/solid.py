@@ -6,20 +6,25 @@ counts little: the histograms of its bands are those of a plane's, which a cube 
 in three directions agree on streaks along the axes, which each of them takes for its own fine detail.  So the six
 diagonal directions have slices too: x + y = const and so on, whose voxels are as far apart as those of an example of
 which every sqrt(2)nd row is looked at.  The cube is seamless in all three directions, and so are all slices.
+
+What is large in a cube settles slowest, for a slice has few samples of it, and shows in single slices that are unlike
+the rest.  So a cube grows from one of half its size, of what the example has at that size, which takes an eighth of the
+time for each turn and has more of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from engine.numeric import histograms, laplacian, steerable
-from engine.numeric.colour_axes import axes_of
+from engine.numeric.colour_axes import ColourAxes, axes_of
 from engine.numeric.hashing import fold_key, hash_plane
+from engine.numeric.pyramid import reduce
 from engine.numeric.resample import rows_at
 from engine.numeric.steerable import Filters, Place, finished
 from engine.texture.matching import Pattern, Shape, Step, analysed, filters_for
@@ -32,6 +37,8 @@ _SLANTED = np.float32(0.5)  # that of slices across diagonals
 # How far each turn goes, the average being 1: solids that agree in part pull slowly.
 _STRIDE = np.float32(2.4)
 _TOGETHER = 1 << 18  # voxels of the slices that are worked on at once
+_SMALLEST = 32  # side of a cube that grows from a smaller one
+_MORE = 3  # times as many turns of smaller cubes
 
 
 class Cut(NamedTuple):
@@ -49,21 +56,30 @@ CUTS = (Cut(1, 0), Cut(0, 1), Cut(0, 2), *(Cut(a, b, slant) for a, b in ((0, 1),
 @dataclass(frozen=True, slots=True, eq=False)
 class Patterns:
     """What is matched of an example in a cube: `oriented`, by slices across the axes; `slanted`, across diagonals;
-    `round`, by the pyramid in three dimensions."""
+    `round`, by the pyramid in three dimensions; `coarser`, in the cube of half the size from which it grows."""
 
     oriented: Pattern
     slanted: Pattern
     round: Pattern
+    coarser: Patterns | None = None
 
 
 def patterns(picture: np.ndarray, side: int, shape: Shape) -> Patterns:
     """The patterns of an example (C, h, w) for a cube of `side`."""
+    return _patterns(picture, side, shape, axes_of(picture))
+
+
+def _patterns(picture: np.ndarray, side: int, shape: Shape, axes: ColourAxes) -> Patterns:
     shape = shape.within((side, side), picture.shape[1:])
-    axes = axes_of(picture)
+    coarser = None
+    if side % 2 == 0 and side >= _SMALLEST and shape.levels > 1:
+        even = picture[:, : picture.shape[1] // 2 * 2, : picture.shape[2] // 2 * 2]
+        half = reduce(np.ascontiguousarray(even))
+        coarser = _patterns(half, side // 2, replace(shape, levels=shape.levels - 1), axes)
     mirrored = np.concatenate([picture, picture[:, ::-1]], axis=1)
     spread = rows_at(mirrored, np.arange(0.0, mirrored.shape[1] - 1.0, 2.0**0.5))
     round_ = analysed(picture, Shape("laplacian", shape.levels), axes)
-    return Patterns(analysed(picture, shape, axes), analysed(spread, shape, axes), round_)
+    return Patterns(analysed(picture, shape, axes), analysed(spread, shape, axes), round_, coarser)
 
 
 def noise(count: int, side: int, seed: int) -> np.ndarray:
@@ -81,32 +97,59 @@ def matching(
     wanted: Patterns, start: np.ndarray, iterations: int = ITERATIONS, threads: Executor | None = None
 ) -> Iterator[Step]:
     """The steps that make cubes `start` (R, n, n, n) like an example's `patterns`; the last has the finished solid."""
-    cubes = np.array(start, np.float32)
+    yield from _grown(wanted, np.array(start, np.float32), iterations, _MORE * iterations, threads)
+
+
+def _grown(wanted: Patterns, cubes: np.ndarray, turns: int, before: int, threads: Executor | None) -> Iterator[Step]:
+    """Cubes, worked on in place, that first are of half the size for `before` turns."""
+    part = 0.0
+    if wanted.coarser is not None and turns and len(cubes):
+        part = before / (before + 8.0 * turns)
+        fine, coarse = zip(*(laplacian.build(cube, 1, dimensions=3) for cube in cubes), strict=True)
+        smaller = np.stack(coarse)
+        for step in _grown(wanted.coarser, smaller, before, _MORE * before, threads):
+            yield Step(part * step.done)
+        for cube, *bands in zip(cubes, fine, smaller, strict=True):
+            cube[...] = laplacian.collapse(bands, dimensions=3)
+    for step in _turned(wanted, cubes, turns, threads):
+        yield Step(part + (1.0 - part) * step.done, step.planes)
+
+
+def _turned(wanted: Patterns, cubes: np.ndarray, turns: int, threads: Executor | None) -> Iterator[Step]:
+    """Some turns of cubes, in place."""
     made = filters_for(cubes, wanted.oriented.shape)
     _match_voxels(cubes, wanted.oriented)
     parts = 1 + len(CUTS)
-    total, done = iterations * len(cubes) * parts, 0
-    for turn in range(iterations):
+    total, done = turns * len(cubes) * parts, 0
+    for turn in range(turns):
         for channel, cube in enumerate(cubes):
-            mean = _ROUND * _round(cube, wanted.round, channel)
-            whole = _ROUND
-            yield Step((done + 1) / total)
-            for k, cut in enumerate(CUTS):
-                pattern, weight = (wanted.slanted, _SLANTED) if cut.slant else (wanted.oriented, np.float32(1.0))
-                slices = _sliced(cube, cut, made, pattern.bands[channel], threads)
-                slices *= weight
-                _laid(mean, cut)[_places(len(cube), cut)] += slices
-                whole += weight
-                yield Step((done + k + 2) / total)
-            mean *= np.float32(1.0) / whole
-            mean -= cube
-            mean *= _STRIDE
-            cube += mean
+            for piece in _changed(wanted, cube, channel, made, threads):
+                yield Step((done + piece) / total)
             done += parts
         _match_voxels(cubes, wanted.oriented)
-        yield Step((turn + 1) / iterations, cubes.copy())
+        yield Step((turn + 1) / turns, cubes.copy())
     if not total:
         yield Step(1.0, cubes)
+
+
+def _changed(
+    wanted: Patterns, cube: np.ndarray, channel: int, made: Filters, threads: Executor | None
+) -> Iterator[int]:
+    """One turn of a cube, in place; tells how many pyramids are done."""
+    mean = _ROUND * _round(cube, wanted.round, channel)
+    whole = _ROUND
+    yield 1
+    for k, cut in enumerate(CUTS):
+        pattern, weight = (wanted.slanted, _SLANTED) if cut.slant else (wanted.oriented, np.float32(1.0))
+        slices = _sliced(cube, cut, made, pattern.bands[channel], threads)
+        slices *= weight
+        _laid(mean, cut)[_places(len(cube), cut)] += slices
+        whole += weight
+        yield k + 2
+    mean *= np.float32(1.0) / whole
+    mean -= cube
+    mean *= _STRIDE
+    cube += mean
 
 
 def _laid(cube: np.ndarray, cut: Cut) -> np.ndarray:

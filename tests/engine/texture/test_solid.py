@@ -86,12 +86,37 @@ def streaks(cube):
     return found[fine & along].mean() / found[fine].mean()
 
 
+def test_a_cube_that_grows_from_a_smaller_one_has_no_streaks(monkeypatch):
+    example = specimens.granite((96, 96))[:1]
+    found = streaks(made(example, 48))
+    assert found < 1.5
+    monkeypatch.setattr(solid, "_SMALLEST", 1 << 16)
+    without = streaks(made(example, 48))
+    assert found < 0.7 * without, (found, without)
+
+
 def test_slices_across_diagonals_take_streaks_away(monkeypatch):
+    """Also of a cube that does not grow from a smaller one."""
+    monkeypatch.setattr(solid, "_SMALLEST", 1 << 16)
     example = specimens.granite((96, 96))[:1]
     found = streaks(made(example, 48))
     monkeypatch.setattr(solid, "CUTS", solid.CUTS[:3])
     without = streaks(made(example, 48))
     assert found < 0.8 * without, (found, without)
+
+
+def test_no_single_plane_is_unlike_the_example():
+    example = specimens.moss((64, 64))
+    pattern = analysed(example, Shape())
+    flat = []
+    for seed in range(3):
+        start = matching.noise(pattern.colours.count, (64, 64), seed)
+        flat.append(unlikeness(picture(pattern, matched(pattern, start)), example))
+    cube = made(example, 64)
+    found = [
+        unlikeness(np.ascontiguousarray(np.take(cube, k, axis)), example) for axis in (1, 2, 3) for k in range(0, 64, 2)
+    ]
+    assert max(found) < 1.5 * np.mean(flat), max(found) / np.mean(flat)
 
 
 def test_no_seams_in_any_direction(granite):
