@@ -109,6 +109,7 @@ class Easel:
     def close(self) -> None:
         """Waits for files that are being written."""
         self.filing.close()
+        self.grower.close()
 
     # --- the painting ------------------------------------------------------------------------------------------------
 

@@ -46,6 +46,7 @@ class Grower:
         self._known: tuple[Group | None, list[Layer]] = None, []
         self._told: float | None = None  # when the window hears of it again; None: it knows that nothing grows
         self._pool: Executor | None = None
+        self._failed: Growth | None = None  # what could not be refined: it would fail again
 
     @property
     def behind(self) -> bool:
@@ -66,28 +67,35 @@ class Grower:
     def step(self) -> None:
         """A piece of the refinement, some milliseconds."""
         bed, layers = self._bed(), self._waiting()
-        if bed is not None:
-            assert self.host.live is not None
-            grown = self._advance(bed.growth)
-            if grown is not bed.growth:
+        old = bed.growth if bed is not None else layers[0].growth if layers else None
+        if old is not None:
+            try:
+                grown = self._advance(old)
+            except Exception:
+                self._failed = old
+                raise
+            if grown is not old and bed is not None and self.host.live is not None:
                 self._seen(self.host.live, bed.follow(grown))
-        elif layers:
-            grown = self._advance(layers[0].growth)
-            if grown is not layers[0].growth:
+            elif grown is not old:
                 self._amend(layers[0], grown)
         self._tell()
+
+    def close(self) -> None:
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
 
     def _bed(self) -> Bed | None:
         """What the stroke in progress grows, if that is not done."""
         bed = None if self.host.live is None else self.host.live.bed
-        return None if bed is None or is_settled(bed.growth) else bed
+        return None if bed is None or bed.growth is self._failed or is_settled(bed.growth) else bed
 
     def _waiting(self) -> list[Layer]:
         """The layers of the painting that are to be refined, the active one first."""
         painting, live = self.host.session.painting, self.host.live
         if self._known[0] is not painting.root:
             self._known = painting.root, waiting(painting.root)
-        found = [layer for layer in self._known[1] if live is None or layer.id != live.layer.id]
+        held = None if live is None else live.layer.id
+        found = [layer for layer in self._known[1] if layer.id != held and layer.growth is not self._failed]
         return sorted(found, key=lambda layer: layer.name != painting.active)
 
     def _advance(self, growth: Growth) -> Growth:

@@ -195,6 +195,29 @@ def test_undo_in_the_middle_and_back(window):
     assert not window.tiles[0, 0, 0].any()
 
 
+def test_more_threads_make_no_difference(window, monkeypatch):
+    monkeypatch.setattr("os.cpu_count", lambda: 4)
+    window.easel.do(q.Do(stroke([[0, y] for y in range(0, 400, 40)], radius=60)))
+    check(window)
+    window.easel.close()
+
+
+def test_a_fault_is_told_once_and_painting_goes_on(window, monkeypatch):
+    def broken(*_):
+        raise RuntimeError("it does not grow")
+        yield
+
+    easel = window.easel
+    monkeypatch.setattr("engine.painting.grower.settling", broken)
+    easel.do(q.Do(stroke(LONG)))
+    with pytest.raises(RuntimeError):
+        window.work()
+    window.work()
+    monkeypatch.undo()
+    easel.do(q.Do(stroke([[45, 10], [45, 70]])))
+    check(window)
+
+
 def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(window, tmp_path):
     from engine.painting.opening import open_painting
 
