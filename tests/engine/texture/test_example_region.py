@@ -7,11 +7,12 @@ import pytest
 from exemplars import bounded, unbounded
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import ndimage
 
 from engine.numeric.address import Rect
 from engine.texture.example import region as regions
 from engine.texture.example import tiles
-from engine.texture.example.exemplar import analysed
+from engine.texture.example.exemplar import PAD, analysed
 from engine.texture.example.region import empty, painted, refined, refining
 
 EXEMPLARS = {"bounded": bounded(), "unbounded": unbounded(), "two passes": bounded(passes=2, neighbourhood=5)}
@@ -151,3 +152,25 @@ def test_tiny_examples(shape):
     for mask in (None, np.indices(shape).sum(0) % 3 == 0):
         done = refined(dabbed(empty(analysed(pixels, mask), 1), (10, 10, 12)))
         assert (sources(done, Rect.at(-2, -2, 25, 25)) >= 0).sum() == disc(12).sum()
+
+
+def depths(mask):
+    """How far each pixel lies from the outline."""
+    return ndimage.distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize(("side", "values"), [(64, {}), (120, {}), (120, {"passes": 2})])
+def test_rims_come_from_rims_and_insides_from_insides(side, values, seed):
+    exemplar = bounded(side, **values)
+    y, x = np.mgrid[:160, :260]
+    mask = abs(y - 80 - 30 * np.sin(x / 40.0)) < 34
+    mask[:, :20] = mask[:, -20:] = False
+    mask[70:90, 120:140] = False
+    rect = Rect.at(-31, 17, 260, 160)
+    names = sources(refined(painted(empty(exemplar, seed), rect, mask)), rect)
+    here, there = depths(exemplar.mask), depths(mask)
+    found = np.zeros(mask.shape)
+    found[mask] = here[(names[mask] >> 16) - PAD, (names[mask] & 0xFFFF) - PAD]
+    assert (found[mask & (there <= 3)] <= 3).mean() > 0.9
+    assert (found[there > 6] <= 3).mean() < 0.1
