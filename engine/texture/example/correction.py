@@ -359,7 +359,7 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     """
     first, last = _alike(example.starts, ones(window.bits[y, x]))
     step = max(1, (last - first) // _SHAPES)
-    first += np.int64(h % np.uint64(step))  # type: ignore[arg-type]
+    first += np.int64(h % np.uint64(step))
     nearest, count = np.int32(SIDE * SIDE + 1), 0
     for i in range(first, last, step):
         apart = _apart(bits, example, example.order[i], rules)
