@@ -217,13 +217,13 @@ class ExampleState:
     def ask(self, post: Callable[[Request], None], now: float) -> None:
         """Posts the sample stroke that the panel shows, no faster than it can be seen."""
         entry = self.entry
-        wanted = None if entry is None else (self.command(entry, self.tab == "settings"), entry.revision, self.sampled)
+        wanted = None if entry is None else (self.command(entry, self.tab == "settings"), self.sampled, self.size)
         if wanted != self._asked:
             self._asked, self._since = wanted, self._since or max(now, self._sent + SETTLE)
         if self._since and now >= self._since:
             self._since, self._sent = 0.0, now
             if wanted is not None and min(self.sampled) > 0:
-                post(sample(wanted[0], self.sampled))
+                post(sample(*wanted))
 
 
 def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
@@ -236,10 +236,11 @@ def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
     return DefineTexture(entry.title, "example", Map(given))
 
 
-def sample(command: DefineTexture, size: tuple[int, int]) -> Swatch:
-    """A broad stroke with an example."""
+def sample(command: DefineTexture, size: tuple[int, int], octaves: int = 0) -> Swatch:
+    """A broad stroke with an example, which is so many octaves larger than it is."""
     radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
     brush = Brush(radius=radius, mode="example", example=command.name, hardness=1.0)
+    brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
     return Swatch("example sample", brush, size, textures=(command,), soon=True)
 
 

@@ -184,6 +184,8 @@ def paint_region(desk: Desk, first: PenEvent) -> Gesture:
     mask = desk.examples.mask
     if mask is None:
         return
+    way = mask.way
+    mask.way = "out" if first.eraser else way
     mask.begin(*desk.examples.place(first.x, first.y))
     done = False
     try:
@@ -197,6 +199,7 @@ def paint_region(desk: Desk, first: PenEvent) -> Gesture:
     finally:
         if not done:
             mask.abandon()
+        mask.way = way
 
 
 def swap(desk: Desk, first: PenEvent) -> Gesture:

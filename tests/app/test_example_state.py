@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app import examples, keeping, shelf, sowing
+from app import examples, keeping, shelf, sowing, tools
+from app.actions import ACTIONS
 from app.desk import Desk
 from app.examples import Entry
+from app.input.events import PenEvent
 from app.panels.examples import tile
+from app.panels.strip import StripPanel
 from app.view import Place, View
 from engine.brush.record import Brush
 from engine.painting.commands import Swap, parse, to_json
@@ -292,3 +295,81 @@ def test_thumbnails_grow_into_the_room_that_there_is():
     assert 68.0 < wide < 104.0
     assert -(-26 // int(1102 / (wide + 6))) * (wide + 22) <= 330
     assert tile(3, (1096.0, 330.0), 6.0, 16.0, 1.5) == 156.0
+
+
+# --- gestures and keys -----------------------------------------------------------------------------------------------
+
+
+def pen(kind, x, y, eraser=False):
+    return PenEvent(kind, x, y, eraser=eraser)
+
+
+@pytest.fixture
+def region(desk):
+    """A region on the screen, its corner at (100, 200), two pixels of the screen for each of its own."""
+    sowing.choose(desk, named(desk, "felt"))
+    sowing.edit(desk)
+    desk.examples.spot = (100.0, 200.0, 2.0)
+    return desk.examples.mask
+
+
+def test_a_stroke_in_the_region_paints_there_and_a_pens_eraser_paints_out(desk, region):
+    before = region.inside.copy()
+    gesture = tools.paint_region(desk, pen("down", 110.0, 210.0))
+    next(gesture)
+    with pytest.raises(StopIteration):
+        gesture.send(pen("up", 130.0, 210.0))
+    assert region.inside[5, 5:15].all()
+    gesture = tools.paint_region(desk, pen("down", 110.0, 210.0, eraser=True))
+    next(gesture)
+    with pytest.raises(StopIteration):
+        gesture.send(pen("up", 130.0, 210.0))
+    assert not region.inside[5, 5:15].any()
+    assert region.way == "in"
+    region.step(-1)
+    region.step(-1)
+    assert (region.inside == before).all()
+
+
+def test_a_stroke_that_is_given_up_leaves_the_region_as_it_was(desk, region):
+    before = region.inside.copy()
+    gesture = tools.paint_region(desk, pen("down", 110.0, 210.0))
+    next(gesture)
+    gesture.send(pen("move", 130.0, 210.0))
+    gesture.close()
+    assert (region.inside == before).all()
+    assert not region.can_undo
+
+
+def test_keys_over_the_region_are_the_regions(desk, region, posted):
+    strip = StripPanel()
+    desk.pointer.x, desk.pointer.y = 110.0, 210.0
+    region.invert()
+    assert strip.takes(desk, ACTIONS["undo"])
+    assert not region.can_undo
+    radius = region.radius
+    assert strip.takes(desk, ACTIONS["larger"])
+    assert region.radius > radius
+    assert not strip.takes(desk, ACTIONS["fit"])
+    desk.pointer.x = 90.0  # beside it
+    assert not strip.takes(desk, ACTIONS["redo"])
+    assert not posted
+
+
+def test_a_click_swaps_and_escape_does_not(desk, posted):
+    sowing.choose(desk, named(desk, "felt"))
+    desk.examples.swapping = True
+    ACTIONS["escape"].do(desk)
+    assert not desk.examples.swapping
+    desk.examples.swapping = True
+    gesture = tools.swap(desk, pen("down", 400.0, 300.0))
+    next(gesture)
+    gesture.close()
+    assert desk.examples.swapping
+    assert not posted
+    gesture = tools.swap(desk, pen("down", 400.0, 300.0))
+    next(gesture)
+    with pytest.raises(StopIteration):
+        gesture.send(pen("up", 402.0, 303.0))
+    assert posted[-1].command.at == (2, 3)
+    assert not desk.examples.swapping
