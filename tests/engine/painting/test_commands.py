@@ -30,6 +30,11 @@ def strokes(draw):
     cut = draw(st.integers(2, 6))
     brush = Brush(
         radius=draw(st.floats(0.5, 4000)),
+        mode=draw(st.sampled_from(["paint", "example"])),
+        example=draw(st.none() | names),
+        depth=draw(st.none() | st.floats(-9, 9)),
+        example_level=draw(st.none() | st.integers(-9, 9)),
+        example_detail=draw(st.integers(0, 4)),
         colour=draw(st.sampled_from(["#000000", "#a0b1c2"])),
         ink=tuple(draw(st.lists(st.builds(Component, names, unit, st.just("#00ff00")), max_size=2))),
         extra=draw(later),
@@ -69,6 +74,16 @@ COMMANDS = st.one_of(
     st.builds(c.Redo, st.integers(1, c.COUNT_LIMIT), later),
     st.builds(c.View, st.floats(-4096, 4096), st.tuples(finite, whole), st.tuples(st.integers(0, 9), unit), later),
     st.builds(c.DefineTexture, names, names, later),
+    st.builds(
+        c.Swap,
+        st.integers(-c.LEVEL_LIMIT, c.LEVEL_LIMIT),
+        st.tuples(whole, whole),
+        names,
+        st.none() | names,
+        st.none() | st.floats(-(2.0**31), 2.0**31),
+        st.integers(0, 4),
+        later,
+    ),
 )
 
 
@@ -108,6 +123,11 @@ def test_points_have_their_defaults_and_are_read_only():
 
 HOSTILE = {
     "no object": ([], "found []"),
+    "swap at nothing": ({"do": "swap", "example": "a"}, "at: found nothing"),
+    "swap at half a pixel": ({"do": "swap", "example": "a", "at": [0.5, 1]}, "at: found"),
+    "swap for nothing": ({"do": "swap", "at": [1, 1]}, "example: found nothing"),
+    "swap at no depth": ({"do": "swap", "at": [1, 1], "example": "a", "depth": "x"}, 'depth: found "x"'),
+    "swap with too much detail": ({"do": "swap", "at": [1, 1], "example": "a", "example_detail": 5}, "example_detail"),
     "no do": ({}, "do: found nothing"),
     "unknown do": ({"do": "paint"}, 'do: found "paint", expected one of stroke, layer'),
     "do a list": ({"do": ["stroke"]}, "do: found"),
