@@ -9,7 +9,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output, opened
+from app.cli.output import checked_output, grown, opened
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -78,16 +78,15 @@ def _read(path: str) -> tuple[np.ndarray, list[str]]:
 
     from engine.numeric.colour import to_rgba8
     from engine.painting.rendering import folded, strips
-    from engine.painting.settling import settled_root
 
     found = opened(path)
     frame = found.painting.frame
     if frame.area > PIXELS:
         raise Refused(f"{path}: found a frame of {frame.width} x {frame.height}, expected at most {PIXELS} pixels")
     out = np.empty((frame.height, frame.width, 4), np.uint8)
-    row = 0
+    root, row = folded(grown(path, found).root), 0
     with Progress("drawing", frame.height) as tell:
-        for strip in strips(folded(settled_root(found.painting.root)), 0, frame):
+        for strip in strips(root, 0, frame):
             out[row : row + strip.shape[1]] = to_rgba8(strip)
             row += strip.shape[1]
             tell(row)

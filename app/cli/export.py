@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from app.cli.arguments import rectangle
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output, opened, picture_of, rect_of
+from app.cli.output import checked_output, grown, opened, picture_of, rect_of
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ def run(options: argparse.Namespace) -> int:
             find(found.painting.root, options.layer)
         except LayerError as error:
             raise Refused(f"--layer: {error}") from None
+    found = replace(found, painting=grown(options.painting, found))
     if ending == ".ora":
         _painting(options, found)
     else:

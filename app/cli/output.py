@@ -30,6 +30,17 @@ def opened(path: str, tell: bool = True) -> Opened:
     return found
 
 
+def grown(path: str, found: Opened) -> Painting:
+    """What was opened, with all that was painted with examples grown; it is told if that is not what it was."""
+    from engine.painting.growths import OTHERWISE, otherwise
+    from engine.painting.settling import settled
+
+    painting = settled(found.painting)
+    if otherwise(found.marks, painting.root):
+        print(f"inkfall: {path}: {OTHERWISE}", file=sys.stderr)
+    return painting
+
+
 def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
     """The path's ending in lower case, if it is one of `endings` and its folder is there."""
     if path is None:

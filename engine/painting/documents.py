@@ -14,6 +14,7 @@ from engine.painting import archive, export, replay
 from engine.painting import commands as c
 from engine.painting import requests as q
 from engine.painting.drawn import POINTS_CAP
+from engine.painting.growths import Mark
 from engine.painting.imports import open_image
 from engine.painting.opening import open_painting
 from engine.painting.recording import Recording, read
@@ -113,7 +114,8 @@ class Document:
     """A session with what the file held.
 
     `path`: where to save it, None for what is no painting of ours; `known`: whether the session's log leads from
-    nothing to the painting; `script`: a recording still to be played; `notes`: what was lost or replaced.
+    nothing to the painting; `script`: a recording still to be played; `notes`: what was lost or replaced;
+    `marks`: of what is to be grown again.
     """
 
     session: Session
@@ -121,6 +123,7 @@ class Document:
     known: bool = True
     script: Playing | None = None
     notes: tuple[str, ...] = ()
+    marks: tuple[Mark, ...] = ()
 
 
 def opened(path: Path, live: bool = False) -> Document:
@@ -140,7 +143,7 @@ def opened(path: Path, live: bool = False) -> Document:
         folder=told.folder if told else path.parent,
         extra=told.header.extra if told else None,
     )
-    return Document(session, path if found.native else None, told is not None, None, found.notes)
+    return Document(session, path if found.native else None, told is not None, None, found.notes, found.marks)
 
 
 def save(path: Path, painting: Painting, recording: Recording | None) -> None:

@@ -89,6 +89,8 @@ class Easel:
             self.viewer.send_tile()
         elif self.grower.pending:
             self.grower.step()
+            if not self.grower.pending:
+                self.filing.grown()
         elif self.matcher.pending:
             self.matcher.step()
         elif self.examiner.pending:

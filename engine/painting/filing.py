@@ -11,6 +11,7 @@ from typing import Any, Protocol
 from engine.painting import documents
 from engine.painting import requests as q
 from engine.painting.growing import Live
+from engine.painting.growths import OTHERWISE, Mark, otherwise
 from engine.painting.session import Session
 from engine.painting.value import Painting
 
@@ -39,6 +40,7 @@ class Filing:
         self.due: float | None = None
         self._saved: object = host.session.state  # as the file has it; None for none
         self._script: documents.Playing | None = None
+        self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._known = True  # whether the session's log leads from nothing to the painting
         self._writers: list[threading.Thread] = []
         self.handlers: dict[type, Callable[[Any], None]] = {
@@ -54,7 +56,7 @@ class Filing:
 
     def shown(self, session: Session, path: Path | None) -> None:
         """Another painting is on the easel."""
-        self._script, self.due, self._known = None, None, True
+        self._script, self.due, self._known, self._marks = None, None, True, ()
         self.path, self._saved = path, session.state
         self.serial += 1
 
@@ -72,6 +74,12 @@ class Filing:
         if isinstance(request, q.Begin | q.Do | q.Save):
             self._script.complete(self.host)  # what is asked for comes after the recording's stroke, not into it
         return True
+
+    def grown(self) -> None:
+        """All that was painted with examples is grown: tells if it is not what it was in the file."""
+        marks, self._marks = self._marks, ()
+        if otherwise(marks, self.host.session.painting.root):
+            self.host.send(q.Note(OTHERWISE, bad=True))
 
     def play(self) -> None:
         """The next piece of a recording that plays."""
@@ -92,7 +100,7 @@ class Filing:
     def _open(self, request: q.Open) -> None:
         found = documents.opened(request.path, request.live)
         self.host.show(found.session, found.path)
-        self._known, self._script = found.known, found.script
+        self._known, self._script, self._marks = found.known, found.script, found.marks
         self.due = None if found.script is None else 0.0
         if found.script is not None:
             self.host.send(q.Note(f"Playing {request.path.name}"))

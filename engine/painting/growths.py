@@ -41,6 +41,7 @@ GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels,
 ANALYSED = 1 << 7  # and of a pixel of an example
 EXAMPLES_CAP = 1000
 DETAIL_CAP = 4
+OTHERWISE = "some of what was painted with examples is not quite what it was when it was saved: it was grown again"
 
 
 @dataclass(frozen=True)
@@ -162,10 +163,15 @@ def parse_example(value: Any, where: str) -> ExampleEntry:
     return ExampleEntry(members.text("picture"), members.text("mask", None), parameters, detail)
 
 
+def _called(name: str) -> str:
+    """The beginning of an example's name in a file, as a place in messages."""
+    return ascii(name[:12])[1:-1]
+
+
 def parse_examples(told: Mapping[str, Any]) -> dict[str, ExampleEntry]:
     if len(told) > EXAMPLES_CAP:
         raise FormatError("manifest.examples", f"{len(told)}", f"at most {EXAMPLES_CAP}")
-    return {name: parse_example(value, f"examples.{shown(name, 12)}") for name, value in told.items()}
+    return {name: parse_example(value, f"examples.{_called(name)}") for name, value in told.items()}
 
 
 def _check_sizes(where: str, size: tuple[int, int], masked: tuple[int, int] | None) -> None:
@@ -198,11 +204,9 @@ def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes
     for name, entry in examples.items():
         for sha in (entry.picture, entry.mask):
             if sha is not None and sha not in sizes:
-                raise FormatError(
-                    f"examples.{shown(name, 12)}", f"picture {shown(sha, 12)}", "one of those in the file"
-                )
+                raise FormatError(f"examples.{_called(name)}", f"picture {shown(sha, 12)}", "one of those in the file")
         masked = None if entry.mask is None else sizes[entry.mask]
-        _check_sizes(f"examples.{shown(name, 12)}", sizes[entry.picture], masked)
+        _check_sizes(f"examples.{_called(name)}", sizes[entry.picture], masked)
         width, height = sizes[entry.picture]
         whole += ANALYSED * width * height
     return whole
@@ -230,17 +234,20 @@ class Nursery:
             try:
                 found[plot.example] = key_of(texture, entry.detail), exemplar_of(texture, entry.detail)
             except FieldError as error:
-                raise FormatError(f"examples.{shown(plot.example, 12)}", error.found, error.expected) from None
+                raise FormatError(f"examples.{_called(plot.example)}", error.found, error.expected) from None
         return cls(found)
 
-    def growth(self, entries: Sequence[PlotEntry], masks: Callable[[str, int], Tiles], where: str) -> Growth:
-        """The plots of a layer, nothing of them grown yet; `masks` reads so many tiles of a member.  FileError if two
-        take the same place."""
-        plots = []
+    def plots(
+        self, entries: Sequence[PlotEntry], masks: Callable[[str, int], Tiles], where: str
+    ) -> tuple[Growth, list[Mark]]:
+        """The plots of a layer, nothing of them grown yet, and the marks by which to tell later whether they grew as
+        before; `masks` reads so many tiles of a member.  FileError if two take the same place."""
+        plots, marks = [], []
         for entry in entries:
             key, exemplar = self.examples[entry.example]
             tiles = maskpacks.joined([masks(*member) for member in entry.masks], where)
             plots.append(Plot(entry.depth, entry.level, entry.name, key, region_of(exemplar, entry.seed, tiles)))
+            marks.append(Mark(tiles, entry.crc))
         plots.sort(key=lambda plot: plot.order)
         for one, other in pairwise(plots):
             if one.order == other.order:
@@ -248,7 +255,21 @@ class Nursery:
                     where, f"plot {shown(one.name)}: found two of an example, level and depth, expected one"
                 )
         _check_apart(plots, where)
-        return tuple(plots)
+        return tuple(plots), marks
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mark:
+    """The CRC that the pixels of a plot had when it was saved; `masks`: its own, as they were opened."""
+
+    masks: Tiles
+    crc: int
+
+
+def otherwise(marks: Sequence[Mark], root: Group) -> bool:
+    """Whether a plot that was grown again, and not painted on since, looks otherwise than when it was saved."""
+    plots = [plot for layer in layers.layers(root) for plot in layer.growth if plot.settled]
+    return any(mark.masks is plot.region.masks[0] and mark.crc != crc(plot) for mark in marks for plot in plots)
 
 
 def _texture(entry: ExampleEntry, name: str, pictures: Mapping[str, ImageSource]) -> Texture:

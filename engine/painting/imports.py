@@ -22,6 +22,7 @@ from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting import grounds
 from engine.painting.fault import FileError, shown
+from engine.painting.growths import Mark
 from engine.painting.images import read_image
 from engine.painting.limits import LIMITS, Limits, memory_cap
 from engine.painting.pngread import PngReader
@@ -48,7 +49,7 @@ class Opened:
     `native`: whether it is a whole painting of ours, to be saved in the same place; else a copy, to be named anew.
     `notes`: what was lost or replaced, a line each.  `recording`: the commands that led to it, if the file has them.
     `pictures`: those that its textures and inks use, by their sha, so that the recording can be replayed without the
-    files they came from.
+    files they came from.  `marks`: of what was painted with examples, which is to be grown again.
     """
 
     painting: Painting
@@ -56,6 +57,7 @@ class Opened:
     native: bool = False
     recording: Recording | None = None
     pictures: Map[str, ImageSource] = field(default_factory=Map)
+    marks: tuple[Mark, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
 from engine.painting import grounds, maskpacks, pictures
 from engine.painting.fault import FileError, shown
-from engine.painting.growths import Nursery
+from engine.painting.growths import Mark, Nursery
 from engine.painting.implied import TEXTURES, Coded, restored
 from engine.painting.imports import STACK, Opened, read_raster
 from engine.painting.limits import LIMITS, Limits, memory_cap
@@ -166,7 +166,7 @@ class _Opening:
             raise FileError(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
         root, other = self._layers(manifest, sources)
-        root = self._grown(root, manifest, sources)
+        root, marks = self._grown(root, manifest, sources)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
@@ -175,7 +175,8 @@ class _Opening:
             notes = (*notes, OTHER.format(count=other, why=why))
         if manifest.plots and manifest.synthesis != SYNTHESIS:
             notes = (*notes, REGROWN.format(was=manifest.synthesis, now=SYNTHESIS))
-        return Opened(painting, notes, True, recording, Map(sources))
+            marks = ()  # it is told already
+        return Opened(painting, notes, True, recording, Map(sources), marks)
 
     def _layers(self, manifest: Manifest, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
         """The layers with what was painted, and how many tiles have another colour than when they were saved.
@@ -205,16 +206,20 @@ class _Opening:
                 for future in (*coloured, *laid.values()):
                     future.cancel()
 
-    def _grown(self, root: Group, manifest: Manifest, sources: Mapping[str, ImageSource]) -> Group:
-        """With what was painted with examples, which is still to be grown."""
+    def _grown(
+        self, root: Group, manifest: Manifest, sources: Mapping[str, ImageSource]
+    ) -> tuple[Group, tuple[Mark, ...]]:
+        """With what was painted with examples, which is still to be grown; and the marks of how it was."""
+        marks: list[Mark] = []
         plots = [plot for found in manifest.plots.values() for plot in found]
         nursery = Nursery.of(manifest.examples, plots, sources)
         for layer in list(layers.layers(root)):
             if layer.id in manifest.plots:
                 where = f"{self._archive.name}: layer {shown(layer.name)}"
-                grown = nursery.growth(manifest.plots[layer.id], partial(self._masks, manifest), where)
+                grown, found = nursery.plots(manifest.plots[layer.id], partial(self._masks, manifest), where)
+                marks += found
                 root = layers.with_growth(root, layer.name, grown)
-        return root
+        return root, tuple(marks)
 
     def _masks(self, manifest: Manifest, member: str, count: int) -> Tiles:
         check(self._cancelled)
