@@ -133,6 +133,8 @@ class Brush:
             object.__setattr__(self, name, checks.number(getattr(self, name), f"brush.{name}", row.lo, row.hi))
         checks.one_of(self.mode, "brush.mode", MODE_NAMES)
         object.__setattr__(self, "colour", checks.colour(self.colour, "brush.colour"))
+        for name in ("depth", "example_level", "example_detail"):
+            object.__setattr__(self, name, _READERS[name](getattr(self, name), f"brush.{name}"))
 
     @property
     def rgb(self) -> tuple[float, float, float]:

@@ -203,6 +203,8 @@ def test_what_is_wrong_is_named_on_one_line(data, place):
 def test_a_brush_made_in_the_program_is_checked_too():
     with pytest.raises(BrushError, match="radius"):
         replace(Brush(), radius=math.nan)
+    with pytest.raises(BrushError, match="depth"):
+        replace(Brush(), depth=math.inf)
     assert Brush(colour="#ABCDEF").colour == "#abcdef"
     assert SETTINGS["radius"].clamped(1e9) == 4000
     assert SETTINGS["radius"].clamped(math.nan) == 16

@@ -13,6 +13,7 @@ from plantings import PLACES, alike, fresh, meadow, pixels, stroke, texture
 from engine.brush.record import from_json
 from engine.canvas import layers
 from engine.canvas.growth import is_settled, previewed, settling
+from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.painting.growing import LiveGrowth, begun
@@ -206,6 +207,22 @@ def test_whatever_looks_at_the_canvas_sees_the_final_pixels(meadow):
     assert found[0][0] == found[1][0]
     assert alike(found[0][1], found[1][1])
     assert found[0][1][1][0, 76, 56] != 0.0
+
+
+@pytest.mark.parametrize(("level", "far"), [(60, 1 << 90), (-70, -(1 << 40)), (4096, 1 << 5000)])
+def test_examples_grow_at_any_level_and_place(meadow, level, far):
+    places = ((level, Rect.at(far, far, 100, 80)), (level - 2, Rect.at(far >> 2, far >> 2, 30, 30)))
+    found = []
+    for count in (1, 2):
+        session = fresh(meadow)
+        for x, name in ((20, "a"), (50, "b"), (60, "a")):
+            told = c.to_json(stroke([[x, 30], [x + 20, 40]], level, example=name)) | {"origin": [far, far]}
+            session.do(c.parse(told))
+        session.do(c.Swap(level, (far + 20, far + 30), "b"))
+        found.append(pixels(session.painting, count, places))
+    assert alike(*found)
+    assert found[0][0][3].any()
+    assert found[0][1][3].any()
 
 
 def test_an_eraser_may_be_as_large_as_it_likes(meadow):
