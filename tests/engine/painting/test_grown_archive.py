@@ -23,15 +23,15 @@ from sown import (
     altered,
     assert_same,
     begun,
-    folder,  # noqa: F401
+    folder,
     forged,
     grow,
     grown,
-    members,  # noqa: F401
+    members,
     opened,
     rewritten,
-    saved,  # noqa: F401
-    session,  # noqa: F401
+    saved,
+    session,
     stroke,
 )
 
@@ -52,6 +52,8 @@ from engine.painting.session import Session
 from engine.painting.settling import settled
 from engine.texture.example import region as regions
 from engine.texture.example.tiles import NONE
+
+__all__ = ["folder", "members", "saved", "session"]
 
 # ---- ours ----
 

@@ -12,12 +12,12 @@ from sown import (
     GONE,
     MANIFEST,
     altered,
-    folder,  # noqa: F401
-    members,  # noqa: F401
+    folder,
+    members,
     opened,
     rewritten,
-    saved,  # noqa: F401
-    session,  # noqa: F401
+    saved,
+    session,
 )
 
 from engine.painting import growths as files
@@ -28,6 +28,8 @@ from engine.painting.opening import open_painting
 from engine.painting.painting import Painting
 from engine.texture.example.tiles import SIDE
 from engine.texture.image import ImageSource
+
+__all__ = ["folder", "members", "saved", "session"]
 
 PLOT = ("layers", 0, "plots", 0)
 EXAMPLE = ("examples", 0)
