@@ -104,6 +104,11 @@ def _told(path: Path) -> tuple[str, Parameters, str]:
         return "Other", Parameters(), str(error)
 
 
+def within_reach(brush: Brush, level: int) -> bool:
+    """Whether a stroke at a level may have the size that a brush gives its texture."""
+    return brush.example_level is None or -REACH <= brush.example_level - level <= TOO_FINE
+
+
 @dataclass(slots=True)
 class ExampleState:
     """`chosen`: the entry that is painted with or looked at, by its ident; `size`: one of SIZES; `base`: the level that
@@ -202,11 +207,6 @@ class ExampleState:
     def erasing(self, brush: Brush) -> Brush:
         """A brush that erases, of everything or of one depth alone."""
         return replace(brush, depth=None if self.eraser is None else float(self.eraser), example_level=None)
-
-    def within_reach(self, level: int) -> bool:
-        """Whether a stroke at a level may have the texture's size."""
-        far = self.levels()["example_level"] - level
-        return -REACH <= far <= TOO_FINE
 
     def at_home(self, brush: Brush) -> Brush:
         """The brush as it paints a small picture at level 0."""

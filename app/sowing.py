@@ -60,6 +60,20 @@ def follow(desk: Desk) -> None:
         desk.brush = replace(desk.brush, **members)
 
 
+def adopt(desk: Desk) -> None:
+    """The panel shows what a brush has that came with an example of its own; its size fits what is seen."""
+    state, brush = desk.examples, desk.brush
+    if brush.mode != "example":
+        return
+    here = next((need for need in desk.needs if need.name == brush.example), None)
+    told = None if here is None else here.arguments.get("bundled", here.arguments.get("path"))
+    found = (entry for entry in state.entries if told in (str(entry.picture), None if entry.own else entry.name))
+    entry = next(found, None) if told is not None else None
+    state.chosen = entry.ident if entry is not None else ""
+    state.size, state.depth = -brush.example_detail, round(brush.depth or 0)
+    fit(desk)
+
+
 def fit(desk: Desk) -> None:
     """The texture's size goes by the pixels that are seen now."""
     desk.examples.base = desk.view.shown_level
@@ -68,7 +82,7 @@ def fit(desk: Desk) -> None:
 
 def reach(desk: Desk) -> None:
     """Before a stroke: the texture's size is fitted anew where the view is too far from where it was chosen."""
-    if desk.brush.mode == "example" and not desk.examples.within_reach(desk.view.shown_level):
+    if desk.brush.mode == "example" and not examples.within_reach(desk.brush, desk.view.shown_level):
         fit(desk)
         desk.say("The texture’s size was set too far away: it fits this zoom now")
 

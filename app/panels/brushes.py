@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app import icons, palette, presets, theme
+from app import icons, palette, presets, sowing, theme
 from app.desk import Desk
 from app.panels import widgets as w
 from app.presets import Preset
@@ -132,6 +132,7 @@ def take(desk: Desk, preset: Preset) -> None:
     """Paints with a brush from now on, in its own colours where they belong together; Shift keeps the size."""
     radius = desk.brush.radius
     palette.take(desk, preset)
+    sowing.adopt(desk)
     if preset.brush.ink:
         desk.colour = preset.brush.rgb
     desk.tool, desk.erasing = "brush", False

@@ -41,7 +41,10 @@ class Texturing:
     def draw(self, desk: Desk) -> float:
         """The height of what is unfolded of them."""
         unfolded = 0.0
+        growing = desk.brush.mode == "example" and not desk.erasing
         for name, title, hint, body in _SECTIONS:
+            if growing and name != "tip":  # it would not be felt
+                continue
             held = getattr(desk.brush, name)
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):

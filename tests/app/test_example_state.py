@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app import examples, keeping, shelf, sowing, tools
+from app import examples, keeping, palette, shelf, sowing, tools
 from app.actions import ACTIONS
 from app.desk import Desk
 from app.examples import Entry
 from app.input.events import PenEvent
 from app.panels.examples import tile
 from app.panels.strip import StripPanel
+from app.presets import Preset
 from app.view import Place, View
 from engine.brush.record import Brush
 from engine.painting.commands import Swap, parse, to_json
@@ -119,6 +120,20 @@ def test_the_eraser_takes_everything_or_one_depth(desk):
     assert brush.depth == 2.0
     _, brush = desk.stroke_brush(eraser=False)
     assert (brush.mode, brush.depth) == ("example", 3.0)
+
+
+def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
+    sowing.choose(desk, named(desk, "felt"))
+    desk.examples.size, desk.examples.depth = -1, 2
+    sowing.follow(desk)
+    preset = Preset("Mine", desk.brush, textures=desk.needs)
+    desk.examples.size, desk.examples.depth, desk.examples.chosen = 0, 0, ""
+    desk.view = desk.view.zoomed(20)
+    palette.take(desk, preset)
+    sowing.adopt(desk)
+    state = desk.examples
+    assert (state.entry.name, state.size, state.depth) == ("felt", -1, 2)
+    assert (desk.brush.example_level, desk.brush.example_detail, desk.brush.depth) == (20, 1, 2.0)
 
 
 def test_growing_without_an_example_opens_the_palette(desk):
