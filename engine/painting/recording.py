@@ -137,15 +137,16 @@ def write(recording: Recording, path: str | os.PathLike[str]) -> None:
 
 def undo_reach(commands: Iterable[Command], is_step: frozenset[type]) -> int:
     """How many steps back undo ever goes in these commands: what a replay has to remember."""
-    behind = ahead = reach = 0
+    behind = ahead = furthest = reach = 0
     for command in commands:
         if isinstance(command, Undo):
             back = min(command.count, behind)
             behind, ahead = behind - back, ahead + back
-            reach = max(reach, ahead)
+            reach = max(reach, furthest - behind)
         elif isinstance(command, Redo):
             forth = min(command.count, ahead)
             behind, ahead = behind + forth, ahead - forth
         elif type(command) in is_step:
             behind, ahead = behind + 1, 0
+            furthest = max(furthest, behind)  # what was forgotten then stays forgotten, however many are undone since
     return reach

@@ -112,6 +112,7 @@ def test_an_endless_line_is_given_up_early():
         ([AddLayer("a"), AddLayer("b"), Undo(), RemoveLayer("a"), Undo(), Undo()], 2),
         ([AddLayer("a"), AddLayer("b"), Undo(), RemoveLayer("a"), Undo()], 1),
         ([AddLayer("a"), View(), AddLayer("b"), AddLayer("c"), Undo(2)], 2),
+        ([AddLayer("a"), AddLayer("b"), AddLayer("c"), Undo(2), AddLayer("b"), Undo(2)], 3),
     ],
 )
 def test_how_far_undo_goes(commands, reach):
