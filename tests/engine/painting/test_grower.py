@@ -218,6 +218,26 @@ def test_a_fault_is_told_once_and_painting_goes_on(window, monkeypatch):
     check(window)
 
 
+def test_a_recording_plays_stroke_by_stroke(window, meadow):
+    from engine.painting.recording import read, write
+
+    window.easel.do(q.Do(stroke(LONG)))
+    window.easel.do(q.Do(stroke([[45, 10], [45, 70]], example="b", depth=1)))
+    window.easel.do(q.Do(c.Swap(0, (45, 40), "a")))
+    path = meadow / "played.jsonl"
+    write(Recording(Header(FRAME, 7), tuple(window.easel.session.log)), path)
+    wanted = pixels(replay(read(path)).painting)
+    easel = window.easel
+    easel.do(q.Open(path, live=True))
+    window.look(*TILES)
+    while easel.due is not None:
+        easel.play()
+        steps(window, 5)
+    check(window)
+    assert alike(wanted, pixels(easel.session.painting))
+    assert easel.session.log == list(read(path).commands)
+
+
 def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(window, tmp_path):
     from engine.painting.opening import open_painting
 
