@@ -12,6 +12,7 @@ from engine.canvas.layers import layers
 from engine.numeric.address import Rect
 from engine.painting import firstpacks
 from engine.painting.archive import Snapshot, save
+from engine.painting.examples import key_of
 from engine.painting.opening import open_painting
 
 OLD = Path(__file__).parent / "old"
@@ -45,6 +46,33 @@ def test_what_ink_implied_when_the_second_format_began_is_implied_still():
     found = open_painting(OLD / "format2.ora")
     assert (found.native, found.notes) == (True, ())
     assert {level: seen(found.painting, level) for level in FIRST} == FIRST
+
+
+# Two examples at three depths: depth, level, name and seed of each plot, and the first half of the SHA-256 of its mask.
+PLOTS = [
+    (-1.0, 1, "patch", 5, "e8c6e1268c078ccf1f1bf6754ef003f1"),
+    (0.0, 0, "weave", 5, "004c3715723fc151fc478248f50e4528"),
+    (2.5, 0, "patch", 5, "199ccec19cd2b6be15a07d9be3592fa9"),
+]
+
+
+def test_what_was_painted_with_examples_when_the_third_format_began():
+    """The same regions of the same examples; what they grow into may be another, which is then told."""
+    found = open_painting(OLD / "format3.ora")
+    assert found.native
+    assert not found.notes or "is grown anew" in found.notes[0]
+    growth = next(layers(found.painting.root)).growth
+    assert [(p.depth, p.level, p.name, p.region.seed, masked(p.region.masks[0])) for p in growth] == PLOTS
+    textures = found.painting.textures
+    details = {"patch": 0, "weave": 1}
+    assert [p.key for p in growth] == [key_of(textures[p.name], details[p.name]) for p in growth]
+
+
+def masked(masks):
+    found = hashlib.sha256()
+    for key, mask in sorted(masks.items()):
+        found.update(repr(key).encode() + mask.tobytes())
+    return found.hexdigest()[:32]
 
 
 def test_it_is_saved_in_the_present_format(opened, tmp_path):
