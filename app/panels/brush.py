@@ -67,7 +67,8 @@ class BrushPanel:
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
-            unfolded += _height_of(lambda: self._special(desk))
+            special = _height_of(lambda: self._special(desk))
+            unfolded += special if desk.brush.mode == "raster" else 0.0
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
