@@ -43,6 +43,7 @@ BENCHES = {
     "raster": "a soft dab of each raster-op through texture into pixels, against copying its bytes",
     "spectral": "a painted spectrum to its preview, and the endless field of sparse convolution",
     "matching": "a texture matched to an example, 256 to 256 and to 512, against peers and against its transforms",
+    "example": "painting with example textures: preview, refinement, threads, and G'MIC's synthesis",
     "stroke": "a stroke of 1,000 points to committed pixels at all levels",
     "zoom": "a continuous zoom through 40 levels at 1280 x 800: the engine's work, and the frames of a real window",
     "files": "saving and opening four layers of 4000 x 4000",

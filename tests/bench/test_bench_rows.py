@@ -16,6 +16,7 @@ QUICK = (
     "raster",
     "spectral",
     "matching",
+    "example",
     "stroke",
     "memory",
 )  # the others open windows and other programs
