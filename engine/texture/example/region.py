@@ -165,9 +165,12 @@ def _squares(region: Region, n: int) -> list[tuple[Rect, int]]:
     if not _coarsest(region, n):
         above = tiles.changed(old.above, region._above(n))
         near += [tiles.rect_of(key).zoomed(1).grown(RADIUS + reach) for key in above]
-    found = {key for rect in near for key in _square_keys(rect)}
-    rects = [Rect.at(x * _SQUARE, y * _SQUARE, _SQUARE, _SQUARE).intersect(whole) for y, x in sorted(found)]
-    return [(rect, reach + MARGIN) for rect in rects if not rect.empty]
+    found: dict[tuple[int, int], Rect] = {}
+    for rect in near:
+        for y, x in _square_keys(rect):
+            part = Rect.at(x * _SQUARE, y * _SQUARE, _SQUARE, _SQUARE).intersect(rect).intersect(whole)
+            found[y, x] = found.get((y, x), Rect(0, 0, 0, 0)).union(part)
+    return [(rect, reach + MARGIN) for _, rect in sorted(found.items()) if not rect.empty]
 
 
 def _square_keys(rect: Rect) -> Iterator[tuple[int, int]]:
