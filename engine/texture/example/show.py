@@ -87,6 +87,8 @@ def _blended(region: Region, rect: Rect, level: int) -> tuple[np.ndarray, np.nda
     """Premultiplied colours (4, h, w), and where they are mixed of several: bool (h, w)."""
     exemplar = region.exemplar
     reach = exemplar.parameters.feather
+    if exemplar.boundary:  # a rim is narrow, and would be blurred
+        reach //= 2
     distance = np.abs(np.arange(-reach, reach + 1))
     window = np.exp(-(distance**2) / (2.0 * max(reach, 1) ** 2))
     out = np.zeros((4, rect.height, rect.width), np.float32)
