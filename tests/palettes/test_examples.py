@@ -75,7 +75,7 @@ def test_there_are_enough():
     assert {file.stem for file in EXAMPLES.glob("*.png")} == {
         stem for name in NAMES for stem in (name, f"{name}.mask") if (EXAMPLES / f"{stem}.png").exists()
     }
-    assert sum(name.startswith("wash-") for name in NAMES) == 5
+    assert sum(name.startswith("wash-") for name in NAMES) == 12
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -19,12 +19,13 @@ import orange
 import paper
 import plants
 import stone
+import variegated
 import watercolour
 import weather
 from PIL import Image
 
 FOLDER = Path(__file__).resolve().parents[1]
-SUBJECTS = (watercolour, marks, paper, orange, crusts, stone, plants, weather, cloth)
+SUBJECTS = (watercolour, variegated, marks, paper, orange, crusts, stone, plants, weather, cloth)
 EXAMPLES = {name: make for subject in SUBJECTS for name, make in subject.EXAMPLES.items()}
 
 

@@ -27,7 +27,7 @@ def paper(ground: Ground) -> np.ndarray:
     return 0.75 * ground.noise(1, 14.0, 5.0, 1.2) + 0.65 * ground.noise(2, 6.0, 2.6, 1.0)
 
 
-def _carry(pigment: np.ndarray, wet: np.ndarray, pull: np.ndarray, steps: int) -> np.ndarray:
+def carry(pigment: np.ndarray, wet: np.ndarray, pull: np.ndarray, steps: int) -> np.ndarray:
     """Pigment moved down the slope of `pull` (at most half a pixel a step), never across the rim of what is wet."""
     faces = [wet[1:] & wet[:-1], wet[:, 1:] & wet[:, :-1]]
     speeds = [-(pull[1:] - pull[:-1]) * faces[0], -(pull[:, 1:] - pull[:, :-1]) * faces[1]]
@@ -54,16 +54,16 @@ def wash(ground: Ground, pigment: Pigment, blooms: int = 0, dry: float = 0.0) ->
     wet = edge > 0.0
     laid = 1.0 + 0.15 * ground.noise(5, 50.0, 12.0, 1.3)
     pull = ground.blurred(wet.astype(float), 4.2) + 0.006 * ground.noise(7, 24.0, 8.0)
-    carried = _carry(laid * wet, wet, pull, int(95 * pigment.carried))
+    carried = carry(laid * wet, wet, pull, int(95 * pigment.carried))
     if blooms:
         carried = _bloomed(ground, carried, wet, blooms)
     carried = ground.blurred(carried, 0.9) / np.maximum(ground.blurred(wet.astype(float), 0.9), 0.2)
     carried = np.where(carried < 1.3, carried, 1.3 + 0.85 * (carried - 1.3))
-    density = pigment.load * np.minimum(carried, 3.6) * _settled(ground, relief, pigment.grain)
+    density = pigment.load * np.minimum(carried, 3.6) * settled(ground, relief, pigment.grain)
     return stain(density * smooth(-0.3, 0.5, edge), pigment.absorbed)
 
 
-def _settled(ground: Ground, relief: np.ndarray, grain: float) -> np.ndarray:
+def settled(ground: Ground, relief: np.ndarray, grain: float) -> np.ndarray:
     """How much pigment lies where: more in the paper's hollows, in small clots; about 1 on average."""
     hollow = np.clip(-relief, -1.2, 2.2) + 0.35 * ground.noise(8, 3.0, 1.8, 0.8)
     return np.exp(grain * hollow - 0.5 * grain * grain)
@@ -95,7 +95,7 @@ def feathered(ground: Ground, pigment: Pigment, reach: float = 17.0) -> tuple[np
     cloudy = 1.0 + 0.13 * ground.noise(23, 36.0, 8.0)
     tips = 0.35 * np.exp(-(((front - 0.15) / 0.10) ** 2)) * (late > 0.2)
     density = pigment.load * (front**1.5 + tips) * fade * np.clip(cloudy, 0.3, 2.0)
-    return stain(density * _settled(ground, relief, pigment.grain), pigment.absorbed)
+    return stain(density * settled(ground, relief, pigment.grain), pigment.absorbed)
 
 
 INDIGO = Pigment((1.75, 1.05, 0.48), 0.70, 0.21)
