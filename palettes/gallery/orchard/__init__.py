@@ -1,0 +1,1 @@
+"""The watercolour tree: paper and sky, hills and meadow, the tree, all in washes."""
