@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 FOLDER = Path(__file__).resolve().parents[1]
 PICTURE = FOLDER.parent / "pictures" / "examples.png"
-CELL, LABEL, COLUMNS = 176, 20, 7
+CELL, LABEL, COLUMNS = 160, 20, 8
 PAPER, INK = "#ddd8cf", "#33312e"
 
 

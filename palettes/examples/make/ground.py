@@ -78,7 +78,7 @@ def nearest(x: np.ndarray, y: np.ndarray, dots: np.ndarray) -> tuple[np.ndarray,
 
 @dataclass
 class Ground:
-    """A square of `size` pixels with a lobed blob on it.
+    """A square of `size` pixels with a lobed blob on it; `bites`: how deep its hollows are, as a part of the usual.
 
     `x`, `y`: places; `depth`: how far inside the blob's outline (negative outside); all (n, n) in pixels.
     """
@@ -86,6 +86,7 @@ class Ground:
     size: int
     seed: int
     margin: float = 3.0
+    bites: float = 1.0
     x: np.ndarray = field(init=False)
     y: np.ndarray = field(init=False)
     depth: np.ndarray = field(init=False)
@@ -108,7 +109,7 @@ class Ground:
             aside = angle - 2.0 * np.pi * (k + chance[1] + 0.3 * (chance[2 + k] - 0.5)) / BITES
             aside = np.abs((aside + np.pi) % (2.0 * np.pi) - np.pi)
             wide = 0.19 + 0.08 * chance[8 + k]
-            wave -= (0.16 + 0.10 * chance[9 + k]) * np.exp(-((aside / wide) ** 2))
+            wave -= self.bites * (0.16 + 0.10 * chance[9 + k]) * np.exp(-((aside / wide) ** 2))
         # The blob is stretched a little into the corners of the square.
         square = 1.0 + 0.07 * (1.0 - np.cos(4.0 * angle)) / 2.0
         radius = square * (1.0 + wave)

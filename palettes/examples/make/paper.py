@@ -12,7 +12,8 @@ from PIL import Image, ImageDraw
 
 @dataclass(frozen=True)
 class Stock:
-    """`face` and `core` colours; `felt`: how wide the bare core gets; `hair`: fibres per pixel of the rim's area."""
+    """`face` and `core` colours; `felt`: how wide the bare core gets; `hair`: fibres per pixel of the rim's area;
+    `thin`: how much shines through; `shade`: of the shadow beside it, for which it lies `drop` pixels further in."""
 
     face: str
     core: str
@@ -20,12 +21,14 @@ class Stock:
     grain: float = 0.03
     hair: float = 0.05
     thin: float = 0.0
+    shade: float = 0.36
+    drop: float = 6.0
 
 
 def torn(ground: Ground, stock: Stock, print_: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """A torn sheet; `print_`: how much of black ink lies where (0..1)."""
     ragged = 1.1 * ground.noise(1, 60.0, 10.0, 1.3) + 0.6 * ground.noise(2, 9.0, 1.6, 0.9)
-    sheet = ground.depth - 6.0 + ragged
+    sheet = ground.depth - stock.drop + ragged
     wide = stock.felt * np.clip(0.62 + 0.42 * ground.noise(3, 70.0, 14.0, 1.2), 0.16, 1.6)
     face = sheet - wide + 0.75 * ground.noise(4, 10.0, 1.5, 0.8)
     there = smooth(-0.4, 0.4, sheet)
@@ -45,7 +48,7 @@ def torn(ground: Ground, stock: Stock, print_: np.ndarray | None = None) -> tupl
     )
     hairs = _hairs(ground, stock, sheet)
     shade = ground.blurred(ground.shifted(there, 1.6, 2.0), 1.5)
-    below = np.zeros_like(rgb) + colour("#1a1712"), 0.36 * (1.0 - 0.6 * stock.thin) * shade * (1.0 - there)
+    below = np.zeros_like(rgb) + colour("#1a1712"), stock.shade * (1.0 - 0.6 * stock.thin) * shade * (1.0 - there)
     return over(over(below, hairs), (rgb, there * clear))
 
 
@@ -104,10 +107,35 @@ KRAFT = Stock("#b98d5c", "#ead3ae", 8.0, 0.05, 0.06)
 NEWS = Stock("#dcd6c6", "#f4f0e6", 6.0, 0.035, 0.05)
 TISSUE = Stock("#d8485f", "#f0a3ab", 5.0, 0.05, 0.08, 0.42)
 
+
+def _cut(face: str, core: str, felt: float, grain: float, thin: float = 0.0) -> Stock:
+    """Paper for collages: evenly torn and without a shadow, for a painter lays that below it."""
+    return Stock(face, core, felt, grain, 0.05, thin, 0.0, 1.4)
+
+
+HEADLINES = _cut("#dcd6c6", "#f6f2e8", 5.0, 0.03)
+DYED = {
+    "torn-cream-paper": _cut("#efe6d2", "#fffdf6", 6.0, 0.02),
+    "torn-night-paper": _cut("#26375a", "#ece9e2", 5.5, 0.05),
+    "torn-sea-paper": _cut("#5f86a3", "#f4f1ea", 5.5, 0.045),
+    "torn-pine-paper": _cut("#3f5a57", "#e9ebe2", 5.5, 0.05),
+    "torn-black-paper": _cut("#2b292d", "#e6e1d8", 5.0, 0.06),
+    "torn-ochre-paper": _cut("#dca640", "#f8ecd0", 5.5, 0.04),
+    "torn-red-paper": _cut("#bf4f3a", "#f6e3d8", 5.5, 0.045),
+    "torn-brown-paper": _cut("#b58a5a", "#ecd8b6", 6.0, 0.05),
+    "torn-blue-tissue": _cut("#6fa6c2", "#eef6f8", 8.0, 0.05, 0.45),
+    "torn-rose-tissue": _cut("#d8555a", "#f8cfc8", 8.0, 0.05, 0.42),
+}
+
 EXAMPLES = {
     "torn-rag-paper": lambda: (g := Ground(300, 21), *torn(g, RAG)),
     "torn-sugar-paper": lambda: (g := Ground(300, 22), *torn(g, SUGAR)),
     "torn-kraft-paper": lambda: (g := Ground(300, 23), *torn(g, KRAFT)),
     "torn-newsprint": lambda: (g := Ground(320, 24), *torn(g, NEWS, columns(g))),
     "torn-tissue": lambda: (g := Ground(300, 25), *torn(g, TISSUE)),
+    "torn-headlines": lambda: (g := Ground(320, 60, bites=0.35), *torn(g, HEADLINES, columns(g))),
+    **{
+        name: lambda k=k, stock=stock: (g := Ground(300, 61 + k, bites=0.35), *torn(g, stock))
+        for k, (name, stock) in enumerate(DYED.items())
+    },
 }

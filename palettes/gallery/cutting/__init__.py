@@ -1,0 +1,1 @@
+"""Shapes cut or torn from examples, for the collage and the orange."""
