@@ -67,6 +67,8 @@ class Footprint:
         dabs[:, 1] = (dabs[:, 1] + self._shift[1]) * self._scale
         dabs[:, 2] *= self._scale
         discs = kernels.as_discs(dabs, 0.0, 0.0, np.array([np.inf, np.inf, -np.inf, -np.inf]))
+        if self._tip is None:
+            discs = discs[discs[:, CEILING] >= _HALF]  # a pen that hardly touches lays very many dabs that take nothing
         boxes = _boxes(discs)
         if self._within is None:
             self._count(discs, boxes)
@@ -155,8 +157,6 @@ def _take(mask, discs, left, top):
     """Marks the pixels of a mask, bool (h, w), that a disc covers at least half."""
     for k in range(discs.shape[0]):
         disc = discs[k]
-        if disc[CEILING] < 0.5:
-            continue
         cx, cy = disc[CX] - left, disc[CY] - top
         limit = disc[RIN2] + _half(disc[CEILING]) * (disc[ROUT] * disc[ROUT] - disc[RIN2])
         reach = math.sqrt(limit)

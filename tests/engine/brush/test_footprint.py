@@ -73,6 +73,17 @@ def test_a_stroke_and_its_pieces_take_the_same_pixels():
     assert np.array_equal(whole, pieces)
 
 
+def test_where_the_pen_is_lifted_nothing_is_taken():
+    """However many dabs there are on the way, of no size."""
+    brush = {"radius": 6, "dynamics": {"radius": "pressure"}}
+    touches = [[(x, y, 0), (x, y, 1), (x + 8, y + 3, 0)] for x, y in ((10, 20), (400, 30), (60, 500))]
+    lifted = taken(brush, [point for touch in touches for point in touch])
+    alone = np.logical_or.reduce([taken(brush, touch) for touch in touches])
+    assert np.array_equal(lifted, alone)
+    assert alone.any()
+    assert not Footprint(from_json(brush), (0, 0)).lay(rows([(10, 20, 0), (400, 30, 0)]))
+
+
 @pytest.mark.parametrize("finer", [-8, -3, -1, 1, 3])
 def test_a_stroke_takes_the_same_place_of_a_finer_or_coarser_level(finer):
     origin = ((1 << 90) + 77, -(1 << 70) - 3)
