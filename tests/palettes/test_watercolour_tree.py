@@ -11,7 +11,6 @@ from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
-import pytest
 from PIL import Image
 
 from app.__main__ import main
@@ -58,19 +57,17 @@ def test_the_script_writes_the_same_recording_again(tmp_path):
 
 
 def test_it_plays(tmp_path):
-    """Paper and sky, as far as they are seen beside the tree: those of the picture, whose colours are 256."""
-    picture = tmp_path / "sky.png"
-    lines = RECORDING.read_text("utf-8").splitlines()
-    hills = next(k for k, line in enumerate(lines) if json.loads(line).get("add") == "Far hills")
-    assert main(["play", str(RECORDING), "--until", str(hills - 1), "--png", str(picture)]) == 0
-    seen, shown = (np.asarray(Image.open(file).convert("RGB"), float) for file in (picture, PICTURE))
-    assert seen.shape == shown.shape == (900, 1200, 3)
-    right = slice(0, 480), slice(940, 1200)
-    assert np.abs(seen[right] - shown[right]).mean() < 4.0
-    assert np.corrcoef(seen[right].mean(-1).ravel(), shown[right].mean(-1).ravel())[0, 1] > 0.9
-    blue = seen[..., 2] - seen[..., 0]
-    assert blue.max() > 20
-    assert seen[600:].mean() == pytest.approx(245.0, abs=8.0)  # paper still
+    """It becomes the picture, but for what synthesis chooses within a wash."""
+    played = tmp_path / "tree.png"
+    assert main(["play", str(RECORDING), "--png", str(played)]) == 0
+    seen, shown = (
+        np.asarray(Image.open(file).convert("RGB").resize((60, 45), Image.Resampling.BOX), float)
+        for file in (played, PICTURE)
+    )
+    assert np.abs(seen - shown).mean() < 2.0
+    assert np.abs(seen - shown).max() < 40.0
+    assert shown[:, 0].min() > 225.0  # the margin is paper
+    assert shown.min() < 90.0
 
 
 def test_the_picture_is_small():
