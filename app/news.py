@@ -213,8 +213,8 @@ class News:
     def _growing(self, r: q.Growing, now: float) -> None:
         desk = self.desk
         done = r.done >= 1.0 or not r.rects
-        if done and desk.growing is not None:
-            trace("all has grown")
+        if done == (desk.growing is not None):
+            trace("all has grown" if done else "something grows")
         desk.grows = desk.grows if desk.growing is not None else now
         desk.growing = None if done else r
 

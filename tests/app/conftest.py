@@ -105,6 +105,21 @@ class Program:
             assert time.monotonic() < end, "the canvas stays as it was"
         return now
 
+    def save_as(self, path: Path, seconds: float = 30.0) -> None:
+        """Saves under a name, in the dialog that comes up, and waits for the file."""
+        end = time.monotonic() + seconds
+        light = self.screen()[60:760, 1000:1270].mean()
+        self.keys("ctrl+s")
+        while self.screen()[60:760, 1000:1270].mean() > 0.85 * light:  # a dialog darkens what is behind it
+            assert time.monotonic() < end, "no dialog"
+            time.sleep(0.05)
+        self.keys("ctrl+a")
+        self.type(str(path))
+        self.keys("Return")
+        while not path.exists():
+            assert time.monotonic() < end, f"no {path}"
+            time.sleep(0.05)
+
     def close(self) -> None:
         self.process.terminate()
         self.process.wait(10)
