@@ -19,6 +19,7 @@ import numpy as np
 
 from engine.canvas import shown as pixels
 from engine.canvas.carry import carried
+from engine.canvas.closer import BEYOND
 from engine.canvas.shown import Shown
 from engine.numeric.address import Rect
 from engine.texture.example import region as regions
@@ -306,7 +307,7 @@ def _changed(one: Plot | None, other: Plot | None, finer: bool) -> list[Rect]:
     found = list(tiles.changed_rects(was, now, 0, slice(None)))
     if finer and any(plot is not None and plot.region.exemplar.finer for plot in (one, other)):
         was, now = (plot.region.levels[0].sources if plot is not None else NONE for plot in (one, other))
-        found += [rect.grown(1) for rect in tiles.changed_rects(was, now, OUTSIDE)]
+        found += [rect.grown(BEYOND) for rect in tiles.changed_rects(was, now, OUTSIDE)]
     return _fewer(found)
 
 

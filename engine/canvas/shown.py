@@ -2,7 +2,7 @@
 and followed where the region changes; and any rectangle at any level, read from them.
 
 All values are premultiplied and on the grid.  A coarser pixel is the snapped mean of four, a finer one the B-spline of
-those around it, as everywhere on the canvas, with the detail that the example itself has below its pixels.
+those around it with the detail that the example itself has below its pixels (`closer`).
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ from collections.abc import Generator, Iterable
 import numpy as np
 from numba import njit
 
+from engine.canvas import closer
 from engine.numeric.address import Rect
 from engine.numeric.grid import snap
-from engine.numeric.pyramid import expand_into, reduce
+from engine.numeric.pyramid import reduce
 from engine.texture.example import show, tiles
 from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.region import Region
@@ -23,9 +24,6 @@ from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
 Shown = tuple[Tiles, ...]  # float32 (4, SIDE, SIDE) tiles, from the region's own level to coarser ones
 FEW = 4  # tiles: with no more of them, a level is coarse enough to be the last that is kept
 _HALF = SIDE // 2
-_RGBA = np.arange(4)
-_HALO = 3  # pixels around the ancestors of a rectangle: what all finer levels of it can read
-_SMALL = 1 << 10  # pixels of a rectangle that is looked at for being of one colour
 _ONE = np.float32(1.0)
 
 
@@ -172,9 +170,8 @@ def over(out: np.ndarray, shown: Shown, region: Region, finer: int, rect: Rect) 
     """Lays what is shown of a region over `out` (C, h, w), which covers `rect` of the level `finer` levels below the
     region's own (above it, if negative).  Planes from the fourth on, ink, are weakened alone."""
     if finer > 0:
-        found = _expanded(shown[0], region, finer, rect) if shown else None
-        if found is not None:
-            above, at = found
+        if meets(shown, finer, rect):
+            above, at = closer.expanded(shown[0], region, finer, rect)
             over_tile(out, 0, 0, above, rect.y0 - at.y0, rect.x0 - at.x0, rect.height, rect.width)
         return
     level = at_level(shown, -finer, rect)
@@ -190,7 +187,7 @@ def over(out: np.ndarray, shown: Shown, region: Region, finer: int, rect: Rect) 
 def meets(shown: Shown, finer: int, rect: Rect) -> bool:
     """Whether tiles that `over` would read are there."""
     if finer > 0:
-        return bool(shown) and bool(keys_within(rect.zoomed(-finer).grown(_HALO), shown[:1]))
+        return bool(shown) and bool(keys_within(rect.zoomed(-finer).grown(closer.HALO), shown[:1]))
     n = min(-finer, len(shown) - 1)
     return bool(shown) and bool(keys_within(rect.zoomed(-finer - n), shown[n : n + 1]))
 
@@ -223,63 +220,3 @@ def over_tile(out, top, left, above, row, column, height, width):
             else:
                 for i in range(width):
                     below[i] = snap((_ONE - alpha[i]) * below[i])
-
-
-def _expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.ndarray, Rect] | None:
-    """What is shown `finer` levels below the region's own: read-only float32 (4, h, w) of a rectangle around `rect`,
-    and that rectangle; None where nothing is."""
-
-    def needed(k: int) -> Rect:
-        return rect.evened() if k == finer else rect.zoomed(k - finer).grown(_HALO).evened()
-
-    at = needed(0)
-    if not keys_within(at, (base,)):
-        return None
-    value = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
-    detailed = len(region.exemplar.finer)
-    known = _inside(region, at) if detailed else None
-    for k in range(1, finer + 1):
-        if k > detailed and at.area <= _SMALL and (value == value[:, :1, :1]).all():
-            at, value = rect, np.tile(value[:, :1, :1], (1, rect.height, rect.width))
-            break
-        inner = needed(k)
-        value = _expand(value, at, inner)
-        if known is not None and k <= detailed:
-            _add_detail(value, region, k, inner, known, needed(0))
-        at = inner
-    if detailed:  # differences to what is blended over seams may lead out of 0 <= colour <= alpha <= 1
-        np.clip(value[3], 0.0, 1.0, out=value[3])
-        np.clip(value[:3], 0.0, value[3], out=value[:3])
-    value.flags.writeable = False  # as tiles are: so the kernel is compiled once
-    return value, at
-
-
-def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:
-    out = np.empty((4, inner.height, inner.width), np.float32)
-    top, left = (inner.y0 >> 1) - 1 - at.y0, (inner.x0 >> 1) - 1 - at.x0
-    expand_into(value, top, left, _RGBA, out, 0, inner.height)
-    return out
-
-
-def _inside(region: Region, rect: Rect) -> np.ndarray:
-    """The pixels all of whose neighbours, and they themselves, have a source: bool (h, w)."""
-    wide = rect.grown(1)
-    known = tiles.gathered(region.masks[0], wide, np.zeros((1, wide.height, wide.width), np.uint8))[0] > 0
-    known &= show.sources(region, wide) >= 0
-    down = known[:-2] & known[1:-1] & known[2:]
-    return down[:, :-2] & down[:, 1:-1] & down[:, 2:]
-
-
-def _add_detail(value: np.ndarray, region: Region, k: int, inner: Rect, known: np.ndarray, at: Rect) -> None:
-    """Adds S_k - E S_(k-1) of the example, well inside what is refined: a rim is left as smooth as the mask is.
-
-    `known`: bool, over `at` of the region's level.
-    """
-    rows = [((inner.y0 + i) >> k) - at.y0 for i in range(inner.height)]
-    columns = [((inner.x0 + i) >> k) - at.x0 for i in range(inner.width)]
-    where = known[np.ix_(rows, columns)]
-    if not where.any():
-        return
-    around = inner.parents()
-    detail = show.finer(region, k, inner) - _expand(show.finer(region, k - 1, around), around, inner)
-    value += np.where(where, detail, np.float32(0.0))

@@ -10,7 +10,7 @@ from engine.canvas import growth as growths
 from engine.numeric.address import Rect
 from engine.numeric.grid import snapped
 from engine.texture.example import show, tiles
-from engine.texture.example.exemplar import analysed, shrunk
+from engine.texture.example.exemplar import PAD, analysed, shrunk
 from engine.texture.example.parameters import Parameters
 
 
@@ -102,21 +102,42 @@ def dense(plot, whole: Rect, level: int) -> np.ndarray:
         found = means(found)
     if level <= plot.level:
         return found
-    known = np.pad(show.sources(region, whole) >= 0, 1)
-    inside = np.all(
-        [known[dy : dy + whole.height, dx : dx + whole.width] for dy in range(3) for dx in range(3)], axis=0
-    )
-    before = show.finer(region, 0, whole)
+    names, exemplar = continued(show.sources(region, whole)), region.exemplar
+    detailed = min(len(exemplar.finer), level - plot.level)
+    if detailed:
+        found -= below(names, exemplar.colours[0], 0, whole)
     for k in range(1, level - plot.level + 1):
         found = splines(found)
-        if k <= len(region.exemplar.finer):
-            now = show.finer(region, k, whole.zoomed(k))
-            found += (now - splines(before)) * np.kron(inside, np.ones((1 << k, 1 << k)))
-            before = now
-    if region.exemplar.finer:
-        found[3] = np.clip(found[3], 0, 1)
-        found[:3] = np.clip(found[:3], 0, found[3])
+        if k == detailed:
+            found += below(names, exemplar.finer[k - 1], k, whole)
+            found[3] = np.clip(found[3], 0, 1)
+            found[:3] = np.clip(found[:3], 0, found[3])
     return found
+
+
+def continued(names: np.ndarray) -> dict[tuple[int, int], tuple[int, int]]:
+    """Places in the example by those of the pixels, of two more beyond the rim: what their nearest neighbours'
+    continue with."""
+    far = range(-2, 3)
+    near = sorted(((dy * dy + dx * dx, dy, dx) for dy in far for dx in far), reverse=True)
+    inside = {(int(y), int(x)): divmod(int(names[y, x]), 1 << 16) for y, x in np.argwhere(names >= 0)}
+    found = {}
+    for _, dy, dx in near:  # the nearest last, and those from above and from the left after others
+        found |= {(y - dy, x - dx): (i - PAD - dy, j - PAD - dx) for (y, x), (i, j) in inside.items()}
+    return {place: at for place, at in found.items() if min(place) >= 0 and max(place) < len(names)}
+
+
+def below(names: dict[tuple[int, int], tuple[int, int]], colours: np.ndarray, k: int, whole: Rect) -> np.ndarray:
+    """What an example shows `k` levels below the pixels of `whole`: (4, h, w)."""
+    side = 1 << k
+    rows, columns = (colours.shape[0] // side + 8) * side, (colours.shape[1] // side + 8) * side
+    wide = np.zeros((rows, columns, 4))  # four pixels more on each side
+    wide[4 * side : 4 * side + colours.shape[0], 4 * side : 4 * side + colours.shape[1]] = snapped(colours)
+    out = np.zeros((4, whole.height * side, whole.width * side))
+    for (y, x), (i, j) in names.items():
+        piece = wide[(i + 4) * side : (i + 5) * side, (j + 4) * side : (j + 5) * side]
+        out[:, y * side : (y + 1) * side, x * side : (x + 1) * side] = piece.transpose(2, 0, 1)
+    return out
 
 
 def stacked(pictures, below: np.ndarray) -> np.ndarray:

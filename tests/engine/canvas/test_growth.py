@@ -1,6 +1,7 @@
 """What is painted with examples is a function of masks, examples and seeds, at every level."""
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -13,8 +14,10 @@ from engine.canvas import growth as growths
 from engine.canvas import shown
 from engine.canvas.carry import carried
 from engine.numeric.address import Rect
-from engine.numeric.grid import Q
+from engine.numeric.grid import Q, snapped
 from engine.texture.example import show, tiles
+from engine.texture.example.correction import OUTSIDE
+from engine.texture.example.exemplar import PAD
 
 WHOLE = Rect.at(-128, -128, 256, 256)
 places = st.tuples(st.integers(-50, 50), st.integers(-50, 50), st.integers(2, 20))
@@ -322,3 +325,18 @@ def test_tiles_cannot_be_written_to(stack):
             assert all(
                 not tile.flags.writeable and tile.shape == (4, tiles.SIDE, tiles.SIDE) for tile in level.values()
             )
+
+
+def test_an_example_is_seen_with_its_own_rim_at_its_own_level():
+    """A region as the example's own, all of it copied: zooming in shows the example itself, rim and all."""
+    exemplar = example("b+1")
+    at = Rect.at(0, 0, *exemplar.mask.shape[::-1])
+    growth = growths.laid((), 0.0, 0, "b", "b+1", exemplar, 0, at, exemplar.mask)
+    names = (np.arange(at.height)[:, None] + PAD << 16) + np.arange(at.width) + PAD
+    names = np.where(exemplar.mask, names, OUTSIDE).astype(np.int32)[None]
+    region = growth[0].region
+    copied = replace(region.levels[0], mask=region.masks[0], sources=tiles.laid(tiles.NONE, at, names, OUTSIDE, at))
+    region = replace(region, levels=(copied, *region.levels[1:]))
+    growth = (replace(growth[0], region=region, shown=shown.followed((), None, region), drawn=region),)
+    found = growths.planes(growth, 1, at.zoomed(1))
+    assert np.array_equal(found, snapped(exemplar.finer[0].transpose(2, 0, 1)))
