@@ -14,7 +14,7 @@ from engine.brush.record import Brush
 from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
-from engine.canvas.layers import Group
+from engine.canvas.layers import Group, Layer
 from engine.numeric.address import Rect
 from engine.painting.bed import Bed, Change
 from engine.painting.commands import Swap
@@ -63,8 +63,7 @@ class LiveGrowth(Drawn):
         seed: int | None = None,
     ) -> None:
         super().__init__(painting, level, origin, brush, layer, seed)
-        if self.layer.alpha_locked:
-            raise Refusal(f"stroke: found layer {self.layer.name!r} with locked alpha, expected one without")
+        _check_alpha(self.layer, "stroke")
         own = painting.seed if seed is None else seed
         grid = _grid(brush, level)
         shape = tip.resolve(brush, painting.textures, level, own)
@@ -96,6 +95,12 @@ class LiveGrowth(Drawn):
         if self.bed.growth is self.layer.growth:
             return self.base
         return replace(self.base, root=layers.with_growth(self.base.root, self.layer.name, self.bed.growth))
+
+
+def _check_alpha(layer: Layer, what: str) -> None:
+    """Refusal if the layer's alpha, which whatever grows changes, is locked."""
+    if layer.alpha_locked:
+        raise Refusal(f"{what}: found layer {layer.name!r} with locked alpha, expected one without")
 
 
 def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
@@ -140,9 +145,10 @@ def begun(
 
 
 def swapped(painting: Painting, command: Swap) -> Painting:
-    """With another example for the topmost region at a place.  Refusal if there is none, BrushError if it is no
-    example."""
+    """With another example for the topmost region at a place.  Refusal if there is none or alpha is locked, BrushError
+    if it is no example."""
     _, layer = layer_for(painting, command.layer, "swap")
+    _check_alpha(layer, "swap")
     plot = growths.at(layer.growth, command.level, *command.at, command.depth)
     if plot is None:
         raise Refusal(f"swap: found nothing painted with an example there on layer {layer.name!r}, expected a region")

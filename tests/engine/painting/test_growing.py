@@ -262,6 +262,7 @@ REFUSED = {
     "too large": (stroke([[9, 9]], radius=100, example_level=5), "brush.radius: found 3200 px on the example's level"),
     "alpha lock": (stroke([[9, 9]], layer="locked"), "found layer 'locked' with locked alpha"),
     "alpha lock, erased": (stroke([[9, 9]], layer="locked", mode="erase", depth=1), "with locked alpha"),
+    "alpha lock, swapped": (c.Swap(0, (50, 50), "b", "locked"), "swap: found layer 'locked' with locked alpha"),
     "swap nothing": (c.Swap(0, (5, 5), "b"), "swap: found nothing painted with an example there on layer"),
     "swap of another depth": (c.Swap(0, (50, 50), "b", depth=3.0), "swap: found nothing painted"),
     "swap for nothing": (c.Swap(0, (50, 50), "c"), "swap.example: found 'c', nothing of that name"),
