@@ -21,6 +21,7 @@ def painted() -> Board:
     table.wall(board)
     table.cloth(board)
     table.shadows(board)
+    fruit.whole(board)
     fruit.shadow(board)
     fruit.wedges(board)
     fruit.flesh(board)

@@ -87,7 +87,7 @@ def segment(ground: Ground) -> tuple[np.ndarray, np.ndarray]:
     threads = np.exp(-((ground.noise(7, 46.0, 7.0, 1.2) / 0.11) ** 2)) * smooth(-0.6, 0.9, ground.noise(8, 40.0, 14.0))
     rgb = rgb * (0.62 + 0.38 * bright)[..., None] + 0.25 * gloss[..., None] * sac[..., None] * colour("#fff3d0")
     skin = 3.6 * np.clip(1.0 + 0.3 * ground.noise(9, 40.0, 8.0, 1.2), 0.5, 1.7)
-    white = np.clip(0.9 * (1.0 - smooth(-0.3, 1.0, (edge - skin) / 2.4)) + 0.75 * threads, 0.0, 0.93)
+    white = np.clip(0.9 * (1.0 - smooth(-0.3, 1.0, (edge - skin) / 2.4)) + 0.4 * threads, 0.0, 0.93)
     return mixed(rgb, colour("#fff0cf") * (0.7 + 0.3 * bright)[..., None], white), smooth(-0.5, 0.5, edge)
 
 

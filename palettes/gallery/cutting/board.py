@@ -23,13 +23,19 @@ class Board:
         if settings:
             self.lines.append({"do": "layer", "set": name, **settings})
 
-    def grow(self, example: str, outlines: Sequence[Sequence[Spot]], depth: int = 0, seed: int = 0) -> None:
-        """One stroke that fills outlines with a bundled example; those that overlap become one piece."""
+    def grow(
+        self, example: str, outlines: Sequence[Sequence[Spot]], depth: int = 0, seed: int = 0, level: int = 0
+    ) -> None:
+        """One stroke that fills outlines with a bundled example; those that overlap become one piece.
+
+        At level 1 the example is half as large in the picture.
+        """
         if example not in self._defined:
             self._defined.add(example)
             self.lines.append({"do": "texture", "name": example, "maker": "example", "bundled": example})
         touches = [touch for outline in outlines for touch in filling(outline, self.size)]
         how = {"mode": "example", "example": example, "depth": depth, "hardness": 1, "spacing": 0.15}
+        how |= {"example_level": level} if level else {}
         self._stroke(touches, how, seed)
 
     def soft(self, path: Sequence[Spot] | Touch, radius: float, colour: str, opacity: float, **more: Any) -> None:

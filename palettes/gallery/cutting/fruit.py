@@ -61,7 +61,7 @@ def _seams() -> list[float]:
 def flesh(board: Board) -> None:
     """Pith, the segments on it, and the light on them."""
     board.layer("Flesh")
-    board.grow("orange-pith", [ellipse(X, Y, R * 0.975, R * 0.975, count=120)])
+    board.grow("orange-pith", [ellipse(X, Y, R, R, count=120)])
     for k, (a, b) in enumerate(pairwise(_seams())):
         left, right = _meridian(a, 2.2), _meridian(b, -2.2)
         if max(z for _, _, z in (*left, *right)) > 0.0 and (outline := _seen(left, right)):
@@ -70,14 +70,26 @@ def flesh(board: Board) -> None:
     board.grow("torn-cream-paper", [torn(ellipse(core[0], core[1], 17, 13), 5, 3.0, 4.0)], depth=40)
     for a, b in pairwise(_seams()):
         _rounded(board, a, (a + b) / 2.0)
-    _lit(board, 1.0)
+    _lit(board, X, Y, R)
     board.soft([(x, y + 2.0) for x, y in _cut_edge()], 34, "#8a4a24", 0.75, flow=0.2, **SHADE)
+    ring = ellipse(X, Y, 0.98 * R + 9.0, 0.98 * R + 9.0, count=120)
+    _trim(board, [*ring, ring[0]])
 
 
-def _seen(left: Sequence[tuple[float, float, float]], right: Sequence[tuple[float, float, float]]) -> list[Spot]:
-    outline = [(x, y) for x, y, _ in (*left, *reversed(right))]
+def _seen(left: Touch, right: Touch) -> list[Spot]:
+    """The outline of a segment, along the sphere's own where it goes on behind; empty where next to nothing is seen."""
+    outline = [(x, y) for x, y, _ in left]
+    if left[-1][2] < 0.0 and right[-1][2] < 0.0:
+        start, end = (math.atan2(side[-1][1] - Y, side[-1][0] - X) for side in (left, right))
+        turn = (end - start + math.pi) % (2.0 * math.pi) - math.pi
+        outline += [_round(X, Y, R * 0.985, start + turn * k / 12) for k in range(1, 12)]
+    outline += [(x, y) for x, y, _ in reversed(right)]
     area = sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(outline, [*outline[1:], outline[0]], strict=True)) / 2
     return outline if abs(area) > 500.0 else []
+
+
+def _round(x: float, y: float, radius: float, angle: float) -> Spot:
+    return x + radius * math.cos(angle), y + radius * math.sin(angle)
 
 
 def _rounded(board: Board, seam: float, middle: float) -> None:
@@ -85,21 +97,27 @@ def _rounded(board: Board, seam: float, middle: float) -> None:
     seen = [(x, y, min(1.0, 0.25 + z)) for x, y, z in _meridian(seam, 0.0, 0.05, 2.0) if z > 0.05]
     if len(seen) > 3:
         board.soft(seen, 24, "#d98e44", 0.6, flow=0.12, **SHADE)
-        board.soft([(x, y, 1.0) for x, y, _ in seen], 6, "#6a5238", 0.7, flow=0.3, **LIGHT)
+        board.soft([(x, y, 1.0) for x, y, _ in seen], 6, "#5e5a4c", 0.75, flow=0.3, **LIGHT)
     top = [(x, y, min(1.0, 0.2 + z)) for x, y, z in _meridian(middle, 0.0, 0.3, 1.7) if z > 0.15]
     if len(top) > 3:
         board.soft(top, 22, "#5a3a18", 0.55, flow=0.1, **LIGHT)
 
 
-def _lit(board: Board, part: float) -> None:
-    """Light from above on the left; the sphere turns away from it below on the right."""
+def _lit(board: Board, x: float, y: float, r: float) -> None:
+    """Light from above on the left; a sphere turns away from it below on the right."""
     for far, radius, colour, opacity in (
-        *((0.98, 60, DARK, 0.75), (0.86, 90, "#a8561e", 0.6), (0.66, 110, "#d08a4a", 0.55)),
+        *((0.98, 0.27, DARK, 0.75), (0.86, 0.4, "#a8561e", 0.6), (0.66, 0.5, "#d08a4a", 0.55)),
     ):
-        arc = [(X + R * far * math.cos(t), Y + R * far * math.sin(t), p) for t, p in _sweep(-0.75, 2.35)]
-        board.soft(arc, radius, colour, opacity * part, flow=0.12, **SHADE)
-    board.soft(ellipse(X, Y, R * 1.02, R * 1.02), 26, "#b5662c", 0.55, flow=0.15, **SHADE)
-    board.soft([(X - 84, Y - 96), (X - 70, Y - 108)], 110, "#7a5a30", 0.75 * part, flow=0.25, **LIGHT)
+        arc = [(*_round(x, y, r * far, t), p) for t, p in _sweep(-0.75, 2.35)]
+        board.soft(arc, radius * r, colour, opacity, flow=0.12, **SHADE)
+    board.soft(ellipse(x, y, r * 1.02, r * 1.02), 0.12 * r, "#b5662c", 0.55, flow=0.15, **SHADE)
+    spot = [(x - 0.38 * r, y - 0.43 * r), (x - 0.32 * r, y - 0.49 * r)]
+    board.soft(spot, 0.5 * r, "#7a5a30", 0.75, flow=0.25, **LIGHT)
+
+
+def _trim(board: Board, path: Sequence[Spot], radius: float = 9.0) -> None:
+    """Cut off what was grown too far, rim and all: by then it is paint, so that no other rim grows."""
+    board.soft(path, radius, "#000000", 1.0, mode="erase", hardness=0.85)
 
 
 def _sweep(start: float, end: float) -> list[tuple[float, float]]:
@@ -119,23 +137,19 @@ def _cut_edge() -> list[Spot]:
     return sorted(out)
 
 
-def _cap() -> list[Spot]:
+def _cap(beyond: float) -> list[Spot]:
+    """The peel that is still on the sphere, and as far beyond the sphere's outline as that."""
     edge = _cut_edge()
-    start = math.atan2(edge[-1][1] - Y, edge[-1][0] - X)
-    end = math.atan2(edge[0][1] - Y, edge[0][0] - X)
-    end += 2.0 * math.pi if end < start else 0.0
-    below = [start + (end - start) * k / 40 for k in range(1, 40)]
-    return [*edge, *((X + 1.03 * R * math.cos(t), Y + 1.03 * R * math.sin(t)) for t in below)]
+    start, end = _limits()
+    below = [_round(X, Y, 1.03 * R + beyond, start + (end - start) * k / 40) for k in range(41)]
+    return [*edge, *below]
 
 
-def _limb(board: Board) -> None:
-    """Where the sphere turns away no pith is seen: its white becomes rind."""
-    edge = _cut_edge()
-    start, end = (math.atan2(y - Y, x - X) for x, y in (edge[-1], edge[0]))
-    end += 2.0 * math.pi if end < start else 0.0
-    turns = [start + (end - start) * k / 60 for k in range(1, 59)]
-    rim = [(X + R * 1.01 * math.cos(t), Y + R * 1.01 * math.sin(t)) for t in turns]
-    board.soft(rim, 15, "#e0801a", 1.0, flow=0.8, hardness=0.5, **RIND)
+def _limits() -> tuple[float, float]:
+    """From which angle to which the sphere's outline is peel: from the right over the foot to the left."""
+    left, *_, right = _cut_edge()
+    start, end = (math.atan2(y - Y, x - X) for x, y in (right, left))
+    return start, end + (2.0 * math.pi if end < start else 0.0)
 
 
 def _band(start: float, end: float, count: int = 28) -> tuple[list[Spot], list[Spot]]:
@@ -145,7 +159,7 @@ def _band(start: float, end: float, count: int = 28) -> tuple[list[Spot], list[S
         turn = start + (end - start) * k / count
         t, narrow = math.pi * turn, max(0.0, (turn - 3.9) / 1.15)
         radius = 112.0 - 9.0 * turn
-        half = 39.0 - 2.0 * turn - 22.0 * min(1.0, narrow) ** 1.3
+        half = 39.0 - 2.0 * turn - 25.0 * min(1.0, narrow) ** 1.3
         x, y = 566.0 + 8.0 * turn, 497.0 + 74.0 * turn
         tilt = 0.14 * radius * math.sin(t)
         upper.append((x - radius * 1.05 * math.cos(t), y + tilt - half))
@@ -158,9 +172,12 @@ def _across(turn: float) -> list[Spot]:
     return [edge[0] for edge in _band(turn, turn + 0.01, 1)]
 
 
-def _strip(start: float, end: float) -> list[Spot]:
+def _strip(start: float, end: float, ahead: float = 0.0, beyond: float = 0.0) -> list[Spot]:
+    """The spiral between two angles, prolonged straight at its left and right ends by that much."""
     upper, lower = _band(start, end)
-    return [*upper, *reversed(lower)]
+    first = [(edge[0][0] - ahead, edge[0][1]) for edge in (lower, upper)] if ahead else []
+    last = [(edge[-1][0] + beyond, edge[-1][1]) for edge in (upper, lower)] if beyond else []
+    return [*upper, *last, *reversed(lower), *first]
 
 
 def _between(start: float, end: float, part: float) -> Touch:
@@ -184,36 +201,58 @@ def peel(board: Board) -> None:
     """The peel that is still on the orange goes on into the spiral's near side."""
     for k in (4, 2, 0):
         board.layer(f"Peel {k}" if k else "Peel")
-        end = k + 1.0
-        board.grow("orange-rind", [_cap(), _strip(0.0, 1.0)] if k == 0 else [_strip(k, end)], seed=k + 1)
+        ahead, beyond = 14.0 if k else 0.0, 14.0 if k < 4 else 0.0
+        strip = _strip(k, k + 1, ahead, beyond)
+        board.grow("orange-rind", [strip] if k else [_cap(14.0), strip], seed=k + 1)
         if k == 0:
-            _limb(board)
-            _lit(board, 1.0)
-            sheen = [(X + R * 0.82 * math.cos(t), Y + R * 0.82 * math.sin(t), p) for t, p in _sweep(2.25, 3.05)]
-            board.soft(sheen, 40, "#8a6a3c", 0.7, flow=0.12, **LIGHT)
-        _turned(board, k, end)
+            _lit(board, X, Y, R)
+            sheen = [(*_round(X, Y, 0.82 * R, t), p) for t, p in _sweep(2.1, 3.2)]
+            board.soft(sheen, 44, "#6a4a20", 0.6, flow=0.08, **LIGHT)
+        _turned(board, k, k + 1.0)
+        if k == 0:
+            start, end = _limits()
+            for low, high in ((start - 0.2, math.radians(48)), (math.radians(74), end + 0.2)):
+                _trim(board, [_round(X, Y, 1.03 * R + 9.0, low + (high - low) * t / 40) for t in range(41)])
+        for at, aside in (*(((k, -9.0),) if ahead else ()), *(((k + 1, 9.0),) if beyond else ())):
+            (x, y), (u, v) = _across(at)
+            _trim(board, [(x + aside, y - 12.0), (x + aside, y), (u + aside, v), (u + aside, v + 12.0)])
 
 
 def _turned(board: Board, start: float, end: float) -> None:
-    """The near side is lit at the left and turns away at both ends."""
-    for at, radius in ((start + 0.03, 13), (end - 0.02, 10)):
-        if at > 0.5:
-            board.soft(_across(at), radius, "#e0801a", 1.0, flow=0.8, hardness=0.5, **RIND)
-    for at, radius, colour, opacity in (
-        *((end - 0.05, 44, DARK, 0.8), (end - 0.20, 50, "#c06a28", 0.6), (end, 18, "#d0701c", 0.9)),
-        *(((start + 0.02, 24, "#c4641c", 0.85),) if start else ()),
-    ):
+    """The near side is lit at the left and turns away at its ends, where its rims are no longer seen."""
+    turns = [*([start] if start else []), *([end] if end < 5.0 else [])]
+    for at in turns:
+        board.soft(_across(at), 34, "#ec9420", 0.9, flow=0.3, **RIND)
+    away = ((end - 0.05, 44, DARK, 0.8), (end - 0.20, 50, "#c06a28", 0.6), (end, 18, "#d0701c", 0.9))
+    near = ((start + 0.02, 26, "#b0581c", 0.85),)
+    for at, radius, colour, opacity in (*(away if end < 5.0 else ()), *(near if start else ())):
         board.soft(_across(at), radius, colour, opacity, flow=0.25, **SHADE)
     board.soft(_between(start + 0.2, end, 0.95), 20, "#dcae78", 0.5, flow=0.15, **SHADE)
     bright = _between(start + 0.22, start + 0.5, 0.32) if start else _between(0.55, 0.78, 0.32)
-    board.soft(
-        [(x, y, 0.3 + 0.7 * math.sin(math.pi * k / 28)) for k, (x, y, _) in enumerate(bright)],
-        24,
-        "#7a5a30",
-        0.6,
-        flow=0.12,
-        **LIGHT,
-    )
+    swelling = [(x, y, 0.3 + 0.7 * math.sin(math.pi * k / 28)) for k, (x, y, _) in enumerate(bright)]
+    board.soft(swelling, 24, "#7a5a30", 0.6, flow=0.12, **LIGHT)
+
+
+def whole(board: Board) -> None:
+    """Another orange, further back, that nobody has peeled."""
+    x, y, r = 812.0, 402.0, 116.0
+    board.layer("Shadow of the whole one", blend="multiply")
+    for a, b, radius, part in ((96.0, 6.0, 46, 0.7), (26.0, 1.0, 24, 0.7)):
+        oval = ellipse(x + (56.0 if radius > 30 else 6.0), y + r - 2.0, a, b, count=36)
+        board.soft([*oval, oval[0]], radius, "#33241e", part, flow=0.06)
+    board.layer("Whole orange")
+    board.grow("orange-rind", [ellipse(x, y, r + 20.0, r + 18.0, count=90)], seed=31, level=1)
+    _lit(board, x, y, r)
+    for far, radius, colour in ((0.8, 0.7, "#a05420"), (1.0, 0.4, "#7a3414")):
+        arc = [(*_round(x, y, r * far, t), p) for t, p in _sweep(-0.9, 2.5)]
+        board.soft(arc, radius * r, colour, 0.8, flow=0.06, **SHADE)
+    navel = place(0.0, 0.0)
+    at = (x + (navel[0] - X) * r / R, y + (navel[1] - Y) * r / R)
+    board.soft([at, (at[0] + 1.0, at[1])], 26, "#a8661e", 0.7, flow=0.15, **SHADE)
+    star = [(at[0] + 7.0 * math.cos(t), at[1] + 3.4 * math.sin(t)) for t in (0.0, 2.5, 5.0, 1.2, 3.7, 6.28)]
+    board.soft(star, 3.4, "#5a5a26", 0.9, hardness=0.5)
+    ring = ellipse(x, y, r + 15.0, r + 13.5, count=90)
+    _trim(board, [*ring, ring[0]], 15.0)
 
 
 def shadow(board: Board) -> None:
@@ -226,7 +265,7 @@ def shadow(board: Board) -> None:
 
 def wedges(board: Board) -> None:
     """Two segments that lie on the cloth."""
-    for k, (x, y, turn, size) in enumerate(((806.0, 560.0, -0.2, 1.0), (884.0, 596.0, 0.35, 0.85))):
+    for k, (x, y, turn, size) in enumerate(((786.0, 584.0, -0.16, 1.0), (882.0, 602.0, 0.3, 0.85))):
         c, s = math.cos(turn), math.sin(turn)
         shape = [(-82, 8), (-60, -26), (-20, -46), (24, -46), (62, -26), (82, 8), (56, 22), (0, 28), (-56, 22)]
         outline = [(x + size * (a * c - b * s), y + size * (a * s + b * c)) for a, b in curve(shape, 6, closed=True)]

@@ -135,7 +135,7 @@ def filling(outline: Sequence[Spot], size: tuple[int, int]) -> list[Touch]:
 
 def _along(outline: Sequence[Spot], depth: np.ndarray) -> Touch:
     """Just inside the outline, as thick as there is room, `RIM` at most."""
-    places = _even(outline, 4.0)
+    places = _even(outline, 6.0)
     area = sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(places, [*places[1:], places[0]], strict=True))
     side = -1.0 if area > 0 else 1.0
     touch: Touch = []

@@ -33,16 +33,16 @@ def cloth(board: Board) -> None:
         {"shape": "noise", "b": 0.5, "strength": 0.05},
     ]
     board.lines.append({"do": "texture", **texture, "shapes": shapes})
-    ink = [{"texture": "Linen", "amount": 0.75, "colour": "#d9d3c4", "period": 150}]
+    ink = [{"texture": "Linen", "amount": 0.5, "colour": "#d9d3c4", "period": 150}]
     _wash(board, BACK, EDGE, "#bdb6a7", ink)
-    _wash(board, EDGE, 960, "#8d877c", [ink[0] | {"colour": "#a39c8e"}])
-    shade = {"mode": "raster", "op": "multiply", "flow": 0.2}
+    _wash(board, EDGE, 960, "#7c766c", [ink[0] | {"colour": "#8d877b"}])
+    shade = {"mode": "raster", "op": "multiply", "flow": 0.06}
     light = {"mode": "raster", "op": "screen", "flow": 0.2}
     # The far edge is out of the light; what hangs down is darker than the top, most below and on the right.
-    board.soft([(-200, BACK), (1200, BACK)], 46, "#77736c", 0.75, **shade)
-    board.soft([(-400, 1080), (1400, 1080)], 360, "#4c4a50", 0.9, **shade)
+    board.soft([(-200, BACK), (1200, BACK)], 90, "#77736c", 0.75, **shade)
+    board.soft([(-400, 1080), (1400, 1080)], 420, "#3c3a42", 1.0, **(shade | {"flow": 0.12}))
     board.soft([(1120, 440), (1120, 1000)], 420, "#66656b", 0.7, **shade)
-    board.soft([(-200, EDGE + 16), (1200, EDGE + 16)], 22, "#7a766f", 0.6, **shade)
+    board.soft([(-200, EDGE + 16), (1200, EDGE + 14)], 40, "#6a665f", 0.8, **shade)
     board.soft([(-200, EDGE - 3), (1200, EDGE - 3)], 8, "#57524a", 0.7, **light)
 
 
@@ -51,7 +51,7 @@ def shadows(board: Board) -> None:
     board.layer("Shadows", blend="multiply")
     for x, y, a, b, radius, colour, part in (
         *((590, 560, 170, 8, 64, "#4a3e3a", 0.6), (510, 560, 110, 8, 40, "#3a2a24", 0.55)),
-        *((428, 556, 74, 3, 16, "#2a140c", 0.7),),
+        *((428, 556, 48, 1, 22, "#2a140c", 0.8),),
     ):
         oval = ellipse(x, y, a, b, count=36)
         board.soft([*oval, oval[0]], radius, colour, part, flow=0.06)

@@ -24,9 +24,9 @@ def paste(
     board.layer(name)
     rough = [torn(outline, seed + k, by) for k, outline in enumerate(outlines)]
     for outline in rough if lift else ():
-        for reach, part in ((11.0, 0.30), (5.0, 0.30)):
-            path = [(x + 3.0 * lift, y + 4.5 * lift) for x, y in [*outline[::2], outline[0]]]
-            board.soft(path, reach * lift, _SHADE, part, flow=0.3)
+        for reach, part in ((13.0, 0.50), (6.0, 0.40)):
+            path = [(x + 4.0 * lift, y + 6.0 * lift) for x, y in [*outline[::2], outline[0]]]
+            board.soft(path, reach * lift, _SHADE, part, flow=0.06)
     board.grow(f"torn-{paper}", rough, seed=seed)
 
 
@@ -41,6 +41,7 @@ def ground(board: Board) -> None:
     rows = [(0, 100), (1000, 100), (1000, 300), (0, 300), (0, 500), (1000, 500), (1000, 700), (0, 700)]
     board.lines.append({"do": "stroke", "brush": brush, "points": [list(place) for place in rows]})
     paste(board, "Wall", "headlines", [box(28, 26, 972, 774)], 3, 5.0)
+    paste(board, "Wainscot", "sea-paper", [box(30, 716, 970, 770)], 5, 4.0)
 
 
 def night(board: Board) -> None:
