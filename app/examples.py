@@ -88,6 +88,13 @@ def arranged(entries: Iterable[Entry]) -> list[Entry]:
     return sorted(entries, key=lambda e: (_RANK.get(e.group, 3), e.group, e.name))
 
 
+def label(entry: Entry, entries: Iterable[Entry]) -> str:
+    """An example's title without a first word that several of its group share: a wash among washes."""
+    first, _, rest = entry.title.partition(" ")
+    same = sum(other.group == entry.group and other.title.partition(" ")[0] == first for other in entries)
+    return rest[:1].upper() + rest[1:] if rest and same > 2 and not entry.own else entry.title
+
+
 def _stamp(path: Path | None) -> int:
     return 0 if path is None else path.stat().st_mtime_ns
 
@@ -146,12 +153,6 @@ class ExampleState:
 
     def groups(self) -> list[str]:
         return list(dict.fromkeys(entry.group for entry in self.entries))
-
-    def label(self, entry: Entry) -> str:
-        """An example's title without a first word that several of its group share: a wash among washes."""
-        first, _, rest = entry.title.partition(" ")
-        same = [e for e in self.entries if e.group == entry.group and e.title.partition(" ")[0] == first]
-        return rest[:1].upper() + rest[1:] if rest and len(same) > 2 and not entry.own else entry.title
 
     def listed(self) -> list[Entry]:
         return [entry for entry in self.entries if self.group in (ALL, entry.group)]

@@ -17,6 +17,40 @@ RADII = (0.5, 300.0)
 WAYS = ("in", "out", "colour")
 
 
+@dataclass(slots=True)
+class History:
+    """Regions before the present one, and those that were taken back, a bit a pixel."""
+
+    before: list[bytes] = field(default_factory=list)
+    after: list[bytes] = field(default_factory=list)
+
+    @property
+    def can_undo(self) -> bool:
+        return bool(self.before)
+
+    @property
+    def can_redo(self) -> bool:
+        return bool(self.after)
+
+    def keep(self, inside: np.ndarray) -> None:
+        """A region that is about to change."""
+        self.before.append(_packed(inside))
+        del self.before[:-STEPS]
+        self.after.clear()
+
+    def step(self, inside: np.ndarray, by: int) -> np.ndarray:
+        """The region before this one (-1) or after it (1); the same one if there is none."""
+        taken, given = (self.before, self.after) if by < 0 else (self.after, self.before)
+        if not taken:
+            return inside
+        given.append(_packed(inside))
+        return _unpacked(taken.pop(), inside.shape)
+
+    def last(self, inside: np.ndarray) -> np.ndarray:
+        """The region before this one, which stays where it is."""
+        return _unpacked(self.before[-1], inside.shape) if self.before else inside
+
+
 @dataclass(slots=True, eq=False)
 class Mask:
     """`pixels`: the picture, uint8 RGBA (h, w, 4), not premultiplied; `inside`: its region, bool (h, w).
@@ -35,16 +69,15 @@ class Mask:
     version: int = 0
     saved: int = 0
     dirty: Rect | None = None
-    _before: list[bytes] = field(default_factory=list)
-    _after: list[bytes] = field(default_factory=list)
+    history: History = field(default_factory=History)
     _at: tuple[float, float] | None = None
     _clicked: tuple[int, int, int] | None = None  # where a colour was picked last, and the version that made
 
     def __post_init__(self) -> None:
-        self.dirty = self._whole
+        self.dirty = self.whole
 
     @property
-    def _whole(self) -> Rect:
+    def whole(self) -> Rect:
         return Rect(0, 0, self.inside.shape[1], self.inside.shape[0])
 
     @property
@@ -55,14 +88,6 @@ class Mask:
     def opaque(self) -> bool:
         """Whether the picture has no holes."""
         return bool(self.pixels[..., 3].min() > 0)
-
-    @property
-    def can_undo(self) -> bool:
-        return bool(self._before)
-
-    @property
-    def can_redo(self) -> bool:
-        return bool(self._after)
 
     # --- strokes -----------------------------------------------------------------------------------------------------
 
@@ -84,22 +109,22 @@ class Mask:
         xs, ys = (start[0], x), (start[1], y)
         box = Rect(
             int(min(xs) - reach), int(min(ys) - reach), int(max(xs) + reach) + 1, int(max(ys) + reach) + 1
-        ).intersect(self._whole)
+        ).intersect(self.whole)
         if box.empty:
             return
         taken = _near(box, start, (x, y)) <= self.radius**2
-        self.inside[box.slices(self._whole)][taken] = self.way == "in"
+        self.inside[box.slices(self.whole)][taken] = self.way == "in"
         self._changed(box)
 
     def abandon(self) -> None:
         """The stroke in progress is dropped."""
         if self.way != "colour":
             self.step(-1)
-            self._after.clear()
+            self.history.after.clear()
 
     def pick(self, x: int, y: int) -> None:
         """Everything of the colour at a pixel leaves the region."""
-        if not (0 <= x < self._whole.width and 0 <= y < self._whole.height):
+        if not (0 <= x < self.whole.width and 0 <= y < self.whole.height):
             return
         self._remember()
         self._apply(x, y)
@@ -109,78 +134,53 @@ class Mask:
         if (tolerance, joined) == (self.tolerance, self.joined):
             return
         self.tolerance, self.joined = tolerance, joined
-        if self._clicked is not None and self._clicked[2] == self.version and self._before:
+        if self._clicked is not None and self._clicked[2] == self.version:
             x, y, _ = self._clicked
-            self.inside = self._unpacked(self._before[-1])
+            self.inside = self.history.last(self.inside)
             self._apply(x, y)
 
     def _apply(self, x: int, y: int) -> None:
         self.inside &= ~alike(self.pixels, x, y, self.tolerance, self.joined)
-        self._changed(self._whole)
+        self._changed(self.whole)
         self._clicked = x, y, self.version
 
     def resize(self, factor: float) -> None:
         """Another size of the brush."""
         self.radius = round(max(RADII[0], min(RADII[1], self.radius * factor)), 1)
 
-    # --- all at once -------------------------------------------------------------------------------------------------
+    # --- all at once, and steps --------------------------------------------------------------------------------------
 
-    def by_transparency(self) -> None:
-        """The region is where the picture is not transparent."""
-        self._set(self.pixels[..., 3] > 0)
-
-    def everything(self) -> None:
-        self._set(np.ones_like(self.inside))
-
-    def invert(self) -> None:
-        self._set(~self.inside)
-
-    def smooth(self) -> None:
-        """Rounds corners off, and takes specks and pinholes away."""
-        self._set(smoothed(self.inside))
-
-    def _set(self, inside: np.ndarray) -> None:
+    def put(self, inside: np.ndarray) -> None:
+        """Another region in place of this one."""
         self._remember()
         self.inside = inside
-        self._changed(self._whole)
-
-    # --- steps -------------------------------------------------------------------------------------------------------
+        self._changed(self.whole)
 
     def step(self, by: int) -> None:
         """Takes the last step back (-1), or does it again (1)."""
-        taken, given = (self._before, self._after) if by < 0 else (self._after, self._before)
-        if taken:
-            given.append(self._packed())
-            self.inside = self._unpacked(taken.pop())
-            self._changed(self._whole)
+        inside = self.history.step(self.inside, by)
+        if inside is not self.inside:
+            self.inside = inside
+            self._changed(self.whole)
 
     def _remember(self) -> None:
-        self._before.append(self._packed())
-        del self._before[:-STEPS]
-        self._after.clear()
-
-    def _packed(self) -> bytes:
-        return np.packbits(self.inside).tobytes()
-
-    def _unpacked(self, bits: bytes) -> np.ndarray:
-        flat = np.unpackbits(np.frombuffer(bits, np.uint8), count=self.inside.size)
-        return flat.reshape(self.inside.shape).astype(bool)
+        self.history.keep(self.inside)
 
     def _changed(self, box: Rect) -> None:
         self.version += 1
         self.dirty = box if self.dirty is None else self.dirty.union(box)
 
-    # --- looks -------------------------------------------------------------------------------------------------------
 
-    def shown(self, box: Rect) -> np.ndarray:
-        """A part of the picture over paper, what is outside dimmed and the region’s edge marked: uint8 (h, w, 3)."""
-        around = box.grown(1).intersect(self._whole)
-        inside = self.inside[around.slices(self._whole)]
-        flat = over_paper(self.pixels[around.slices(self._whole)], around.x0, around.y0).astype(np.float32)
-        dimmed = np.array(TINT, np.float32) + DIM * (flat - np.array(TINT, np.float32))
-        out = np.where(inside[..., None], flat, dimmed)
-        out[_edge(inside)] = 0.25 * out[_edge(inside)] + 0.75 * 255
-        return out[box.slices(around)].round().astype(np.uint8)
+def shown(mask: Mask, box: Rect) -> np.ndarray:
+    """A part of the picture over paper, what is outside dimmed and the region’s edge marked: uint8 (h, w, 3)."""
+    around = box.grown(1).intersect(mask.whole)
+    inside = mask.inside[around.slices(mask.whole)]
+    flat = over_paper(mask.pixels[around.slices(mask.whole)], around.x0, around.y0).astype(np.float32)
+    dimmed = np.array(TINT, np.float32) + DIM * (flat - np.array(TINT, np.float32))
+    out = np.where(inside[..., None], flat, dimmed)
+    edge = _edge(inside)
+    out[edge] = 0.25 * out[edge] + 0.75 * 255
+    return out[box.slices(around)].round().astype(np.uint8)
 
 
 def over_paper(pixels: np.ndarray, x: int = 0, y: int = 0) -> np.ndarray:
@@ -249,3 +249,12 @@ def _edge(inside: np.ndarray) -> np.ndarray:
     grown[:, 1:] |= inside[:, :-1]
     grown[:, :-1] |= inside[:, 1:]
     return grown & ~inside
+
+
+def _packed(inside: np.ndarray) -> bytes:
+    return np.packbits(inside).tobytes()
+
+
+def _unpacked(bits: bytes, shape: tuple[int, ...]) -> np.ndarray:
+    count = int(np.prod(shape))
+    return np.unpackbits(np.frombuffer(bits, np.uint8), count=count).reshape(shape).astype(bool)

@@ -15,6 +15,7 @@ from app.colours import to_hex
 from app.desk import Desk
 from app.gallery import Gallery
 from app.lab import only_with
+from app.mask import shown
 from app.panels.brush import PREVIEW
 from app.panels.brushes import THUMB
 from app.panels.examples import LARGE
@@ -132,7 +133,7 @@ class News:
         mask = state.mask
         if mask is not None and mask.dirty is not None:
             height, width = mask.inside.shape
-            self._gallery.touch(f"region {state.chosen}", (width, height), mask.dirty, mask.shown(mask.dirty))
+            self._gallery.touch(f"region {state.chosen}", (width, height), mask.dirty, shown(mask, mask.dirty))
             mask.dirty = None
 
     def waiting(self) -> bool:

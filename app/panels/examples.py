@@ -115,7 +115,7 @@ class ExamplesPanel:
             colour = theme.packed(theme.ACCENT if chosen else (0.6,) * 3)
             painter.add_rect(corner, end, colour, rounding, thickness=(2.5 if chosen else 1.5) * desk.scale)
         grey = theme.TEXT if chosen else (0.72,) * 3
-        _named(desk.examples.label(entry), ImVec2(corner.x, end.y + 1.5 * desk.scale), wide, grey)
+        _named(examples.label(entry, desk.examples.entries), ImVec2(corner.x, end.y + 1.5 * desk.scale), wide, grey)
 
     # --- the one chosen ----------------------------------------------------------------------------------------------
 

@@ -5,11 +5,14 @@ Strokes come from `tools.paint_region`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, sowing, theme
 from app.desk import Desk
-from app.mask import RADII, Mask
+from app.mask import RADII, Mask, smoothed
 from app.panels import widgets as w
 from app.panels.widgets import Col
 
@@ -18,6 +21,16 @@ _WAYS = (
     ("in", "Paint in", "A stroke adds to the region"),
     ("out", "Paint out", "A stroke takes away from the region"),
     ("colour", "Colour", "A click takes everything of that colour out of the region: the background"),
+)
+_WHOLE: tuple[tuple[str, str, Callable[[Mask], np.ndarray]], ...] = (
+    (
+        "By transparency",
+        "The region is where the picture is not transparent",
+        lambda mask: mask.pixels[..., 3] > 0,
+    ),
+    ("Everything", "The whole picture is the region: it has no rim", lambda mask: np.ones_like(mask.inside)),
+    ("Invert", "Inside becomes outside", lambda mask: ~mask.inside),
+    ("Smooth", "Rounds the edge, and takes specks and pinholes away", lambda mask: smoothed(mask.inside)),
 )
 
 
@@ -87,23 +100,22 @@ class RegionPanel:
             imgui.text_disabled("Click on the background")
         imgui.spacing()
         room = (imgui.get_content_region_avail().x - gap) / 2
-        rows = (
-            ("By transparency", "The region is where the picture is not transparent", mask.by_transparency),
-            ("Everything", "The whole picture is the region: it has no rim", mask.everything),
-            ("Invert", "Inside becomes outside", mask.invert),
-            ("Smooth", "Rounds the edge, and takes specks and pinholes away", mask.smooth),
-        )
-        for i, (label, hint, do) in enumerate(rows):
+        for i, (label, hint, make) in enumerate(_WHOLE):
             if i % 2:
                 imgui.same_line(0, gap)
             if w.text_button(label, hint, enabled=i > 0 or not mask.opaque, width=room):
-                do()
+                mask.put(make(mask))
+        self._steps(mask)
+
+    def _steps(self, mask: Mask) -> None:
+        """Undo and redo of the region's own, and how much of the picture it is."""
+        gap, past = 2 * imgui.get_style().font_scale_dpi, mask.history
         side = imgui.get_frame_height()
-        if w.icon_button("undo", icons.UNDO, "Take back  (Ctrl+Z over the picture)", enabled=mask.can_undo, size=side):
+        if w.icon_button("undo", icons.UNDO, "Take back  (Ctrl+Z over the picture)", enabled=past.can_undo, size=side):
             mask.step(-1)
         imgui.same_line(0, gap)
         hint = "Do again  (Ctrl+Shift+Z over the picture)"
-        if w.icon_button("redo", icons.REDO, hint, enabled=mask.can_redo, size=side):
+        if w.icon_button("redo", icons.REDO, hint, enabled=past.can_redo, size=side):
             mask.step(1)
         imgui.same_line(0, 3 * gap)
         imgui.align_text_to_frame_padding()

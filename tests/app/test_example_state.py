@@ -58,7 +58,7 @@ def test_all_bundled_examples_are_listed_by_group(desk):
     assert state.groups()[:2] == ["Watercolour", "Paper"]
     assert all(entry.mask is not None for entry in state.entries)
     state.group = "Watercolour"
-    assert {state.label(entry) for entry in state.listed()} >= {"Indigo", "Sap green"}
+    assert {examples.label(entry, state.entries) for entry in state.listed()} >= {"Indigo", "Sap green"}
     assert named(desk, "wash-indigo").title == "Wash indigo"
     assert desk.message[0] == ""
 
@@ -223,7 +223,7 @@ def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
     assert parse(to_json(first)) == first
     known = {**first.arguments}
     assert defined_by(first, "example", known)
-    state.mask.everything()
+    state.mask.put(np.ones_like(state.mask.inside))
     sowing.save_region(desk)
     second = state.command(state.entry)
     assert not defined_by(second, "example", known)
@@ -353,15 +353,15 @@ def test_a_stroke_that_is_given_up_leaves_the_region_as_it_was(desk, region):
     gesture.send(pen("move", 130.0, 210.0))
     gesture.close()
     assert (region.inside == before).all()
-    assert not region.can_undo
+    assert not region.history.can_undo
 
 
 def test_keys_over_the_region_are_the_regions(desk, region, posted):
     strip = StripPanel()
     desk.pointer.x, desk.pointer.y = 110.0, 210.0
-    region.invert()
+    region.put(~region.inside)
     assert strip.takes(desk, ACTIONS["undo"])
-    assert not region.can_undo
+    assert not region.history.can_undo
     radius = region.radius
     assert strip.takes(desk, ACTIONS["larger"])
     assert region.radius > radius

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.mask import STEPS, Mask, alike, smoothed
+from app.mask import STEPS, Mask, alike, shown, smoothed
 from engine.numeric.address import Rect
 
 
@@ -44,21 +44,21 @@ def test_painting_out_undoes_painting_in_but_for_what_was_there():
     mask.step(-1)
     mask.step(-1)
     assert (mask.inside == before).all()
-    assert not mask.can_undo
+    assert not mask.history.can_undo
     mask.step(1)
     assert mask.inside[20, 40]
 
 
 def test_steps_that_were_taken_back_are_gone_after_a_new_one_and_are_not_kept_for_ever():
     mask = made(8, 8)
-    mask.invert()
+    mask.put(~mask.inside)
     mask.step(-1)
-    mask.everything()
-    assert not mask.can_redo
+    mask.put(np.ones_like(mask.inside))
+    assert not mask.history.can_redo
     for _ in range(STEPS + 20):
-        mask.invert()
+        mask.put(~mask.inside)
     steps = 0
-    while mask.can_undo:
+    while mask.history.can_undo:
         mask.step(-1)
         steps += 1
     assert steps == STEPS
@@ -69,8 +69,8 @@ def test_a_stroke_that_is_dropped_leaves_nothing():
     stroke(mask, (10.0, 10.0), (30.0, 30.0))
     mask.abandon()
     assert not mask.inside.any()
-    assert not mask.can_undo
-    assert not mask.can_redo
+    assert not mask.history.can_undo
+    assert not mask.history.can_redo
 
 
 @pytest.mark.parametrize("points", [[(-500.0, -500.0), (-400.0, -300.0)], [(1e4, 3.0)], [(-20.0, 20.0), (90.0, 20.0)]])
@@ -78,15 +78,6 @@ def test_a_stroke_may_leave_the_picture(points):
     mask = made()
     stroke(mask, *points)
     assert mask.inside.any() == (points[0][0] == -20.0)
-
-
-def test_by_transparency():
-    mask = made()
-    mask.pixels[:10, :, 3] = 0
-    mask.pixels[10, :, 3] = 1
-    mask.by_transparency()
-    assert not mask.inside[:10].any()
-    assert mask.inside[10:].all()
 
 
 def test_a_clicked_colour_leaves_with_what_is_alike():
@@ -106,7 +97,7 @@ def test_a_clicked_colour_leaves_with_what_is_alike():
     mask.step(-1)
     assert mask.inside.all()
     mask.begin(-3.0, 5.0)  # beside the picture
-    assert not mask.can_undo
+    assert not mask.history.can_undo
 
 
 def test_holes_are_another_colour_than_any_paint():
@@ -135,7 +126,7 @@ def test_what_is_outside_is_dimmed_and_the_edge_is_light():
     mask = made()
     mask.pixels[..., :3] = 200
     mask.inside[10:30, 10:30] = True
-    seen = mask.shown(Rect(0, 0, 60, 40)).astype(int)
+    seen = shown(mask, Rect(0, 0, 60, 40)).astype(int)
     assert (seen[12:28, 12:28] == 200).all()
     assert (seen[0:8] < 100).all()
     assert (seen[15, 9] > 200).all()
@@ -148,11 +139,11 @@ def test_a_part_of_the_picture_looks_as_it_does_in_the_whole(points, inside):
     mask.pixels[..., :3] = np.random.default_rng(1).integers(0, 255, (40, 60, 3))
     mask.pixels[::3, ::2, 3] = 90
     mask.radius, mask.way = 4.0, "out" if inside else "in"
-    before = mask.shown(Rect(0, 0, 60, 40))
+    before = shown(mask, Rect(0, 0, 60, 40))
     mask.dirty = None
     stroke(mask, *points)
-    after = mask.shown(Rect(0, 0, 60, 40))
+    after = shown(mask, Rect(0, 0, 60, 40))
     box = mask.dirty
-    assert (mask.shown(box) == after[box.slices(Rect(0, 0, 60, 40))]).all()
-    before[box.slices(Rect(0, 0, 60, 40))] = mask.shown(box)
+    assert (shown(mask, box) == after[box.slices(Rect(0, 0, 60, 40))]).all()
+    before[box.slices(Rect(0, 0, 60, 40))] = shown(mask, box)
     assert (before == after).all()
