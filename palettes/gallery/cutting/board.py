@@ -48,7 +48,7 @@ class Board:
         top = max(place[2] for touch in touches for place in touch)
         path = [place for touch in touches for place in (_lifted(touch) if len(touches) > 1 else touch)]
         left, above = (math.floor(v) for v in path[0][:2])
-        brush = how | {"radius": round(top, 1), "dynamics": {"radius": "pressure"}}
+        brush = {"radius": round(top, 1), "dynamics": {"radius": "pressure"}} | how
         points = [[_short(x - left), _short(y - above), _short(r / top, 3)] for x, y, r in path]
         line = {"do": "stroke", "level": 0, "origin": [left, above], "brush": brush, "points": points}
         self.lines.append(line | ({"seed": seed} if seed else {}))

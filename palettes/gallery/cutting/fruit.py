@@ -27,6 +27,8 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> tuple[float, ...]:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+FADING = {"dynamics": {"radius": [[0, 0.5], [1, 1]], "opacity": "pressure"}}
+
 _N = _unit(_POLE)
 _U = _unit(_cross((0.0, 1.0, 0.0), _N))
 _V = _cross(_N, _U)
@@ -106,10 +108,10 @@ def _rounded(board: Board, seam: float, middle: float) -> None:
 def _lit(board: Board, x: float, y: float, r: float) -> None:
     """Light from above on the left; a sphere turns away from it below on the right."""
     for far, radius, colour, opacity in (
-        *((0.98, 0.27, DARK, 0.75), (0.86, 0.4, "#a8561e", 0.6), (0.66, 0.5, "#d08a4a", 0.55)),
+        *((0.98, 0.3, DARK, 0.95), (0.86, 0.42, "#a8561e", 0.85), (0.62, 0.55, "#d08a4a", 0.75)),
     ):
-        arc = [(*_round(x, y, r * far, t), p) for t, p in _sweep(-0.75, 2.35)]
-        board.soft(arc, radius * r, colour, opacity, flow=0.12, **SHADE)
+        arc = [(*_round(x, y, r * far, t), p) for t, p in _sweep(-1.0, 2.6)]
+        board.soft(arc, radius * r, colour, opacity, flow=0.2, **SHADE, **FADING)
     board.soft(ellipse(x, y, r * 1.02, r * 1.02), 0.12 * r, "#b5662c", 0.55, flow=0.15, **SHADE)
     spot = [(x - 0.38 * r, y - 0.43 * r), (x - 0.32 * r, y - 0.49 * r)]
     board.soft(spot, 0.5 * r, "#7a5a30", 0.75, flow=0.25, **LIGHT)
@@ -122,7 +124,7 @@ def _trim(board: Board, path: Sequence[Spot], radius: float = 9.0) -> None:
 
 def _sweep(start: float, end: float) -> list[tuple[float, float]]:
     """Angles between, and how much of the brush at each: most in the middle."""
-    return [(start + (end - start) * k / 24, 0.25 + 0.75 * math.sin(math.pi * k / 24)) for k in range(25)]
+    return [(start + (end - start) * k / 24, max(0.02, math.sin(math.pi * k / 24))) for k in range(25)]
 
 
 def _cut_edge() -> list[Spot]:
@@ -207,7 +209,7 @@ def peel(board: Board) -> None:
         if k == 0:
             _lit(board, X, Y, R)
             sheen = [(*_round(X, Y, 0.82 * R, t), p) for t, p in _sweep(2.1, 3.2)]
-            board.soft(sheen, 44, "#6a4a20", 0.6, flow=0.08, **LIGHT)
+            board.soft(sheen, 44, "#6a4a20", 0.6, flow=0.08, **LIGHT, **FADING)
         _turned(board, k, k + 1.0)
         if k == 0:
             start, end = _limits()
@@ -245,7 +247,7 @@ def whole(board: Board) -> None:
     _lit(board, x, y, r)
     for far, radius, colour in ((0.8, 0.7, "#a05420"), (1.0, 0.4, "#7a3414")):
         arc = [(*_round(x, y, r * far, t), p) for t, p in _sweep(-0.9, 2.5)]
-        board.soft(arc, radius * r, colour, 0.8, flow=0.06, **SHADE)
+        board.soft(arc, radius * r, colour, 0.8, flow=0.06, **SHADE, **FADING)
     navel = place(0.0, 0.0)
     at = (x + (navel[0] - X) * r / R, y + (navel[1] - Y) * r / R)
     board.soft([at, (at[0] + 1.0, at[1])], 26, "#a8661e", 0.7, flow=0.15, **SHADE)
