@@ -27,6 +27,7 @@ _RIM_CANDIDATES = 8
 _SHAPES = 64  # of which the nearest are searched
 _COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours inside, and pixels of the shape
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
+_DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
@@ -41,12 +42,14 @@ class Example(NamedTuple):
 
 
 class Rules(NamedTuple):
-    """`penalty`: energy of a pixel of another shape; `square`: bits of the neighbourhood; `kappa`: 256 (1 + kappa);
-    `stride`: of the search through all candidates, 0 for none; `rims`: whether the region's shape counts."""
+    """`penalty`: energy of a pixel of another shape; `leeway`: so many of those are free; `square`: bits of the
+    neighbourhood; `kappa`: 256 (1 + kappa); `stride`: of the search through all candidates, 0 for none; `rims`: whether
+    the region's shape counts."""
 
     weights: np.ndarray
     square: np.uint64
     penalty: int
+    leeway: int
     kappa: int
     stride: int
     rims: bool
@@ -218,7 +221,8 @@ def start_coarsest(window, patches, corners, block, offset, example, rules):
 
 @njit(cache=True, nogil=True)
 def _shaped(bits, start, h, example, rules):
-    """`start`, if the shape around it is alike; else, of those with the most alike, the pixel that the hash draws."""
+    """`start`, if the shape around it is alike; else, of those with about such a shape, or with the nearest if there are
+    none, the pixel that the hash draws."""
     if not rules.rims:
         return start
     if ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
@@ -226,7 +230,7 @@ def _shaped(bits, start, h, example, rules):
     least, drawn = np.int32(50), np.uint64(0)
     for i in range(example.order.size):
         name = example.order[i]
-        apart = ones(bits ^ example.bits[name >> 16, name & 0xFFFF])
+        apart = max(_DRAWN, ones(bits ^ example.bits[name >> 16, name & 0xFFFF]))
         if apart <= least:
             chance = mix64(h + np.uint64(i) * _GOLDEN)
             if apart < least or chance > drawn:
@@ -276,7 +280,7 @@ def _energy(window, y, x, example, name, rules, bits, rim, least):
     At a `rim` what lies outside the region does not count but for its shape.
     """
     row, column = name >> 16, name & 0xFFFF
-    e = np.int32(rules.penalty * ones(bits ^ (example.bits[row, column] & rules.square)))
+    e = np.int32(rules.penalty * max(0, ones(bits ^ (example.bits[row, column] & rules.square)) - rules.leeway))
     if e >= least:
         return e
     i = 4 * ((y - RADIUS) * window.mask.shape[1] + x - RADIUS)
@@ -370,7 +374,7 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     for i in range(first, last, step):
         name = example.order[i]
         apart = _apart(bits, example, name, rules)
-        shape = np.int32(rules.penalty * apart)
+        shape = np.int32(rules.penalty * max(0, apart - rules.leeway))
         if apart > near or shape >= limit:
             continue
         e = _energy(window, y, x, example, name, rules, bits, True, limit)

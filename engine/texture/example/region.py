@@ -24,6 +24,9 @@ from engine.texture.example.tiles import NONE, Tiles
 
 COARSEST_PASSES = 2
 _CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may be large and have but one
+# Pixels of another shape that are free, from the coarsest level on: where pixels are large the example has few shapes
+# like the stroke's, and the same ones again and again would show as a comb.
+_LEEWAY = 6, 2
 _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
 _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
@@ -261,14 +264,15 @@ def _example(exemplar: Exemplar, n: int) -> Example:
 
 def _rules(exemplar: Exemplar, n: int) -> Rules:
     given = exemplar.parameters
-    coarsest = n == len(exemplar.levels) - 1
+    above = len(exemplar.levels) - 1 - n
     size = SIDE * SIDE / given.neighbourhood**2
     penalty = int(min(given.e_max * size, _MOST) * 65025 * WEIGHT)
     return Rules(
         weights(given.neighbourhood),
         square_bits(given.neighbourhood),
         penalty,
+        _LEEWAY[above] if n >= 2 and above < len(_LEEWAY) and exemplar.boundary else 0,
         int(256 * (1.0 + given.kappa)),
-        max(given.every, exemplar.levels[n].order.size // _CANDIDATES) if coarsest else 0,
+        max(given.every, exemplar.levels[n].order.size // _CANDIDATES) if above == 0 else 0,
         exemplar.boundary,
     )

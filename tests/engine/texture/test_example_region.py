@@ -1,6 +1,7 @@
 """What is painted with an example depends on the region, the example and the seed alone."""
 
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,12 +11,14 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from engine.numeric.address import Rect
+from engine.painting.exemplars import read_exemplar, read_parameters
 from engine.texture.example import region as regions
 from engine.texture.example import tiles
 from engine.texture.example.exemplar import PAD, analysed
 from engine.texture.example.region import empty, painted, refined, refining
 
 EXEMPLARS = {"bounded": bounded(), "unbounded": unbounded(), "two passes": bounded(passes=2, neighbourhood=5)}
+EXAMPLES = Path(__file__).parents[3] / "palettes" / "examples"
 places = st.tuples(st.integers(-40, 60), st.integers(-40, 60), st.integers(1, 24))
 
 
@@ -174,3 +177,13 @@ def test_rims_come_from_rims_and_insides_from_insides(side, values, seed):
     found[mask] = here[(names[mask] >> 16) - PAD, (names[mask] & 0xFFFF) - PAD]
     assert (found[mask & (there <= 3)] <= 3).mean() > 0.9
     assert (found[there > 6] <= 3).mean() < 0.1
+
+
+@pytest.mark.parametrize("name", ["wash-indigo", "torn-rag-paper", "felt"])
+def test_a_straight_band_does_not_repeat(name):
+    """Along it all shapes are one: few pixels may come from where another one some way along the row comes from."""
+    at = EXAMPLES / name
+    exemplar = read_exemplar(f"{at}.png", f"{at}.mask.png", read_parameters(f"{at}.toml"))
+    grown = refined(painted(empty(exemplar, 1), Rect(0, 0, 660, 100), np.ones((100, 660), bool)))
+    found = sources(grown, Rect(40, 0, 620, 100))
+    assert max((found[:, lag:] == found[:, :-lag]).mean() for lag in range(6, 60)) < 0.25
