@@ -221,8 +221,8 @@ def start_coarsest(window, patches, corners, block, offset, example, rules):
 
 @njit(cache=True, nogil=True)
 def _shaped(bits, start, h, example, rules):
-    """`start`, if the shape around it is alike; else, of those with about such a shape, or with the nearest if there are
-    none, the pixel that the hash draws."""
+    """`start`, if the shape around it is alike; else the pixel that the hash draws of those with about such a shape, or
+    with the nearest if there are none."""
     if not rules.rims:
         return start
     if ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
