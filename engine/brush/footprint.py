@@ -25,7 +25,7 @@ from engine.numeric.address import TILE, Rect
 WIDEST = 2048.0  # px: radius of a dab
 TILES_CAP = 1 << 12  # of one stroke
 _SIDE = 64  # pixels along these
-_TOGETHER = 1 << 18  # pixels of a rectangle whose dabs are laid at once
+_TOGETHER = 1 << 18  # pixels of a rectangle whose dabs are laid at once, or twice those of the widest dab
 _HALF = 0.5
 
 
@@ -57,10 +57,11 @@ class Footprint:
         self._laid = 0
         self._within = None if within is None else _moved(within, -self._origin[0], -self._origin[1])
 
-    def lay(self, points: np.ndarray) -> list[tuple[Rect, np.ndarray]]:
-        """More points, float64 (n, 6), known to be good: rectangles and what is taken of them, bool (h, w).
+    def lay(self, points: np.ndarray) -> Iterator[tuple[Rect, np.ndarray]]:
+        """More points, float64 (n, 6), known to be good: rectangles and what is taken of them, bool (h, w), each made
+        when it is asked for.
 
-        BrushError if the stroke becomes too large; the points may not be laid again then.
+        BrushError, at once, if the stroke becomes too large; the points may not be laid again then.
         """
         dabs = self._stroker.walk(points)
         dabs[:, 0] = (dabs[:, 0] + self._shift[0]) * self._scale
@@ -72,7 +73,12 @@ class Footprint:
         boxes = _boxes(discs)
         if self._within is None:
             self._count(discs, boxes)
-        found = []
+        laid = self._laid
+        self._laid += len(dabs)
+        return self._taken(discs, boxes, laid)
+
+    def _taken(self, discs: np.ndarray, boxes: np.ndarray, laid: int) -> Iterator[tuple[Rect, np.ndarray]]:
+        """What dabs take; `laid` of the stroke's lie before them."""
         for first, last, around in _groups(boxes):
             box = around if self._within is None else around.intersect(self._within)
             if box.empty:
@@ -81,10 +87,8 @@ class Footprint:
             if self._tip is None:
                 _take(mask, discs[first:last], float(box.x0), float(box.y0))
             else:
-                self._stamp(mask, discs, range(first, last), box)
-            found.append((_moved(box, *self._origin), mask))
-        self._laid += len(dabs)
-        return found
+                self._stamp(mask, discs, range(first, last), laid, box)
+            yield _moved(box, *self._origin), mask
 
     def _count(self, discs: np.ndarray, boxes: np.ndarray) -> None:
         widest = float(discs[:, ROUT].max()) - 0.5 if len(discs) else 0.0
@@ -97,7 +101,7 @@ class Footprint:
                     "stroke", f"one that meets {len(self._tiles)} squares of {_SIDE} px", f"at most {TILES_CAP}"
                 )
 
-    def _stamp(self, mask: np.ndarray, discs: np.ndarray, which: range, box: Rect) -> None:
+    def _stamp(self, mask: np.ndarray, discs: np.ndarray, which: range, laid: int, box: Rect) -> None:
         """Dabs in the shape of the tip's pattern, each for itself."""
         assert self._tip is not None
         for index in which:
@@ -109,7 +113,7 @@ class Footprint:
                     if place.empty:
                         continue
                     tile = np.zeros((TILE, TILE), np.float32)
-                    self._tip.lay(tile, discs, np.array([index]), self._laid, (x, y))
+                    self._tip.lay(tile, discs, np.array([index]), laid, (x, y))
                     mask[place.slices(box)] |= tile[place.slices(whole)] >= _HALF
 
 
@@ -129,9 +133,10 @@ def _boxes(discs: np.ndarray) -> np.ndarray:
 def _groups(boxes: np.ndarray) -> Iterator[tuple[int, int, Rect]]:
     """Runs of dabs that lie near one another, and the rectangle around each."""
     first, around = 0, Rect(0, 0, 0, 0)
+    most = max(_TOGETHER, 2 * max((Rect(*row).area for row in boxes.tolist()), default=0))
     for i, row in enumerate(boxes.tolist()):
         more = around.union(Rect(*row))
-        if i > first and more.area > _TOGETHER:
+        if i > first and more.area > most:
             yield first, i, around
             first, more = i, Rect(*row)
         around = more

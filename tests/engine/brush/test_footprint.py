@@ -81,7 +81,7 @@ def test_where_the_pen_is_lifted_nothing_is_taken():
     alone = np.logical_or.reduce([taken(brush, touch) for touch in touches])
     assert (lifted != alone).sum() < 0.1 * alone.sum()  # other dabs of the same touches
     assert not lifted[:, 700:980].any()
-    assert not Footprint(from_json(brush), (0, 0)).lay(rows([(10, 20, 0), (400, 30, 0)]))
+    assert not list(Footprint(from_json(brush), (0, 0)).lay(rows([(10, 20, 0), (400, 30, 0)])))
 
 
 @pytest.mark.parametrize("finer", [-8, -3, -1, 1, 3])
@@ -119,3 +119,14 @@ def test_strokes_that_are_too_large_are_refused():
     with pytest.raises(BrushError, match=r"stroke: found one that meets 40.. squares"):
         taken({"radius": 1, "dynamics": {}}, [(0, 0), (1e6, 0)])
     assert not taken({"radius": 0.2, "dynamics": {}}, [(0.5, 0.5)]).any()
+
+
+def test_a_wide_eraser_is_laid_piece_by_piece():
+    """However many dabs there are: each piece is made when it is asked for, and pieces hardly overlap."""
+    brush = {"radius": 1000, "spacing": 0.05, "hardness": 1, "dynamics": {}}
+    footprint = Footprint(from_json(brush), (0, 0), within=Rect(-5000, -5000, 5000, 5000))
+    pieces = footprint.lay(rows([(0, 0), (4000, 0)]))
+    assert iter(pieces) is pieces
+    areas = [rect.area for rect, _ in pieces]
+    assert max(areas) <= 2 * 2002**2
+    assert sum(areas) <= 3 * 6000 * 2002
