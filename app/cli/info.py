@@ -173,5 +173,6 @@ def _line(row: dict[str, Any]) -> str:
     if row["kind"] == "layer":
         at = row["bounds"]
         parts.append(f"{row['tiles']} tiles, {row['bytes']:,} bytes")
-        parts.append("empty" if at is None else f"{at[3]} x {at[4]} at {at[1]}, {at[2]} of level {at[0]}")
+        nothing = "no paint" if row.get("examples") else "empty"
+        parts.append(nothing if at is None else f"{at[3]} x {at[4]} at {at[1]}, {at[2]} of level {at[0]}")
     return "; ".join(parts)

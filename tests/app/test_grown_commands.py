@@ -50,6 +50,13 @@ def test_analysed_as_it_was_drawn(drawn, capsys):
     assert facts[0]["colours"] == facts[1]["colours"] > 40
 
 
+def test_a_layer_with_nothing_but_examples_is_not_told_to_be_empty(drawn, capsys):
+    assert main(["info", str(drawn / "a.ora")]) == 0
+    told = capsys.readouterr().out
+    assert "0 bytes; no paint\n    example 'weave' at depth 0" in told
+    assert "empty" not in told
+
+
 @pytest.mark.parametrize("command", ["export", "analyse"])
 def test_told_if_it_is_not_what_it_was(drawn, tmp_path, capsys, command):
     with zipfile.ZipFile(drawn / "a.ora") as old, zipfile.ZipFile(tmp_path / "a.ora", "w") as new:
