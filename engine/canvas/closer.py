@@ -1,8 +1,9 @@
 """What a region painted with an example looks like below its own pixels: the B-spline of them, as everywhere on the
 canvas, and the finer pixels that the example has where they come from.
 
-The sources go on beyond the region's rim, so that the example's own rim is seen there: what an example shows is one
-copy of it then, S_k, with what its pixels are otherwise spread over it.
+The sources go on beyond the region's rim, so that the example's own rim is seen there; where the example goes on too,
+the region ends along the B-spline of its pixels.  Between pixels that come from different places of the example, what
+lies below both fades from one to the other.
 """
 
 from __future__ import annotations
@@ -22,7 +23,6 @@ from engine.texture.example.tiles import Tiles
 HALO = 3  # pixels around the ancestors of a rectangle: what all finer levels of it can read
 BEYOND = 2  # pixels beyond the rim that have a source: as far as a B-spline spreads
 _SMALL = 1 << 10  # pixels of a rectangle that is looked at for being of one colour
-_RGBA = np.arange(4)
 # The neighbours whose sources go on to a pixel, the nearest first.
 _NEAR = np.array(
     sorted(
@@ -35,57 +35,64 @@ _NEAR = np.array(
 
 def expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.ndarray, Rect]:
     """What is shown `finer` levels below the region's own, of whose pixels `base` holds the colours: read-only float32
-    (4, h, w) of a rectangle around `rect`, and that rectangle.
-
-    With the example's detail it is S_k + E^k (what is shown - S_0), k being `finer` or as many levels as the example
-    has; E expands by one level.
-    """
+    (4, h, w) of a rectangle around `rect`, and that rectangle."""
 
     def needed(k: int) -> Rect:
         return rect.evened() if k == finer else rect.zoomed(k - finer).grown(HALO).evened()
 
-    at = needed(0)
-    value = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
     detailed = min(len(region.exemplar.finer), finer)
-    names = _names(region, at) if detailed else None
-    if names is not None:
-        _add(value, names, region.exemplar.colours[0], 0, 0, 0, np.float32(-1.0))
-    for k in range(1, finer + 1):
-        if k > detailed and at.area <= _SMALL and (value == value[:, :1, :1]).all():
+    at = needed(detailed)
+    if detailed:
+        value = _detail(region, detailed, at)
+    else:
+        value = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
+    for k in range(detailed + 1, finer + 1):
+        if at.area <= _SMALL and (value == value[:, :1, :1]).all():
             at, value = rect, np.tile(value[:, :1, :1], (1, rect.height, rect.width))
             break
         inner = needed(k)
         value, at = _expand(value, at, inner), inner
-        if names is not None and k == detailed:
-            first = needed(0)
-            top, left = at.y0 - (first.y0 << k), at.x0 - (first.x0 << k)
-            _add(value, names, region.exemplar.finer[k - 1], k, top, left, np.float32(1.0))
-            np.clip(value[3], 0.0, 1.0, out=value[3])
-            np.clip(value[:3], 0.0, value[3], out=value[:3])
     value.flags.writeable = False  # as tiles are: so the kernel is compiled once
     return value, at
 
 
-def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:
-    out = np.empty((4, inner.height, inner.width), np.float32)
-    top, left = (inner.y0 >> 1) - 1 - at.y0, (inner.x0 >> 1) - 1 - at.x0
-    expand_into(value, top, left, _RGBA, out, 0, inner.height)
+def _detail(region: Region, k: int, rect: Rect) -> np.ndarray:
+    """What the example has `k` levels below the region's pixels: float32 (4, h, w) of a rectangle of that level."""
+
+    def needed(j: int) -> Rect:
+        return rect.zoomed(j - k).grown(HALO).evened() if j < k else rect
+
+    first = at = needed(0)
+    names, ends = _names(region, at)
+    inside = ends[None].astype(np.float32)
+    for j in range(1, k + 1):
+        inside, at = _expand(inside, at, needed(j)), needed(j)
+    out = np.empty((4, at.height, at.width), np.float32)
+    _show(names, region.exemplar.finer[k - 1], inside[0], k, at.y0 - (first.y0 << k), at.x0 - (first.x0 << k), out)
     return out
 
 
-def _names(region: Region, rect: Rect) -> np.ndarray:
-    """Sources of the pixels of a rectangle, int32 (h, w), going on `BEYOND` pixels outside the region."""
+def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:
+    out = np.empty((len(value), inner.height, inner.width), np.float32)
+    top, left = (inner.y0 >> 1) - 1 - at.y0, (inner.x0 >> 1) - 1 - at.x0
+    expand_into(value, top, left, np.arange(len(value)), out, 0, inner.height)
+    return out
+
+
+def _names(region: Region, rect: Rect) -> tuple[np.ndarray, np.ndarray]:
+    """Sources of the pixels of a rectangle, int32 (h, w), going on `BEYOND` pixels outside the region; and uint8
+    (h, w), 0 where the region ends and the example would go on."""
     wide = rect.grown(BEYOND)
     names = show.sources(region, wide)
     mask = tiles.gathered(region.masks[0], wide, np.zeros((1, wide.height, wide.width), np.uint8))[0]
     names[mask == 0] = OUTSIDE
-    out = np.empty((rect.height, rect.width), np.int32)
-    _continued(names, _NEAR, out)
-    return out
+    out, ends = np.empty((rect.height, rect.width), np.int32), np.zeros((rect.height, rect.width), np.uint8)
+    _continued(names, _NEAR, region.exemplar.colours[0], out, ends)
+    return out, ends
 
 
 @njit(cache=True, nogil=True)
-def _continued(names, near, out):
+def _continued(names, near, colours, out, ends):
     """For each pixel of `out` the source that its nearest neighbour in `names` (BEYOND pixels more on each side)
     continues with; OUTSIDE where there is none."""
     for y in range(out.shape[0]):
@@ -95,23 +102,51 @@ def _continued(names, near, out):
                 dy, dx = near[i]
                 source = names[y + BEYOND + dy, x + BEYOND + dx]
                 if source >= 0:
-                    out[y, x] = source - (dy << 16) - dx
+                    source += -(dy << 16) - dx
+                    out[y, x] = source
+                    row, column = (source >> 16) - PAD, (source & 0xFFFF) - PAD
+                    within = 0 <= row < colours.shape[0] and 0 <= column < colours.shape[1]
+                    ends[y, x] = i == 0 or not within or colours[row, column, 3] <= 0.0
                     break
 
 
 @njit(cache=True, nogil=True)
-def _add(value, names, colours, k, top, left, factor):
-    """Adds to `value` (4, h, w), `k` levels below `names` and `top`, `left` pixels from their first one, what the
-    example has there, `colours` (rows, columns, 4), on the grid."""
+def _show(names, colours, inside, k, top, left, out):
+    """Shows in `out` (4, h, w), `k` levels below `names` and `top`, `left` pixels from their first one, what the
+    example has there, `colours` (rows, columns, 4), as far as it is `inside` (h, w), 0..1; on the grid."""
+    found = np.empty(4, np.float32)
+    for y in range(inside.shape[0]):
+        for x in range(inside.shape[1]):
+            share = np.float32((inside[y, x] - 0.5) * (1 << k) + 0.5)  # the outline is one pixel wide
+            share = min(np.float32(1.0), max(np.float32(0.0), share))
+            found[:] = 0.0
+            if share > 0.0:
+                _below(names, colours, k, y + top, x + left, found)
+            for c in range(4):
+                out[c, y, x] = snap(share * found[c])
+
+
+@njit(inline="always")
+def _below(names, colours, k, y, x, found):
+    """What lies below the four pixels around a place, as far as they have sources: those nearer to it count more."""
     side = 1 << k
-    for y in range(value.shape[1]):
-        row = (y + top) >> k
-        for x in range(value.shape[2]):
-            source = names[row, (x + left) >> k]
-            if source < 0:
-                continue
-            i = ((source >> 16) - PAD) * side + ((y + top) & (side - 1))
-            j = ((source & 0xFFFF) - PAD) * side + ((x + left) & (side - 1))
-            if 0 <= i < colours.shape[0] and 0 <= j < colours.shape[1]:
-                for c in range(4):
-                    value[c, y, x] += factor * snap(colours[i, j, c])
+    row, column = (y - (side >> 1)) >> k, (x - (side >> 1)) >> k
+    down = np.float32(y - (side >> 1) - row * side + 0.5) / side
+    across = np.float32(x - (side >> 1) - column * side + 0.5) / side
+    down, across = down * down * (3 - 2 * down), across * across * (3 - 2 * across)
+    total = np.float32(0.0)
+    for n in range(4):
+        r, c = row + (n >> 1), column + (n & 1)
+        source = names[r, c]
+        if source < 0:
+            continue
+        weight = (down if n >> 1 else 1 - down) * (across if n & 1 else 1 - across)
+        total += weight
+        i = ((source >> 16) - PAD - r) * side + y
+        j = ((source & 0xFFFF) - PAD - c) * side + x
+        if 0 <= i < colours.shape[0] and 0 <= j < colours.shape[1]:
+            for m in range(4):
+                found[m] += weight * colours[i, j, m]
+    if total > 0.0:
+        for m in range(4):
+            found[m] /= total

@@ -102,16 +102,11 @@ def dense(plot, whole: Rect, level: int) -> np.ndarray:
         found = means(found)
     if level <= plot.level:
         return found
-    names, exemplar = continued(show.sources(region, whole)), region.exemplar
-    detailed = min(len(exemplar.finer), level - plot.level)
+    detailed = min(len(region.exemplar.finer), level - plot.level)
     if detailed:
-        found -= below(names, exemplar.colours[0], 0, whole)
-    for k in range(1, level - plot.level + 1):
+        found = detail(region, show.sources(region, whole), detailed)
+    for _ in range(level - plot.level - detailed):
         found = splines(found)
-        if k == detailed:
-            found += below(names, exemplar.finer[k - 1], k, whole)
-            found[3] = np.clip(found[3], 0, 1)
-            found[:3] = np.clip(found[:3], 0, found[3])
     return found
 
 
@@ -127,17 +122,38 @@ def continued(names: np.ndarray) -> dict[tuple[int, int], tuple[int, int]]:
     return {place: at for place, at in found.items() if min(place) >= 0 and max(place) < len(names)}
 
 
-def below(names: dict[tuple[int, int], tuple[int, int]], colours: np.ndarray, k: int, whole: Rect) -> np.ndarray:
-    """What an example shows `k` levels below the pixels of `whole`: (4, h, w)."""
+def detail(region, names: np.ndarray, k: int) -> np.ndarray:
+    """What an example shows `k` levels below the pixels of `names` (h, w): (4, h 2^k, w 2^k)."""
+    places, (first, finest) = continued(names), (region.exemplar.colours[0], region.exemplar.finer[k - 1])
+    inside = np.zeros((1, *names.shape))
+    for place, (i, j) in places.items():
+        held = 0 <= i < first.shape[0] and 0 <= j < first.shape[1] and first[i, j, 3] > 0
+        inside[(0, *place)] = names[place] >= 0 or not held
+    for _ in range(k):
+        inside = splines(inside)
+    share = np.clip(((inside[0] - 0.5) * (1 << k) + 0.5).astype(np.float32), 0, 1)
+    out = np.zeros((4, *inside.shape[1:]), np.float32)
+    for y, x in np.argwhere(share > 0):
+        out[:, y, x] = snapped(share[y, x] * below(places, finest, k, int(y), int(x)))
+    return out.astype(np.float64)
+
+
+def below(places: dict[tuple[int, int], tuple[int, int]], colours: np.ndarray, k: int, y: int, x: int) -> np.ndarray:
+    """What lies `k` levels below the four pixels around a place, those nearer to it weighing more: (4,)."""
     side = 1 << k
-    rows, columns = (colours.shape[0] // side + 8) * side, (colours.shape[1] // side + 8) * side
-    wide = np.zeros((rows, columns, 4))  # four pixels more on each side
-    wide[4 * side : 4 * side + colours.shape[0], 4 * side : 4 * side + colours.shape[1]] = snapped(colours)
-    out = np.zeros((4, whole.height * side, whole.width * side))
-    for (y, x), (i, j) in names.items():
-        piece = wide[(i + 4) * side : (i + 5) * side, (j + 4) * side : (j + 5) * side]
-        out[:, y * side : (y + 1) * side, x * side : (x + 1) * side] = piece.transpose(2, 0, 1)
-    return out
+    (row, down), (column, across) = (divmod(n - side // 2, side) for n in (y, x))
+    found, total = np.zeros(4, np.float32), 0.0
+    for r, c in ((row, column), (row, column + 1), (row + 1, column), (row + 1, column + 1)):
+        if (r, c) not in places:
+            continue
+        t, u = (down + 0.5) / side, (across + 0.5) / side
+        t, u = t * t * (3 - 2 * t), u * u * (3 - 2 * u)
+        weight = (t if r > row else 1 - t) * (u if c > column else 1 - u)
+        total += weight
+        i, j = (places[r, c][0] - r) * side + y, (places[r, c][1] - c) * side + x
+        if 0 <= i < colours.shape[0] and 0 <= j < colours.shape[1]:
+            found = (found + weight * colours[i, j].astype(np.float64)).astype(np.float32)
+    return (found / total).astype(np.float32) if total else found
 
 
 def stacked(pictures, below: np.ndarray) -> np.ndarray:

@@ -40,7 +40,7 @@ def test_no_pixel_changes_at_the_finest_level(key, finest):
         there = WHOLE.zoomed(level)
         difference = np.abs(layer_planes(flat, level, there) - layer_planes(layer, level, there))
         assert difference.max() < 0.25
-        assert difference.mean() < 0.002
+        assert difference.mean() < 0.004
 
 
 def test_plots_of_several_levels():
