@@ -44,6 +44,8 @@ def expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.nd
     at = needed(detailed)
     if detailed:
         value = _detail(region, detailed, at)
+        if not region.fresh(0):
+            _fill(value, base, region, detailed, at)
     else:
         value = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
     for k in range(detailed + 1, finer + 1):
@@ -70,6 +72,23 @@ def _detail(region: Region, k: int, rect: Rect) -> np.ndarray:
     out = np.empty((4, at.height, at.width), np.float32)
     _show(names, region.exemplar.finer[k - 1], inside[0], k, at.y0 - (first.y0 << k), at.x0 - (first.x0 << k), out)
     return out
+
+
+def _fill(value: np.ndarray, base: Tiles, region: Region, k: int, rect: Rect) -> None:
+    """Shows in `value`, as `_detail` gives it, the B-spline of those pixels that have no source yet."""
+    first = at = rect.zoomed(-k).grown(HALO).evened()
+    mask = tiles.gathered(region.masks[0], at, np.zeros((1, at.height, at.width), np.uint8))[0]
+    late = (mask > 0) & (show.sources(region, at) < 0)
+    if not late.any():
+        return
+    plain = tiles.gathered(base, at, np.zeros((4, at.height, at.width), np.float32))
+    for j in range(1, k + 1):
+        inner = rect.zoomed(j - k).grown(HALO).evened() if j < k else rect
+        plain, at = _expand(plain, at, inner), inner
+    rows = np.arange(rect.height) + (rect.y0 - (first.y0 << k)) >> k
+    columns = np.arange(rect.width) + (rect.x0 - (first.x0 << k)) >> k
+    where = late[np.ix_(rows, columns)]
+    value[:, where] = plain[:, where]
 
 
 def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:

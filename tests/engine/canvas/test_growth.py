@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from planted import around, bitten, dense, disc, example, masked, means, planted, same, stacked
+from planted import around, bitten, blob, dense, disc, example, masked, means, planted, same, stacked
 
 from engine.canvas import growth as growths
 from engine.canvas import shown
@@ -17,7 +17,7 @@ from engine.numeric.address import Rect
 from engine.numeric.grid import Q, snapped
 from engine.texture.example import show, tiles
 from engine.texture.example.correction import OUTSIDE
-from engine.texture.example.exemplar import PAD
+from engine.texture.example.exemplar import PAD, analysed, shrunk
 
 WHOLE = Rect.at(-128, -128, 256, 256)
 places = st.tuples(st.integers(-50, 50), st.integers(-50, 50), st.integers(2, 20))
@@ -340,3 +340,20 @@ def test_an_example_is_seen_with_its_own_rim_at_its_own_level():
     growth = (replace(growth[0], region=region, shown=shown.followed((), None, region), drawn=region),)
     found = growths.planes(growth, 1, at.zoomed(1))
     assert np.array_equal(found, snapped(exemplar.finer[0].transpose(2, 0, 1)))
+
+
+def test_what_is_not_refined_yet_is_seen_from_near_too():
+    """While the pen moves there are no sources to look closer at, but for those of the coarsest level."""
+    exemplar = shrunk(analysed(blob(1, 200)), 1)
+    growth = growths.laid((), 0.0, 0, "a", "a", exemplar, 0, around(0, 0, 30), disc(30))
+    growth = growths.previewed(growth)
+    assert not growths.is_settled(growth)
+    near = Rect.at(-16, -16, 32, 32)
+    shown = growths.planes(growth, 0, near)
+    for level in (1, 2):
+        found = growths.planes(growth, level, near.zoomed(level))
+        assert found[3].min() > 0.5
+        found = found.reshape(4, 32, 1 << level, 32, 1 << level).mean(axis=(2, 4))
+        assert np.abs(found - shown).mean() < 0.03
+    growth = growths.laid(growths.settled(growth), 0.0, 0, "a", "a", exemplar, 0, around(50, 0, 30), disc(30))
+    assert growths.planes(growths.previewed(growth), 1, Rect.at(80, -10, 60, 20))[3].min() > 0.5
