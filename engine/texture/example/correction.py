@@ -239,11 +239,15 @@ def _shaped(bits, start, h, example, rules):
 
 
 @njit(cache=True, nogil=True)
-def wanted(window, p, turn, places):
-    """Lists the pixels to correct in a sub-pass, as row * width + column; gives their number."""
+def wanted(window, p, turn, beyond, places):
+    """Lists the pixels to correct in a sub-pass, as row * width + column; gives their number.
+
+    `beyond`: pixels along the edges that do not count after the pass, nor do those that only such pixels read then.
+    """
     height, width = window.mask.shape
     count = 0
-    for y in range(MARGIN, height - MARGIN):
+    margin = max(MARGIN, beyond - RADIUS * (SUBPASSES - 1 - turn))
+    for y in range(margin, height - margin):
         asked, mask = window.need[p, y], window.mask[y]
         odd = -1
         for x in range(2):
@@ -251,7 +255,7 @@ def wanted(window, p, turn, places):
                 odd = x
         if odd < 0:
             continue
-        for x in range(MARGIN + odd, width - MARGIN, 2):
+        for x in range(margin + (margin + odd & 1), width - margin, 2):
             if asked[x] and mask[x]:
                 places[count] = y * width + x
                 count += 1
@@ -430,11 +434,11 @@ def settle(window, places, count, found, p, turn, example):
 
 
 @njit(cache=True, nogil=True)
-def correct_all(window, p, example, rules):
+def correct_all(window, p, beyond, example, rules):
     """All of a pass."""
     places = np.empty(window.mask.size // 4 + window.mask.shape[0] + window.mask.shape[1] + 1, np.int32)
     found = np.empty(places.size, np.int32)
     for turn in range(SUBPASSES):
-        count = wanted(window, p, turn, places)
+        count = wanted(window, p, turn, beyond, places)
         correct(window, places, 0, count, p, example, rules, found)
         settle(window, places, count, found, p, turn, example)

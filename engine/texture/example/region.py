@@ -8,8 +8,9 @@ gives others, and any of them may be kept.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import Executor
+from concurrent.futures import Executor, wait
 from dataclasses import dataclass, replace
+from threading import Event
 
 import numpy as np
 
@@ -33,6 +34,13 @@ _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squ
 _SQUARE = 512
 _TOGETHER = 1 << 15  # pixels of a window that is refined without a pause
 _SLICE = 4096  # pixels between two pauses
+_SEARCHING = 32  # times as long as elsewhere a pixel takes at the coarsest level, about
+_SHARED = 1 << 17  # pixels of a window that threads refine in parts
+_PAUSE = 0.004  # seconds between two pauses while threads are at work
+
+
+Square = tuple[Rect, int]  # and how many pixels around it take part
+Filling = tuple[float, Rect, np.ndarray | None]  # the part done, a square, and what it is filled with if it is known
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,17 +138,58 @@ def refining(region: Region, upto: int = 0, threads: Executor | None = None) -> 
 
 def _refining_level(region: Region, n: int, threads: Executor | None) -> Iterator[tuple[float, Tiles]]:
     """The part done, and the sources so far, which hold nothing but finished squares."""
-    old = region.levels[n]
-    sources = old.sources
-    squares = _squares(region, n)
+    sources = region.levels[n].sources
+    squares = _squares(region, n, threads is not None)
+    if threads is None or len(squares) < 2:
+        filling = _one_by_one(region, n, squares, threads)
+    else:
+        filling = _at_once(region, n, squares, threads)
+    for done, square, found in filling:
+        if found is not None:
+            sources = tiles.laid(sources, square, found, OUTSIDE, square)
+        yield done, sources
+    yield 1.0, sources
+
+
+def _one_by_one(region: Region, n: int, squares: list[Square], threads: Executor | None) -> Iterator[Filling]:
     for k, (square, room) in enumerate(squares):
         window = _window(region, n, square, room)
-        rect = square.grown(room)
-        for done in _correcting(region, n, window, threads):
-            yield (k + done) / len(squares), sources
-        kept = window.planes if _coarsest(region, n) else window.planes[1:]
-        sources = tiles.laid(sources, rect, kept, OUTSIDE, square)
-    yield 1.0, sources
+        for done in _correcting(region, n, window, room, threads):
+            yield (k + done) / len(squares), square, None
+        yield (k + 1) / len(squares), square, _kept(region, n, window, room)
+
+
+def _at_once(region: Region, n: int, squares: list[Square], threads: Executor) -> Iterator[Filling]:
+    """Each square by one thread: none reads what another one makes.  The largest first, so that all end together."""
+    over = Event()
+    squares = sorted(squares, key=lambda one: -one[0].area)
+    jobs = [threads.submit(_alone, region, n, square, room, over) for square, room in squares]
+    try:
+        for k, ((square, _), job) in enumerate(zip(squares, jobs, strict=True)):
+            while not job.done():
+                wait([job], _PAUSE)
+                yield k / len(jobs), square, None
+            yield (k + 1) / len(jobs), square, job.result()
+    finally:  # also where the next step is never asked for
+        over.set()
+        for job in jobs:
+            job.cancel()
+
+
+def _alone(region: Region, n: int, square: Rect, room: int, over: Event) -> np.ndarray | None:
+    """What a square is filled with; None if that is over before it is done."""
+    if over.is_set():
+        return None
+    window = _window(region, n, square, room)
+    for _ in _correcting(region, n, window, room, None):
+        if over.is_set():
+            return None
+    return _kept(region, n, window, room).copy()  # the window takes much more memory
+
+
+def _kept(region: Region, n: int, window: Window, room: int) -> np.ndarray:
+    """The sources of a square, (planes, h, w), of all passes that are kept."""
+    return window.planes[0 if _coarsest(region, n) else 1 :, room:-room, room:-room]
 
 
 def _coarsest(region: Region, n: int) -> bool:
@@ -151,8 +200,9 @@ def _passes(region: Region, n: int) -> int:
     return COARSEST_PASSES if _coarsest(region, n) else region.exemplar.parameters.passes
 
 
-def _squares(region: Region, n: int) -> list[tuple[Rect, int]]:
-    """Rectangles that hold all that can change at a level, and how much around each takes part in its refinement."""
+def _squares(region: Region, n: int, shared: bool) -> list[Square]:
+    """Rectangles that hold all that can change at a level, and how much around each takes part in its refinement; some
+    more of them if they are to be shared out."""
     old = region.levels[n]
     altered = tiles.changed_rect(old.mask, region.masks[n], 0)
     altered = altered.union(tiles.changed_rect(old.above, region._above(n), OUTSIDE).zoomed(1))
@@ -161,7 +211,10 @@ def _squares(region: Region, n: int) -> list[tuple[Rect, int]]:
     reach = REACH * _passes(region, n)
     whole = altered.grown(RADIUS + reach)
     if max(whole.width, whole.height) <= _AT_ONCE:
+        if shared and whole.area > _SHARED and not _coarsest(region, n):
+            return [(part, reach + MARGIN) for part in _quarters(whole)]
         return [(whole, MARGIN)]
+    whole = whole.intersect(tiles.hull(old.mask).union(tiles.hull(region.masks[n])))  # beyond it nothing is to be done
     keys = tiles.changed(old.mask, region.masks[n])
     near = [tiles.rect_of(key).grown(RADIUS + reach) for key in keys]
     if not _coarsest(region, n):
@@ -173,6 +226,12 @@ def _squares(region: Region, n: int) -> list[tuple[Rect, int]]:
             part = Rect.at(x * _SQUARE, y * _SQUARE, _SQUARE, _SQUARE).intersect(rect).intersect(whole)
             found[y, x] = found.get((y, x), Rect(0, 0, 0, 0)).union(part)
     return [(rect, reach + MARGIN) for _, rect in sorted(found.items()) if not rect.empty]
+
+
+def _quarters(rect: Rect) -> list[Rect]:
+    y, x = (rect.y0 + rect.y1) // 2, (rect.x0 + rect.x1) // 2
+    rows, columns = ((rect.y0, y), (y, rect.y1)), ((rect.x0, x), (x, rect.x1))
+    return [Rect(x0, y0, x1, y1) for y0, y1 in rows for x0, x1 in columns]
 
 
 def _square_keys(rect: Rect) -> Iterator[tuple[int, int]]:
@@ -216,45 +275,49 @@ def _start_coarsest(region: Region, window: Window, rect: Rect) -> None:
     correction.start_coarsest(window, *arrays, block, offset, _example(exemplar, n), _rules(exemplar, n))
 
 
-def _correcting(region: Region, n: int, window: Window, threads: Executor | None) -> Iterator[float]:
+def _correcting(region: Region, n: int, window: Window, room: int, threads: Executor | None) -> Iterator[float]:
     """The part done, 0..1, after each piece of work."""
     example, rules = _example(region.exemplar, n), _rules(region.exemplar, n)
     passes = len(window.planes) - 1
+    heavy = _SEARCHING if threads is not None and _coarsest(region, n) else 1
     for p in range(1, passes + 1):
-        if window.mask.size <= _TOGETHER:
-            correction.correct_all(window, p, example, rules)
+        beyond = room - RADIUS * SUBPASSES * (passes - p)
+        if window.mask.size <= _TOGETHER // heavy:
+            correction.correct_all(window, p, beyond, example, rules)
             yield p / passes
             continue
-        for done in _sliced_pass(window, p, example, rules, threads):
+        for done in _sliced_pass(window, p, beyond, example, rules, max(1, _SLICE // heavy), threads):
             yield (p - 1 + done) / passes
 
 
-def _sliced_pass(window: Window, p: int, example: Example, rules: Rules, threads: Executor | None) -> Iterator[float]:
+def _sliced_pass(
+    window: Window, p: int, beyond: int, example: Example, rules: Rules, step: int, threads: Executor | None
+) -> Iterator[float]:
     height, width = window.mask.shape
     places = np.empty(window.mask.size // 4 + height + width + 1, np.int32)
     found = np.empty(places.size, np.int32)
     for turn in range(SUBPASSES):
-        count = correction.wanted(window, p, turn, places)
-        for last in _corrected(window, places, count, p, example, rules, found, threads):
+        count = correction.wanted(window, p, turn, beyond, places)
+        for last in _corrected(window, places, count, p, example, rules, found, step, threads):
             yield (turn + last / count) / SUBPASSES
         correction.settle(window, places, count, found, p, turn, example)
 
 
-def _corrected(window, places, count, p, example, rules, found, threads):
+def _corrected(window, places, count, p, example, rules, found, step, threads):
     """Corrects places[:count] in slices; gives how many are done after each."""
-    step = _SLICE
-    if threads is None:
-        for first in range(0, count, step):
-            correction.correct(window, places, first, min(first + step, count), p, example, rules, found)
-            yield min(first + step, count)
+    slices = [(first, min(first + step, count)) for first in range(0, count, step)]
+    if threads is None or len(slices) == 1:
+        for first, last in slices:
+            correction.correct(window, places, first, last, p, example, rules, found)
+            yield last
         return
     jobs = [
-        threads.submit(correction.correct, window, places, first, min(first + step, count), p, example, rules, found)
-        for first in range(0, count, step)
+        threads.submit(correction.correct, window, places, first, last, p, example, rules, found)
+        for first, last in slices
     ]
-    for k, job in enumerate(jobs):
+    for (_, last), job in zip(slices, jobs, strict=True):
         job.result()
-        yield min((k + 1) * step, count)
+        yield last
 
 
 def _example(exemplar: Exemplar, n: int) -> Example:

@@ -31,6 +31,14 @@ def rect_of(key: Key) -> Rect:
     return Rect.at(key[1] * SIDE, key[0] * SIDE, SIDE, SIDE)
 
 
+def hull(tiles: Tiles) -> Rect:
+    """The smallest rectangle around all tiles."""
+    if not tiles:
+        return Rect(0, 0, 0, 0)
+    rows, columns = zip(*tiles, strict=True)
+    return Rect(min(columns) * SIDE, min(rows) * SIDE, (max(columns) + 1) * SIDE, (max(rows) + 1) * SIDE)
+
+
 def gathered(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
     """Copies what tiles hold of a rectangle into `out` (planes, h, w), and leaves the rest of it alone."""
     for key in keys_of(rect):

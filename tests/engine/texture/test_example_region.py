@@ -2,6 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 
 import numpy as np
 import pytest
@@ -103,6 +104,9 @@ def test_threads_and_squares_do_not_matter(name, monkeypatch):
         monkeypatch.setattr(regions, "_TOGETHER", 0)
         monkeypatch.setattr(regions, "_SLICE", 97)
         same(plain, refined(start, threads=pool))
+        monkeypatch.setattr(regions, "_SHARED", 1000)
+        same(plain, refined(start, threads=pool))
+        same(plain, refined(start))
         monkeypatch.setattr(regions, "_AT_ONCE", 32)
         monkeypatch.setattr(regions, "_SQUARE", 64)
         same(plain, refined(start, threads=pool))
@@ -110,6 +114,30 @@ def test_threads_and_squares_do_not_matter(name, monkeypatch):
         rect = Rect.at(100, 100, 60, 50)
         after = refined(painted(plain, rect, more), threads=pool)
     same(after, refined(painted(start, rect, more)))
+
+
+def test_threads_stop_where_no_more_is_asked_for(monkeypatch):
+    monkeypatch.setattr(regions, "_SHARED", 1000)
+    monkeypatch.setattr(regions, "_TOGETHER", 0)
+    start = painted(empty(EXEMPLARS["two passes"], 5), Rect.at(-17, 33, 300, 200), np.ones((200, 300), bool))
+    whole = refined(start)
+    window, alone, gate, ended = regions._window, regions._alone, Event(), []
+
+    def gated(region, n, *where):
+        assert n > 0 or gate.wait(20)
+        return window(region, n, *where)
+
+    monkeypatch.setattr(regions, "_window", gated)
+    monkeypatch.setattr(regions, "_alone", lambda *given: ended.append(alone(*given)) or ended[-1])
+    with ThreadPoolExecutor(2) as pool:
+        steps = refining(start, threads=pool)
+        step = next(step for step in steps if step.level == 0)
+        steps.close()
+        gate.set()
+    assert step.done < 1.0
+    assert len(ended) <= 2
+    assert all(found is None for found in ended)
+    same(whole, refined(step.region))
 
 
 def test_places_may_be_anywhere():
