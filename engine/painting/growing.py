@@ -154,4 +154,5 @@ def swapped(painting: Painting, command: Swap) -> Painting:
         raise Refusal(f"swap: found nothing painted with an example there on layer {layer.name!r}, expected a region")
     plant = sown(painting, command.example, command.detail, "swap.example")
     grown = growths.swapped(layer.growth, plot, plant.name, plant.key, plant.exemplar)
-    return replace(painting, root=layers.with_growth(painting.root, layer.name, grown))
+    seen = growths.previewed(grown)  # or nothing would be there until its first level is grown
+    return replace(painting, root=layers.with_growth(painting.root, layer.name, seen))

@@ -247,6 +247,7 @@ def test_swapping_an_example_is_one_step(meadow):
     before = pixels(session.painting)
     session.do(c.Swap(0, (40, 20), "b"))
     assert [plot.name for plot in growth(session)] == ["b", "a"]
+    assert growth(session)[0].shown  # at once, as coarse as it is
     direct = done(fresh(meadow), [stroke([[20, 20], [60, 20]], example="b"), stroke([[20, 60], [60, 60]], depth=1)])
     assert alike(pixels(session.painting), pixels(direct.painting))
     session.do(c.Swap(1, (80, 40), "b", detail=1))
