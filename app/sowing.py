@@ -153,7 +153,7 @@ def save_region(desk: Desk) -> None:
     except keeping.FAULTS as error:
         desk.say(str(error), bad=True)
         return
-    mask.saved = mask.version
+    mask.saved, mask.dirty = mask.version, mask.whole  # it is shown under another name from now on
     state.masks[f"own {name}"] = state.masks.pop(entry.ident)
     _refresh(desk, name)
     desk.say(f"Saved the region of “{name}”" + ("" if entry.own else ", an example of your own now"))

@@ -39,13 +39,20 @@ def draw(desk: Desk, pointer_name: str) -> None:
     imgui.dummy(ImVec2(0, 0))
 
 
+def _work(desk: Desk) -> str:
+    """What goes on beside the painting."""
+    if desk.growing is not None:
+        return f"growing {desk.growing.done * 100:.0f} %"
+    if desk.pending:
+        return f"{desk.pending} tiles to do"
+    return f"{icons.DISK} writing" if desk.files else ""
+
+
 def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
     """(text, hint, least width in ems), left to right."""
     view = desk.view
-    growing = f"growing {desk.growing.done * 100:.0f} %" if desk.growing else ""
-    work = growing or f"{desk.pending} tiles to do" if desk.pending else f"{icons.DISK} writing" if desk.files else ""
     out = [
-        (work, "Detail that is still being computed, or a file being written", 6.0),
+        (_work(desk), "Detail that is still being computed, or a file being written", 6.0),
         (pointer_name, "The device that last moved the pointer", 0.0),
     ]
     if view.angle or view.mirrored:

@@ -11,6 +11,7 @@ from app.actions import ACTIONS
 from app.desk import Desk
 from app.examples import Entry
 from app.input.events import PenEvent
+from app.panels import status
 from app.panels.examples import tile
 from app.panels.strip import StripPanel
 from app.presets import Preset
@@ -18,7 +19,7 @@ from app.view import Place, View
 from engine.brush.record import Brush
 from engine.painting.commands import Swap, parse, to_json
 from engine.painting.definitions import defined_by
-from engine.painting.requests import Do, Swatch
+from engine.painting.requests import Do, Growing, Swatch
 from engine.texture.example.parameters import Parameters
 
 
@@ -237,7 +238,9 @@ def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     sowing.edit(desk)
     state.mask.begin(3.0, 3.0)
     state.set(entry, "kappa", 9.0)
+    state.mask.dirty = None
     sowing.save_region(desk)
+    assert state.mask.dirty == state.mask.whole  # the copy has no picture yet
     assert (state.entry.own, state.entry.name, state.entry.parameters.kappa) == (True, "felt", 9.0)
     assert keeping.opened(state.entry).inside[3, 3]
     assert not keeping.opened(entry).inside[3, 3]
@@ -388,3 +391,10 @@ def test_a_click_swaps_and_escape_does_not(desk, posted):
         gesture.send(pen("up", 402.0, 303.0))
     assert posted[-1].command.at == (2, 3)
     assert not desk.examples.swapping
+
+
+def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
+    desk.growing, desk.pending = Growing(0.42), 0
+    assert status._fields(desk, "")[0][0] == "growing 42 %"
+    desk.growing, desk.pending = None, 8
+    assert status._fields(desk, "")[0][0] == "8 tiles to do"
