@@ -19,26 +19,31 @@ from immutables import Map
 from app.mask import Mask
 from engine.brush.record import Brush
 from engine.painting.commands import DefineTexture
+from engine.painting.definitions import defined_by
 from engine.painting.requests import Request, Swatch
 from engine.texture.example.parameters import Parameters, changed, read_toml
 from engine.texture.field_error import FieldError
 
 OWN = "Own"  # the group of the artist's own
+HERE = "In this painting"  # the group of those that only the painting has
 ALL = ""  # the group of every example
-_RANK = {OWN: 0, "Watercolour": 1, "Paper": 2}  # others follow, by name
+_RANK = {OWN: 0, HERE: 1, "Watercolour": 2, "Paper": 3}  # others follow, by name
 MASK, PICTURE, PARAMETERS = ".mask.png", ".png", ".toml"
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 SIZES = (-2, -1, 0, 1, 2)  # octaves by which a texture is larger than the canvas pixels seen when it was chosen
 REACH = 8  # levels from a stroke's to that of the example's pixels
 TOO_FINE = 4  # levels that a stroke may be coarser: each makes four times the pixels
 DEPTHS = (-99, 99)
+NOWHERE = Path()  # the files of those that only the painting has
 SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
 TABS = ("palette", "region", "settings")
+KIND = "example"  # of textures
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """An example.  `revision`: another number when the artist's own region is another one."""
+    """An example.  `revision`: another number when the artist's own region is another one; `here`: the parameters of a
+    texture that only the painting has, which has no files."""
 
     name: str
     group: str
@@ -47,14 +52,19 @@ class Entry:
     parameters: Parameters
     own: bool
     revision: int = 0
+    here: Mapping[str, Any] | None = None
 
     @property
     def ident(self) -> str:
+        if self.here is not None:
+            return f"here {self.name}"
         return f"{'own' if self.own else 'bundled'} {self.name}"
 
     @property
     def title(self) -> str:
         """What it is called: `wash-indigo` is a wash, indigo."""
+        if self.here is not None:
+            return self.name
         text = self.name.replace("-", " ").replace("_", " ").strip() or self.name
         return text[:1].upper() + text[1:]
 
@@ -85,14 +95,14 @@ def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
 
 def arranged(entries: Iterable[Entry]) -> list[Entry]:
     """By group, in the order in which these are listed, and by name."""
-    return sorted(entries, key=lambda e: (_RANK.get(e.group, 3), e.group, e.name))
+    return sorted(entries, key=lambda e: (_RANK.get(e.group, len(_RANK)), e.group, e.name))
 
 
 def label(entry: Entry, entries: Iterable[Entry]) -> str:
     """An example's title without a first word that several of its group share: a wash among washes."""
     first, _, rest = entry.title.partition(" ")
     same = sum(other.group == entry.group and other.title.partition(" ")[0] == first for other in entries)
-    return rest[:1].upper() + rest[1:] if rest and same > 2 and not entry.own else entry.title
+    return rest[:1].upper() + rest[1:] if rest and same > 2 and entry.group not in (OWN, HERE) else entry.title
 
 
 def _stamp(path: Path | None) -> int:
@@ -138,6 +148,7 @@ class ExampleState:
     masks: dict[str, Mask] = field(default_factory=dict)
     spot: tuple[float, float, float] | None = None
     sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
+    _hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
     _asked: Any = None
     _since: float = 0.0
     _sent: float = 0.0
@@ -193,6 +204,13 @@ class ExampleState:
         used = self.used.get(entry.ident, Map())
         return self.drafts.get(entry.ident, used) != used
 
+    def needs(self, entry: Entry, draft: bool = False) -> tuple[str, tuple[DefineTexture, ...]]:
+        """The name of its texture, and the definition that it needs if not only the painting has it."""
+        if entry.here is not None:
+            return entry.name, ()
+        command = self.command(entry, draft)
+        return command.name, (command,)
+
     def command(self, entry: Entry, draft: bool = False) -> DefineTexture:
         """The definition of its texture, as it is painted with or as the settings are."""
         usual = self.used.get(entry.ident, Map())
@@ -218,31 +236,60 @@ class ExampleState:
     def ask(self, post: Callable[[Request], None], now: float) -> None:
         """Posts the sample stroke that the panel shows, no faster than it can be seen."""
         entry = self.entry
-        wanted = None if entry is None else (self.command(entry, self.tab == "settings"), self.sampled, self.size)
+        drafted = self.tab == "settings"
+        wanted = None if entry is None else (*self.needs(entry, drafted), self.sampled, self.size, entry.here)
         if wanted != self._asked:
             self._asked, self._since = wanted, self._since or max(now, self._sent + SETTLE)
         if self._since and now >= self._since:
             self._since, self._sent = 0.0, now
             if wanted is not None and min(self.sampled) > 0:
-                post(sample(*wanted))
+                post(sample(*wanted[:4]))
+
+    def ask_thumbnails(self, post: Callable[[Request], None], side: int) -> None:
+        """Posts the pictures of those that only the painting has: a stroke each, pixels of the framebuffer square."""
+        for entry in self.entries:
+            if entry.here is not None and self._hung.get(entry.ident) != (entry.here, side):
+                self._hung[entry.ident] = entry.here, side
+                brush = Brush(radius=side, mode="example", example=entry.name, hardness=1.0, example_detail=1)
+                post(Swatch(f"example {entry.ident}", brush, (side, side)))
 
 
 def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
-    """The command that makes an example's texture; `told`: parameters other than its own."""
+    """The command that makes an example's texture; `told`: parameters other than its own.
+
+    All are told, or a texture of the painting that has others would be taken for this one.
+    """
+    given: dict[str, Any] = {**asdict(entry.parameters), **told}
     if not entry.own:
-        return DefineTexture(entry.title, "example", Map({"bundled": entry.name, **told}))
-    given: dict[str, Any] = {"path": str(entry.picture), **asdict(entry.parameters), **told}
+        return DefineTexture(entry.title, KIND, Map(given | {"bundled": entry.name}))
+    given["path"] = str(entry.picture)
     if entry.mask is not None:
         given |= {"mask": str(entry.mask), "mask_sha": mask_sha(entry.mask, entry.revision)}
-    return DefineTexture(entry.title, "example", Map(given))
+    return DefineTexture(entry.title, KIND, Map(given))
 
 
-def sample(command: DefineTexture, size: tuple[int, int], octaves: int = 0) -> Swatch:
+def here(definitions: Iterable[tuple[str, str, Mapping[str, Any]]], state: ExampleState) -> list[Entry]:
+    """Those of a painting's textures (name, kind, parameters) that are examples and none that the palette has."""
+    found = []
+    for name, kind, told in definitions:
+        if kind == KIND and not any(_is(entry, told, state) for entry in state.entries if entry.here is None):
+            found.append(Entry(name, HERE, NOWHERE, None, Parameters(), False, 0, told))
+    return found
+
+
+def _is(entry: Entry, told: Mapping[str, Any], state: ExampleState) -> bool:
+    """Whether a texture of a painting is an example of the palette, as it came or as it is painted with."""
+    if told.get("path" if entry.own else "bundled") != (str(entry.picture) if entry.own else entry.name):
+        return False
+    return any(defined_by(one, KIND, told) for one in (definition(entry, Map()), state.command(entry)))
+
+
+def sample(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], octaves: int = 0) -> Swatch:
     """A broad stroke with an example, which is so many octaves larger than it is."""
     radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
-    brush = Brush(radius=radius, mode="example", example=command.name, hardness=1.0)
+    brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
     brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
-    return Swatch("example sample", brush, size, textures=(command,), soon=True)
+    return Swatch("example sample", brush, size, textures=needs, soon=True)
 
 
 _SHAS: dict[tuple[Path, int], str] = {}

@@ -130,6 +130,7 @@ class News:
         if desk.strip != "examples" or not desk.panels:
             return
         state.ask(desk.post, now)
+        state.ask_thumbnails(desk.post, round(LARGE * desk.scale))
         mask = state.mask
         if mask is not None and mask.dirty is not None:
             height, width = mask.inside.shape
@@ -168,7 +169,9 @@ class News:
             self.screen.confirm(ScreenTile(*tile), r.revision)
 
     def _scene(self, scene: q.Scene, _now: float) -> None:
-        self.desk.scene = scene
+        before, self.desk.scene = self.desk.scene, scene
+        if before is None or before.definitions != scene.definitions:
+            sowing.gather(self.desk)
         if scene.serial != self._serial:
             self.screen.forget()
             if self._serial is not None or scene.path is not None:

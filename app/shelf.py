@@ -33,8 +33,8 @@ class Shelf:
         self._thread: threading.Thread | None = None
 
     def ask(self, entries: tuple[Entry, ...], side: int) -> None:
-        """Has thumbnails made of those that have none, or none of that size, or another region by now."""
-        for entry in entries:
+        """Has thumbnails made of those with files that have none, or none of that size, or another region by now."""
+        for entry in (entry for entry in entries if entry.here is None):
             state = entry.revision, side
             if self._known.get(entry.ident) != state:
                 self._known[entry.ident] = state

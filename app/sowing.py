@@ -25,6 +25,16 @@ def stock(desk: Desk) -> None:
     desk.examples.entries = tuple(examples.arranged([*found, *own]))
     for fault in faults + more:
         desk.say(fault, bad=True)
+    gather(desk)
+
+
+def gather(desk: Desk) -> None:
+    """Lists those that only the painting has, too."""
+    state = desk.examples
+    here = () if desk.scene is None else examples.here(desk.scene.definitions, state)
+    state.entries = tuple(examples.arranged([*(entry for entry in state.entries if entry.here is None), *here]))
+    if state.group not in (examples.ALL, *state.groups()):
+        state.group = examples.ALL
 
 
 def choose(desk: Desk, entry: Entry) -> None:
@@ -45,9 +55,9 @@ def take(desk: Desk) -> None:
     if entry is None:
         desk.strip, desk.panels, state.tab = "examples", True, "palette"
         return
-    command = state.command(entry)
-    desk.brush = replace(desk.brush, mode="example", example=command.name)
-    desk.needs = (*(need for need in desk.needs if need.name != command.name), command)
+    name, needs = state.needs(entry)
+    desk.brush = replace(desk.brush, mode="example", example=name)
+    desk.needs = (*(need for need in desk.needs if need.name != name), *needs)
     desk.tool, desk.erasing = "brush", False
     follow(desk)
 
@@ -65,8 +75,8 @@ def adopt(desk: Desk) -> None:
     state, brush = desk.examples, desk.brush
     if brush.mode != "example":
         return
-    here = next((need for need in desk.needs if need.name == brush.example), None)
-    told = None if here is None else here.arguments.get("bundled", here.arguments.get("path"))
+    need = next((need for need in desk.needs if need.name == brush.example), None)
+    told = None if need is None else need.arguments.get("bundled", need.arguments.get("path"))
     found = (entry for entry in state.entries if told in (str(entry.picture), None if entry.own else entry.name))
     entry = next(found, None) if told is not None else None
     state.chosen = entry.ident if entry is not None else ""
@@ -214,6 +224,7 @@ def _refresh(desk: Desk, name: str) -> None:
     state.entries = tuple(examples.arranged([*(entry for entry in state.entries if not entry.own), *own]))
     for fault in faults:
         desk.say(fault, bad=True)
+    gather(desk)
     entry = next((entry for entry in own if entry.name == name), None)
     if entry is not None:
         if state.group not in (examples.ALL, examples.OWN):

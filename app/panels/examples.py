@@ -32,9 +32,9 @@ class ExamplesPanel:
     def draw(self, desk: Desk) -> None:
         state = desk.examples
         state.spot = None
-        if state.tab == "region" and state.mask is None:
+        if state.tab == "region" and state.mask is None and _has_files(state.entry):
             sowing.edit(desk)
-        if state.entry is None or (state.tab == "region" and state.mask is None):
+        if not _has_files(state.entry) or (state.tab == "region" and state.mask is None):
             state.tab = "palette"
         if state.tab == "region":
             self._region.draw(desk)
@@ -48,7 +48,7 @@ class ExamplesPanel:
         state, scale = desk.examples, desk.scale
         wide = 220 * scale
         imgui.same_line(imgui.get_window_width() - wide - imgui.get_frame_height() - 28 * scale)
-        imgui.begin_disabled(state.entry is None)
+        imgui.begin_disabled(not _has_files(state.entry))
         imgui.begin_child("tabs", ImVec2(wide, imgui.get_frame_height()))
         state.tab = w.segments("tab", state.tab, _TABS, wide) or state.tab
         imgui.end_child()
@@ -142,6 +142,11 @@ class ExamplesPanel:
         if w.text_button(f"{icons.SWAP} Swap", hint, enabled=entry is not None, width=wide):
             state.swapping = not state.swapping
         imgui.pop_style_color()
+
+
+def _has_files(entry: Entry | None) -> bool:
+    """Whether it has a region and settings that may be changed: only the palette's own have."""
+    return entry is not None and entry.here is None
 
 
 def _below(desk: Desk) -> float:

@@ -1,9 +1,10 @@
 """The palette of examples without a window: what is in it, what the brush gets, and the artist's own."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
+from immutables import Map
 from PIL import Image
 
 from app import examples, keeping, palette, shelf, sowing, tools
@@ -17,9 +18,10 @@ from app.panels.strip import StripPanel
 from app.presets import Preset
 from app.view import Place, View
 from engine.brush.record import Brush
+from engine.numeric.address import Rect
 from engine.painting.commands import Swap, parse, to_json
 from engine.painting.definitions import defined_by
-from engine.painting.requests import Do, Growing, Swatch
+from engine.painting.requests import Do, Growing, Scene, Swatch
 from engine.texture.example.parameters import Parameters
 
 
@@ -70,8 +72,9 @@ def test_the_brush_grows_what_was_chosen_and_the_painting_gets_it_with_the_first
     assert (desk.brush.mode, desk.brush.example, desk.brush.depth) == ("example", "Felt", 0.0)
     assert desk.brush.radius > 10
     assert not posted
+    usual = asdict(named(desk, "felt").parameters)
     assert [to_json(need) for need in desk.needs] == [
-        {"do": "texture", "name": "Felt", "maker": "example", "bundled": "felt"}
+        {"do": "texture", "name": "Felt", "maker": "example", "bundled": "felt", **usual}
     ]
     level, brush = desk.stroke_brush(eraser=False)
     assert (level, brush.example_level, brush.example_detail) == (0, 0, 0)
@@ -159,15 +162,17 @@ def test_settings_are_told_where_they_differ_and_are_used_on_demand(desk):
     state = desk.examples
     state.set(entry, "kappa", 9.0)
     assert state.tried(entry)
-    assert dict(state.command(entry).arguments) == {"bundled": "felt"}
-    assert dict(state.command(entry, draft=True).arguments) == {"bundled": "felt", "kappa": 9.0}
+    usual = {"bundled": "felt", **asdict(entry.parameters)}
+    assert dict(state.command(entry).arguments) == usual
+    assert dict(state.command(entry, draft=True).arguments) == usual | {"kappa": 9.0}
     sowing.use_settings(desk)
     assert not state.tried(entry)
     assert desk.needs[-1].arguments["kappa"] == 9.0
     state.reset(entry)
     assert state.tried(entry)
     sowing.use_settings(desk)
-    assert dict(desk.needs[-1].arguments) == {"bundled": "felt"}
+    assert dict(desk.needs[-1].arguments) == usual
+    assert not defined_by(desk.needs[-1], "example", usual | {"kappa": 9.0})  # the painting gets it anew
 
 
 def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, posted):
@@ -398,3 +403,55 @@ def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
     assert status._fields(desk, "")[0][0] == "growing 42 %"
     desk.growing, desk.pending = None, 8
     assert status._fields(desk, "")[0][0] == "8 tiles to do"
+
+
+# --- of the painting -------------------------------------------------------------------------------------------------
+
+
+def scene_with(*definitions):
+    rows = tuple((name, "example", Map(told)) for name, told in definitions)
+    return Scene(Rect(0, 0, 100, 80), (), None, False, False, False, None, definitions=(("R", "rock", Map()), *rows))
+
+
+def test_examples_that_only_the_painting_has_are_listed_and_painted_with(desk, posted):
+    """Neither those that come along, as they came or with other settings in use, nor the artist's own."""
+    felt = named(desk, "felt")
+    plain = {"bundled": "felt", **asdict(felt.parameters)}
+    desk.examples.used[felt.ident] = Map(kappa=9.0)
+    lost = {"path": "/nowhere/rag.png", "sha": "1"}
+    given = (("Felt", plain), ("F", plain | {"kappa": 9.0}), ("G", plain | {"kappa": 8.0}), ("Rag", lost))
+    desk.scene = scene_with(*given)
+    count = len(desk.examples.entries)
+    sowing.gather(desk)
+    sowing.gather(desk)
+    state = desk.examples
+    state.group = examples.HERE
+    assert [entry.title for entry in state.listed()] == ["G", "Rag"]
+    assert examples.label(state.listed()[1], state.entries) == "Rag"
+    assert len(state.entries) == count + 2
+    sowing.choose(desk, named(desk, "Rag"))
+    assert (desk.brush.mode, desk.brush.example, desk.needs) == ("example", "Rag", ())
+    sowing.swap(desk, 430.0, 300.0)
+    assert [request.command for request in posted] == [Swap(0, (30, 0), "Rag")]
+    desk.scene = scene_with()
+    sowing.gather(desk)
+    assert (state.entry, state.group, len(state.entries)) == (None, examples.ALL, count)
+
+
+def test_their_thumbnails_are_strokes_asked_for_once(desk, posted):
+    made = shelf.Shelf(lambda: None)
+    desk.scene = scene_with(("Rag", {"sha": "1"}))
+    sowing.gather(desk)
+    state = desk.examples
+    made.ask((named(desk, "Rag"),), 32)
+    assert made.take() == []
+    for side in (60, 60, 90):
+        state.ask_thumbnails(posted.append, side)
+    desk.scene = scene_with(("Rag", {"sha": "2"}))
+    sowing.gather(desk)
+    state.ask_thumbnails(posted.append, 90)
+    assert [(swatch.ident, swatch.size[0]) for swatch in posted] == [("example here Rag", n) for n in (60, 90, 90)]
+    sowing.choose(desk, named(desk, "Rag"))
+    state.sampled = (200, 100)
+    state.ask(posted.append, 10.0)
+    assert (posted[-1].brush.example, posted[-1].textures) == ("Rag", ())
