@@ -31,6 +31,7 @@ from engine.texture.example.tiles import NONE, Tiles
 
 _NOWHERE = Rect(0, 0, 0, 0)
 _MOST_RECTS = 32  # that changes of one plot are told by
+_PASSING = 3  # coarser levels from here on are not looked at: that takes longer than to refine the next one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -173,15 +174,19 @@ def _previewed(plot: Plot) -> Plot:
     return _drawn(plot, region)
 
 
-def _drawn(plot: Plot, region: Region) -> Plot:
+def _drawn(plot: Plot, region: Region, threads: Executor | None = None) -> Plot:
     if plot.drawn is region and plot.region is region:
         return plot
-    return replace(plot, region=region, shown=pixels.followed(plot.shown, plot.drawn, region), drawn=region)
+    return replace(plot, region=region, shown=pixels.followed(plot.shown, plot.drawn, region, threads), drawn=region)
 
 
 def settled(growth: Growth, threads: Executor | None = None) -> Growth:
     """With all pixels as they will stay."""
-    return tuple(plot if plot.settled else _drawn(plot, regions.refined(plot.region, 0, threads)) for plot in growth)
+    return tuple(plot if plot.settled else _settled(plot, threads) for plot in growth)
+
+
+def _settled(plot: Plot, threads: Executor | None) -> Plot:
+    return _drawn(plot, regions.refined(plot.region, 0, threads), threads)
 
 
 def is_settled(growth: Growth) -> bool:
@@ -214,15 +219,19 @@ def _settling(plot: Plot, threads: Executor | None) -> Iterator[Plot]:
     for step in regions.refining(region, 0, threads):
         if step.region is region:
             yield plot
+            continue
+        region = step.region
+        if step.level < _PASSING:
+            plot = yield from _following(plot, region, threads)
         else:
-            region = step.region
-            plot = yield from _following(plot, region)
+            plot = replace(plot, region=region)
+            yield plot
     if plot.drawn is not region:
-        yield from _following(plot, region)
+        yield from _following(plot, region, threads)
 
 
-def _following(plot: Plot, region: Region) -> Generator[Plot, None, Plot]:
-    steps = pixels.following(plot.shown, plot.drawn, region)
+def _following(plot: Plot, region: Region, threads: Executor | None) -> Generator[Plot, None, Plot]:
+    steps = pixels.following(plot.shown, plot.drawn, region, threads)
     while True:
         try:
             next(steps)

@@ -7,7 +7,9 @@ those around it with the detail that the example itself has below its pixels (`c
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable
+from collections import deque
+from collections.abc import Generator, Iterable, Iterator
+from concurrent.futures import Executor, Future
 
 import numpy as np
 from numba import njit
@@ -24,15 +26,18 @@ from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
 Shown = tuple[Tiles, ...]  # float32 (4, SIDE, SIDE) tiles, from the region's own level to coarser ones
 FEW = 4  # tiles: with no more of them, a level is coarse enough to be the last that is kept
 _HALF = SIDE // 2
+_RUN = 16  # tiles between two pauses
+_SHARED = 8  # rectangles that threads are given ahead
+_NOWHERE = Rect(0, 0, 0, 0)
 _ONE = np.float32(1.0)
 
 
 # --- following the region -----------------------------------------------------------------------------------------
 
 
-def followed(shown: Shown, drawn: Region | None, region: Region) -> Shown:
+def followed(shown: Shown, drawn: Region | None, region: Region, threads: Executor | None = None) -> Shown:
     """As `following`, at once."""
-    steps = following(shown, drawn, region)
+    steps = following(shown, drawn, region, threads)
     while True:
         try:
             next(steps)
@@ -40,22 +45,68 @@ def followed(shown: Shown, drawn: Region | None, region: Region) -> Shown:
             return end.value
 
 
-def following(shown: Shown, drawn: Region | None, region: Region) -> Generator[None, None, Shown]:
+def following(
+    shown: Shown, drawn: Region | None, region: Region, threads: Executor | None = None
+) -> Generator[None, None, Shown]:
     """What `region` looks like, from what `drawn`, an earlier state of it (None: nothing of it), looks like; pauses
-    after each tile.  Tiles that look alike stay the same objects."""
+    after some tiles.  Tiles that look alike stay the same objects."""
     base = shown[0] if shown else NONE
     held: dict[Key, np.ndarray] = {}
-    touched: set[Key] = set()
-    for key, part in _stale(base, drawn, region).items():
-        old = held.get(key, base.get(key))
-        new = show.preview(region, part)
-        if _lay(held, key, old, part.slices(tiles.rect_of(key)), new):
-            touched.add(key)
+    stale = yield from _stale(base, drawn, region)
+    for found in _looked_at(base, region, list(_runs(stale)), threads):
+        held.update(found)
         yield
-    return _with_coarser(shown, _put(base, held), touched)
+    return (yield from _with_coarser(shown, _put(base, held), set(held)))
 
 
-def _stale(base: Tiles, drawn: Region | None, region: Region) -> dict[Key, Rect]:
+def _runs(stale: dict[Key, Rect]) -> Iterator[Rect]:
+    """Rectangles that hold all parts of tiles: several whole tiles beside one another as one."""
+    run = _NOWHERE
+    for key in sorted(stale):
+        part = stale[key]
+        joins = part == tiles.rect_of(key) and (part.x0, part.y0) == (run.x1, run.y0)
+        if joins and run.height == SIDE and run.width % SIDE == 0 and run.width < _RUN * SIDE:
+            run = run.union(part)
+            continue
+        if not run.empty:
+            yield run
+        run = part
+    if not run.empty:
+        yield run
+
+
+def _looked_at(
+    base: Tiles, region: Region, runs: list[Rect], threads: Executor | None
+) -> Iterator[dict[Key, np.ndarray]]:
+    """For each rectangle the tiles that change, in order."""
+    if threads is None or len(runs) < _SHARED:
+        for run in runs:
+            yield _look(base, region, run)
+        return
+    jobs: deque[Future[dict[Key, np.ndarray]]] = deque()
+    try:
+        for run in runs:
+            jobs.append(threads.submit(_look, base, region, run))
+            if len(jobs) == _SHARED:
+                yield jobs.popleft().result()
+        while jobs:
+            yield jobs.popleft().result()
+    finally:  # also where the next step is never asked for
+        for job in jobs:
+            job.cancel()
+
+
+def _look(base: Tiles, region: Region, rect: Rect) -> dict[Key, np.ndarray]:
+    new = show.preview(region, rect)
+    held: dict[Key, np.ndarray] = {}
+    for key in tiles.keys_of(rect):
+        place = tiles.rect_of(key)
+        both = place.intersect(rect)
+        _lay(held, key, base.get(key), both.slices(place), new[:, *both.slices(rect)])
+    return held
+
+
+def _stale(base: Tiles, drawn: Region | None, region: Region) -> Generator[None, None, dict[Key, Rect]]:
     """Tiles of the region's own level that may look different, and the part of each."""
     found: dict[Key, Rect] = {}
     masks, names = region.masks[0], region.levels[0].sources
@@ -64,19 +115,25 @@ def _stale(base: Tiles, drawn: Region | None, region: Region) -> dict[Key, Rect]
         for key in keys_within(area, (masks, base)):
             found[key] = found.get(key, Rect(0, 0, 0, 0)).union(area.intersect(tiles.rect_of(key)))
 
-    for area in tiles.changed_rects(drawn.masks[0] if drawn else NONE, masks, 0):
-        add(area)
-    feather = region.exemplar.parameters.feather
-    for area in tiles.changed_rects(drawn.levels[0].sources if drawn else NONE, names, OUTSIDE):
-        add(area.grown(feather))
-    for n in range(1, len(region.levels)):  # a coarser level shows where a pixel has no source of its own
-        was = drawn.levels[n].sources if drawn else NONE
-        for area in tiles.changed_rects(was, region.levels[n].sources, OUTSIDE):
+    for k, (n, area) in enumerate(_altered(drawn, region), 1):
+        if n <= 0:
+            add(area.grown(region.exemplar.parameters.feather) if n == 0 else area)
+        else:  # a coarser level shows where a pixel has no source of its own
             for key in keys_within(area.zoomed(n), (masks,)):
                 part = _sourceless(masks[key], names.get(key), key).intersect(area.zoomed(n))
                 if not part.empty:
                     add(part)
+        if n > 0 or k % _RUN == 0:
+            yield
     return found
+
+
+def _altered(drawn: Region | None, region: Region) -> Iterator[tuple[int, Rect]]:
+    """Where the sources of each level are not what they were, and the region's pixels (-1), tile by tile."""
+    yield from ((-1, area) for area in tiles.changed_rects(drawn.masks[0] if drawn else NONE, region.masks[0], 0))
+    for n, level in enumerate(region.levels):
+        was = drawn.levels[n].sources if drawn else NONE
+        yield from ((n, area) for area in tiles.changed_rects(was, level.sources, OUTSIDE))
 
 
 def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:
@@ -115,15 +172,14 @@ def _bounds_of(mask, names):
     return (y0, y1, x0, x1) if y1 else (0, 0, 0, 0)
 
 
-def _lay(held: dict[Key, np.ndarray], key: Key, old: np.ndarray | None, place: tuple, new: np.ndarray) -> bool:
-    """`held` with `new` laid on the part `place` of the tile `old`; whether that changes it."""
+def _lay(held: dict[Key, np.ndarray], key: Key, old: np.ndarray | None, place: tuple, new: np.ndarray) -> None:
+    """Lays `new` on the part `place` of the tile `old`, and holds it if that changes it."""
     if not new.any() if old is None else np.array_equal(old[:, *place], new):
-        return False
+        return
     tile = np.zeros((4, SIDE, SIDE), np.float32) if old is None else old.copy()
     tile[:, *place] = new
     tile.flags.writeable = False
     held[key] = tile
-    return True
 
 
 def _put(level: Tiles, held: dict[Key, np.ndarray]) -> Tiles:
@@ -139,28 +195,36 @@ def _put(level: Tiles, held: dict[Key, np.ndarray]) -> Tiles:
     return changing.finish()
 
 
-def _with_coarser(shown: Shown, base: Tiles, touched: set[Key]) -> Shown:
+def _with_coarser(shown: Shown, base: Tiles, touched: set[Key]) -> Generator[None, None, Shown]:
     levels = [base]
     while len(levels[-1]) > FEW:
         n = len(levels)
-        if n < len(shown):
-            level, touched = coarser(shown[n], levels[-1], touched)
-        else:
-            level, touched = coarser(NONE, levels[-1], set(levels[-1]))
-        levels.append(level)
+        held: dict[Key, np.ndarray] = {}
+        old, changed = (shown[n], touched) if n < len(shown) else (NONE, set(levels[-1]))
+        for k, key in enumerate(changed):
+            _reduce_tile(held, old, levels[-1], key)
+            if k % _RUN == _RUN - 1:
+                yield
+        levels.append(_put(old, held))
+        touched = set(held)
     return tuple(levels)
 
 
 def coarser(old: Tiles, finer: Tiles, touched: set[Key]) -> tuple[Tiles, set[Key]]:
     """The level above `finer`, of whose tiles `touched` are not those that `old` was made of; what differs in it."""
     held: dict[Key, np.ndarray] = {}
-    for row, column in touched:
-        key = row >> 1, column >> 1
-        child = finer.get((row, column))
-        new = np.zeros((4, _HALF, _HALF), np.float32) if child is None else reduce(child)
-        top, left = (row & 1) * _HALF, (column & 1) * _HALF
-        _lay(held, key, held.get(key, old.get(key)), (slice(top, top + _HALF), slice(left, left + _HALF)), new)
+    for key in touched:
+        _reduce_tile(held, old, finer, key)
     return _put(old, held), set(held)
+
+
+def _reduce_tile(held: dict[Key, np.ndarray], old: Tiles, finer: Tiles, place: Key) -> None:
+    """Lays a quarter of a tile above `finer`, that above the tile at `place`, on what `held` or `old` has there."""
+    row, column = place
+    key, child = (row >> 1, column >> 1), finer.get(place)
+    new = np.zeros((4, _HALF, _HALF), np.float32) if child is None else reduce(child)
+    top, left = (row & 1) * _HALF, (column & 1) * _HALF
+    _lay(held, key, held.get(key, old.get(key)), (slice(top, top + _HALF), slice(left, left + _HALF)), new)
 
 
 # --- reading ------------------------------------------------------------------------------------------------------

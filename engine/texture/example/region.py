@@ -279,7 +279,7 @@ def _correcting(region: Region, n: int, window: Window, room: int, threads: Exec
     """The part done, 0..1, after each piece of work."""
     example, rules = _example(region.exemplar, n), _rules(region.exemplar, n)
     passes = len(window.planes) - 1
-    heavy = _SEARCHING if threads is not None and _coarsest(region, n) else 1
+    heavy = _SEARCHING if _coarsest(region, n) else 1
     for p in range(1, passes + 1):
         beyond = room - RADIUS * SUBPASSES * (passes - p)
         if window.mask.size <= _TOGETHER // heavy:

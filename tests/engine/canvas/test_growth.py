@@ -242,6 +242,21 @@ def test_settling_goes_on_from_anywhere_and_begins_near():
     assert not list(growths.settling(last))
 
 
+def test_threads_do_not_matter():
+    """Nor does it that a large region is refined in squares, and looked at in rows of tiles."""
+    start = planted(planted((), 0, 0, 330), 300, 200, 90)
+    plain = growths.settled(start)
+    for growth in (start, bitten(planted(plain, -250, 250, 120), 20, 10, 60)):
+        alone = growths.settled(growth)
+        *_, stepped = growths.settling(growth)
+        with ThreadPoolExecutor(2) as pool:
+            *_, shared = growths.settling(growth, None, pool)
+            assert same(alone, growths.settled(growth, pool))
+        assert same(alone, stepped)
+        assert same(alone, shared)
+        assert all(follows(plot) for plot in shared)
+
+
 def test_a_preview_shows_something_everywhere():
     growth = growths.settled(planted((), 0, 0, 30))
     growth = growths.previewed(planted(growth, 40, 0, 30))
