@@ -130,6 +130,8 @@ def read_toml(data: bytes) -> Parameters:
         raise _of_syntax(str(error), text) from None
     except RecursionError:
         raise FieldError("line 1", "brackets too deep", "TOML") from None
+    except ValueError:  # of a whole number with thousands of digits
+        raise FieldError("line 1", "a number too long", "TOML") from None
     group = told.pop("group", "")
     if not isinstance(group, str):
         raise FieldError(f"line {line_of(text, 'group')}, group", _shown(group), "a name to list the example under")

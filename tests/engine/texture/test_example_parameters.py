@@ -24,6 +24,7 @@ def test_bundled_files_are_read_with_their_groups(path):
         ("\nkapa = 1", "line 2, kapa: found an unknown field, expected one of kappa"),
         ("kappa = 'a'", 'line 1, kappa: found "a", expected a number from 0 to 100'),
         ("levels = 2\nlevels = 3", "line 2"),
+        ("kappa = " + "9" * 5000, "line 1: found a number too long, expected TOML"),
     ],
 )
 def test_a_fault_names_its_line_and_field(text, told):
