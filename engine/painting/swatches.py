@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from engine.brush.record import Brush
+from engine.brush.record import MOST_DETAIL, Brush
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
@@ -18,6 +18,7 @@ from engine.painting.settling import settled_root
 from engine.painting.value import Painting
 
 _GROUND = "#5b6470"
+_SMALLER = 2  # octaves by which an example is made smaller for a thumbnail, at most: finer ones leave nothing to see
 _BARS = 8  # of paint under a brush that changes what is there
 _COLOURS = ("#23262e", "#7c2f3b", "#c8643c", "#e2b04a", "#6f9a4c", "#3d8f93", "#41609f", "#b9bfc9")  # to be changed
 
@@ -53,7 +54,11 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
     pressure = np.sin(np.pi * (0.06 + 0.9 * t)) ** 0.8
     radius = min(max(brush.radius, 2.0), height * 0.24)
     wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
-    if brush.mode in ("paint", "example"):
+    if brush.mode == "example":
+        smaller = min(_SMALLER, max(0, round(math.log2(brush.radius / radius))))  # its texture, as the stroke is
+        detail = min(brush.example_detail + smaller, MOST_DETAIL)
+        return [replace(wave, brush=replace(wave.brush, example_detail=detail))]
+    if brush.mode == "paint":
         return [wave]
     raster = brush.mode == "raster"
     bars = []

@@ -112,3 +112,15 @@ def test_script_cuts_the_same_examples_again(tmp_path):
     for name in names:
         made, bundled = (np.asarray(Image.open(folder / name)) for folder in (script.parent, own))
         assert np.array_equal(made, bundled)
+
+
+def test_brushes_that_grow_examples_show_more_than_their_rims_in_their_thumbnails():
+    found = [preset for preset in palette.load(PALETTES / "brushes")[0] if preset.group == "Examples"]
+    assert len(found) >= 8
+    assert all(preset.brush.mode == "example" for preset in found)
+    (brick,) = (preset for preset in found if preset.name == "Brick in plaster")
+    picture = painted(Swatch("brick", brick.brush, (104, 44), textures=brick.textures), Painting())
+    inside = picture[3] > 0.9
+    red, _, blue, _ = picture[:, inside]
+    assert inside.mean() > 0.2
+    assert (red > 1.3 * blue).mean() > 0.5
