@@ -251,7 +251,7 @@ class ExampleState:
             if entry.here is not None and self._hung.get(entry.ident) != (entry.here, side):
                 self._hung[entry.ident] = entry.here, side
                 brush = Brush(radius=side / 5, mode="example", example=entry.name, hardness=1.0, example_detail=1)
-                post(Swatch(f"example {entry.ident}", brush, (side, side)))
+                post(Swatch(f"example {entry.ident}", brush, (side, side), soon=True))
 
 
 def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:

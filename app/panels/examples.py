@@ -128,7 +128,7 @@ class ExamplesPanel:
         tall = room.y - 2 * line
         state.sampled = max(1, round(room.x)), max(1, round(tall))
         shown = desk.pictures.get("example sample") if entry else None
-        w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on an example to paint with it")
+        w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on an example to try it")
         wide = (room.x - gap.x) / 2
         imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
         painting = entry is not None and desk.brush.mode == "example" and not desk.erasing and desk.tool == "brush"
