@@ -81,6 +81,7 @@ class Grower:
         self._tell()
 
     def close(self) -> None:
+        self._steps = None  # ends what threads are at
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
 
@@ -108,8 +109,9 @@ class Grower:
         return self._at
 
     def _threads(self) -> Executor | None:
-        """One core is left to the window."""
-        count = min((os.cpu_count() or 1) - 1, MOST_THREADS)
+        """One core is left to the window; of two, both are taken, as the engine's thread does nothing but wait then."""
+        cores = os.cpu_count() or 1
+        count = min(cores, max(cores - 1, 2), MOST_THREADS)
         if self._pool is None and count > 1:
             self._pool = ThreadPoolExecutor(count, "inkfall examples")
         return self._pool

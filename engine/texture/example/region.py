@@ -7,9 +7,11 @@ gives others, and any of them may be kept.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
-from concurrent.futures import Executor, wait
+from concurrent.futures import Executor, Future, wait
 from dataclasses import dataclass, replace
+from itertools import islice
 from threading import Event
 
 import numpy as np
@@ -36,6 +38,7 @@ _TOGETHER = 1 << 15  # pixels of a window that is refined without a pause
 _SLICE = 4096  # pixels between two pauses
 _SEARCHING = 32  # times as long as elsewhere a pixel takes at the coarsest level, about
 _SHARED = 1 << 17  # pixels of a window that threads refine in parts
+_AHEAD = 9  # squares that threads are given, at most: they go on with them where nobody asks for the next step
 _PAUSE = 0.004  # seconds between two pauses while threads are at work
 
 
@@ -162,17 +165,20 @@ def _one_by_one(region: Region, n: int, squares: list[Square], threads: Executor
 def _at_once(region: Region, n: int, squares: list[Square], threads: Executor) -> Iterator[Filling]:
     """Each square by one thread: none reads what another one makes.  The largest first, so that all end together."""
     over = Event()
-    squares = sorted(squares, key=lambda one: -one[0].area)
-    jobs = [threads.submit(_alone, region, n, square, room, over) for square, room in squares]
+    jobs: deque[tuple[Rect, Future[np.ndarray | None]]] = deque()
+    left = iter(sorted(squares, key=lambda one: -one[0].area))
     try:
-        for k, ((square, _), job) in enumerate(zip(squares, jobs, strict=True)):
+        for k in range(len(squares)):
+            for square, room in islice(left, _AHEAD - len(jobs)):
+                jobs.append((square, threads.submit(_alone, region, n, square, room, over)))
+            square, job = jobs.popleft()
             while not job.done():
                 wait([job], _PAUSE)
-                yield k / len(jobs), square, None
-            yield (k + 1) / len(jobs), square, job.result()
+                yield k / len(squares), square, None
+            yield (k + 1) / len(squares), square, job.result()
     finally:  # also where the next step is never asked for
         over.set()
-        for job in jobs:
+        for _, job in jobs:
             job.cancel()
 
 

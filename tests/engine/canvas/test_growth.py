@@ -15,6 +15,7 @@ from engine.canvas import shown
 from engine.canvas.carry import carried
 from engine.numeric.address import Rect
 from engine.numeric.grid import Q, snapped
+from engine.texture.example import region as regions
 from engine.texture.example import show, tiles
 from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import PAD, analysed, shrunk
@@ -242,18 +243,20 @@ def test_settling_goes_on_from_anywhere_and_begins_near():
     assert not list(growths.settling(last))
 
 
-def test_threads_do_not_matter():
+def test_threads_do_not_matter(monkeypatch):
     """Nor does it that a large region is refined in squares, and looked at in rows of tiles."""
-    start = planted(planted((), 0, 0, 330), 300, 200, 90)
-    plain = growths.settled(start)
-    for growth in (start, bitten(planted(plain, -250, 250, 120), 20, 10, 60)):
-        alone = growths.settled(growth)
+    start = planted(planted((), 0, 0, 100), 120, 60, 40)
+    bites = start, bitten(planted(growths.settled(start), -70, 80, 50), 20, 10, 30)
+    plain = [growths.settled(growth) for growth in bites]
+    for module, name, value in ((regions, "_AT_ONCE", 100), (regions, "_SQUARE", 64), (shown, "_SHARED", 2)):
+        monkeypatch.setattr(module, name, value)
+    for growth, wanted in zip(bites, plain, strict=True):
         *_, stepped = growths.settling(growth)
         with ThreadPoolExecutor(2) as pool:
             *_, shared = growths.settling(growth, None, pool)
-            assert same(alone, growths.settled(growth, pool))
-        assert same(alone, stepped)
-        assert same(alone, shared)
+            assert same(wanted, growths.settled(growth, pool))
+        assert same(wanted, stepped)
+        assert same(wanted, shared)
         assert all(follows(plot) for plot in shared)
 
 
