@@ -180,7 +180,7 @@ def _child(parent, y, x, region):
 
 
 @njit(cache=True, nogil=True)
-def children(mask, parents, odd_y, odd_x, region, out):
+def _children(mask, parents, odd_y, odd_x, region, out):
     """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
     for y in range(mask.shape[0]):
         inside, row, above = mask[y], out[y], parents[(y + odd_y) >> 1]
@@ -193,10 +193,10 @@ def children(mask, parents, odd_y, odd_x, region, out):
 @njit(cache=True, nogil=True)
 def start_finer(window, parents, before, example):
     """Starts from the sources one level coarser: int32 arrays of the pixels above the window's, now and before."""
-    children(window.mask, parents, window.y, window.x, example.region, window.planes[0])
+    _children(window.mask, parents, window.y, window.x, example.region, window.planes[0])
     old = np.empty_like(window.planes[0])
     if not window.fresh:
-        children(window.was, before, window.y, window.x, example.region, old)
+        _children(window.was, before, window.y, window.x, example.region, old)
     _begin(window, old, example)
 
 

@@ -52,7 +52,7 @@ class Exemplar:
     inside at the coarsest level; `boundary`: whether the region's rim is one.
 
     `finer`: what there is of the example in levels below the finest of `levels`, the coarsest of them first:
-    premultiplied float32 (h, w, 4) in 0..1, twice as large each; `within`: the regions of these, uint8, padded by PAD.
+    premultiplied float32 (h, w, 4) in 0..1, twice as large each.
     `origin`: what it was made of, for whoever has to make it again.
     """
 
@@ -64,7 +64,6 @@ class Exemplar:
     block: int
     boundary: bool
     finer: tuple[np.ndarray, ...] = ()
-    within: tuple[np.ndarray, ...] = ()
     origin: Any = None
 
     @cached_property
@@ -112,9 +111,9 @@ def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
         levels = (_level(colours, region, exemplar.parameters, exemplar.boundary),)
         blocks, block = _blocks(levels[-1], exemplar.parameters.block)
     finer = *(_frozen(colours) for colours, _ in reversed(below)), *exemplar.finer
-    within = *(_frozen(np.pad(inside, PAD).astype(np.uint8)) for _, inside in reversed(below)), *exemplar.within
-    about = exemplar.parameters, levels, blocks, block, exemplar.boundary, finer, within
-    return Exemplar(_frozen(pixels), _frozen(region), *about)
+    return Exemplar(
+        _frozen(pixels), _frozen(region), exemplar.parameters, levels, blocks, block, exemplar.boundary, finer
+    )
 
 
 def _pyramid(exemplar: Exemplar, count: int) -> list[tuple[np.ndarray, np.ndarray]]:

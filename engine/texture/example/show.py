@@ -12,9 +12,9 @@ from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
-from engine.numeric.grid import snap, snapped
+from engine.numeric.grid import snapped
 from engine.texture.example import tiles
-from engine.texture.example.correction import OUTSIDE, children
+from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
 
@@ -50,26 +50,6 @@ def preview(region: Region, rect: Rect) -> np.ndarray:
     if left:
         out[:, mask > 0] = region.exemplar.average[:, None]
     return snapped(out)
-
-
-def finer(region: Region, k: int, rect: Rect) -> np.ndarray:
-    """What the example shows `k` levels below the region's pixels, 0 <= k <= len(exemplar.finer), over a rectangle of
-    that level: premultiplied float32 (4, h, w) in 0..1, on the grid.
-
-    Below a pixel lies what lies below its source, at 2^k times its place; 0 outside, where the region's pixels end.
-    Seams are not blended.
-    """
-    exemplar = region.exemplar
-    place = rect.zoomed(-k)
-    names = sources(region, place)
-    for j in range(1, k + 1):
-        place = rect.zoomed(j - k)
-        found = np.empty((place.height, place.width), np.int32)
-        children(np.ones_like(found, np.uint8), names, place.y0 & 1, place.x0 & 1, exemplar.within[j - 1], found)
-        names = found
-    out = np.zeros((4, rect.height, rect.width), np.float32)
-    _copy(names, exemplar.finer[k - 1] if k else exemplar.colours[0], out)
-    return out
 
 
 def pixels(region: Region, rect: Rect) -> np.ndarray:
@@ -128,17 +108,6 @@ def _fill(out, mask, names, colours, n, top, left_side):
             for c in range(4):
                 out[c, y, x] = colours[(source >> 16) - PAD, (source & 0xFFFF) - PAD, c]
     return left
-
-
-@njit(cache=True, nogil=True)
-def _copy(names, colours, out):
-    """The colours of sources, on the grid, into `out` (4, h, w)."""
-    for y in range(names.shape[0]):
-        for x in range(names.shape[1]):
-            source = names[y, x]
-            if source >= 0:
-                for c in range(4):
-                    out[c, y, x] = snap(colours[(source >> 16) - PAD, (source & 0xFFFF) - PAD, c])
 
 
 @njit(cache=True, nogil=True)
