@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -44,13 +45,13 @@ class PlotEdit:
         return None if found is None else Stamp(_ONE - found[3], found)
 
 
-def flattened(layer: Layer, cache: TileCache | None = None) -> Layer:
+def flattened(layer: Layer, cache: TileCache | None = None, threads: Executor | None = None) -> Layer:
     """The layer with all that was painted with examples as paint, settled first if it is not.
 
     Plot by plot, the bottom one first, at the finest level at which its example has detail; there, with one plot or
     with several of that level, no pixel changes.
     """
     pyramid = layer.pyramid
-    for plot in growths.settled(layer.growth):
+    for plot in growths.settled(layer.growth, threads):
         pyramid = commit(pyramid, PlotEdit(plot), cache)
     return replace(layer, pyramid=pyramid, growth=())

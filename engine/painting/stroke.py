@@ -25,6 +25,7 @@ from engine.numeric.address import Rect
 from engine.painting.bed import Bed, Meeting
 from engine.painting.drawn import Drawn
 from engine.painting.scenery import Scenery
+from engine.painting.settling import threads
 from engine.painting.value import Painting
 from engine.texture.planes import Planes
 
@@ -96,7 +97,8 @@ class LiveStroke(Drawn):
         spread = max(self._relief.reach, self._relief.spread)
         if self._meeting.any(self.layer.growth, dabs, spread):
             self.flattened = True
-            self.layer = flattened(self.layer, self.cache)
+            with threads() as pool:
+                self.layer = flattened(self.layer, self.cache, pool)
             root = layers.with_pyramid(self.base.root, self.layer.name, self.layer.pyramid)
             self.base = replace(self.base, root=layers.with_growth(root, self.layer.name, ()))
 
