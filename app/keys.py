@@ -44,4 +44,6 @@ def chord(key: int, scancode: int, mods: int) -> str:
     name = key_name(key, scancode)
     if not name:
         return ""
+    if name == "=" and mods & glfw.MOD_SHIFT:  # what is on that key besides, wherever there is one
+        name, mods = "+", mods & ~glfw.MOD_SHIFT
     return "+".join([word for mask, word in _MODIFIERS if mods & mask] + [name])

@@ -132,7 +132,7 @@ def add(desk: Desk, path: Path) -> None:
     if mask is not None and mask.opaque:
         mask.way = "colour"  # what is to be cut out of a photograph is its background
     size = f", made smaller: at most {keeping.SIDE} pixels" if smaller else ""
-    desk.say(f"Added the example “{name}”{size}")
+    desk.say(f"Added the example “{_title(desk)}”{size}")
 
 
 def edit(desk: Desk) -> None:
@@ -166,7 +166,7 @@ def save_region(desk: Desk) -> None:
     mask.saved, mask.dirty = mask.version, mask.whole  # it is shown under another name from now on
     state.masks[f"own {name}"] = state.masks.pop(entry.ident)
     _refresh(desk, name)
-    desk.say(f"Saved the region of “{name}”" + ("" if entry.own else ", an example of your own now"))
+    desk.say(f"Saved the region of “{_title(desk)}”" + ("" if entry.own else ", an example of your own now"))
 
 
 def use_settings(desk: Desk) -> None:
@@ -199,7 +199,7 @@ def keep_settings(desk: Desk) -> None:
         return
     state.drafts.pop(entry.ident, None)
     _refresh(desk, name)
-    desk.say(f"Saved as “{name}”, an example of your own")
+    desk.say(f"Saved as “{_title(desk)}”, an example of your own")
 
 
 def delete(desk: Desk, entry: Entry) -> None:
@@ -215,6 +215,11 @@ def delete(desk: Desk, entry: Entry) -> None:
     if state.chosen == entry.ident:
         state.chosen, state.tab = "", "palette"
     desk.say(f"Deleted the example “{entry.title}”")
+
+
+def _title(desk: Desk) -> str:
+    """What the chosen example is called in the palette."""
+    return desk.examples.entry.title if desk.examples.entry is not None else ""
 
 
 def _refresh(desk: Desk, name: str) -> None:

@@ -98,6 +98,13 @@ def test_a_press_is_written_as_in_the_table():
     assert chord(glfw.KEY_TAB, 0, glfw.MOD_CONTROL | glfw.MOD_SHIFT) == "Ctrl+Shift+Tab"
 
 
+def test_plus_is_the_upper_sign_of_its_key(monkeypatch):
+    monkeypatch.setattr(glfw, "get_key_name", lambda key, scancode: "=")
+    assert chord(glfw.KEY_EQUAL, 21, 0) == "="
+    assert chord(glfw.KEY_EQUAL, 21, glfw.MOD_SHIFT) == "+"
+    assert by_key(chord(glfw.KEY_EQUAL, 21, glfw.MOD_SHIFT)) is ACTIONS["in"]
+
+
 def test_unsaved_changes_are_asked_about(desk):
     went = []
     desk.guard(went.append)

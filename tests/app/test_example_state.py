@@ -247,6 +247,7 @@ def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     sowing.save_region(desk)
     assert state.mask.dirty == state.mask.whole  # the copy has no picture yet
     assert (state.entry.own, state.entry.name, state.entry.parameters.kappa) == (True, "felt", 9.0)
+    assert "“Felt”" in desk.message[0]
     assert keeping.opened(state.entry).inside[3, 3]
     assert not keeping.opened(entry).inside[3, 3]
     state.mask.inside[:] = False
