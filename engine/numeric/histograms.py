@@ -92,7 +92,7 @@ def _at(ordered, part):
     low = ordered[k]
     if ordered.size == 1:
         return low
-    return np.float32(low + (ordered[k + 1] - low) * (place - k))
+    return min(np.float32(low + (ordered[k + 1] - low) * (place - k)), ordered[k + 1])  # rounding might go beyond
 
 
 @njit(cache=True, nogil=True)
