@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from engine.canvas import growth as growths
@@ -18,6 +19,7 @@ def areas(old: Painting, new: Painting) -> Areas:
     """Where two paintings differ, by level; None for anywhere."""
     pairs = _pairs(old.root, new.root)
 
+    @cache  # it is asked for every tile on the screen
     def where(level: int) -> list[Rect] | None:
         if pairs is None:
             return None

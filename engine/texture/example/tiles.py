@@ -108,29 +108,34 @@ def changed_rect(old: Tiles, new: Tiles, empty: int) -> Rect:
 
 def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> Iterator[Rect]:
     """What differs in each tile, in the last of the planes or in those named: the smallest rectangle around it."""
-    bounds = np.empty(4, np.int64)
+    nothing = None
     for key in changed(old, new):
-        kind = (new if key in new else old)[key]
-        nothing = np.full(kind.shape, empty, kind.dtype)
-        nothing.flags.writeable = False  # as tiles are: so the kernel is compiled once for each type
-        x, y = key[1] * SIDE, key[0] * SIDE
-        found = Rect(0, 0, 0, 0)
-        for one, other in zip(old.get(key, nothing)[planes], new.get(key, nothing)[planes], strict=True):
-            _bounds(one, other, bounds)
-            if bounds[1] > bounds[0]:
-                y0, y1, x0, x1 = (int(n) for n in bounds)
-                found = found.union(Rect(x + x0, y + y0, x + x1, y + y1))
-        if not found.empty:
-            yield found
+        one, other = old.get(key), new.get(key)
+        if one is None or other is None:
+            there = one if one is not None else new[key]
+            if nothing is None:
+                nothing = np.full(there.shape, empty, there.dtype)
+                nothing.flags.writeable = False  # as tiles are: so the kernel is compiled once for each type
+            one, other = (nothing, there) if one is None else (there, nothing)
+        y0, y1, x0, x1 = _bounds(one[planes], other[planes])
+        if y1 > y0:
+            x, y = key[1] * SIDE, key[0] * SIDE
+            yield Rect(x + x0, y + y0, x + x1, y + y1)
 
 
 @njit(cache=True, nogil=True)
-def _bounds(one, other, bounds):
-    """Rows [0, 1) and columns [2, 3) within which two arrays (SIDE, SIDE) differ; 0 where they do not."""
+def _bounds(one, other):
+    """Rows [0, 1) and columns [2, 3) within which two arrays (planes, SIDE, SIDE) differ; none if they do not."""
     y0, y1, x0, x1 = SIDE, 0, SIDE, 0
-    for y in range(SIDE):
-        for x in range(SIDE):
-            if one[y, x] != other[y, x]:
-                y0, y1 = min(y0, y), max(y1, y + 1)
-                x0, x1 = min(x0, x), max(x1, x + 1)
-    bounds[0], bounds[1], bounds[2], bounds[3] = y0, y1, x0, x1
+    for c in range(one.shape[0]):
+        for y in range(SIDE):
+            first, last = 0, SIDE
+            while first < SIDE and one[c, y, first] == other[c, y, first]:
+                first += 1
+            if first == SIDE:
+                continue
+            while one[c, y, last - 1] == other[c, y, last - 1]:
+                last -= 1
+            y0, y1 = min(y0, y), max(y1, y + 1)
+            x0, x1 = min(x0, first), max(x1, last)
+    return y0, y1, x0, x1

@@ -66,6 +66,8 @@ def test_outside_the_areas_nothing_changed(states, level):
             assert not left.any()
             assert areas(states[n], states[m])(level) is not None
     assert some > 3
+    where = areas(states[-2], states[-1])
+    assert where(level) is where(level)  # found but once, for all tiles on the screen
 
 
 def test_strips_and_sheets_show_it(states):
