@@ -17,7 +17,7 @@ from app.gallery import Gallery
 from app.lab import only_with
 from app.mask import shown
 from app.panels.brush import PREVIEW
-from app.panels.brushes import THUMB
+from app.panels.brushes import ask_picture, ready_at_start
 from app.panels.examples import LARGE
 from app.panels.ink import DEEPER, SWATCH_HEIGHT
 from app.screen import Screen, ScreenTile, cells, near_first
@@ -157,9 +157,8 @@ class News:
         if not desk.preset:
             first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
             desk.preset, desk.brush, desk.needs = first.name, first.brush, first.textures
-        size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
-        for preset in desk.presets:
-            desk.post(q.Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
+        for preset in filter(ready_at_start, desk.presets):
+            ask_picture(desk, preset)
 
     def _patch(self, r: q.Patch, now: float) -> None:
         self.screen.upload(r, self.desk.view, now)

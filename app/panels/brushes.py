@@ -11,6 +11,7 @@ from app import icons, palette, presets, sowing, theme
 from app.desk import Desk
 from app.panels import widgets as w
 from app.presets import Preset
+from engine.painting.requests import Swatch
 
 THUMB = (104, 44)  # of a thumbnail, points
 ACROSS = 2  # in the panel
@@ -25,6 +26,7 @@ class BrushList:
     def __init__(self) -> None:
         self._group, self._find = EVERY, ""
         self._seen = ""  # the brush chosen when the list was last drawn
+        self._asked: set[str] = set()  # brushes whose pictures were asked for when they came into sight
         self._reveal = 0  # frames in which the list still scrolls to it: how long a list is, is known a frame late
 
     def draw(self, desk: Desk, below: float) -> None:
@@ -108,6 +110,9 @@ class BrushList:
         """One brush; whether it was taken."""
         corner, tall = imgui.get_cursor_screen_pos(), _tall(desk, wide)
         taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
+        if not ready_at_start(preset) and preset.name not in self._asked and imgui.is_item_visible():
+            self._asked.add(preset.name)
+            ask_picture(desk, preset)
         if taken:
             take(desk, preset)
         hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
@@ -126,6 +131,17 @@ class BrushList:
             painter.add_image_rounded(picture, *inner, zero, one, white, 3 * desk.scale)
         _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
         return taken
+
+
+def ready_at_start(preset: Preset) -> bool:
+    """Whether its picture is painted before it is in sight: an example would have to be analysed, and be held."""
+    return preset.brush.mode != "example"
+
+
+def ask_picture(desk: Desk, preset: Preset) -> None:
+    """Has a stroke of it painted."""
+    size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
+    desk.post(Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
 
 
 def take(desk: Desk, preset: Preset) -> None:

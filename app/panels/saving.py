@@ -10,9 +10,8 @@ from app import icons, palette, presets
 from app.colours import to_hex
 from app.desk import Desk
 from app.panels import widgets as w
-from app.panels.brushes import THUMB
+from app.panels.brushes import ask_picture
 from app.presets import Preset
-from engine.painting.requests import Swatch
 
 
 class SaveBrush:
@@ -64,7 +63,6 @@ def _save(desk: Desk, name: str) -> None:
     preset = replace(preset, path=path)
     others = tuple(p for p in desk.presets if (p.name, p.group) != (name, presets.OWN))
     desk.presets, desk.preset = (*others, preset), name
-    width, height = (int(points * desk.scale) for points in THUMB)
-    desk.post(Swatch(f"preset {name}", preset.brush, (width, height), textures=preset.textures))
+    ask_picture(desk, preset)
     without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""
     desk.say(f"Saved the brush “{name}”{without}", bad=bool(stay))

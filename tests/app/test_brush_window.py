@@ -9,6 +9,7 @@ import pytest
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 WAVE = [(380 + 12 * i, 400 + (30 if i % 8 < 4 else -30)) for i in range(24)]
+ALL, INDIGO = (226, 110), (slice(180, 208), slice(580, 675))
 RASTER, OPS, FORMULA, FIELD, SAVE = (171, 434), (100, 463), (50, 782), (100, 492), (229, 83)
 
 
@@ -66,3 +67,16 @@ def test_a_brush_is_saved_under_a_name_and_there_again(program, tmp_path):
     kept = json.loads(path.read_text("utf-8"))
     assert kept["name"] == "My pen"
     assert kept["brush"]["radius"] > 3
+
+
+def blueness(picture):
+    return int((picture[..., 2].astype(int) - picture[..., 0]).max())
+
+
+def test_pictures_of_brushes_with_examples_come_when_they_are_in_sight(program):
+    app = program()
+    press(app, ALL)
+    end = time.monotonic() + 60
+    while blueness(app.screen()[INDIGO]) < 60:
+        assert time.monotonic() < end, "no picture of the indigo wash"
+        time.sleep(0.2)
