@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -36,3 +37,16 @@ def copying(moved: int) -> Work:
 def slowness(repeats: int = 25) -> float:
     """How many times longer copying takes now than where the other programs were measured."""
     return best(repeats, copying(2 * FRAME))[0] / FRAME_COPY
+
+
+def second_core(repeats: int = 5) -> float:
+    """How many times as fast two threads do plain work as one: 2 where a second core is free."""
+    values = np.linspace(0.0, 1.0, 1 << 20)
+    out = np.empty((2, values.size))
+    with ThreadPoolExecutor(2) as pool:
+        one, two = best(
+            repeats,
+            lambda: [np.sin(values, out=row) for row in out],
+            lambda: list(pool.map(lambda row: np.sin(values, out=row), out)),
+        )
+    return one / two
