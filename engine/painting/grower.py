@@ -109,9 +109,8 @@ class Grower:
         return self._at
 
     def _threads(self) -> Executor | None:
-        """One core is left to the window; of two, both are taken, as the engine's thread does nothing but wait then."""
-        cores = os.cpu_count() or 1
-        count = min(cores, max(cores - 1, 2), MOST_THREADS)
+        """One core is left to the window, of two as well: with both taken its loop woke 8 ms late now and then."""
+        count = min((os.cpu_count() or 1) - 1, MOST_THREADS)
         if self._pool is None and count > 1:
             self._pool = ThreadPoolExecutor(count, "inkfall examples")
         return self._pool

@@ -52,7 +52,7 @@ def test_the_walk_is_the_plain_one(brush, points):
     dabs = Stroker(brush).add(points)
     expected = plain_walk(brush, points)
     assert dabs.shape == expected.shape
-    np.testing.assert_allclose(dabs, expected, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(dabs, expected, rtol=1e-7, atol=1e-7)  # sums in another order
 
 
 @settings(deadline=None, max_examples=80)
