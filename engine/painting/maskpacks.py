@@ -18,8 +18,9 @@ from immutables import Map
 from isal import isal_zlib
 
 from engine.painting.commands import PLACE_LIMIT
-from engine.painting.fault import FileError, shown
+from engine.painting.fault import FileError
 from engine.painting.inflate import DeflateError, Inflated
+from engine.painting.packfault import PackFault, need
 from engine.painting.strictjson import FormatError, dumps, loads
 from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
 
@@ -59,31 +60,22 @@ def unpack(data: bytes, name: str, count: int) -> Tiles:
     `name` is the file's and the member's."""
     try:
         return _unpacked(data, count)
-    except (FormatError, DeflateError, _Fault) as error:
+    except (FormatError, DeflateError, PackFault) as error:
         raise FileError(name, str(error)) from error
 
 
-class _Fault(Exception):
-    pass
-
-
-def _need(right: bool, what: str, found: object) -> None:
-    if not right:
-        raise _Fault(f"{what}: found {shown(found)}")
-
-
 def _unpacked(data: bytes, count: int) -> Tiles:
-    _need(data[:8] == MAGIC and len(data) >= 12, "start of a pack of masks", data[:8])
+    need(data[:8] == MAGIC and len(data) >= 12, "start of a pack of masks", data[:8])
     (length,) = struct.unpack_from("<I", data, 8)
-    _need(12 + length <= len(data), "length of the head", length)
-    _need(0 < count <= TILES, "number of tiles", count)
+    need(12 + length <= len(data), "length of the head", length)
+    need(0 < count <= TILES, "number of tiles", count)
     keys = _keys(loads(data[12 : 12 + length], cap=HEAD_CAP), count)
     raw = np.empty(count * PLAIN, np.uint8)
     stream = Inflated(iter([data[12 + length :]]))
     filled = stream.readinto(raw.data)
-    _need(filled == raw.size and stream.finish(), "bytes of the tiles", filled)
+    need(filled == raw.size and stream.finish(), "bytes of the tiles", filled)
     bits = raw.reshape(count, PLAIN)
-    _need(bool(bits.any(axis=1).all()), "a tile", "no pixel")
+    need(bool(bits.any(axis=1).all()), "a tile", "no pixel")
     found = NONE.mutate()
     for key, own in zip(keys, bits, strict=True):
         found[key] = _mask(own)
@@ -92,21 +84,21 @@ def _unpacked(data: bytes, count: int) -> Tiles:
 
 def _keys(runs: Any, count: int) -> list[Key]:
     """The tiles of some runs, `count` of them."""
-    _need(isinstance(runs, list), "head", runs)
+    need(isinstance(runs, list), "head", runs)
     keys: list[Key] = []
     for run in runs:
         sound = isinstance(run, list) and len(run) == 3 and type(run[2]) is int
-        _need(sound and 0 < run[2] <= count - len(keys), "run of tiles", run)
+        need(sound and 0 < run[2] <= count - len(keys), "run of tiles", run)
         row, column = _address(run[0]), _address(run[1])
-        _need(not keys or (row, column) > keys[-1], "order of the tiles", run)
+        need(not keys or (row, column) > keys[-1], "order of the tiles", run)
         keys += [(row, column + n) for n in range(run[2])]
-    _need(len(keys) == count, "number of tiles", len(keys))
+    need(len(keys) == count, "number of tiles", len(keys))
     return keys
 
 
 def _address(text: Any) -> int:
     sound = isinstance(text, str) and len(text) <= DIGITS_CAP and _ADDRESS.fullmatch(text) is not None
-    _need(sound, "place of a tile", text)
+    need(sound, "place of a tile", text)
     return int(text, 16)
 
 

@@ -23,9 +23,10 @@ from engine.canvas.store import Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.painting import firstpacks, tilecode
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
-from engine.painting.fault import FileError, shown
+from engine.painting.fault import FileError
 from engine.painting.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.painting.inflate import DeflateError, Inflated
+from engine.painting.packfault import PackFault, need
 from engine.painting.strictjson import FormatError, dumps, loads
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
@@ -118,17 +119,8 @@ def unpack(
     """
     try:
         return _unpack(data, ink_of, announced)
-    except (FormatError, _Fault, ValueError) as error:
+    except (FormatError, PackFault, ValueError) as error:
         raise FileError(name, str(error)) from error
-
-
-class _Fault(Exception):
-    pass
-
-
-def _need(right: bool, what: str, found: object) -> None:
-    if not right:
-        raise _Fault(f"{what}: found {shown(found)}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,30 +136,30 @@ class _Head:
 
 
 def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None) -> list[Coded]:
-    _need(data[:8] in _FORMATS and len(data) >= 12, "start of a pack of tiles", data[:8])
+    need(data[:8] in _FORMATS and len(data) >= 12, "start of a pack of tiles", data[:8])
     form = _FORMATS[data[:8]]
     (length,) = struct.unpack_from("<I", data, 8)
     start = 12 + length
-    _need(start <= len(data), "length of the head", length)
+    need(start <= len(data), "length of the head", length)
     head = loads(data[12:start], cap=HEAD_CAP)
     lists = isinstance(head, dict) and all(isinstance(head.get(k), list) for k in ("inks", "tiles", "blocks"))
-    _need(lists, "head", "")
+    need(lists, "head", "")
     inks = [ink_of(key) for key in head["inks"]]
     heads = [_tile_head(line, inks) for line in head["tiles"]]
     found = len(heads), sum(form.size(h.shape, h.bits) for h in heads)
-    _need(announced is None or found == announced, "tiles and bytes of a pack", found)
+    need(announced is None or found == announced, "tiles and bytes of a pack", found)
     tiles: list[Coded] = []
     for block in head["blocks"]:
         whole = isinstance(block, list) and len(block) == 3 and all(type(v) is int and v >= 0 for v in block)
-        _need(whole, "block", block)
+        need(whole, "block", block)
         count, plain, stored = block
         run = heads[len(tiles) : len(tiles) + count]
-        _need(len(run) == count and plain <= _most(run, form) <= BLOCK_CAP, "block", block)
-        _need(not form.exact or plain == _most(run, form), "block", block)
-        _need(start + stored <= len(data), "stored bytes of a block", stored)
+        need(len(run) == count and plain <= _most(run, form) <= BLOCK_CAP, "block", block)
+        need(not form.exact or plain == _most(run, form), "block", block)
+        need(start + stored <= len(data), "stored bytes of a block", stored)
         tiles.extend(_block(memoryview(data)[start : start + stored], plain, run, form))
         start += stored
-    _need(start == len(data) and len(tiles) == len(heads), "end of a pack", (start, len(tiles)))
+    need(start == len(data) and len(tiles) == len(heads), "end of a pack", (start, len(tiles)))
     return tiles
 
 
@@ -178,14 +170,14 @@ def _most(run: Sequence[_Head], form: _Format) -> int:
 
 
 def _tile_head(line: Any, inks: list[Instance]) -> _Head:
-    _need(isinstance(line, list) and len(line) in (9, 12), "tile", line)
+    need(isinstance(line, list) and len(line) in (9, 12), "tile", line)
     level, x, y, *corners, bits, indices = line[:9]
-    _need(type(level) is int and abs(level) <= LEVEL_CAP, "level of a tile", level)
+    need(type(level) is int and abs(level) <= LEVEL_CAP, "level of a tile", level)
     key = TileKey(level, _address(x), _address(y))
-    _need(_whole(corners, 0, TILE), "rectangle of a tile", corners)
+    need(_whole(corners, 0, TILE), "rectangle of a tile", corners)
     rect = Rect(*corners)
-    _need(not rect.empty, "rectangle of a tile", corners)
-    _need(type(bits) is int and bits in KINDS, "bits of a tile", bits)
+    need(not rect.empty, "rectangle of a tile", corners)
+    need(type(bits) is int and bits in KINDS, "bits of a tile", bits)
     there = _chosen(indices, inks)
     implied = _implied(line[9:], level, inks) if len(line) == 12 else None
     return _Head(key, rect, (COLOURS + 3 * len(there), rect.height, rect.width), bits, there, implied)
@@ -193,7 +185,7 @@ def _tile_head(line: Any, inks: list[Instance]) -> _Head:
 
 def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
     sound = isinstance(indices, list) and _whole(indices, 0, len(inks) - 1)
-    _need(sound and len(set(indices)) == len(indices), "inks of a tile", indices)
+    need(sound and len(set(indices)) == len(indices), "inks of a tile", indices)
     return tuple([inks[i] for i in indices])
 
 
@@ -208,16 +200,16 @@ def _whole(values: list[Any], low: int, high: int) -> bool:
 def _implied(entries: list[Any], level: int, inks: list[Instance]) -> Implied:
     indices, terms, crc = entries
     chosen = _chosen(indices, inks)
-    _need(0 < len(chosen) <= MOST and all(ink.base - level <= ABOVE for ink in chosen), "inks that imply", indices)
+    need(0 < len(chosen) <= MOST and all(ink.base - level <= ABOVE for ink in chosen), "inks that imply", indices)
     sound = isinstance(terms, list) and len(terms) == 3 * (1 + 2 * len(chosen))
-    _need(sound and _whole(terms, -TERM_CAP, TERM_CAP), "terms of a tile", terms)
-    _need(type(crc) is int and 0 <= crc < 1 << 32, "CRC of a tile", crc)
+    need(sound and _whole(terms, -TERM_CAP, TERM_CAP), "terms of a tile", terms)
+    need(type(crc) is int and 0 <= crc < 1 << 32, "CRC of a tile", crc)
     return Implied(chosen, tuple(terms), crc)
 
 
 def _address(text: Any) -> int:
     sound = isinstance(text, str) and len(text) <= DIGITS_CAP and _ADDRESS.fullmatch(text) is not None
-    _need(sound, "address of a tile", text)
+    need(sound, "address of a tile", text)
     return int(text, 16)
 
 
@@ -228,12 +220,12 @@ def _block(stored: memoryview, plain: int, run: Sequence[_Head], form: _Format) 
         filled = stream.readinto(raw.data)
         complete = filled == plain and stream.finish()
     except DeflateError as error:
-        raise _Fault(f"block: damaged ({error})") from error
-    _need(complete, "bytes in a block", filled)
+        raise PackFault(f"block: damaged ({error})") from error
+    need(complete, "bytes in a block", filled)
     tiles = [np.empty(head.shape, KINDS[head.bits]) for head in run]
     largest = form.decoded(raw, tiles)
-    _need(largest >= 0, "rows of a block", "others than its tiles have")
-    _need(largest < 2 * RESIDUAL_CAP, "largest residual of a block", largest)
+    need(largest >= 0, "rows of a block", "others than its tiles have")
+    need(largest < 2 * RESIDUAL_CAP, "largest residual of a block", largest)
     for head, data in zip(run, tiles, strict=True):
         seen = data.view()  # what is implied is still to be put into `data`
         seen.flags.writeable = False

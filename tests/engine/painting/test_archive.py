@@ -5,11 +5,11 @@ import io
 import json
 import threading
 import zipfile
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
+from sown import opened, rewritten
 
 from engine.canvas import layers
 from engine.canvas.composite import composite
@@ -21,7 +21,6 @@ from engine.painting import commands as c
 from engine.painting import jobs, opening
 from engine.painting.archive import Snapshot, save, shown_level
 from engine.painting.fault import Cancelled, FileError, WriteError
-from engine.painting.limits import LIMITS
 from engine.painting.manifest import FORMAT
 from engine.painting.opening import open_painting
 from engine.painting.painting import Painting
@@ -273,22 +272,6 @@ def test_the_manifest_names_every_member(members):
 
 
 # ---- what other programs leave of it ----
-
-
-def rewritten(members, change=None, drop=()):
-    file = io.BytesIO()
-    kept = {name: data for name, data in members.items() if not name.startswith(tuple(drop))}
-    kept.update(change or {})
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as out:
-        for name, data in kept.items():
-            out.writestr(name, data)
-    return file.getvalue()
-
-
-def opened(data, tmp_path, **limits):
-    path = tmp_path / "x.ora"
-    path.write_bytes(data)
-    return open_painting(path, limits=replace(LIMITS, **limits))
 
 
 def test_zipped_anew_it_is_still_ours(session, members, tmp_path):
