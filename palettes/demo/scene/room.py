@@ -5,6 +5,7 @@ from __future__ import annotations
 from scene.colour import mix
 from scene.easel import FIRM, HAIR, ROUND, SOFT, Easel, Point, hand, hatch, rock, wave
 from scene.noise import dice
+from scene.painter import painter
 from scene.window import CANVAS, CANVAS_SIZE, WINDOW, X, box
 
 
@@ -122,7 +123,7 @@ def _shelf(easel: Easel, x: float, y: float) -> None:
 def in_front(easel: Easel) -> None:
     """All that lies over the picture: its frame, its maker, and the window."""
     _stand(easel)
-    _painter(easel)
+    painter(easel)
     _frame(easel)
 
 
@@ -154,131 +155,6 @@ def _stand(easel: Easel) -> None:
     tray = [(x - 0.02, y + h + 0.085), (x + w + 0.02, y + h + 0.085)]
     easel.stroke("Window", 9, tray, 0.026, "#8a5834", FIRM, wood)
     easel.stroke("Window", 10, [(px, py - 0.02) for px, py in tray], 0.007, "#e8b880", HAIR)
-
-
-def _painter(easel: Easel) -> None:
-    """Standing at the left, one arm with the brush at the canvas."""
-    x, y = CANVAS
-    body = x - 0.36
-    smock = [rock("#7f9cb4", 0.8, 0.3, 0.4, 35)]
-    easel.touches(
-        "Window",
-        8,
-        [[(body - 0.07, y + 0.75), (body - 0.09, y + 1.2)], [(body + 0.08, y + 0.75), (body + 0.09, y + 1.2)]],
-        0.06,
-        "#3a3440",
-        FIRM,
-    )
-    coat = [(body - 0.13, y + 0.14), (body + 0.13, y + 0.14), (body + 0.22, y + 0.86), (body - 0.22, y + 0.86)]
-    easel.stroke("Window", 9, hatch(coat, 0.03, 1.4), 0.03, "#3f5f80", FIRM, smock)
-    folds = [hand([(body + 0.05 * k, y + 0.3), (body + 0.075 * k, y + 0.82)], 0.1, 0.01, k) for k in (-2, -1, 1, 2)]
-    easel.touches("Window", 9, folds, 0.014, "#2c4460", ROUND, opacity=0.7)
-    easel.touches(
-        "Window", 9, [[(body - 0.13, y + 0.18), (body - 0.2, y + 0.84)]], 0.014, "#a9c0cc", ROUND, opacity=0.8
-    )
-    arm = hand([(body + 0.1, y + 0.2), (body + 0.19, y + 0.36), (body + 0.3, y + 0.25)], 0.04)
-    easel.stroke("Window", 10, arm, 0.05, "#46688a", FIRM, smock)
-    easel.stroke("Window", 10, [(px - 0.01, py - 0.035, 0.8) for px, py, _ in arm], 0.012, "#a9c0cc", ROUND)
-    easel.stroke("Window", 10, [(body + 0.31, y + 0.235), (body + 0.33, y + 0.225)], 0.033, "#e8b48c", FIRM)
-    easel.stroke("Window", 11, [(body + 0.27, y + 0.27), (body + 0.345, y + 0.205)], 0.006, "#6a4428", FIRM)
-    easel.stroke("Window", 11, [(body + 0.345, y + 0.205), (body + 0.357, y + 0.195, 0.3)], 0.008, "#e8c468", ROUND)
-    palette = hand(
-        [
-            (body - 0.2, y + 0.46),
-            (body - 0.1, y + 0.42),
-            (body + 0.02, y + 0.47),
-            (body - 0.08, y + 0.52),
-            (body - 0.2, y + 0.47),
-        ],
-        0.05,
-    )
-    easel.stroke("Window", 10, palette, 0.04, "#b07c4c", FIRM)
-    for k, tone in enumerate(("#f6f0e0", "#e8b83c", "#c8402c", "#3c6a9c", "#4c7a44")):
-        easel.stroke(
-            "Window",
-            10,
-            [(body - 0.19 + 0.045 * k, y + 0.455 + 0.008 * (k % 2)), (body - 0.18 + 0.045 * k, y + 0.46)],
-            0.016,
-            tone,
-            ROUND,
-            dynamics={},
-        )
-    head = (body + 0.02, y - 0.03)
-    easel.stroke("Window", 10, [(head[0], head[1] + 0.06), (head[0], y + 0.13)], 0.045, "#c88f6c", FIRM)
-    easel.stroke(
-        "Window", 10, [(head[0] - 0.005, head[1] - 0.02), (head[0] + 0.008, head[1] + 0.045)], 0.085, "#dba27c", FIRM
-    )
-    easel.stroke(
-        "Window",
-        10,
-        hand([(head[0] + 0.085, head[1]), (head[0] + 0.105, head[1] + 0.02), (head[0] + 0.085, head[1] + 0.03)], 0.01),
-        0.014,
-        "#dba27c",
-        FIRM,
-    )
-    easel.stroke(
-        "Window",
-        10,
-        hand(
-            [(head[0] - 0.07, head[1] + 0.06), (head[0] - 0.085, head[1] - 0.03), (head[0] - 0.02, head[1] - 0.08)],
-            0.02,
-        ),
-        0.035,
-        "#5c3a30",
-        ROUND,
-        dynamics={},
-    )
-    easel.stroke(
-        "Window", 11, [(head[0] + 0.05, head[1] - 0.012), (head[0] + 0.052, head[1] - 0.01)], 0.008, "#3a2a2a", FIRM
-    )
-    easel.stroke(
-        "Window",
-        11,
-        hand(
-            [(head[0] + 0.035, head[1] - 0.03), (head[0] + 0.055, head[1] - 0.035), (head[0] + 0.07, head[1] - 0.028)],
-            0.01,
-        ),
-        0.004,
-        "#5c3a30",
-        FIRM,
-    )
-    easel.stroke(
-        "Window",
-        11,
-        hand(
-            [(head[0] + 0.05, head[1] + 0.055), (head[0] + 0.065, head[1] + 0.06), (head[0] + 0.08, head[1] + 0.052)],
-            0.01,
-        ),
-        0.004,
-        "#a85a4c",
-        FIRM,
-    )
-    easel.stroke(
-        "Window",
-        10,
-        [(head[0] + 0.02, head[1] + 0.035), (head[0] + 0.022, head[1] + 0.036)],
-        0.025,
-        "#e8967c",
-        SOFT,
-        opacity=0.5,
-        flow=0.5,
-    )
-    easel.stroke(
-        "Window",
-        11,
-        hand(
-            [(head[0] - 0.025, head[1] - 0.005), (head[0] - 0.04, head[1] + 0.012), (head[0] - 0.022, head[1] + 0.03)],
-            0.01,
-        ),
-        0.013,
-        "#c88f6c",
-        FIRM,
-    )
-    beret = hand(
-        [(head[0] - 0.11, head[1] - 0.07), (head[0] - 0.02, head[1] - 0.115), (head[0] + 0.1, head[1] - 0.075)], 0.03
-    )
-    easel.stroke("Window", 10, beret, 0.045, "#8e2f34", FIRM, [rock("#d0605c", 0.7, 0.06, 0.3, 36)])
-    easel.stroke("Window", 10, [(head[0], head[1] - 0.15), (head[0] + 0.012, head[1] - 0.18)], 0.011, "#8e2f34", FIRM)
 
 
 def _frame(easel: Easel) -> None:
