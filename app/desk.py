@@ -20,7 +20,8 @@ from app.view import Place, View, fitted
 from engine.brush.record import Brush
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
-from engine.painting.requests import CurveRow, Found, Growing, Note, Request, Save, Scene
+from engine.painting.requests import Request, Save
+from engine.painting.results import CurveRow, Found, Growing, Note, Scene
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels

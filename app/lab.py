@@ -10,7 +10,8 @@ from immutables import Map
 
 from engine.brush.parts import Component, Surface
 from engine.brush.record import Brush
-from engine.painting.requests import LabRest, LabScene, LabSet, LabUse, Request
+from engine.painting.requests import LabRest, LabSet, LabUse, Request
+from engine.painting.results import LabScene
 
 SETTLE = 0.15  # seconds without change before strokes are shown with the texture
 FIRST = Map({"shape": "noise", "b": 1.4})  # the shape of a lab just opened

@@ -11,7 +11,8 @@ from immutables import Map
 
 from app.knots import Knots
 from engine.numeric.address import Rect
-from engine.painting.requests import MatchScene, MatchSet, MatchUse, Request
+from engine.painting.requests import MatchSet, MatchUse, Request
+from engine.painting.results import MatchScene
 
 SIZES = (128, 256, 512)
 LEVELS, ORIENTATIONS, ITERATIONS = 4, 4, 5

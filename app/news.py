@@ -26,6 +26,7 @@ from app.trace import trace
 from app.view import SUBPIXEL, Place
 from engine.brush.record import Brush
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.worker import Worker
 
 COARSER = 3  # levels: a coarse layer of tiles around the view is kept for when it moves
@@ -46,29 +47,29 @@ class News:
         self._serial: int | None = None
         self._laid_out = False
         self._handlers: dict[type, Callable[[Any, float], None]] = {
-            q.Ready: self._ready,
-            q.Patch: self._patch,
-            q.Same: self._same,
-            q.Scene: self._scene,
-            q.Note: lambda r, now: self.desk.told(r),
-            q.Saved: self._saved,
-            q.Picture: self._picture,
-            q.Picked: self._picked,
-            q.Looked: self._looked,
-            q.LabScene: self._lab,
-            q.Found: self._found,
-            q.MatchScene: self._matched,
-            q.Pending: self._pending,
-            q.Growing: self._growing,
+            results.Ready: self._ready,
+            results.Patch: self._patch,
+            results.Same: self._same,
+            results.Scene: self._scene,
+            results.Note: lambda r, now: self.desk.told(r),
+            results.Saved: self._saved,
+            results.Picture: self._picture,
+            results.Picked: self._picked,
+            results.Looked: self._looked,
+            results.LabScene: self._lab,
+            results.Found: self._found,
+            results.MatchScene: self._matched,
+            results.Pending: self._pending,
+            results.Growing: self._growing,
         }
 
     def take(self, now: float) -> bool:
         """Takes in all results; True if there were any."""
-        results = self.worker.results() if self.worker else []
-        results += self.shelf.take() if self.shelf else []
-        for result in results:
+        came = self.worker.results() if self.worker else []
+        came += self.shelf.take() if self.shelf else []
+        for result in came:
             self._handlers[type(result)](result, now)
-        return bool(results)
+        return bool(came)
 
     def first_layout(self) -> bool:
         """True once: after the first frame's panels are laid out, the free area is known."""
@@ -141,7 +142,7 @@ class News:
         """Whether a swatch is about to be asked for."""
         return self._ink_since > 0
 
-    def _ready(self, result: q.Ready, _now: float) -> None:
+    def _ready(self, result: results.Ready, _now: float) -> None:
         desk = self.desk
         desk.ready, desk.blends, desk.kinds = True, result.blends, result.kinds
         desk.ops, desk.curves, desk.edges = result.ops, result.curves, result.edges
@@ -160,14 +161,14 @@ class News:
         for preset in filter(ready_at_start, desk.presets):
             ask_picture(desk, preset)
 
-    def _patch(self, r: q.Patch, now: float) -> None:
+    def _patch(self, r: results.Patch, now: float) -> None:
         self.screen.upload(r, self.desk.view, now)
 
-    def _same(self, r: q.Same, _now: float) -> None:
+    def _same(self, r: results.Same, _now: float) -> None:
         for tile in r.tiles:
             self.screen.confirm(ScreenTile(*tile), r.revision)
 
-    def _scene(self, scene: q.Scene, _now: float) -> None:
+    def _scene(self, scene: results.Scene, _now: float) -> None:
         before, self.desk.scene = self.desk.scene, scene
         if before is None or before.definitions != scene.definitions:
             sowing.gather(self.desk)
@@ -178,32 +179,32 @@ class News:
             self._serial = scene.serial
             trace(f"painting {scene.serial} shown")
 
-    def _saved(self, r: q.Saved, _now: float) -> None:
+    def _saved(self, r: results.Saved, _now: float) -> None:
         self.desk.say(f"Saved {Path(r.path).name}")
         then, self.desk.after_save = self.desk.after_save, None
         if then is not None:
             then(self.desk)
 
-    def _picture(self, r: q.Picture, _now: float) -> None:
+    def _picture(self, r: results.Picture, _now: float) -> None:
         """A swatch over paper, as a texture for imgui."""
         self._gallery.hang(r.ident, r.pixels)
 
-    def _lab(self, r: q.LabScene, _now: float) -> None:
+    def _lab(self, r: results.LabScene, _now: float) -> None:
         before, self.desk.lab.scene = self.desk.lab.scene, r
         if before is not None and before.version != r.version:
             self._ink = None  # its pictures are of a texture that is another one now
 
-    def _matched(self, r: q.MatchScene, _now: float) -> None:
+    def _matched(self, r: results.MatchScene, _now: float) -> None:
         self.desk.match.scene = r
 
-    def _found(self, r: q.Found, _now: float) -> None:
+    def _found(self, r: results.Found, _now: float) -> None:
         self.desk.found = r
 
-    def _picked(self, r: q.Picked, _now: float) -> None:
+    def _picked(self, r: results.Picked, _now: float) -> None:
         if r.alpha > 0.01:
             self.desk.colour = r.rgb
 
-    def _looked(self, r: q.Looked, _now: float) -> None:
+    def _looked(self, r: results.Looked, _now: float) -> None:
         """A recording that plays shows where its artist looked."""
         x, y = (_middle(o, s, r.level % 1) for o, s in zip(r.origin, r.size, strict=True))
         x0, y0, x1, y1 = self.desk.free_area()
@@ -213,7 +214,7 @@ class News:
         place = Place(x, y, int(r.level // 1) + SUBPIXEL)
         self.desk.look_at(place, zoom, r.seconds)
 
-    def _growing(self, r: q.Growing, now: float) -> None:
+    def _growing(self, r: results.Growing, now: float) -> None:
         desk = self.desk
         done = r.done >= 1.0 or not r.rects
         if done == (desk.growing is not None):
@@ -221,7 +222,7 @@ class News:
         desk.grows = desk.grows if desk.growing is not None else now
         desk.growing = None if done else r
 
-    def _pending(self, r: q.Pending, _now: float) -> None:
+    def _pending(self, r: results.Pending, _now: float) -> None:
         self.desk.pending, self.desk.files = r.tiles, r.files
 
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from app.view import View
 from engine.numeric.address import Rect
-from engine.painting.requests import SIDE, Patch
+from engine.painting.requests import SIDE
+from engine.painting.results import Patch
 
 FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show

@@ -11,7 +11,7 @@ import numpy as np
 
 from app import keeping
 from app.examples import Entry
-from engine.painting.requests import Picture
+from engine.painting.results import Picture
 
 PAPER = (214, 209, 200)  # sRGB
 MARGIN = 0.06  # of a thumbnail's side

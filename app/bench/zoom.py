@@ -18,7 +18,8 @@ from engine.painting.easel import Easel
 from engine.painting.painting import Painting, apply
 from engine.painting.recording import read
 from engine.painting.replay import replay
-from engine.painting.requests import SIDE, Look, Patch
+from engine.painting.requests import SIDE, Look
+from engine.painting.results import Patch
 from engine.painting.session import Session
 
 LEVELS = 40

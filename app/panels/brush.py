@@ -20,7 +20,7 @@ from app.panels.saving import SaveBrush
 from app.panels.texturing import Texturing
 from app.tools import TOOLS
 from engine.brush.record import SETTINGS
-from engine.painting.requests import CurveRow
+from engine.painting.results import CurveRow
 
 _MODES = (
     ("paint", "Paint", "Lays paint over what is there"),

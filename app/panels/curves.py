@@ -15,7 +15,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, knots, theme
 from app.knots import Knots
 from app.panels import widgets as w
-from engine.painting.requests import CurveRow
+from engine.painting.results import CurveRow
 
 Curve = str | Knots | None
 Rows = Sequence[CurveRow]

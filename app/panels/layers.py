@@ -8,7 +8,8 @@ from app import actions, icons, theme
 from app.desk import Desk
 from app.panels import widgets as w
 from engine.painting import commands as c
-from engine.painting.requests import Do, LayerRow
+from engine.painting.requests import Do
+from engine.painting.results import LayerRow
 
 _PAYLOAD = "layer"
 

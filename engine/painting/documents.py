@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from engine.painting import archive, export, replay
+from engine.painting import archive, export, replay, results
 from engine.painting import commands as c
 from engine.painting import requests as q
 from engine.painting.drawn import POINTS_CAP
@@ -35,7 +35,7 @@ class Stage(Protocol):
     def begin(self, stroke: c.Stroke) -> None: ...
     def extend(self, points: np.ndarray) -> None: ...
     def finish(self) -> None: ...
-    def send(self, result: q.Result) -> None: ...
+    def send(self, result: results.Result) -> None: ...
 
 
 class Playing:
@@ -93,7 +93,7 @@ class Playing:
         """The screen flies there; the next command waits for it."""
         levels = 0.0 if self._level is None else abs(view.level - self._level)
         seconds = FLIGHT + A_LEVEL * levels if self._pace else 0.0
-        stage.send(q.Looked(view.level, view.origin, view.size, seconds))
+        stage.send(results.Looked(view.level, view.origin, view.size, seconds))
         self._clock = time.monotonic() + seconds
         self._level = view.level
 

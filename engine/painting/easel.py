@@ -17,7 +17,7 @@ from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import requests as q
-from engine.painting import swatches
+from engine.painting import results, swatches
 from engine.painting.difference import areas
 from engine.painting.examine import Examiner
 from engine.painting.filing import Filing
@@ -35,7 +35,7 @@ from engine.painting.viewer import Viewer
 class Easel:
     """The engine's side of the post.  All calls come from one thread."""
 
-    def __init__(self, send: Callable[[q.Result], None]) -> None:
+    def __init__(self, send: Callable[[results.Result], None]) -> None:
         self.send = send
         self.session = Session()
         self.live: Live | None = None
@@ -188,7 +188,7 @@ class Easel:
 
     def _swatch(self, request: q.Swatch) -> None:
         pixels = swatches.painted(request, self.session.painting)
-        self.send(q.Picture(request.ident, q.frozen(to_premul8(pixels))))
+        self.send(results.Picture(request.ident, results.frozen(to_premul8(pixels))))
 
     def tell(self) -> None:
         """Sends what the panels show.  Files that were written tell as well, from their own threads: in turn, so that
@@ -196,9 +196,9 @@ class Easel:
         with self._telling:
             self.send(self._scene())
 
-    def _scene(self) -> q.Scene:
+    def _scene(self) -> results.Scene:
         painting = self.session.painting
-        return q.Scene(
+        return results.Scene(
             frame=painting.frame,
             layers=tuple(rows(painting.root)),
             active=painting.active,

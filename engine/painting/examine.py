@@ -12,6 +12,7 @@ from engine.numeric.address import Rect
 from engine.numeric.analysis import Analysis
 from engine.numeric.colour import to_rgba8
 from engine.painting import requests as q
+from engine.painting import results
 
 MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
 STRIP = 256  # rows read in one step
@@ -23,7 +24,7 @@ _DARK, _MID, _LIGHT, _COLD = (np.array(rgb, np.float32) for rgb in _RGB)
 class Host(Protocol):
     """What the examiner needs of the easel."""
 
-    send: Callable[[q.Result], None]
+    send: Callable[[results.Result], None]
 
     def picture(self, level: int, whole: Rect) -> np.ndarray: ...
 
@@ -33,7 +34,7 @@ class Examiner:
 
     def __init__(self, host: Host) -> None:
         self.host = host
-        self._work: Iterator[q.Found] | None = None
+        self._work: Iterator[results.Found] | None = None
         self.handlers: dict[type, Callable[[Any], None]] = {q.Analyse: self._ask}
 
     @property
@@ -53,15 +54,15 @@ class Examiner:
     def _ask(self, request: q.Analyse) -> None:
         self._work = None if request.area is None else self._found(request.level, request.area)
 
-    def _found(self, level: int, area: Rect) -> Iterator[q.Found]:
+    def _found(self, level: int, area: Rect) -> Iterator[results.Found]:
         """Everything known so far, again and again."""
         while area.area > MOST:
             level, area = level - 1, area.zoomed(-1)
         lines = {"Size": f"{area.width:,} × {area.height:,} px", "Level": str(level)}
         pictures: list[str] = []
 
-        def told(done: bool = False) -> q.Found:
-            return q.Found(Map(lines), rings, tuple(pictures), done)
+        def told(done: bool = False) -> results.Found:
+            return results.Found(Map(lines), rings, tuple(pictures), done)
 
         rings: tuple[tuple[float, float, float], ...] = ()
         pixels = np.empty((area.height, area.width, 4), np.uint8)
@@ -90,7 +91,7 @@ class Examiner:
     def _send(self, ident: str, rgb: np.ndarray, pictures: list[str]) -> None:
         out = np.full((*rgb.shape[:2], 4), 255, np.uint8)
         out[..., :3] = rgb
-        self.host.send(q.Picture(ident, q.frozen(out)))
+        self.host.send(results.Picture(ident, results.frozen(out)))
         pictures.append(ident)
 
 

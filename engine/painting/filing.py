@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Protocol
 
-from engine.painting import documents
+from engine.painting import documents, results
 from engine.painting import requests as q
 from engine.painting.growing import Live
 from engine.painting.growths import OTHERWISE, Mark, otherwise
@@ -79,7 +79,7 @@ class Filing:
         """All that was painted with examples is grown: tells if it is not what it was in the file."""
         marks, self._marks = self._marks, ()
         if otherwise(marks, self.host.session.painting.root):
-            self.host.send(q.Note(OTHERWISE, bad=True))
+            self.host.send(results.Note(OTHERWISE, bad=True))
 
     def play(self) -> None:
         """The next piece of a recording that plays."""
@@ -92,7 +92,7 @@ class Filing:
             self._script = None
             self._saved = None if self.host.session.log else self.host.session.state
             self.host.tell()
-            self.host.send(q.Note("The recording has ended"))
+            self.host.send(results.Note("The recording has ended"))
 
     def _new(self, request: q.New) -> None:
         self.host.show(Session(Painting(frame=request.frame, seed=request.seed)), None)
@@ -103,9 +103,9 @@ class Filing:
         self._known, self._script, self._marks = found.known, found.script, found.marks
         self.due = None if found.script is None else 0.0
         if found.script is not None:
-            self.host.send(q.Note(f"Playing {request.path.name}"))
+            self.host.send(results.Note(f"Playing {request.path.name}"))
         elif found.notes:
-            self.host.send(q.Note(f"{request.path.name}: {found.notes[0]}", bad=True))
+            self.host.send(results.Note(f"{request.path.name}: {found.notes[0]}", bad=True))
 
     def _save(self, request: q.Save) -> None:
         """Writes on a thread of its own, from the painting as it is now; painting goes on meanwhile."""
@@ -120,7 +120,7 @@ class Filing:
             if serial == self.serial:  # the same painting is still on the easel
                 self.path, self._saved = request.path, state
                 self.host.tell()
-            self.host.send(q.Saved(request.path))
+            self.host.send(results.Saved(request.path))
 
         self._in_background(write)
 
@@ -129,7 +129,7 @@ class Filing:
 
         def write() -> None:
             documents.write_picture(request, painting)
-            self.host.send(q.Note(f"Wrote {request.path.name}"))
+            self.host.send(results.Note(f"Wrote {request.path.name}"))
 
         self._in_background(write)
 
@@ -138,11 +138,11 @@ class Filing:
             try:
                 write()
             except Exception as error:
-                self.host.send(q.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
+                self.host.send(results.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
             finally:
-                self.host.send(q.Pending(self.host.pending, 0))
+                self.host.send(results.Pending(self.host.pending, 0))
 
         self._writers = [w for w in self._writers if w.is_alive()]
         self._writers.append(threading.Thread(target=run, name="inkfall file", daemon=False))
-        self.host.send(q.Pending(self.host.pending, 1))
+        self.host.send(results.Pending(self.host.pending, 1))
         self._writers[-1].start()

@@ -12,7 +12,7 @@ from typing import Protocol
 from engine.canvas.growth import Growth, is_settled, progress, settling
 from engine.canvas.layers import Group, Layer
 from engine.numeric.address import Rect
-from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.bed import Bed
 from engine.painting.difference import areas
 from engine.painting.growing import Live
@@ -28,7 +28,7 @@ class Host(Protocol):
     """What it needs of the easel."""
 
     session: Session
-    send: Callable[[q.Result], None]
+    send: Callable[[results.Result], None]
     live: Live | None
     viewer: Viewer
 
@@ -136,9 +136,9 @@ class Grower:
         growths = [layer.growth for layer in self._waiting()] + ([] if bed is None else [bed.growth])
         if growths and (self._told is None or now > self._told):
             rects, done = progress(tuple(plot for growth in growths for plot in growth))
-            self.host.send(q.Growing(done, tuple(rects)))
+            self.host.send(results.Growing(done, tuple(rects)))
             took = time.monotonic() - now
             self._told = now + max(TELL, SHARE * took)
         elif not growths and self._told is not None:
             self._told = None
-            self.host.send(q.Growing(1.0))
+            self.host.send(results.Growing(1.0))

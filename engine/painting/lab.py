@@ -21,7 +21,7 @@ from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import requests as q
-from engine.painting import spectrum, swatches
+from engine.painting import results, spectrum, swatches
 from engine.painting.capture import Place
 from engine.painting.makers import FIELDS
 from engine.painting.points import rounded
@@ -57,7 +57,7 @@ class Host(Protocol):
     """What the lab needs of the easel."""
 
     session: Session
-    send: Callable[[q.Result], None]
+    send: Callable[[results.Result], None]
 
     def carry_out(self, command: c.Command) -> None: ...
 
@@ -179,7 +179,7 @@ class Lab:
         brush = replace(request.brush, ink=(Component(_TRIED, 1.0, "#f4f1ea"),), mode="paint")
         for ident, kind, zoom in (("lab stroke", "stroke", 0), ("lab near", "fill", NEARER)):
             pixels = swatches.painted(q.Swatch(ident, brush, request.size, kind, zoom), painting)
-            self.host.send(q.Picture(ident, q.frozen(to_premul8(pixels))))
+            self.host.send(results.Picture(ident, results.frozen(to_premul8(pixels))))
 
     def _use(self, request: q.LabUse) -> None:
         self._used = request.name, None
@@ -240,18 +240,18 @@ class Lab:
             sheets = spectrum.stroked(sheets, self._live, not self._set.forward)
         self._texture = spectrum.sample(sheets, self._design())
         self._stale = False
-        self.host.send(q.Picture("lab spectrum", _shown(sheets, self._set.sheet)))
+        self.host.send(results.Picture("lab spectrum", _shown(sheets, self._set.sheet)))
         shown = self._texture
         if self._set.field.get("field") == "sparse":
             shown = self._tried().instance({}, 0, 0).appearance(0, FIELD)
-        self.host.send(q.Picture("lab texture", _pixels(0.5 + 0.5 * shown)))
+        self.host.send(results.Picture("lab texture", _pixels(0.5 + 0.5 * shown)))
         self._tell()
 
     def _tell(self) -> None:
         silent = self._texture is None or not self._texture.any()
         rows = tuple(shapes.SHAPES.values())
         strokes, past, future = len(self._now.strokes), bool(self._past), bool(self._future)
-        self.host.send(q.LabScene(rows, strokes, past, future, silent, self._used[0], self._version))
+        self.host.send(results.LabScene(rows, strokes, past, future, silent, self._used[0], self._version))
 
     # --- the texture -------------------------------------------------------------------------------------------------
 
@@ -300,4 +300,4 @@ def _pixels(planes: np.ndarray) -> np.ndarray:
     out = np.full((*planes.shape[1:], 4), 255, np.uint8)
     scaled = np.clip(planes, 0.0, 1.0) * np.float32(255) + np.float32(0.5)
     out[..., :3] = scaled.astype(np.uint8).transpose(1, 2, 0)
-    return q.frozen(out)
+    return results.frozen(out)

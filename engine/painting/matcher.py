@@ -19,7 +19,7 @@ from engine.brush.checks import thawed
 from engine.canvas.layers import Group
 from engine.numeric.colour_axes import ColourAxes
 from engine.painting import commands as c
-from engine.painting import matches
+from engine.painting import matches, results
 from engine.painting import requests as q
 from engine.painting.capture import Place
 from engine.painting.fault import FileError
@@ -38,7 +38,7 @@ class Host(Protocol):
     """What it needs of the easel."""
 
     session: Session
-    send: Callable[[q.Result], None]
+    send: Callable[[results.Result], None]
     live: Live | None
 
     def carry_out(self, command: c.Command) -> None: ...
@@ -87,16 +87,16 @@ class Matcher:
                 self._advance(work)
         except (FormatError, FileError) as error:
             self._drop(work)
-            self.host.send(q.MatchScene(fault=str(error)))
+            self.host.send(results.MatchScene(fault=str(error)))
         except Exception as error:
             self._drop(work)  # it would fail again
-            self.host.send(q.MatchScene(fault=str(error).partition("\n")[0] or type(error).__name__))
+            self.host.send(results.MatchScene(fault=str(error).partition("\n")[0] or type(error).__name__))
             raise
 
     def _set(self, request: q.MatchSet) -> None:
         if request.arguments is None:
             self._preview, self._shown = None, ()
-            self.host.send(q.MatchScene())
+            self.host.send(results.MatchScene())
         else:
             self._preview = _Work(request.maker, request.arguments)
 
@@ -161,7 +161,7 @@ class Matcher:
         out = np.full((*planes.shape[1:], 4), 255, np.uint8)
         scaled = np.clip(planes, 0.0, 1.0) * np.float32(255) + np.float32(0.5)
         out[..., : max(len(planes), 3)] = scaled.astype(np.uint8).transpose(1, 2, 0)
-        self.host.send(q.Picture(name, q.frozen(out)))
+        self.host.send(results.Picture(name, results.frozen(out)))
 
     def _tell(self, work: _Work) -> None:
         plan = work.plan
@@ -172,7 +172,7 @@ class Matcher:
         making = self._wanted[0].name if self._wanted else ""
         shape = pattern.shape
         self.host.send(
-            q.MatchScene(work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making)
+            results.MatchScene(work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making)
         )
 
 

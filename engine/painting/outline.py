@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from engine.canvas.layers import Group, Layer
-from engine.painting import requests as q
+from engine.painting import results
 
 
-def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[q.LayerRow]:
+def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[results.LayerRow]:
     """The tree as the panel lists it, top-most first."""
     out = []
     for position in reversed(range(len(group.children))):
@@ -14,7 +14,7 @@ def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[q.Laye
         is_group = isinstance(node, Group)
         alpha_locked = isinstance(node, Layer) and node.alpha_locked
         out.append(
-            q.LayerRow(
+            results.LayerRow(
                 node.name,
                 is_group,
                 depth,

@@ -8,7 +8,7 @@ from engine.brush.ops import OPS
 from engine.numeric.blend import BLENDS
 from engine.numeric.curves import CURVES, EDGES, Curve
 from engine.numeric.shaping import table
-from engine.painting.requests import CurveRow, Ready
+from engine.painting.results import CurveRow, Ready
 from engine.texture.table import KINDS
 
 _EVERY = 8  # of a curve's 1025 table entries the window gets one in so many

@@ -13,6 +13,7 @@ from engine.canvas.reading import covered, layer_planes
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.difference import Areas
 from engine.painting.growing import Live
 from engine.painting.session import Session
@@ -26,7 +27,7 @@ class Host(Protocol):
     """What the viewer needs of the easel."""
 
     session: Session
-    send: Callable[[q.Result], None]
+    send: Callable[[results.Result], None]
     live: Live | None
 
 
@@ -90,13 +91,13 @@ class Viewer:
         revision = self.sight.revision
         if part.empty:
             self.sight.sent(key)
-            self.host.send(q.Same((key,), revision))
+            self.host.send(results.Same((key,), revision))
             return
         tile = tile_rect(key)
-        pixels = q.frozen(to_premul8(self.picture(key[0], part)))
+        pixels = results.frozen(to_premul8(self.picture(key[0], part)))
         self.sight.sent(key)
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
-        self.host.send(q.Patch(key, inner, pixels, revision))
+        self.host.send(results.Patch(key, inner, pixels, revision))
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
@@ -128,4 +129,4 @@ class Viewer:
         pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]
         alpha = float(pixel[3])
         r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
-        self.host.send(q.Picked((r, g, b), alpha))
+        self.host.send(results.Picked((r, g, b), alpha))

@@ -13,7 +13,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Protocol
 
-from engine.painting.requests import Look, Note, Pending, Request, Result, Swatch
+from engine.painting.requests import Look, Request, Swatch
+from engine.painting.results import Note, Pending, Result
 
 
 class Bench(Protocol):

@@ -21,7 +21,8 @@ from engine.brush.record import Brush
 from engine.numeric.address import Rect
 from engine.painting.commands import Swap, parse, to_json
 from engine.painting.definitions import defined_by
-from engine.painting.requests import Do, Growing, Scene, Swatch
+from engine.painting.requests import Do, Swatch
+from engine.painting.results import Growing, Scene
 from engine.texture.example.parameters import Parameters
 
 

@@ -11,6 +11,7 @@ from app import palette, presets
 from app.presets import Preset
 from engine.brush import record
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.commands import Stroke, parse
 from engine.painting.definitions import fitted, read, renamed, used
 from engine.painting.easel import Easel
@@ -55,7 +56,7 @@ class Desk(SimpleNamespace):
 
     def _take(self, result):
         self.sent.append(result)
-        if isinstance(result, q.Scene):
+        if isinstance(result, results.Scene):
             self.scene = result
 
     def post(self, request):

@@ -8,7 +8,7 @@ from xserver import lacking
 from app.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
 from app.view import Place, View
 from engine.numeric.address import Rect
-from engine.painting.requests import Patch
+from engine.painting.results import Patch
 
 SIZE = (640, 480)
 RED, GREEN, CLEAR = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 0, 0)

@@ -12,6 +12,7 @@ from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.easel import Easel
 from engine.painting.painting import apply
 from engine.painting.sight import tile_rect
@@ -25,7 +26,7 @@ class Window:
         self.easel = Easel(self.take)
 
     def take(self, result):
-        if isinstance(result, q.Patch):
+        if isinstance(result, results.Patch):
             assert not result.pixels.flags.writeable
             whole = result.area.width == q.SIDE and result.area.height == q.SIDE
             if result.tile not in self.tiles:
@@ -34,11 +35,11 @@ class Window:
             a = result.area
             self.tiles[result.tile][a.y0 : a.y1, a.x0 : a.x1] = result.pixels
             self.revisions[result.tile] = result.revision
-        elif isinstance(result, q.Same):
+        elif isinstance(result, results.Same):
             self.revisions.update(dict.fromkeys(result.tiles, result.revision))
         else:
             self.other.append(result)
-            if isinstance(result, q.Scene) and result.serial != getattr(self, "serial", 0):
+            if isinstance(result, results.Scene) and result.serial != getattr(self, "serial", 0):
                 self.serial = result.serial
                 self.tiles.clear()
                 self.revisions.clear()
@@ -51,7 +52,7 @@ class Window:
             self.easel.step()
 
     def scene(self):
-        return next(r for r in reversed(self.other) if isinstance(r, q.Scene))
+        return next(r for r in reversed(self.other) if isinstance(r, results.Scene))
 
     def check(self, *tiles):
         """What the window shows of these tiles is what the painting is."""
@@ -250,7 +251,7 @@ def test_saving_and_opening_give_the_same_picture(tmp_path):
     window.easel.do(q.Finish())
     window.easel.do(q.Save(tmp_path / "p.ora"))
     window.easel.close()
-    assert any(isinstance(r, q.Saved) for r in window.other)
+    assert any(isinstance(r, results.Saved) for r in window.other)
     assert not window.scene().modified
     other = Window()
     other.easel.do(q.Open(tmp_path / "p.ora"))
@@ -278,7 +279,7 @@ def test_a_recording_plays_to_the_same_painting_live_or_not(tmp_path):
         window.easel.do(q.Open(tmp_path / "r.jsonl", live))
         while window.easel.due is not None:
             window.easel.play()
-        assert any(isinstance(r, q.Looked) for r in window.other)
+        assert any(isinstance(r, results.Looked) for r in window.other)
         pictures.append(window.easel.picture(1, Rect(0, 0, 400, 400)))
     assert np.array_equal(*pictures)
     assert pictures[0][3].max() > 0.5

@@ -15,6 +15,7 @@ from engine.canvas import layers
 from engine.canvas.growth import is_settled
 from engine.painting import commands as c
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.recording import Header, Recording
 from engine.painting.replay import replay
 from engine.painting.worker import Worker
@@ -76,7 +77,7 @@ def check(window):
 
 
 def progress(window):
-    return [r for r in window.other if isinstance(r, q.Growing)]
+    return [r for r in window.other if isinstance(r, results.Growing)]
 
 
 def test_a_stroke_is_seen_at_once_and_refined_afterwards(window):
@@ -94,7 +95,7 @@ def test_a_stroke_is_seen_at_once_and_refined_afterwards(window):
     told = progress(window)
     assert told[0].done < 1.0
     assert told[0].rects[0][0] == 0
-    assert told[-1] == q.Growing(1.0)
+    assert told[-1] == results.Growing(1.0)
 
 
 def test_the_stroke_in_progress_is_refined_too(window):
@@ -191,7 +192,7 @@ def test_undo_in_the_middle_and_back(window):
     check(window)
     easel.do(q.Do(c.Undo(2)))
     check(window)
-    assert progress(window)[-1] == q.Growing(1.0)
+    assert progress(window)[-1] == results.Growing(1.0)
     assert not window.tiles[0, 0, 0].any()
 
 
@@ -248,7 +249,7 @@ def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(w
     easel.do(q.Save(tmp_path / "p.ora"))
     easel.do(q.Export(tmp_path / "p.png"))
     easel.close()
-    assert not [r for r in window.other if isinstance(r, q.Note) and r.bad]
+    assert not [r for r in window.other if isinstance(r, results.Note) and r.bad]
     assert not window.scene().modified
     window.work()
     easel.tell()
@@ -264,7 +265,7 @@ def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(w
 
 def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
     """Real thread: points are laid between steps, and the thread ends although work is left."""
-    results, woken = [], threading.Event()
+    came, woken = [], threading.Event()
     worker = Worker(woken.set)
     worker.post(q.New(FRAME, 7))
     for name in "ab":
@@ -273,10 +274,10 @@ def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
     for y in range(0, 400, 40):  # far more than is refined at once
         worker.post(q.Do(stroke([[0, y], [600, y]], radius=20)))
     end = time.monotonic() + 60
-    while not any(isinstance(r, q.Growing) for r in results):
+    while not any(isinstance(r, results.Growing) for r in came):
         woken.wait(1.0)
         woken.clear()
-        results += worker.results()
+        came += worker.results()
         assert time.monotonic() < end
     worker.post(q.Begin(0, (0, 0), brush(example="b")))
     worker.post(q.Points(points([[40, 40]])))
@@ -285,6 +286,6 @@ def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
     worker.close(30.0)
     assert not worker._thread.is_alive()
     assert time.monotonic() - before < 20
-    results += worker.results()
-    assert not [r for r in results if isinstance(r, q.Note) and r.bad]
-    assert not any(isinstance(r, q.Growing) and r.done == 1.0 for r in results)
+    came += worker.results()
+    assert not [r for r in came if isinstance(r, results.Note) and r.bad]
+    assert not any(isinstance(r, results.Growing) and r.done == 1.0 for r in came)

@@ -43,6 +43,7 @@ from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
 from engine.painting import growths as files
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.archive import Snapshot, save
 from engine.painting.easel import Easel
 from engine.painting.export import Picture, export
@@ -171,13 +172,13 @@ def test_plots_that_grow_otherwise_are_noticed(members, saved, tmp_path):
 def test_the_window_grows_what_is_opened(session, members, tmp_path, lying):
     path = tmp_path / "a.ora"
     path.write_bytes(forged(members) if lying else rewritten(members))
-    results = []
-    easel = Easel(results.append)
+    sent = []
+    easel = Easel(sent.append)
     easel.do(q.Open(path))
     while easel.pending:
         easel.step()
     easel.close()
-    notes = [result.text for result in results if isinstance(result, q.Note)]
+    notes = [result.text for result in sent if isinstance(result, results.Note)]
     assert notes == ([files.OTHERWISE] if lying else [])
     assert not easel.filing.modified
     painting = easel.session.painting

@@ -12,6 +12,7 @@ from engine.numeric.address import Rect
 from engine.numeric.spectra import opposite
 from engine.painting import commands as c
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.easel import Easel
 from engine.painting.fault import FileError
 from engine.painting.painting import apply
@@ -38,11 +39,11 @@ class Desk:
             pass
 
     def picture(self, ident):
-        return next(r for r in reversed(self.sent) if isinstance(r, q.Picture) and r.ident == ident).pixels
+        return next(r for r in reversed(self.sent) if isinstance(r, results.Picture) and r.ident == ident).pixels
 
     @property
     def scene(self):
-        return next(r for r in reversed(self.sent) if isinstance(r, q.LabScene))
+        return next(r for r in reversed(self.sent) if isinstance(r, results.LabScene))
 
     def stroke(self, *points, brush=WHITE, kept=True):
         rows = [np.array([[x, y, 1.0, 0, 0, 0]]) for x, y in points]
@@ -247,7 +248,7 @@ def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
     desk.easel.do(q.Analyse(0, Rect(0, 0, 64, 64)))
     desk.easel.step()
     desk.ask(q.Analyse(0, Rect(0, 0, 96, 64)))
-    found = [r for r in desk.sent if isinstance(r, q.Found)]
+    found = [r for r in desk.sent if isinstance(r, results.Found)]
     assert [r.done for r in found].count(True) == 1
     assert found[-1].done
     assert found[-1].lines["Size"] == "96 × 64 px"
@@ -258,12 +259,12 @@ def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
     assert found[-1].rings
     desk.easel.do(q.Analyse(0, Rect(0, 0, 64, 64)))
     desk.ask(q.Analyse())
-    assert [r for r in desk.sent if isinstance(r, q.Found)][-1] is found[-1]
+    assert [r for r in desk.sent if isinstance(r, results.Found)][-1] is found[-1]
 
 
 def test_analysis_of_nothing(desk):
     desk.ask(q.Analyse(0, Rect(-3, 5, 30, 25)))
-    found = [r for r in desk.sent if isinstance(r, q.Found)][-1]
+    found = [r for r in desk.sent if isinstance(r, results.Found)][-1]
     assert found.done
     assert found.lines["Colours"] == "1"
 

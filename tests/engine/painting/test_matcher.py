@@ -9,6 +9,7 @@ from engine.brush.record import from_json, to_json
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.easel import Easel
 from engine.painting.painting import apply
 from engine.painting.recording import Recording
@@ -35,11 +36,11 @@ class Desk:
         return steps
 
     def pictures(self, ident):
-        return [r.pixels for r in self.sent if isinstance(r, q.Picture) and r.ident == ident]
+        return [r.pixels for r in self.sent if isinstance(r, results.Picture) and r.ident == ident]
 
     @property
     def scene(self):
-        return next(r for r in reversed(self.sent) if isinstance(r, q.MatchScene))
+        return next(r for r in reversed(self.sent) if isinstance(r, results.MatchScene))
 
 
 @pytest.fixture
@@ -104,7 +105,7 @@ def test_the_newest_settings_win_and_tiles_come_first(desk, example):
     desk.ask(q.MatchSet("match", members(example, iterations=1, seed=5)))
     desk.easel.look(q.Look(((0, 0, 0, -1),)))
     desk.easel.step()
-    assert any(isinstance(r, q.Patch | q.Same) for r in desk.sent)
+    assert any(isinstance(r, results.Patch | results.Same) for r in desk.sent)
     desk.rest()
     assert len(desk.pictures("match texture")) == 1
     assert len(desk.pictures("match example")) == 1  # it is the same

@@ -7,6 +7,7 @@ import pytest
 
 from engine.numeric.address import Rect
 from engine.painting import requests as q
+from engine.painting import results
 from engine.painting.worker import Worker
 
 
@@ -18,7 +19,7 @@ class Bench:
     def __init__(self, send):
         self.send, self.did, self.open, self.gate = send, [], [], threading.Event()
         self.gate.set()
-        send(q.Ready())
+        send(results.Ready())
 
     def do(self, request):
         self.gate.wait(5)
@@ -110,8 +111,8 @@ def test_an_error_becomes_one_line_and_the_thread_goes_on(worker):
     worker.post(q.Export("somewhere.png"))
     worker.post(q.Finish())
     until(lambda: q.Finish() in worker.bench.did)
-    notes = [r for r in worker.results() if isinstance(r, q.Note)]
-    assert notes == [q.Note("it did not work", bad=True)]
+    notes = [r for r in worker.results() if isinstance(r, results.Note)]
+    assert notes == [results.Note("it did not work", bad=True)]
 
 
 def test_only_the_newest_swatch_of_a_name_is_painted(worker):
@@ -173,5 +174,5 @@ def test_an_engine_that_does_not_load_is_told(capfd):
 
     worker = Worker(woken.set, broken)
     woken.wait(5)
-    assert worker.results() == [q.Note("The paint engine did not load: no numba here", bad=True)]
+    assert worker.results() == [results.Note("The paint engine did not load: no numba here", bad=True)]
     worker.close()

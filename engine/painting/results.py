@@ -1,0 +1,219 @@
+"""What the background worker tells the window: read-only results.  What it is asked for is in `requests`.
+
+Light on purpose, as that: importing it loads neither numba nor scipy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from immutables import Map
+
+from engine.numeric.address import Rect
+
+
+@dataclass(frozen=True, slots=True)
+class CurveRow:
+    """A named shaping curve as an editor shows it: outputs 0..1 at inputs spread evenly over 0..1."""
+
+    name: str
+    label: str
+    tooltip: str
+    heights: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """The engine is loaded.  `blends`: name, title, hint of each blend mode; `kinds`: the rows of the texture table;
+    `ops`: the rows of the table of raster operations; `curves`, `edges`: the named shaping curves."""
+
+    blends: tuple[tuple[str, str, str], ...] = ()
+    kinds: tuple[Any, ...] = ()
+    ops: tuple[Any, ...] = ()
+    curves: tuple[CurveRow, ...] = ()
+    edges: tuple[CurveRow, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """Pixels of the rectangle `area` (within 0..256) of screen tile `tile` (level, x, y): uint8 (h, w, 4),
+    premultiplied, read-only.  `revision` counts what has happened to the painting."""
+
+    tile: tuple[int, int, int]
+    area: Rect
+    pixels: np.ndarray
+    revision: int
+
+
+@dataclass(frozen=True, slots=True)
+class Same:
+    """These tiles still show what they showed, at `revision`."""
+
+    tiles: tuple[tuple[int, int, int], ...]
+    revision: int
+
+
+@dataclass(frozen=True, slots=True)
+class LayerRow:
+    """A layer or group as the panel lists it, top-most first; `depth` counts the groups around it."""
+
+    name: str
+    group: bool
+    depth: int
+    parent: str | None
+    position: int
+    opacity: float
+    visible: bool
+    blend: str
+    locked: bool
+    alpha_locked: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What the panels show of a painting."""
+
+    frame: Rect
+    layers: tuple[LayerRow, ...]
+    active: str | None
+    can_undo: bool
+    can_redo: bool
+    modified: bool
+    path: Path | None
+    textures: tuple[str, ...] = ()  # names of those defined
+    texture_kinds: tuple[tuple[str, str], ...] = ()  # and the kind of each
+    definitions: tuple[tuple[str, str, Mapping[str, Any]], ...] = ()  # and its parameters: name, kind, these
+    texture_widths: tuple[tuple[str, int], ...] = ()  # pixels across the pictures of those that have one
+    serial: int = 0  # another number: another painting
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A line for the artist; `bad` when something did not work."""
+
+    text: str
+    bad: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """A file was written; `serial` of the painting that it holds."""
+
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """The swatch `ident`: uint8 (h, w, 4), premultiplied, read-only."""
+
+    ident: str
+    pixels: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class LabScene:
+    """What the lab's panel shows besides the pictures "lab spectrum", "lab texture", "lab stroke", "lab near".
+
+    `shapes`: the rows of `shapes.SHAPES`; `silent`: nothing sounds, the texture is flat; `using`: the texture of the
+    painting that follows the lab; `version`: another number, and that texture has changed.
+    """
+
+    shapes: tuple[Any, ...]
+    strokes: int
+    can_undo: bool
+    can_redo: bool
+    silent: bool
+    using: str = ""
+    version: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A part of what Analyse asked for; those not found yet are missing.  `lines`: by name of the facts, how each
+    reads; `rings`: frequency in cycles per pixel, power and that of the all-pole model, of each ring; pictures come as
+    Picture, under the names in `pictures`."""
+
+    lines: Map[str, str]
+    rings: tuple[tuple[float, float, float], ...] = ()
+    pictures: tuple[str, ...] = ()
+    done: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class MatchScene:
+    """What the matching panel shows besides the pictures "match example", "match second", "match texture".
+
+    `done`: how far the texture is, 0..1; `levels`, `orientations`: of its pyramid; `colours`: of its axes, sRGB;
+    `fault`: what is wrong with what was asked for; `making`: the texture being made for use.
+    """
+
+    done: float = 0.0
+    levels: int = 0
+    orientations: int = 0
+    colours: tuple[tuple[float, float, float], ...] = ()
+    sizes: tuple[tuple[int, int], ...] = ()  # width and height of the examples
+    fault: str = ""
+    making: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Picked:
+    """The colour under a Pick, straight sRGB and alpha 0..1."""
+
+    rgb: tuple[float, float, float]
+    alpha: float
+
+
+@dataclass(frozen=True, slots=True)
+class Looked:
+    """Where a recording that plays looked: level, origin, size of its view command; `seconds` to go there."""
+
+    level: float
+    origin: tuple[float, float]
+    size: tuple[float, float]
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Pending:
+    """How much work waits: tiles, and whether files are being read or written."""
+
+    tiles: int
+    files: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Growing:
+    """How far what is painted with examples has grown: the part done, 0..1, and where it has not, as (level,
+    rectangle); nowhere, and all of it is as it will stay."""
+
+    done: float
+    rects: tuple[tuple[int, Rect], ...] = ()
+
+
+Result = (
+    Ready
+    | Patch
+    | Same
+    | Scene
+    | Note
+    | Saved
+    | Picture
+    | Picked
+    | Looked
+    | Pending
+    | LabScene
+    | Found
+    | MatchScene
+    | Growing
+)
+
+
+def frozen(array: np.ndarray) -> np.ndarray:
+    """The array itself, made read-only."""
+    array.flags.writeable = False
+    return array
