@@ -9,6 +9,7 @@ from immutables import Map
 
 from engine.brush import kinds
 from engine.brush.record import Brush
+from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.painting.commands import Stroke
@@ -23,21 +24,35 @@ class Drawn:
 
     `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
     points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
-    BrushError if the brush lacks something, Refusal if the layer is locked.
+    `own`: the seed of its random numbers, the painting's where its command (`seed`) has none.
+    BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
     """
 
     def __init__(
-        self, painting: Painting, level: int, origin: tuple[int, int], brush: Brush, layer: str | None, seed: int | None
+        self,
+        painting: Painting,
+        level: int,
+        origin: tuple[int, int],
+        brush: Brush,
+        cache: TileCache | None = None,
+        layer: str | None = None,
+        seed: int | None = None,
     ) -> None:
         kinds.check(brush)
         self.base, self.layer = layer_for(painting, layer)
-        self.before = painting
+        self.before, self.cache = painting, cache
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
+        self.own = painting.seed if seed is None else seed
         self.dropped = 0
         self.extra: Map = Map()
         self._named = layer
         self._points: list[np.ndarray] = []
         self._count = 0
+        self._begin()
+
+    def _begin(self) -> None:
+        """What a kind of stroke needs besides."""
+        raise NotImplementedError
 
     @property
     def full(self) -> bool:

@@ -13,7 +13,6 @@ from engine.brush.footprint import Footprint
 from engine.brush.record import Brush
 from engine.canvas import growth as growths
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group, Layer
 from engine.numeric.address import Rect
 from engine.painting.bed import Bed, Change
@@ -52,24 +51,14 @@ class LiveGrowth(Drawn):
 
     flattened = False  # what the layer has of examples stays that
 
-    def __init__(
-        self,
-        painting: Painting,
-        level: int,
-        origin: tuple[int, int],
-        brush: Brush,
-        cache: TileCache | None = None,
-        layer: str | None = None,
-        seed: int | None = None,
-    ) -> None:
-        super().__init__(painting, level, origin, brush, layer, seed)
+    def _begin(self) -> None:
         _check_alpha(self.layer, "stroke")
-        own = painting.seed if seed is None else seed
+        brush, level, painting = self.brush, self.level, self.before
         grid = _grid(brush, level)
-        shape = tip.resolve(brush, painting.textures, level, own)
+        shape = tip.resolve(brush, painting.textures, level, self.own)
         within = growths.bounds(self.layer.growth, grid) if brush.mode == "erase" else None
-        begin = partial(Footprint, brush, origin, grid - level, shape, within)
-        self.bed = Bed(self.layer.growth, level, begin, _change(brush, grid, painting, own))
+        begin = partial(Footprint, brush, self.origin, grid - level, shape, within)
+        self.bed = Bed(self.layer.growth, level, begin, _change(brush, grid, painting, self.own))
 
     def lay(self, points: np.ndarray) -> Rect:
         """As `LiveStroke.lay`, but nothing looks different before the bed is followed."""
@@ -129,19 +118,11 @@ def _grid(brush: Brush, level: int) -> int:
 Live = LiveStroke | LiveGrowth
 
 
-def begun(
-    painting: Painting,
-    level: int,
-    origin: tuple[int, int],
-    brush: Brush,
-    cache: TileCache | None = None,
-    layer: str | None = None,
-    seed: int | None = None,
-) -> Live:
-    """The stroke that begins: one that paints, or one that grows an example or erases what was grown at a depth."""
+def kind_of(brush: Brush) -> type[Live]:
+    """Of the stroke that a brush makes: one that paints, or one that grows an example or erases what was grown at a
+    depth."""
     grows = brush.mode == "example" or (brush.mode == "erase" and brush.depth is not None)
-    make = LiveGrowth if grows else LiveStroke
-    return make(painting, level, origin, brush, cache, layer, seed)
+    return LiveGrowth if grows else LiveStroke
 
 
 def swapped(painting: Painting, command: Swap) -> Painting:

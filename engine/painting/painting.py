@@ -12,7 +12,7 @@ from typing import Any
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, LayerError
 from engine.painting import commands as c
-from engine.painting.growing import begun, swapped
+from engine.painting.growing import kind_of, swapped
 from engine.painting.makers import define
 from engine.painting.strictjson import FormatError
 from engine.painting.textures import Around
@@ -40,7 +40,9 @@ def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> P
 
 
 def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
-    live = begun(painting, command.level, command.origin, command.brush, around.cache, command.layer, command.seed)
+    live = kind_of(command.brush)(
+        painting, command.level, command.origin, command.brush, around.cache, command.layer, command.seed
+    )
     live.lay(command.points)
     return live.commit()
 

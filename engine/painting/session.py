@@ -16,7 +16,7 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.painting import commands as c
-from engine.painting.growing import Live, begun
+from engine.painting.growing import Live, kind_of
 from engine.painting.history import History
 from engine.painting.painting import STEPS, apply
 from engine.painting.recording import Header, Recording
@@ -81,7 +81,7 @@ class Session:
         self, level: int, origin: tuple[int, int], brush, layer: str | None = None, seed: int | None = None
     ) -> Live:
         """A stroke whose points are still to come; hand it to `finish`."""
-        return begun(self.painting, level, origin, brush, self.cache, layer, seed)
+        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed)
 
     def finish(self, live: Live) -> Painting:
         """The stroke done: the same as its command, without doing the work twice.  One without a point is nothing."""

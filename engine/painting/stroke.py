@@ -13,11 +13,9 @@ from engine.brush.dabs import Stroker
 from engine.brush.footprint import Footprint
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
-from engine.brush.record import Brush
 from engine.brush.stamp import Edit
 from engine.canvas import commit, evaluate, layers
 from engine.canvas import growth as growths
-from engine.canvas.evaluate import TileCache
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
@@ -34,35 +32,24 @@ class LiveStroke(Drawn):
     """A stroke that edits what is there.
 
     `bed`: what is painted with examples on the layer, if the stroke erases it; `flattened`: whether it was made paint
-    because the stroke goes over it.  BrushError if the brush cannot be used.
+    because the stroke goes over it.
     """
 
-    def __init__(
-        self,
-        painting: Painting,
-        level: int,
-        origin: tuple[int, int],
-        brush: Brush,
-        cache: TileCache | None = None,
-        layer: str | None = None,
-        seed: int | None = None,
-    ) -> None:
-        super().__init__(painting, level, origin, brush, layer, seed)
+    def _begin(self) -> None:
+        brush, level, own, textures = self.brush, self.level, self.own, self.before.textures
         if kinds.MODES[brush.mode].edit is None:
             raise BrushError("brush.mode", f'"{brush.mode}"', "a mode that edits what is there")
-        self.cache = cache
         self._stroker = Stroker(brush)
-        own = painting.seed if seed is None else seed
-        self._tip = tip.resolve(brush, painting.textures, level, own)
-        self._mask = StrokeMask(level, origin, tip=self._tip)
+        self._tip = tip.resolve(brush, textures, level, own)
+        self._mask = StrokeMask(level, self.origin, tip=self._tip)
         inks = {"paint": resolve, "raster": raster.mixture}
-        self._ink = inks[brush.mode](brush, painting.textures, level, own) if brush.mode in inks else None
+        self._ink = inks[brush.mode](brush, textures, level, own) if brush.mode in inks else None
         looking = brush.mode == "raster" or (self._ink is not None and bool(self._ink.swayed))
-        self._scenery = Scenery(brush, self.base.root, level, origin, own, cache) if looking else None
-        self._relief = relief.resolve(brush, painting.textures, level, (own, painting.seed))
+        self._scenery = Scenery(brush, self.base.root, level, self.origin, own, self.cache) if looking else None
+        self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
         self._edit: Edit | None = None
         self.flattened, self.bed = False, self._new_bed()
-        self._meeting = Meeting(level, origin, brush.radius)
+        self._meeting = Meeting(level, self.origin, brush.radius)
 
     def _new_bed(self) -> Bed | None:
         if self.brush.mode != "erase" or not self.layer.growth or self.layer.alpha_locked:

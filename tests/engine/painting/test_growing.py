@@ -16,7 +16,7 @@ from engine.canvas.growth import is_settled, previewed, settling
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
-from engine.painting.growing import LiveGrowth, begun
+from engine.painting.growing import LiveGrowth, kind_of
 from engine.painting.painting import Refusal
 from engine.painting.replay import replay
 from engine.painting.settling import settled, waiting, with_grown
@@ -288,7 +288,7 @@ def test_what_cannot_be_is_refused_in_a_line(meadow, command, told):
 def test_a_stroke_that_becomes_too_large_is_as_it_was(meadow):
     session = fresh(meadow)
     brush = from_json({"radius": 2, "dynamics": {}, "mode": "example", "example": "a"})
-    live, plain = session.begin(0, (0, 0), brush), begun(session.painting, 0, (0, 0), brush)
+    live, plain = session.begin(0, (0, 0), brush), kind_of(brush)(session.painting, 0, (0, 0), brush)
     for one in (live, plain):
         one.add(np.array([[5.0, 5.0], [20.0, 5.0]]))
     with pytest.raises(ValueError, match="squares"):
