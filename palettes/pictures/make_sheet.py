@@ -111,9 +111,7 @@ class Sheet:
         self.draw.line(across, (222, 208, 188))
         self.y += 32
 
-    def cell(
-        self, name: str, note: str, painting: Painting, middle: tuple[float, float], closer: int = CLOSER
-    ) -> None:
+    def cell(self, name: str, note: str, painting: Painting, middle: tuple[float, float], closer: int = CLOSER) -> None:
         if self.column == COLUMNS:
             self.y, self.column = self.y + TALL + CAPTION + GAP, 0
         x = MARGIN + self.column * (WIDE + NEAR + 4 + GAP)
