@@ -77,8 +77,7 @@ def run(options: argparse.Namespace) -> int:
     if os.path.exists(given.out) and os.path.exists(given.picture) and os.path.samefile(given.out, given.picture):
         raise Refused(f"{given.out}: found the {MAKERS[name].picture.lower()} itself, expected another file")
     texture = _defined(name, given)
-    assert texture.source is not None
-    size = given.size or (texture.source.width, texture.source.height)
+    size = given.size or _own_size(name, given.picture, texture)
     instance = texture.instance({}, 0, 0)
     channels = _write(given, instance, size)
     _tell(given, texture, size, channels)
@@ -153,6 +152,18 @@ def _defined(name: str, given: argparse.Namespace) -> Texture:
     except (FormatError, TextureError) as error:
         where = f"--{error.place}" if error.place in told or error.place == "seed" else given.picture or "the picture"
         raise Refused(f"{where}: found {error.found}, expected {error.expected}") from None
+
+
+def _own_size(name: str, picture: str, texture: Texture) -> tuple[int, int]:
+    """Of the sample: that of a narrow spectrum holds several side by side, and only the first is asked for."""
+    from engine.painting.images import read_image
+    from engine.painting.makers import NARROWEST
+
+    assert texture.source is not None
+    width, height = texture.source.width, texture.source.height
+    if name == "spectrum" and width < 2 * NARROWEST:
+        width = read_image(picture)[0].shape[1]
+    return width, height
 
 
 def _write(given: argparse.Namespace, instance: Instance, size: tuple[int, int]) -> int:

@@ -82,6 +82,12 @@ def test_long_strips_join(tmp_path):
     )
 
 
+@pytest.mark.parametrize("size", [(1, 1), (3, 5), (2, 2), (1, 7), (7, 1), (17, 33)])
+def test_a_spectrum_makes_a_texture_as_large_as_itself(tmp_path, size):
+    found = made(tmp_path, "spectrum", picture(tmp_path, "L", size))
+    assert found.shape[:2] == size
+
+
 def test_a_spectrum_tiles(tmp_path):
     found = made(tmp_path, "spectrum", picture(tmp_path, size=(20, 24)), "--size", "72x60")
     assert np.array_equal(found[:20, :24], found[40:, 48:])
