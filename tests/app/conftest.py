@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -104,6 +105,24 @@ class Program:
         while np.array_equal(now := self.canvas(calm=8), picture):
             assert time.monotonic() < end, "the canvas stays as it was"
         return now
+
+    def until(self, good: Callable[[np.ndarray], bool], pointer: tuple[int, int], seconds: float = 60.0) -> np.ndarray:
+        """The settled screen, int (800, 1280, 3), once it is good, with the pointer there: kernels may be compiled."""
+        end = time.monotonic() + seconds
+        while not good(screen := self.parked(pointer)):
+            assert time.monotonic() < end
+        return screen
+
+    def parked(self, pointer: tuple[int, int]) -> np.ndarray:
+        """The settled screen, int (800, 1280, 3), with the pointer there, so that no cursor or tooltip covers it."""
+        self.do("mousemove", *pointer)
+        time.sleep(0.3)
+        return self.settled(calm=2).astype(int)
+
+    def click(self, at: tuple[int, int]) -> None:
+        self.do("mousemove", *at)
+        time.sleep(0.25)
+        self.do("click", 1)
 
     def save_as(self, path: Path, seconds: float = 30.0) -> None:
         """Saves under a name, in the dialog that comes up, and waits for the file."""

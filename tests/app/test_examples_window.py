@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from screens import changed
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
@@ -20,12 +21,6 @@ THUMBNAIL, SAMPLE = (slice(500, 550), slice(345, 390)), (slice(500, 730), slice(
 BUNDLED = Path(__file__).parents[2] / "palettes" / "examples"
 LINE = [(400 + 16 * i, 200 + (30 if i % 8 < 4 else -30)) for i in range(16)]
 GROWS, GROWN = "something grows", "all has grown"
-
-
-def click(app, at):
-    app.do("mousemove", *at)
-    time.sleep(0.25)
-    app.do("click", 1)
 
 
 def grown(app):
@@ -59,10 +54,6 @@ def now(app):
     return app.screen()[CANVAS].astype(int)
 
 
-def changed(a, b):
-    return int((np.abs(a - b).max(axis=-1) > 12).sum())
-
-
 @pytest.fixture
 def folder(tmp_path):
     """The artist's own examples."""
@@ -83,7 +74,7 @@ def opened(app):
 
 def choose(app, at):
     before = app.screen()[SAMPLE].astype(int)
-    click(app, at)
+    app.click(at)
     until(lambda: changed(app.screen()[SAMPLE].astype(int), before) > 2000)
 
 
@@ -130,11 +121,11 @@ def test_a_stroke_grows_and_can_be_taken_back_and_swapped(program, folder):
 
     # Another example for what is there; with Escape nothing happens.
     choose(app, SECOND)
-    click(app, SWAP)
+    app.click(SWAP)
     app.keys("Escape")
-    click(app, SWAP)
+    app.click(SWAP)
     done = app.log.read_text().count(GROWN)
-    click(app, LINE[8])
+    app.click(LINE[8])
     swapped = at_rest(app, done)
     painted = changed(first, empty)
     assert changed(swapped, first) > 0.6 * painted
@@ -170,7 +161,7 @@ def test_saved_and_killed_while_it_grows(program, tmp_path, folder):
 def test_a_region_is_painted_and_saved(program, folder):
     app = with_palette(program)
     before = region_of(folder)
-    click(app, REGION_TAB)
+    app.click(REGION_TAB)
     until(lambda: app.screen()[PICTURE].std() > 20)
     seen = shown_region(app)
     app.stroke((300, 360), (330, 380), (340, 420))
@@ -178,11 +169,11 @@ def test_a_region_is_painted_and_saved(program, folder):
     app.stroke((500, 500), (520, 520))  # in already: a step that changes nothing
     app.do("mousemove", 500, 500)
     app.keys("ctrl+z")
-    click(app, PAINT_OUT)
+    app.click(PAINT_OUT)
     painted = shown_region(app)
     app.stroke((500, 500), (520, 540))
     until_unlike(app, painted)
-    click(app, SAVE)
+    app.click(SAVE)
     until(lambda: not np.array_equal(region_of(folder), before))
     after = region_of(folder)
     assert after.shape == before.shape

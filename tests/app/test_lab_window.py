@@ -4,31 +4,15 @@ import time
 
 import numpy as np
 import pytest
+from screens import changed
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
+POINTER = (700, 60)  # where it covers nothing that is looked at
 SPECTRUM = (slice(470, 710), slice(270, 510))
 TEXTURE = (slice(470, 690), slice(535, 750))
 USE_AS_INK = (810, 755)
 LINE = [(300 + 20 * i, 200 + (25 if i % 6 < 3 else -25)) for i in range(30)]
-
-
-def parked(app):
-    app.do("mousemove", 700, 60)
-    time.sleep(0.3)
-    return app.settled(calm=2).astype(int)
-
-
-def until(app, good, seconds=60.0):
-    """The settled screen once it is good; kernels may still be compiled."""
-    end = time.monotonic() + seconds
-    while not good(screen := parked(app)):
-        assert time.monotonic() < end
-    return screen
-
-
-def changed(a, b):
-    return int((np.abs(a - b).max(axis=-1) > 12).sum())
 
 
 def test_paint_a_spectrum_then_paint_with_it(program):
@@ -36,12 +20,12 @@ def test_paint_a_spectrum_then_paint_with_it(program):
     app.do("mousemove", 700, 60)
     app.settled()
     app.keys("l")
-    opened = until(app, lambda screen: screen[TEXTURE].std() > 25)  # the first shape is noise
+    opened = app.until(lambda screen: screen[TEXTURE].std() > 25, POINTER)  # the first shape is noise
     assert opened[590, 300:480].mean() > opened[475, 275:285].mean()  # loud in the middle
 
     # A stroke appears at the opposite frequency too, and the texture follows.
     app.stroke(*[(330 + 3 * i, 520 + 2 * i) for i in range(12)])
-    painted = until(app, lambda screen: changed(screen[TEXTURE], opened[TEXTURE]) > 3000)
+    painted = app.until(lambda screen: changed(screen[TEXTURE], opened[TEXTURE]) > 3000, POINTER)
     difference = np.abs(painted[SPECTRUM] - opened[SPECTRUM]).max(axis=-1) > 12
     assert difference[:120].sum() > 100
     assert difference[120:].sum() > 100
@@ -49,10 +33,10 @@ def test_paint_a_spectrum_then_paint_with_it(program):
     # Undo over the spectrum is the lab's.
     app.do("mousemove", 400, 600)
     app.keys("ctrl+z")
-    until(app, lambda screen: changed(screen[TEXTURE], opened[TEXTURE]) < 50)
+    app.until(lambda screen: changed(screen[TEXTURE], opened[TEXTURE]) < 50, POINTER)
     app.do("mousemove", 400, 600)
     app.keys("ctrl+shift+z")
-    until(app, lambda screen: changed(screen[TEXTURE], painted[TEXTURE]) < 50)
+    app.until(lambda screen: changed(screen[TEXTURE], painted[TEXTURE]) < 50, POINTER)
 
     # Used as ink, it is what the next stroke is painted with.
     app.do("mousemove", *USE_AS_INK)
@@ -61,20 +45,20 @@ def test_paint_a_spectrum_then_paint_with_it(program):
     app.do("key", "--repeat", 20, "--delay", 30, "bracketright")
     app.stroke(*LINE)
     stroke = (slice(190, 212), slice(320, 860))
-    first = until(app, lambda screen: changed(screen[stroke], opened[stroke]) > 3000)
+    first = app.until(lambda screen: changed(screen[stroke], opened[stroke]) > 3000, POINTER)
     assert first[stroke].std(axis=1).mean() > 20  # plain paint would be even
 
     # It follows the lab: another spectrum, and the next stroke is another one.
     app.do("mousemove", 815, 491)
     time.sleep(0.2)
     app.do("click", 1)
-    until(app, lambda screen: changed(screen[TEXTURE], painted[TEXTURE]) > 3000)
+    app.until(lambda screen: changed(screen[TEXTURE], painted[TEXTURE]) > 3000, POINTER)
     time.sleep(0.5)
     app.do("mousemove", 700, 60)
     app.keys("ctrl+z")
-    until(app, lambda screen: changed(screen[stroke], opened[stroke]) < 50)
+    app.until(lambda screen: changed(screen[stroke], opened[stroke]) < 50, POINTER)
     app.stroke(*LINE)
-    second = until(app, lambda screen: changed(screen[stroke], opened[stroke]) > 3000)
+    second = app.until(lambda screen: changed(screen[stroke], opened[stroke]) > 3000, POINTER)
     assert changed(second[stroke], first[stroke]) > 1500
 
 
@@ -83,8 +67,8 @@ def test_analysis_finds_its_facts(program):
     app.do("mousemove", 700, 60)
     app.settled()
     app.stroke(*[(x, y + 200) for x, y in LINE])
-    before = parked(app)
+    before = app.parked(POINTER)
     app.keys("a")
-    until(app, lambda screen: changed(screen[500:620, 480:980], before[500:620, 480:980]) > 3000)
+    app.until(lambda screen: changed(screen[500:620, 480:980], before[500:620, 480:980]) > 3000, POINTER)
     app.keys("a")
-    until(app, lambda screen: changed(screen[60:760, 270:970], before[60:760, 270:970]) < 50)
+    app.until(lambda screen: changed(screen[60:760, 270:970], before[60:760, 270:970]) < 50, POINTER)
