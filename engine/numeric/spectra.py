@@ -16,6 +16,7 @@ from engine.numeric.hashing import fold_key, hash_plane
 
 SPREAD = 0.36  # standard deviation of a texture of nominal range -1..1: one pixel in 200 leaves it
 WINDOW = 0.28  # standard deviation of the radial window, in sides of the sample
+_ROUNDING = 1e-6  # of the other part's size: ten times what a transform in float32 leaves of a part that is zero
 _DOMAIN = 0x73706563  # "spec": tells these hashes from those of other textures
 
 Phase = np.ndarray | int | None  # radians (..., h, w); the seed of random ones; zero everywhere
@@ -115,6 +116,18 @@ PARTS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
 }
 
 
+def _unrounded(sample: np.ndarray) -> np.ndarray:
+    """A complex sample without a real or imaginary part that is nothing but rounding error: symmetric spectra have
+    real transforms, whose phase is 0 or pi, and not -pi or pi as chance has it."""
+    real, imaginary = (
+        np.square(part, dtype=np.float64).sum(axis=_AXES, keepdims=True) for part in (sample.real, sample.imag)
+    )
+    out = sample.copy()
+    np.copyto(out.imag, 0.0, where=imaginary <= _ROUNDING**2 * real)
+    np.copyto(out.real, 0.0, where=real <= _ROUNDING**2 * imaginary)
+    return out
+
+
 def normalised(values: np.ndarray) -> np.ndarray:
     """Mean 0 (of each plane) and standard deviation SPREAD (of all planes together); float32, zeros if it is flat."""
     out = np.asarray(values, np.float32)
@@ -135,9 +148,9 @@ def texture_of(amplitude: np.ndarray, phase: Phase = None, part: str = "real", f
     """
     given = np.asarray(amplitude, np.float32)
     if not forward:
-        return normalised(PARTS[part](inverse(given, phase)))
+        return normalised(PARTS[part](_unrounded(inverse(given, phase))))
     pattern = given - given.mean(axis=_AXES, keepdims=True)
-    return normalised(PARTS[part](np.conj(inverse(pattern, phase))))
+    return normalised(PARTS[part](_unrounded(np.conj(inverse(pattern, phase)))))
 
 
 def image_spectrum(image: np.ndarray, window: bool = True) -> np.ndarray:

@@ -80,6 +80,20 @@ def test_nothing_painted_is_flat_and_never_a_nan(amplitude):
     assert not spectra.texture_of(np.zeros((8, 8)), 1).any()
 
 
+@pytest.mark.parametrize("phase", ["zero", "odd"])
+@pytest.mark.parametrize("size", [(64, 64), (3, 31, 50)])
+def test_what_symmetry_leaves_nothing_of_is_flat_and_no_rounding_error(phase, size):
+    amplitude = spectra.symmetric(painted(size))
+    turned = painted(size[-2:], 1)
+    given = None if phase == "zero" else 6 * (turned - spectra.opposite(turned))
+    assert not spectra.texture_of(amplitude, given, "imaginary").any()
+    angle = spectra.texture_of(amplitude, given, "phase").reshape(-1, *size[-2:])
+    assert [len(np.unique(plane)) for plane in angle] == [2] * len(angle)  # 0 and pi
+    assert spectra.texture_of(amplitude, 7, "imaginary").std() > 0.3
+    centred = spectra.symmetric(painted(size, 2))
+    assert not spectra.texture_of(centred, None, "imaginary", True).any()
+
+
 def test_the_forward_variant_is_the_transform_of_the_pattern():
     pattern = painted((20, 33))
     texture = spectra.texture_of(pattern, None, "imaginary", True)
