@@ -140,32 +140,6 @@ def _show(names, colours, inside, k, top, left, out):
             share = min(np.float32(1.0), max(np.float32(0.0), share))
             found[:] = 0.0
             if share > 0.0:
-                _below(names, colours, k, y + top, x + left, found)
+                show.below(names, colours, False, k, y + top, x + left, found)
             for c in range(4):
                 out[c, y, x] = snap(share * found[c])
-
-
-@njit(inline="always")
-def _below(names, colours, k, y, x, found):
-    """What lies below the four pixels around a place, as far as they have sources: those nearer to it count more."""
-    side = 1 << k
-    row, column = (y - (side >> 1)) >> k, (x - (side >> 1)) >> k
-    down = np.float32(y - (side >> 1) - row * side + 0.5) / side
-    across = np.float32(x - (side >> 1) - column * side + 0.5) / side
-    down, across = down * down * (3 - 2 * down), across * across * (3 - 2 * across)
-    total = np.float32(0.0)
-    for n in range(4):
-        r, c = row + (n >> 1), column + (n & 1)
-        source = names[r, c]
-        if source < 0:
-            continue
-        weight = (down if n >> 1 else 1 - down) * (across if n & 1 else 1 - across)
-        total += weight
-        i = ((source >> 16) - PAD - r) * side + y
-        j = ((source & 0xFFFF) - PAD - c) * side + x
-        if 0 <= i < colours.shape[0] and 0 <= j < colours.shape[1]:
-            for m in range(4):
-                found[m] += weight * colours[i, j, m]
-    if total > 0.0:
-        for m in range(4):
-            found[m] /= total

@@ -118,9 +118,10 @@ def _stale(base: Tiles, drawn: Region | None, region: Region) -> Generator[None,
     for k, (n, area) in enumerate(_altered(drawn, region), 1):
         if n <= 0:
             add(area.grown(region.exemplar.parameters.feather) if n == 0 else area)
-        else:  # a coarser level shows where a pixel has no source of its own
-            for key in keys_within(area.zoomed(n), (masks,)):
-                part = _sourceless(masks[key], names.get(key), key).intersect(area.zoomed(n))
+        else:  # a coarser level shows where a pixel has no source of its own, also beside where it changes
+            below = area.grown(1).zoomed(n)
+            for key in keys_within(below, (masks,)):
+                part = _sourceless(masks[key], names.get(key), key).intersect(below)
                 if not part.empty:
                     add(part)
         if n > 0 or k % _RUN == 0:

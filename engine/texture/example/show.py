@@ -18,6 +18,8 @@ from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
 
+FAINT = 0.5  # part of a coarse level's colour that a pixel shows, at least, where the example ends below it
+
 
 def sources(region: Region, rect: Rect, level: int = 0) -> np.ndarray:
     """Where each pixel of a level comes from: int32 (h, w), rows and columns as `exemplar` names them; -1 outside."""
@@ -34,8 +36,10 @@ def preview(region: Region, rect: Rect) -> np.ndarray:
     """Colours of the region's pixels in a rectangle of level 0, as far as they are known: premultiplied float32
     (4, h, w) in 0..1, on the grid; 0 outside.
 
-    Each pixel has the colour of the finest level that has a source for it, be it one of before the region changed, and
-    the example's average where no level has one.  Where the region is refined it is `picture`.
+    Each pixel has the finest level's source that it has, be it one of before the region changed: of a coarser level
+    what the example has below that, fading to what it has below the next one, and at least FAINT of that level's own
+    colour, as the example may end there.  Where no level has a source it has the example's average colour, and where
+    the region is refined it is `picture`.
     """
     mask = tiles.gathered(region.masks[0], rect, np.zeros((1, rect.height, rect.width), np.uint8))[0]
     out = _blended(region, rect, 0)[0]
@@ -44,9 +48,11 @@ def preview(region: Region, rect: Rect) -> np.ndarray:
     for n in range(1, len(region.levels)):
         if not left:
             break
-        above = rect.zoomed(-n)
+        above = rect.zoomed(-n).grown(1)
         place = rect.y0 - (above.y0 << n), rect.x0 - (above.x0 << n)
-        left = _fill(out, mask, sources(region, above, n), region.exemplar.colours[n], n, *place)
+        mirrored = not region.exemplar.boundary
+        colours = region.exemplar.colours[0], region.exemplar.colours[n]
+        left = _fill(out, mask, sources(region, above, n), *colours, mirrored, n, *place)
     if left:
         out[:, mask > 0] = region.exemplar.average[:, None]
     return snapped(out)
@@ -92,22 +98,88 @@ def _left(mask, names):
 
 
 @njit(cache=True, nogil=True)
-def _fill(out, mask, names, colours, n, top, left_side):
-    """Gives the pixels of a mask the colours of sources `n` levels coarser, the first of which begins `top` and
-    `left_side` pixels before; takes them off the mask, and gives how many are left."""
+def _fill(out, mask, names, finest, coarse, mirrored, n, top, left_side):
+    """Gives the pixels of a mask what is `below` their sources `n` levels coarser, the first of which begins `top` and
+    `left_side` pixels before; takes them off the mask, and gives how many are left.  `finest`, `coarse`: colours of
+    the finest level, and of the one that the sources are of."""
     left = 0
+    found = np.empty(4, np.float32)
     for y in range(mask.shape[0]):
         for x in range(mask.shape[1]):
             if mask[y, x] == 0:
                 continue
-            source = names[(y + top) >> n, (x + left_side) >> n]
-            if source < 0:
+            if names[(y + top) >> n, (x + left_side) >> n] < 0:
                 left += 1
                 continue
             mask[y, x] = 0
+            found[:] = 0.0
+            below(names, finest, mirrored, n, y + top, x + left_side, found)
             for c in range(4):
-                out[c, y, x] = colours[(source >> 16) - PAD, (source & 0xFFFF) - PAD, c]
+                out[c, y, x] = found[c]
+            if found[3] < FAINT:
+                found[:] = 0.0
+                _between(names, coarse, n, y + top, x + left_side, found)
+                share = np.float32(FAINT) - out[3, y, x] / max(found[3], np.float32(1e-6))
+                for c in range(4):
+                    out[c, y, x] += max(share, np.float32(0.0)) * found[c]
     return left
+
+
+@njit(inline="always")
+def _around(k, y, x):
+    """The first of the four pixels `k` levels coarser that lie around a pixel, and how far it is to the others."""
+    side = 1 << k
+    row, column = (y - (side >> 1)) >> k, (x - (side >> 1)) >> k
+    down = np.float32(y - (side >> 1) - row * side + 0.5) / side
+    across = np.float32(x - (side >> 1) - column * side + 0.5) / side
+    return row, column, down * down * (3 - 2 * down), across * across * (3 - 2 * across)
+
+
+@njit(inline="always")
+def _between(names, colours, k, y, x, found):
+    """Adds to `found` (4,) the mean colour of the four sources around a pixel `k` levels below."""
+    row, column, down, across = _around(k, y, x)
+    total = np.float32(0.0)
+    for n in range(4):
+        source = names[row + (n >> 1), column + (n & 1)]
+        if source >= 0:
+            weight = (down if n >> 1 else 1 - down) * (across if n & 1 else 1 - across)
+            total += weight
+            for m in range(4):
+                found[m] += weight * colours[(source >> 16) - PAD, (source & 0xFFFF) - PAD, m]
+    if total > 0.0:
+        for m in range(4):
+            found[m] /= total
+
+
+@njit(inline="always")
+def below(names, colours, mirrored, k, y, x, found):
+    """Adds to `found` (4,) what an example has, in `colours` (rows, columns, 4) `k` levels below `names`, at a pixel:
+    the sources of the four pixels around it go on to there, as far as there are any, and those nearer to it count for
+    more.  Beyond the picture it goes on `mirrored`, or there is nothing."""
+    side = 1 << k
+    row, column, down, across = _around(k, y, x)
+    total = np.float32(0.0)
+    for n in range(4):
+        r, c = row + (n >> 1), column + (n & 1)
+        source = names[r, c]
+        if source < 0:
+            continue
+        weight = (down if n >> 1 else 1 - down) * (across if n & 1 else 1 - across)
+        total += weight
+        i = ((source >> 16) - PAD - r) * side + y
+        j = ((source & 0xFFFF) - PAD - c) * side + x
+        if mirrored:
+            i = max(i, -1 - i)
+            j = max(j, -1 - j)
+            i = min(i, 2 * colours.shape[0] - 1 - i)
+            j = min(j, 2 * colours.shape[1] - 1 - j)
+        if 0 <= i < colours.shape[0] and 0 <= j < colours.shape[1]:
+            for m in range(4):
+                found[m] += weight * colours[i, j, m]
+    if total > 0.0:
+        for m in range(4):
+            found[m] /= total
 
 
 @njit(cache=True, nogil=True)
