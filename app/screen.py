@@ -22,7 +22,7 @@ from engine.painting.results import Patch
 
 FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show
-LIGHT, DARK = (0.955, 0.955, 0.955), (0.225, 0.225, 0.225)
+LIGHT, DARK = 0.955, 0.225  # greys of the paper and of the desk around it
 SQUARE = 16  # side of the paper's squares, pixels of the view's level
 Insets = tuple[float, float, float, float]
 Row = tuple[float, ...]
@@ -52,7 +52,7 @@ class _Held:
 
 @dataclass(slots=True)
 class _Plan:
-    """Cells of each pass: nine floats each, as canvas.vert reads them."""
+    """Cells of each pass: nine floats each, as canvas.vert reads them; the paper needs only where they lie."""
 
     paper: list[Row]
     whole: list[Row]
@@ -88,9 +88,9 @@ def shader_source(name: str) -> str:
 class _Pass:
     """One program over many cells: nine floats a cell, in a buffer that grows."""
 
-    def __init__(self, ctx: moderngl.Context, fragment: str) -> None:
+    def __init__(self, ctx: moderngl.Context, fragment: str, vertex: str = "canvas.vert") -> None:
         self._ctx = ctx
-        self.program: Any = ctx.program(shader_source("canvas.vert"), shader_source(fragment))
+        self.program: Any = ctx.program(shader_source(vertex), shader_source(fragment))
         self._room_for(128)
 
     def _room_for(self, rows: int) -> None:
@@ -116,7 +116,7 @@ class Screen:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
-        self._paper = _Pass(ctx, "paper.frag")
+        self._paper = _Pass(ctx, "paper.frag", "paper.vert")
         self._whole = _Pass(ctx, "tile.frag")
         self._fading = _Pass(ctx, "fade.frag")
         self._array: Any = None

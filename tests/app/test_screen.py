@@ -64,8 +64,8 @@ def test_a_tile_lies_where_its_pixels_do(screen):
 
 def test_the_frame_is_light_paper_on_a_dark_desk(screen):
     picture, _ = shown(screen, view())
-    assert picture[240, 320].min() > 255 * LIGHT[0] - 16
-    assert abs(picture[20, 20] - 255 * DARK[0]).max() < 3
+    assert picture[240, 320].min() > 255 * LIGHT - 16
+    assert abs(picture[20, 20] - 255 * DARK).max() < 3
     assert len(np.unique(picture[150:330, 230:410])) > 1  # the squares
 
 
