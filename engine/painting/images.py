@@ -50,9 +50,9 @@ def read_image(
         return _read(io.BytesIO(source), name or "picture", limits)
     path = os.fspath(source)
     try:
+        if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+            raise FileError(name or path, "not a regular file")  # and no pipe is waited for
         with open(path, "rb") as file:
-            if not os.path.isfile(path):
-                raise FileError(name or path, "not a regular file")
             return _read(file, name or path, limits)
     except (OSError, ValueError) as error:
         raise FileError(name or path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error

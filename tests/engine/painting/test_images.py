@@ -2,7 +2,9 @@
 
 import contextlib
 import io
+import os
 import struct
+import sys
 
 import numpy as np
 import pytest
@@ -268,3 +270,12 @@ def test_limits_hold_for_every_kind():
     for form in ("PNG", "JPEG", "TIFF"):
         with pytest.raises(FileError, match="64 x 64 pixels"):
             read_image(by_pillow(picture, form), "a", Limits(pixels=1000))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes have no place among its files")
+@pytest.mark.timeout(10)
+def test_a_pipe_is_not_waited_for(tmp_path):
+    path = tmp_path / "pipe.png"
+    os.mkfifo(path)
+    with pytest.raises(FileError, match="pipe.png: not a regular file"):
+        read_image(path)
