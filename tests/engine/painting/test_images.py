@@ -277,5 +277,5 @@ def test_limits_hold_for_every_kind():
 def test_a_pipe_is_not_waited_for(tmp_path):
     path = tmp_path / "pipe.png"
     os.mkfifo(path)
-    with pytest.raises(FileError, match="pipe.png: not a regular file"):
+    with pytest.raises(FileError, match=r"pipe\.png: not a regular file"):
         read_image(path)
