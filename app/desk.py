@@ -21,7 +21,7 @@ from engine.brush.record import Brush
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture
 from engine.painting.requests import Request, Save
-from engine.painting.results import CurveRow, Found, Growing, Note, Scene
+from engine.painting.results import CurveRow, Found, Growing, Note, Scene, Writing
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
@@ -71,7 +71,7 @@ class Desk:
     glide: Glide = field(default_factory=Glide)
     message: tuple[str, bool, float] = ("", False, 0.0)
     pending: int = 0
-    files: int = 0
+    writing: Writing = field(default_factory=Writing)
     export_level: int = 0
     asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
     then: Callable[[Desk], None] | None = None  # goes on once unsaved changes are dealt with

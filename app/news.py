@@ -60,6 +60,7 @@ class News:
             results.Found: self._found,
             results.MatchScene: self._matched,
             results.Pending: self._pending,
+            results.Writing: self._writing,
             results.Growing: self._growing,
         }
 
@@ -223,7 +224,10 @@ class News:
         desk.growing = None if done else r
 
     def _pending(self, r: results.Pending, _now: float) -> None:
-        self.desk.pending, self.desk.files = r.tiles, r.files
+        self.desk.pending = r.tiles
+
+    def _writing(self, r: results.Writing, _now: float) -> None:
+        self.desk.writing = r
 
 
 def _middle(origin: float, size: float, fraction: float) -> int:

@@ -119,12 +119,20 @@ class Unsaved:
     title = "Unsaved changes"
 
     def draw(self, desk: Desk) -> bool:
-        name = desk.path.name if desk.path else "This painting"
-        imgui.text_unformatted(f"{name} has changes that are not saved.")
+        then, going = desk.then, False
+        if then is not None and not desk.modified:  # what was being saved is saved by now
+            then(desk)
+            return False
+        name, writing = desk.path.name if desk.path else "This painting", desk.writing
+        grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
+        told = f"is still being saved{grown}." if writing.saving else "has changes that are not saved."
+        imgui.text_unformatted(f"{name} {told}")
         imgui.spacing()
         em = imgui.get_font_size()
-        then, going = desk.then, False
-        if w.text_button("Save", "Save, then go on", width=em * 7):
+        if writing.saving:
+            if w.text_button("Wait", "Go on as soon as it is saved", width=em * 7) and then is not None:
+                desk.after_save, going = (lambda d: d.guard(then)), True
+        elif w.text_button("Save", "Save, then go on", width=em * 7):
             desk.after_save, going = then, True
             desk.save()
         imgui.same_line()

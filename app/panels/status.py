@@ -41,11 +41,13 @@ def draw(desk: Desk, pointer_name: str) -> None:
 
 def _work(desk: Desk) -> str:
     """What goes on beside the painting."""
+    if desk.writing.files:
+        word = "Saving" if desk.writing.saving else "Writing"
+        grown = f", growing {desk.writing.grown * 100:.0f} %" if desk.writing.grown < 1.0 else ""
+        return f"{icons.DISK} {word}{grown}"
     if desk.growing is not None:
         return f"growing {desk.growing.done * 100:.0f} %"
-    if desk.pending:
-        return f"{desk.pending} tiles to do"
-    return f"{icons.DISK} writing" if desk.files else ""
+    return f"{desk.pending} tiles to do" if desk.pending else ""
 
 
 def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:

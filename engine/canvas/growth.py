@@ -11,7 +11,7 @@ ones depend on masks, examples and seeds only.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
@@ -31,6 +31,7 @@ from engine.texture.example.tiles import NONE, Tiles
 
 _NOWHERE = Rect(0, 0, 0, 0)
 _MOST_RECTS = 32  # that changes of one plot are told by
+Tell = Callable[[float], None]  # of the part of some work that is done, 0..1
 _PASSING = 3  # coarser levels from here on are not looked at: that takes longer than to refine the next one
 
 
@@ -180,13 +181,30 @@ def _drawn(plot: Plot, region: Region, threads: Executor | None = None) -> Plot:
     return replace(plot, region=region, shown=pixels.followed(plot.shown, plot.drawn, region, threads), drawn=region)
 
 
-def settled(growth: Growth, threads: Executor | None = None) -> Growth:
-    """With all pixels as they will stay."""
-    return tuple(plot if plot.settled else _settled(plot, threads) for plot in growth)
+def settled(growth: Growth, threads: Executor | None = None, tell: Tell = lambda part: None) -> Growth:
+    """With all pixels as they will stay; `tell` hears of the part that is done."""
+    count = sum(not plot.settled for plot in growth)
+    found: list[Plot] = []
+    done = 0
+    for plot in growth:
+        if not plot.settled:
+            plot = _settled(plot, threads, one_of(tell, done, count))
+            done += 1
+        found.append(plot)
+    return tuple(found)
 
 
-def _settled(plot: Plot, threads: Executor | None) -> Plot:
-    return _drawn(plot, regions.refined(plot.region, 0, threads), threads)
+def one_of(tell: Tell, number: int, count: int) -> Tell:
+    """What hears of one of so many pieces of some work, of which `tell` hears."""
+    return lambda part: tell((number + part) / count)
+
+
+def _settled(plot: Plot, threads: Executor | None, tell: Tell) -> Plot:
+    region, work = plot.region, [4.0**-n for n in range(len(plot.region.levels))]
+    for step in regions.refining(region, 0, threads):
+        region = step.region
+        tell((sum(work[step.level + 1 :]) + step.done * work[step.level]) / sum(work))
+    return _drawn(plot, region, threads)
 
 
 def is_settled(growth: Growth) -> bool:

@@ -19,7 +19,6 @@ from engine.painting.imports import open_image
 from engine.painting.opening import open_painting
 from engine.painting.recording import Recording, read
 from engine.painting.session import Session
-from engine.painting.settling import settled
 from engine.painting.value import Painting
 
 LIVE_SECONDS = 70.0  # that the strokes of a recording take at most when it plays live
@@ -147,10 +146,12 @@ def opened(path: Path, live: bool = False) -> Document:
 
 
 def save(path: Path, painting: Painting, recording: Recording | None) -> None:
-    """The painting as .ora, with its recording if that is known, replaced in one step; WriteError if that failed."""
-    archive.save(path, archive.Snapshot(settled(painting), recording))
+    """The painting, grown to its end, as .ora, with its recording if that is known, replaced in one step; WriteError if
+    that failed."""
+    archive.save(path, archive.Snapshot(painting, recording))
 
 
 def write_picture(request: q.Export, painting: Painting) -> None:
-    """The frame, or the rectangle asked for, as a picture; WriteError if that failed."""
-    export.export(request.path, export.Picture(settled(painting), request.level, request.area))
+    """The frame, or the rectangle asked for, of a painting grown to its end, as a picture; WriteError if that
+    failed."""
+    export.export(request.path, export.Picture(painting, request.level, request.area))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +13,7 @@ from engine.painting.growing import Live
 from engine.painting.growths import OTHERWISE, Mark, otherwise
 from engine.painting.session import Session
 from engine.painting.value import Painting
+from engine.painting.writers import Writers
 
 
 class Host(documents.Stage, Protocol):
@@ -21,9 +21,6 @@ class Host(documents.Stage, Protocol):
 
     session: Session
     live: Live | None
-
-    @property
-    def pending(self) -> int: ...
 
     def show(self, session: Session, path: Path | None) -> None: ...
     def tell(self) -> None: ...
@@ -42,7 +39,7 @@ class Filing:
         self._script: documents.Playing | None = None
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._known = True  # whether the session's log leads from nothing to the painting
-        self._writers: list[threading.Thread] = []
+        self._writers = Writers(host.send)
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
@@ -62,8 +59,7 @@ class Filing:
 
     def close(self) -> None:
         """Waits for files that are being written."""
-        for writer in self._writers:
-            writer.join()
+        self._writers.close()
 
     def comes_between(self, request: q.Request) -> bool:
         """Lets a request wait for the stroke of a recording that plays; False if it is to be passed over."""
@@ -115,34 +111,20 @@ class Filing:
         recording = self.host.session.recording() if self._known else None
         serial = self.serial
 
-        def write() -> None:
-            documents.save(request.path, painting, recording)
+        def write(grown: Painting) -> None:
+            documents.save(request.path, grown, recording)
             if serial == self.serial:  # the same painting is still on the easel
                 self.path, self._saved = request.path, state
                 self.host.tell()
             self.host.send(results.Saved(request.path))
 
-        self._in_background(write)
+        self._writers.start(write, painting, True)
 
     def _export(self, request: q.Export) -> None:
         painting = self.host.session.painting
 
-        def write() -> None:
-            documents.write_picture(request, painting)
+        def write(grown: Painting) -> None:
+            documents.write_picture(request, grown)
             self.host.send(results.Note(f"Wrote {request.path.name}"))
 
-        self._in_background(write)
-
-    def _in_background(self, write: Callable[[], None]) -> None:
-        def run() -> None:
-            try:
-                write()
-            except Exception as error:
-                self.host.send(results.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
-            finally:
-                self.host.send(results.Pending(self.host.pending, 0))
-
-        self._writers = [w for w in self._writers if w.is_alive()]
-        self._writers.append(threading.Thread(target=run, name="inkfall file", daemon=False))
-        self.host.send(results.Pending(self.host.pending, 1))
-        self._writers[-1].start()
+        self._writers.start(write, painting, False)

@@ -180,10 +180,19 @@ class Looked:
 
 @dataclass(frozen=True, slots=True)
 class Pending:
-    """How much work waits: tiles, and whether files are being read or written."""
+    """How many tiles wait to be made."""
 
     tiles: int
+
+
+@dataclass(frozen=True, slots=True)
+class Writing:
+    """How many files are being written, whether the painting's own is among them, and how far what is painted with
+    examples has been grown for them: the part done, 0..1."""
+
     files: int = 0
+    saving: bool = False
+    grown: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,6 +215,7 @@ Result = (
     | Picked
     | Looked
     | Pending
+    | Writing
     | LabScene
     | Found
     | MatchScene

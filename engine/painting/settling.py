@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from engine.canvas import layers
-from engine.canvas.growth import Growth, is_settled
+from engine.canvas.growth import Growth, Tell, is_settled, one_of
 from engine.canvas.growth import settled as settled_growth
 from engine.canvas.layers import Group, Layer
 from engine.painting.value import Painting
@@ -33,20 +33,23 @@ def threads(count: int | None = None) -> Iterator[Executor | None]:
             raise
 
 
-def settled(painting: Painting, count: int | None = None) -> Painting:
-    """The same painting with all that is painted with examples as it will stay, grown on `count` threads."""
-    root = settled_root(painting.root, count)
+def settled(painting: Painting, count: int | None = None, tell: Tell = lambda part: None) -> Painting:
+    """The same painting with all that is painted with examples as it will stay, grown on `count` threads; `tell` hears
+    of the part that is done, from 0 on, if there is anything to do."""
+    root = settled_root(painting.root, count, tell)
     return painting if root is painting.root else replace(painting, root=root)
 
 
-def settled_root(root: Group, count: int | None = None) -> Group:
+def settled_root(root: Group, count: int | None = None, tell: Tell = lambda part: None) -> Group:
     """The same layers, grown to the end."""
     found = waiting(root)
     if not found:
         return root
+    tell(0.0)
     with threads(count) as pool:
-        for layer in found:
-            root = layers.with_growth(root, layer.name, settled_growth(layer.growth, pool))
+        for n, layer in enumerate(found):
+            growth = settled_growth(layer.growth, pool, one_of(tell, n, len(found)))
+            root = layers.with_growth(root, layer.name, growth)
     return root
 
 

@@ -7,7 +7,7 @@ import pytest
 from immutables import Map
 from PIL import Image
 
-from app import examples, keeping, palette, shelf, sowing, tools
+from app import examples, icons, keeping, palette, shelf, sowing, tools
 from app.actions import ACTIONS
 from app.desk import Desk
 from app.examples import Entry
@@ -22,7 +22,7 @@ from engine.numeric.address import Rect
 from engine.painting.commands import Swap, parse, to_json
 from engine.painting.definitions import defined_by
 from engine.painting.requests import Do, Swatch
-from engine.painting.results import Growing, Scene
+from engine.painting.results import Growing, Scene, Writing
 from engine.texture.example.parameters import Parameters
 
 
@@ -405,6 +405,10 @@ def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
     assert status._fields(desk, "")[0][0] == "growing 42 %"
     desk.growing, desk.pending = None, 8
     assert status._fields(desk, "")[0][0] == "8 tiles to do"
+    desk.writing = Writing(1, True, 0.4)
+    assert status._fields(desk, "")[0][0] == f"{icons.DISK} Saving, growing 40 %"
+    desk.writing = Writing(1)
+    assert status._fields(desk, "")[0][0] == f"{icons.DISK} Writing"
 
 
 # --- of the painting -------------------------------------------------------------------------------------------------

@@ -239,6 +239,29 @@ def test_a_recording_plays_stroke_by_stroke(window, meadow):
     assert easel.session.log == list(read(path).commands)
 
 
+@pytest.mark.parametrize(("request_", "saving"), [(q.Save, True), (q.Export, False)])
+def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, request_, saving):
+    easel = window.easel
+    easel.do(q.Do(stroke(LONG)))
+    easel.do(q.Do(c.AddLayer("more")))
+    easel.do(q.Do(stroke(LONG, example="b")))
+    assert grows(window)
+    easel.do(request_(tmp_path / ("p.ora" if saving else "p.png")))
+    easel.close()
+    told = [r for r in window.other if isinstance(r, results.Writing)]
+    assert told[0] == results.Writing(1, saving)
+    assert told[1] == results.Writing(1, saving, 0.0)
+    assert [r.grown for r in told[1:-1]] == sorted(r.grown for r in told[1:-1])
+    assert told[-2].grown == 1.0
+    assert told[-1] == results.Writing()
+    window.work()
+    window.other.clear()
+    easel.do(request_(tmp_path / ("q.ora" if saving else "q.png")))
+    easel.close()
+    told = [r for r in window.other if isinstance(r, results.Writing)]
+    assert told == [results.Writing(1, saving), results.Writing()]  # all had grown
+
+
 def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(window, tmp_path):
     from engine.painting.opening import open_painting
 
