@@ -40,17 +40,20 @@ _DARK, _COLD, _WARM = (np.array(rgb, np.float32) / 255 for rgb in ((18, 18, 21),
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Start:
-    """What sheets depend on besides strokes; `root`: the layers, where a shape looks at them."""
+    """What sheets depend on besides strokes; `own`: whether phases are a picture's; `root`: the layers, where a shape
+    looks at them."""
 
     size: tuple[int, int]
     shapes: tuple[Map[str, Any], ...]
     forward: bool
+    own: bool
     root: Group | None
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, _Start) or self.root is not other.root:
             return False
-        return (self.size, self.shapes, self.forward) == (other.size, other.shapes, other.forward)
+        mine, theirs = ((s.size, s.shapes, s.forward, s.own) for s in (self, other))
+        return mine == theirs
 
 
 class Host(Protocol):
@@ -203,10 +206,10 @@ class Lab:
         return Design(s.size, s.shapes, self._now.strokes, s.phase, s.seed, s.part, s.forward)
 
     def _start(self) -> _Start:
-        seen = any(shape["shape"] == "canvas" for shape in self._set.shapes)
-        return _Start(
-            self._set.size, self._set.shapes, self._set.forward, self.host.session.painting.root if seen else None
-        )
+        s = self._set
+        seen = any(shape["shape"] == "canvas" for shape in s.shapes)
+        root = self.host.session.painting.root if seen else None
+        return _Start(s.size, s.shapes, s.forward, s.phase == "own", root)
 
     def _ready(self) -> bool:
         return self._now.sheets is not None and self._now.start == self._start()

@@ -33,7 +33,7 @@ SIDES = (8, 1024)  # least and most pixels along a side
 SHAPES_CAP, STROKES_CAP = 64, 4096
 FURTHEST = 1 << 24  # pixels from the corner at which a stroke's points may begin
 WINDOWS = 8  # along a side of a picture
-PHASES = ("random", "zero", "painted")
+PHASES = ("random", "zero", "painted", "own")
 PICTURED = ("image", "canvas", "texture")  # shapes that are the spectrum of a file, of the canvas, of another texture
 SHEETS = ("amplitude", "phase")  # what a stroke paints on, by the name of its layer
 _PARTS = {**{name: name for name in spectra.PARTS}, "imag": "imaginary"}  # as the command line has it
@@ -45,9 +45,9 @@ class Design:
     """All that a painted spectrum is made of, as the recording holds it.
 
     `size`: width, height; `shapes`: JSON-ready members of each, whose `shape` is a row of `shapes.SHAPES` or one of
-    PICTURED; `strokes`: on layer "amplitude" (also where none is named) or "phase"; `phase`: one of PHASES;
-    `seed`: of random phases; `part`: a row of `spectra.PARTS`; `forward`: the painting is a pattern, not symmetric, and
-    the texture its spectrum.
+    PICTURED; `strokes`: on layer "amplitude" (also where none is named) or "phase"; `phase`: one of PHASES,
+    "own" being those of the last of PICTURED, painted over; `seed`: of random phases; `part`: a row of `spectra.PARTS`;
+    `forward`: the painting is a pattern, not symmetric, and the texture its spectrum.
     """
 
     size: tuple[int, int] = (256, 256)
@@ -177,15 +177,18 @@ def begun(design: Design, look: Look | None = None) -> Sheets:
     """The shapes, before any stroke; the loudest of them counts.  `look` is needed for those of PICTURED."""
     width, height = design.size
     together = np.zeros((1, height, width), np.float32)
+    phase = np.full((1, height, width), _GROUND["phase"], np.float32)
     for shape in design.shapes:
         if shape["shape"] in PICTURED:
             if look is None:
                 raise FormatError("shapes", repr(shape["shape"]), f"one of {', '.join(shapes.SHAPES)}")
-            one = of_picture(look(shape), (height, width)) * np.float32(shape.get("strength", 1.0))
+            picture = look(shape)
+            one = of_picture(picture, (height, width)) * np.float32(shape.get("strength", 1.0))
+            phase = phase_of_picture(picture, (height, width)) if design.phase == "own" else phase
         else:
             one = shapes.drawn(shape["shape"], (height, width), shape)[None]
         together = np.maximum(together, one)
-    return _sheets(loudness(together), np.full((1, height, width), _GROUND["phase"], np.float32))
+    return _sheets(loudness(together), phase)
 
 
 def of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
@@ -194,21 +197,40 @@ def of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
 
     A picture smaller than that is enlarged to it.
     """
-    height, width = size
-    rows, columns = max(height, rgba.shape[1]), max(width, rgba.shape[2])
-    if (rows, columns) != rgba.shape[1:]:
-        rgba = resampled(rgba, (rows, columns), np.arange(rows), np.arange(columns))
-    covered = max(float(rgba[3].mean()), 1e-6)
-    rgb = rgba[:3] + (1.0 - rgba[3:]) * (rgba[:3].mean(axis=(1, 2), keepdims=True) / np.float32(covered))
-    if np.array_equal(rgb[0], rgb[1]) and np.array_equal(rgb[0], rgb[2]):
-        rgb = rgb[:1]
+    rgb, (height, width) = _planes(rgba, size), size
     power = np.zeros((len(rgb), height, width), np.float32)
-    for y in _starts(rows, height):
-        for x in _starts(columns, width):
+    for y in _starts(rgb.shape[1], height):
+        for x in _starts(rgb.shape[2], width):
             power += np.square(spectra.image_spectrum(rgb[:, y : y + height, x : x + width]))
     found = spectra.symmetric(np.sqrt(power))
     found[:, height // 2, width // 2] = 0.0
     return found / np.float32(max(float(found.max()), 1e-20))
+
+
+def phase_of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+    """The phases of the window of `size` (h, w) in the middle of a picture, as a sheet: float32 (1, h, w), 0..1.
+
+    With them, the sample looks like the picture; the field of its copies is that of a sampled impulse response
+    (section 5.3), whose window it brings along.
+    """
+    rgb, (height, width) = _planes(rgba, size), size
+    top, left = (rgb.shape[1] - height) // 2, (rgb.shape[2] - width) // 2
+    seen = rgb[:, top : top + height, left : left + width].sum(axis=0)
+    found = spectra.forward(seen - seen.mean())
+    turn = np.angle(found)[None] * np.float32(0.5 / np.pi)
+    # Odd but for rounding, and for pi where a frequency is its own opposite: there it becomes 0.
+    return snapped(np.float32(0.5) * (turn - spectra.opposite(turn))) + np.float32(_GROUND["phase"])
+
+
+def _planes(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+    """Red, green and blue of a picture, or one plane if they are equal, enlarged to `size` (h, w) where it is smaller:
+    float32 (1 or 3, h, w); what is transparent takes the mean colour."""
+    rows, columns = max(size[0], rgba.shape[1]), max(size[1], rgba.shape[2])
+    if (rows, columns) != rgba.shape[1:]:
+        rgba = resampled(rgba, (rows, columns), np.arange(rows), np.arange(columns))
+    covered = max(float(rgba[3].mean()), 1e-6)
+    rgb = rgba[:3] + (1.0 - rgba[3:]) * (rgba[:3].mean(axis=(1, 2), keepdims=True) / np.float32(covered))
+    return rgb[:1] if np.array_equal(rgb[0], rgb[1]) and np.array_equal(rgb[0], rgb[2]) else rgb
 
 
 def _starts(length: int, window: int) -> list[int]:
@@ -283,7 +305,7 @@ def sample(sheets: Sheets, design: Design) -> np.ndarray:
     phase: np.ndarray | int | None = None
     if design.phase == "random":
         phase = design.seed
-    elif design.phase == "painted":
+    elif design.phase in ("painted", "own"):
         phase = (sheets.phase[0] - np.float32(0.5)) * np.float32(2 * np.pi)
     painted = sheets.amplitude if design.forward else amplitude(sheets.amplitude)
     return spectra.texture_of(painted, phase, design.part, design.forward)

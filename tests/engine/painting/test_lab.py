@@ -201,6 +201,22 @@ def test_the_spectrum_of_another_texture_stays_what_it_was(desk):
     assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
 
 
+def test_the_phases_of_what_is_on_the_canvas(desk):
+    points = np.array([[x, 32.0, 1, 0, 0, 0] for x in range(4, 64, 8)])
+    desk.ask(q.Begin(0, (0, 0), Brush(radius=100, ink=(Component("rock", 1.0),))), q.Points(points), q.Finish())
+    made = q.LabSet((64, 64), (Map({"shape": "canvas", "rect": (0, 0, 0, 64, 64)}),), "painted")
+    desk.ask(made)
+    flat = desk.picture("lab texture")
+    desk.ask(replace(made, phase="own", sheet="phase"))
+    own = desk.picture("lab texture")
+    assert not np.array_equal(own, flat)
+    desk.stroke((10, 12), (30, 20))
+    assert not np.array_equal(desk.picture("lab texture"), own)
+    desk.ask(q.LabUse("Seen"))
+    again = replay(desk.easel.session.recording()).painting
+    assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+
+
 @pytest.mark.parametrize("shape", [{"shape": "image", "path": "none.png"}, {"shape": "texture", "texture": "None"}])
 def test_a_picture_that_is_not_there_is_told_once(desk, shape):
     desk.ask(RING)

@@ -1,12 +1,14 @@
 """A painted spectrum: symmetric while it is painted, and the same from its command as from the hand."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from immutables import Map
+from scipy import ndimage
 
 from engine.brush.record import Brush, Component
 from engine.numeric.spectra import opposite, power
@@ -113,6 +115,26 @@ def test_the_spectrum_of_a_picture(colours):
         assert np.unravel_index(found[1].argmax(), (64, 64)) in ((28, 32), (36, 32))
     small = spectrum.of_picture(planes[:, :20, :33], (64, 64))
     assert small.shape == (colours, 64, 64)
+
+
+@pytest.mark.parametrize("size", [(64, 48), (41, 33)])
+def test_with_its_own_phases_the_sample_looks_like_the_picture(size):
+    """An impulse response sampled of a picture (Lewis 1984, section 5.3); what is painted turns it further."""
+    width, height = size
+    planes = np.ones((4, 90, 75), np.float32)
+    planes[:3] = ndimage.gaussian_filter(np.random.default_rng(1).random((90, 75)), 2.0)
+    design = Design(size, (Map({"shape": "image", "path": "a.png"}),), phase="own")
+    sheets = spectrum.drawn(design, lambda shape: planes)
+    assert np.abs(sheets.phase + opposite(sheets.phase) - 1.0).max() < 1e-6
+    sample = spectrum.sample(sheets, design)[0]
+    top, left = (90 - height) // 2, (75 - width) // 2
+    middle = planes[0, top : top + height, left : left + width]
+    assert np.corrcoef(sample.ravel(), middle.ravel())[0, 1] > 0.8
+    assert not spectrum.sample(sheets, replace(design, part="imaginary")).any()
+    turned = spectrum.with_stroke(sheets, line((4, 4), (20, 9), layer="phase"))
+    assert not np.array_equal(spectrum.sample(turned, design)[0], sample)
+    shapes_alone = spectrum.drawn(replace(RING, phase="own"))
+    assert (shapes_alone.phase == 0.5).all()
 
 
 def test_a_shape_that_is_a_picture_needs_one():
