@@ -16,7 +16,9 @@ from engine.painting.results import LabScene
 SETTLE = 0.15  # seconds without change before strokes are shown with the texture
 FIRST = Map({"shape": "noise", "b": 1.4})  # the shape of a lab just opened
 SIZES = (128, 256, 512)
+PICTURED = ("image", "canvas", "texture")  # shapes that are the spectrum of a picture
 FULL, LIGHT = 0.8, 0.6  # opacity that hides nearly all of a paper, and one that shows it
+PAINTED = ("painted", "own")  # phases that have a sheet
 WHITE, BLACK = "#ffffff", "#000000"
 
 
@@ -47,6 +49,38 @@ class LabState:
         shapes = list(self.made.shapes)
         shapes[index] = shapes[index].set(name, value)
         self.change(shapes=tuple(shapes))
+
+    @property
+    def pictured(self) -> bool:
+        """Whether the spectrum begins with a picture's, which has phases too."""
+        return any(shape["shape"] in PICTURED for shape in self.made.shapes)
+
+    @property
+    def endless(self) -> bool:
+        """Whether the texture is a field of scattered copies."""
+        return self.made.field.get("field") == "sparse"
+
+    @property
+    def window(self) -> int:
+        """Width of the sample, and of the window over it, in pixels of the stroke's level."""
+        return int(self.made.field.get("period", self.made.size[0]))
+
+    def begin_with(self, shapes: tuple[Map[str, Any], ...]) -> None:
+        """Other shapes; without a picture there are no phases of its own."""
+        self.change(shapes=shapes)
+        if self.made.phase == "own" and not self.pictured:
+            self.phase("random")
+
+    def phase(self, phase: str) -> None:
+        """Other phases; those that are shown can be painted on."""
+        self.change(phase=phase, sheet=self.made.sheet if phase in PAINTED else "amplitude")
+
+    def turn(self, forward: bool) -> None:
+        """The transform the other way: of a pattern as it is, since random phases would leave only noise of it."""
+        usual = ("random", "zero") if forward else ("zero", "random")
+        self.change(forward=forward)
+        if self.made.phase == usual[0]:
+            self.phase(usual[1])
 
     def field(self, name: str, value: Any) -> None:
         """Another number of the texture; None for its default."""

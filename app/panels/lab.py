@@ -13,6 +13,8 @@ from app.panels import widgets as w
 from app.panels.labsettings import LabSettings
 from engine.painting.requests import LabStep
 
+FIELD = 360  # pixels of an endless field that the preview shows along a side
+HALF = 0.564  # of the radial window's width: within it, it is more than half as strong as in the middle
 REPEATS = 1.4  # tiles of 256 pixels that the preview shows along a side
 _PERIODS = (32, 16, 8, 4)  # pixels: rings drawn over the spectrum
 _USES = (
@@ -63,7 +65,10 @@ class LabPanel:
         if over:
             self._outline(desk, corner, side)
         if lab.scene is not None and lab.scene.silent and lab.made.sheet == "amplitude":
-            self._invitation(corner, side)
+            made = lab.made
+            flat = made.part == "imaginary" and made.phase != "random" and not made.forward
+            text = "Only random phases have\nan imaginary part" if flat else "Silent: paint here"
+            self._invitation(corner, side, text)
         painter.pop_clip_rect()
 
     def _axes(self, desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
@@ -100,8 +105,7 @@ class LabPanel:
             text = f"{1 / far:.1f} px  {math.degrees(math.atan2(down, across)) % 180:.0f}°"
             _label(ImVec2(corner.x + 6, corner.y + side - imgui.get_font_size() - 4), text)
 
-    def _invitation(self, corner: ImVec2, side: float) -> None:
-        text = "Silent: paint here"
+    def _invitation(self, corner: ImVec2, side: float, text: str) -> None:
         size = imgui.calc_text_size(text)
         at = ImVec2(corner.x + (side - size.x) / 2, corner.y + side * 0.62)
         imgui.get_window_draw_list().add_text(at, theme.packed(theme.TEXT, 0.8), text)
@@ -129,6 +133,13 @@ class LabPanel:
         hint = "Paint in the brush's colour: red, green and blue each have a spectrum of their own"
         if w.icon_button("colour", icons.PALETTE, hint, on=lab.coloured):
             lab.coloured = not lab.coloured
+
+    def hint(self, desk: Desk) -> str:
+        """What the brush does in the spectrum now."""
+        made = desk.lab.made
+        if made.sheet == "phase":
+            return "Paint its phases: warm one way, cold the other"
+        return "Paint a pattern: the texture is its transform" if made.forward else PAINT_GRAIN
 
     def bar(self, desk: Desk) -> None:
         """The texture in use, and the lab's undo, in the strip's title line."""
@@ -164,13 +175,15 @@ class LabPanel:
     def _texture(self, desk: Desk, side: float) -> None:
         """The texture as it tiles, a stroke of it, and the same much nearer."""
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
-        endless = desk.lab.made.field.get("field") == "sparse"
+        endless = desk.lab.endless
         tile = min(room.x / REPEATS, 256 * desk.scale) * desk.lab.made.size[0] / 256
         below = min(64 * desk.scale, 0.24 * room.y)
         tall = room.y - below - gap.y
-        hint = "The endless field" if endless else "The texture, tiled; it follows every touch"
+        hint = "The endless field; ringed: one copy" if endless else "The texture, tiled; it follows every touch"
         tile = max(room.x, tall) if endless else tile
-        w.picture(desk.pictures.get("lab texture"), (room.x, tall), hint, tile)
+        corner = w.picture(desk.pictures.get("lab texture"), (room.x, tall), hint, tile)
+        if endless and (imgui.is_item_hovered() or self._settings.on_window):
+            _window(corner, (room.x, tall), desk.lab.window, tile / FIELD)
         wide = (room.x - gap.x) / 2
         desk.lab.shown = max(1, round(wide)), max(1, round(below))
         w.picture(desk.pictures.get("lab stroke"), (wide, below), "A stroke of the brush with this ink")
@@ -206,6 +219,18 @@ class LabPanel:
         desk.tool, desk.erasing = "brush", False
 
 
+def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float) -> None:
+    """The radial window of a copy over the field: where it ends, and where it is half as strong as in the middle."""
+    middle, painter = ImVec2(corner.x + size[0] / 2, corner.y + size[1] / 2), imgui.get_window_draw_list()
+    painter.push_clip_rect(corner, ImVec2(corner.x + size[0], corner.y + size[1]), True)
+    for part, alpha in ((1.0, 0.9), (HALF, 0.5)):
+        radius = part * width * scale / 2
+        painter.add_circle(middle, radius + 1, theme.packed((0.0, 0.0, 0.0), 0.6 * alpha), 64)
+        painter.add_circle(middle, radius, theme.packed((1.0, 1.0, 1.0), alpha), 64)
+    _label(ImVec2(corner.x + 6, corner.y + size[1] - imgui.get_font_size() - 4), f"window {width} px")
+    painter.pop_clip_rect()
+
+
 def _label(at: ImVec2, text: str, alpha: float = 1.0) -> None:
     """A light text that is read over anything."""
     painter = imgui.get_window_draw_list()
@@ -214,4 +239,5 @@ def _label(at: ImVec2, text: str, alpha: float = 1.0) -> None:
     painter.add_text(at, theme.packed(theme.TEXT, alpha), text)
 
 
+PAINT_GRAIN = "Paint its grain: coarse in the middle, fine at the rim"
 _LIVE = "A texture in use changes with the lab, and the next stroke paints with it"

@@ -9,7 +9,7 @@ from immutables import Map
 
 from app import icons, pictured
 from app.desk import Desk
-from app.lab import SIZES
+from app.lab import PAINTED, SIZES
 from app.panels import widgets as w
 
 _SIGNS = {"ring": icons.RING, "wedge": icons.WEDGE, "points": icons.GRID, "noise": icons.CLOUD}
@@ -23,6 +23,7 @@ _PHASES = (
     ("zero", "Zero", "All begin together in the middle: a star, a flower, a lattice"),
     ("painted", "Painted", "Paint the phases too: pushes features to one side or the other"),
 )
+_OWN = ("own", "Own", "Those of the picture: its features stay, and Endless scatters them")
 _SHEETS = (
     ("amplitude", "Paint strength", "The brush paints how strong each frequency is"),
     ("phase", "Paint phase", "The brush turns phases: warm one way, cold the other; the other side turns back"),
@@ -47,12 +48,17 @@ _ENDLESS = (
     ("density", "Density", "Copies on the area of one: few stay apart, many merge", (0.5, 100), 10, "%.1f"),
     ("spread", "Contrast", "How strongly it varies", (0, 4), 1, "%.2f"),
     ("mean", "Brightness", "What it varies around", (-1, 1), 0, "%.2f"),
+    ("quantise", "Steps", "How many strengths copies have, lighter and darker ones; 0 is any", (0, 16), 0, "%.0f"),
 )
-_CURVED = ("period", "density")
+_WINDOW = ("Window", "Width of the round window under which the sample is scattered, in pixels: smaller is finer")
+_CURVED, _WHOLE = ("period", "density"), ("period", "quantise")
 
 
 class LabSettings:
-    """Draws the column on the right of the lab."""
+    """Draws the column on the right of the lab.  `on_window`: whether the pointer is on the window's slider."""
+
+    def __init__(self) -> None:
+        self.on_window = False
 
     def draw(self, desk: Desk) -> None:
         self._shapes(desk)
@@ -84,14 +90,14 @@ class LabSettings:
         lab, shift = desk.lab, imgui.get_io().key_shift
         rest = tuple(shape for shape in lab.made.shapes if shape["shape"] != name)
         if len(rest) < len(lab.made.shapes) and (shift or not rest):
-            lab.change(shapes=rest)
+            lab.begin_with(rest)
         elif name == "image":
             desk.ask("lab picture")
         else:
             shape: dict[str, Any] = {"shape": name}
             if name == "texture":
                 shape["texture"] = pictured.kept_view(desk)
-            lab.change(shapes=((*rest, Map(shape)) if shift else (Map(shape),)))
+            lab.begin_with((*rest, Map(shape)) if shift else (Map(shape),))
 
     def _shape_numbers(self, desk: Desk) -> None:
         lab = desk.lab
@@ -119,14 +125,16 @@ class LabSettings:
         lab = desk.lab
         imgui.text_disabled("Phases")
         side, gap = imgui.get_frame_height(), 2 * desk.scale
-        picked = w.segments("phase", lab.made.phase, _PHASES, imgui.get_content_region_avail().x - side - gap)
+        rows = (*_PHASES, _OWN) if lab.pictured else _PHASES
+        picked = w.segments("phase", lab.made.phase, rows, imgui.get_content_region_avail().x - side - gap)
         imgui.same_line(0, gap)
-        random = lab.made.phase == "random"
-        if w.icon_button("throw", icons.DICE, "The same spectrum with other random phases", enabled=random, size=side):
+        thrown = lab.made.phase == "random" or lab.endless
+        hint = "The same spectrum with other random phases" if lab.made.phase == "random" else "Copies in other places"
+        if w.icon_button("throw", icons.DICE, hint, enabled=thrown, size=side):
             lab.change(seed=(lab.made.seed * 31 + 17) % 99991)
         if picked:
-            lab.change(phase=picked, sheet=lab.made.sheet if picked == "painted" else "amplitude")
-        if lab.made.phase == "painted":
+            lab.phase(picked)
+        if lab.made.phase in PAINTED:
             sheet = w.segments("sheet", lab.made.sheet, _SHEETS)
             if sheet:
                 lab.change(sheet=sheet)
@@ -146,7 +154,7 @@ class LabSettings:
         hint = "The other way round: what you paint is a pattern, and the texture is its transform"
         changed, on = w.tick("Forward", lab.made.forward, hint)
         if changed:
-            lab.change(forward=on)
+            lab.turn(on)
 
     def _field(self, desk: Desk) -> None:
         lab = desk.lab
@@ -157,10 +165,13 @@ class LabSettings:
             lab.field("field", None if picked == "tile" else picked)
         for name, label, hint, ends, default, form in (*_NUMBERS, *(_ENDLESS if "field" in held else ())):
             usual = lab.made.size[0] if name == "period" else default
+            label, hint = _WINDOW if name == "period" and lab.endless else (label, hint)
             value = float(held.get(name, usual))
             changed, value = w.slider(label, value, ends, hint, form=form, curved=name in _CURVED)
+            if name == "period":
+                self.on_window = imgui.is_item_hovered() or imgui.is_item_active()
             if changed:
-                lab.field(name, round(value) if name == "period" else round(value, 3))
+                lab.field(name, round(value) if name in _WHOLE else round(value, 3))
         sizes = [(str(n), f"{n} × {n}", f"A sample of {n} pixels along a side") for n in SIZES]
         size = w.segments("size", str(lab.made.size[0]), sizes)
         if size:

@@ -67,7 +67,7 @@ class StripPanel:
         imgui.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
         imgui.same_line(0, 14 * desk.scale)
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(row.hint)
+        imgui.text_disabled(self.lab.hint(desk) if desk.strip == "lab" else row.hint)
         self._panels[desk.strip].bar(desk)
         imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
         closed = w.icon_button("close", icons.CLOSE, f"Close  ({ACTIONS[desk.strip].keys[0]})")

@@ -5,9 +5,13 @@ from dataclasses import replace
 import pytest
 from immutables import Map
 
-from app.lab import SETTLE, LabState, only_with, with_texture
+from app.lab import PICTURED, SETTLE, LabState, only_with, with_texture
+from app.panels import lab as panel
 from engine.brush.parts import Component, Edge, Surface
 from engine.brush.record import Brush
+from engine.numeric.spectra import radial_window
+from engine.painting import lab as engine_lab
+from engine.painting import spectrum
 from engine.painting.requests import LabRest, LabSet, LabUse
 
 OWN = frozenset({"rock", "stripes"})
@@ -56,6 +60,44 @@ def test_settings_are_posted_at_once_and_strokes_shown_at_rest():
     lab.ask(posted.append, 20.0, Brush())
     assert [type(request) for request in posted] == [LabSet, LabSet, LabRest]
     assert not lab.waiting
+
+
+def test_a_pattern_is_transformed_as_it_is():
+    lab = LabState()
+    lab.turn(True)
+    assert (lab.made.forward, lab.made.phase) == (True, "zero")
+    lab.turn(False)
+    assert (lab.made.forward, lab.made.phase) == (False, "random")
+    lab.phase("painted")
+    lab.change(sheet="phase")
+    lab.turn(True)
+    assert (lab.made.phase, lab.made.sheet) == ("painted", "phase")
+    lab.phase("zero")
+    assert lab.made.sheet == "amplitude"
+
+
+def test_phases_of_a_pictures_own_go_with_the_picture():
+    lab = LabState()
+    assert not lab.pictured
+    lab.begin_with((Map({"shape": "texture", "texture": "View"}),))
+    assert lab.pictured
+    lab.phase("own")
+    lab.begin_with((*lab.made.shapes, Map({"shape": "ring"})))
+    assert lab.made.phase == "own"
+    lab.begin_with((Map({"shape": "ring"}),))
+    assert lab.made.phase == "random"
+
+
+def test_the_window_of_an_endless_field_is_as_wide_as_its_sample():
+    lab = LabState()
+    assert (lab.endless, lab.window) == (False, 256)
+    lab.field("field", "sparse")
+    lab.field("period", 90)
+    assert (lab.endless, lab.window) == (True, 90)
+    window = radial_window(400)[200]
+    assert abs((window > 0.5).mean() - panel.HALF) < 0.006
+    assert engine_lab.FIELD.width == panel.FIELD
+    assert spectrum.PICTURED == PICTURED
 
 
 def test_numbers_at_their_default_are_left_out():
