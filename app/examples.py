@@ -36,6 +36,7 @@ TOO_FINE = 4  # levels that a stroke may be coarser: each makes four times the p
 DEPTHS = (-99, 99)
 NOWHERE = Path()  # the files of those that only the painting has
 SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
+NAME_CAP = 40  # characters
 TABS = ("palette", "region", "settings")
 KIND = "example"  # of textures
 
@@ -43,7 +44,7 @@ KIND = "example"  # of textures
 @dataclass(frozen=True, slots=True)
 class Entry:
     """An example.  `revision`: another number when the artist's own region is another one; `here`: the parameters of a
-    texture that only the painting has, which has no files."""
+    texture that only the painting has, which has no files; `given`: what its file says it is called."""
 
     name: str
     group: str
@@ -53,6 +54,7 @@ class Entry:
     own: bool
     revision: int = 0
     here: Mapping[str, Any] | None = None
+    given: str = ""
 
     @property
     def ident(self) -> str:
@@ -63,8 +65,8 @@ class Entry:
     @property
     def title(self) -> str:
         """What it is called: `wash-indigo` is a wash, indigo."""
-        if self.here is not None:
-            return self.name
+        if self.here is not None or self.given:
+            return self.given or self.name
         text = self.name.replace("-", " ").replace("_", " ").strip() or self.name
         return text[:1].upper() + text[1:]
 
@@ -84,18 +86,19 @@ def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
     found, faults = [], []
     pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith(MASK)) if folder.is_dir() else ()
     for path in sorted(pictures):
-        group, parameters, fault = _told(path.with_suffix(PARAMETERS))
+        names, parameters, fault = _told(path.with_suffix(PARAMETERS))
         faults += [f"{path.stem}{PARAMETERS}: {fault}"] if fault else []
         mask = path.with_name(path.stem + MASK)
         there = mask if mask.is_file() else None
         revision = _stamp(there) if own else 0
-        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, revision))
+        group, title = names.get("group", "Other"), names.get("title", "")
+        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, revision, given=title))
     return arranged(found), faults
 
 
 def arranged(entries: Iterable[Entry]) -> list[Entry]:
     """By group, in the order in which these are listed, and by name."""
-    return sorted(entries, key=lambda e: (_RANK.get(e.group, len(_RANK)), e.group, e.name))
+    return sorted(entries, key=lambda e: (_RANK.get(e.group, len(_RANK)), e.group, (e.given or e.name).lower()))
 
 
 def label(entry: Entry, entries: Iterable[Entry]) -> str:
@@ -109,16 +112,17 @@ def _stamp(path: Path | None) -> int:
     return 0 if path is None else path.stat().st_mtime_ns
 
 
-def _told(path: Path) -> tuple[str, Parameters, str]:
-    """Group and parameters in a file, and what is wrong with it."""
+def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
+    """The names (`group`, `title`) and the parameters in a file, and what is wrong with it."""
     if not path.is_file():
-        return "Other", Parameters(), ""
+        return {}, Parameters(), ""
     try:
         data = path.read_bytes()
         parameters = read_toml(data)
-        return str(tomllib.loads(data.decode()).get("group", "Other")), parameters, ""
+        told = tomllib.loads(data.decode())
+        return {name: told[name] for name in ("group", "title") if name in told}, parameters, ""
     except (OSError, FieldError) as error:
-        return "Other", Parameters(), str(error)
+        return {}, Parameters(), str(error)
 
 
 def within_reach(brush: Brush, level: int) -> bool:
@@ -290,6 +294,23 @@ def sample(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], o
     brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
     brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
     return Swatch("example sample", brush, size, textures=needs, soon=True)
+
+
+def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:
+    """What is typed as another name of the artist's own example, tidied, with a number if another of them has it; empty
+    if nothing is left of it."""
+    plain = " ".join("".join(c if c.isprintable() else " " for c in text).split())[:NAME_CAP].strip()
+    taken = {other.title.lower() for other in entries if other.own and other.ident != entry.ident}
+    name, number = plain, 1
+    while plain and name.lower() in taken:
+        number += 1
+        name = f"{plain} {number}"
+    return name
+
+
+def in_painting(entry: Entry, definitions: Iterable[tuple[str, str, Mapping[str, Any]]]) -> list[str]:
+    """The names of a painting's textures (name, kind, parameters) that are made of the artist's own example."""
+    return [name for name, kind, told in definitions if kind == KIND and told.get("path") == str(entry.picture)]
 
 
 _SHAS: dict[tuple[Path, int], str] = {}

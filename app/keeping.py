@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
 from app import examples
-from app.examples import MASK, PARAMETERS, PICTURE, Entry
+from app.examples import MASK, NAME_CAP, PARAMETERS, PICTURE, Entry
 from app.mask import Mask
 from engine.painting.atomic import replacing
 from engine.painting.fault import FileError, WriteError
 from engine.texture.example.parameters import Parameters
 
 SIDE = 1024  # pixels along an example, at most
-NAME_CAP = 40  # characters
 FAULTS = (FileError, WriteError, OSError)  # that any of these functions may raise
 
 
@@ -50,7 +50,7 @@ def add(path: Path) -> tuple[str, bool]:
 
 def copy(entry: Entry, parameters: Parameters) -> str:
     """Makes an example of the artist's own of any, with other parameters: its name."""
-    mask, name = opened(entry), free_name(entry.name)
+    mask, name = opened(entry), free_name(entry.given or entry.name)
     _write(_place(name, PICTURE), mask.pixels)
     write_region(name, mask.inside)
     write_parameters(name, parameters)
@@ -62,9 +62,11 @@ def write_region(name: str, inside: np.ndarray) -> None:
     _write(_place(name, MASK), (inside * 255).astype(np.uint8)[..., None])
 
 
-def write_parameters(name: str, parameters: Parameters) -> None:
-    """Those that are not as usual."""
+def write_parameters(name: str, parameters: Parameters, title: str = "") -> None:
+    """Those that are not as usual, and what it is called if not as its files are."""
     usual, lines = asdict(Parameters()), [f'group = "{examples.OWN}"']
+    if title:
+        lines.append(f"title = {json.dumps(title, ensure_ascii=False)}")
     for field, value in asdict(parameters).items():
         if value != usual[field]:
             told = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else value

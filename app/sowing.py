@@ -8,7 +8,7 @@ from typing import Any
 
 from immutables import Map
 
-from app import examples, keeping, palette
+from app import examples, keeping, palette, presets
 from app.desk import Desk
 from app.examples import Entry
 from engine.brush.record import Brush
@@ -179,7 +179,7 @@ def use_settings(desk: Desk) -> None:
         take(desk)
         return
     try:
-        keeping.write_parameters(entry.name, state.draft(entry))
+        keeping.write_parameters(entry.name, state.draft(entry), entry.given)
     except keeping.FAULTS as error:
         desk.say(str(error), bad=True)
         return
@@ -202,8 +202,36 @@ def keep_settings(desk: Desk) -> None:
     desk.say(f"Saved as “{_title(desk)}”, an example of your own")
 
 
+def rename(desk: Desk, entry: Entry, text: str) -> None:
+    """Calls one of the artist's own something else; its files stay where brushes and paintings know them."""
+    title = examples.renamed(text, entry, desk.examples.entries)
+    if not title or title == entry.title:
+        return
+    try:
+        keeping.write_parameters(entry.name, entry.parameters, title)
+    except keeping.FAULTS as error:
+        desk.say(f"The example was not renamed: {error}", bad=True)
+        return
+    painting = desk.examples.chosen == entry.ident and desk.brush.mode == "example"
+    desk.needs = tuple(need for need in desk.needs if need.arguments.get("path") != str(entry.picture))
+    _refresh(desk, entry.name if painting else "")
+    desk.say(f"“{entry.title}” is called “{title}” now")
+
+
+def users(desk: Desk, entry: Entry) -> str:
+    """What is painted with one of the artist's own: the painting, brushes; empty if nothing is."""
+    scene, path = desk.scene, str(entry.picture)
+    found = ["this painting"] if scene is not None and examples.in_painting(entry, scene.definitions) else []
+    found += [
+        f"the brush “{preset.name}”"
+        for preset in desk.presets
+        if any(need.arguments.get("path") == path for need in preset.textures)
+    ]
+    return " and ".join(found[:2]) + (" and more" if len(found) > 2 else "")
+
+
 def delete(desk: Desk, entry: Entry) -> None:
-    """Takes one of the artist's own away."""
+    """Takes one of the artist's own away.  A painting that has it keeps it; a brush does not paint with it any more."""
     try:
         keeping.delete(entry.name)
     except keeping.FAULTS as error:
@@ -214,7 +242,22 @@ def delete(desk: Desk, entry: Entry) -> None:
     state.entries = tuple(one for one in state.entries if one is not entry)
     if state.chosen == entry.ident:
         state.chosen, state.tab = "", "palette"
+    gather(desk)
+    _without(desk, entry)
     desk.say(f"Deleted the example “{entry.title}”")
+
+
+def _without(desk: Desk, entry: Entry) -> None:
+    """The brush that painted with it takes what the painting has of it, or is another one."""
+    need = next((need for need in desk.needs if need.name == desk.brush.example), None)
+    if desk.brush.mode != "example" or need is None or need.arguments.get("path") != str(entry.picture):
+        return
+    same = (one for one in desk.examples.entries if one.here is not None and one.here.get("path") == str(entry.picture))
+    left = next(same, None)
+    if left is not None:
+        choose(desk, left)
+    else:
+        palette.take(desk, next((p for p in desk.presets if p.brush.mode == "paint"), presets.DEFAULT))
 
 
 def _title(desk: Desk) -> str:

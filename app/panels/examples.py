@@ -9,6 +9,7 @@ from app.desk import Desk
 from app.examples import Entry
 from app.panels import widgets as w
 from app.panels.growthsettings import GrowthSettings
+from app.panels.ownexamples import OwnExamples
 from app.panels.region import RegionPanel
 from app.panels.widgets import Col
 
@@ -27,7 +28,7 @@ class ExamplesPanel:
     """Draws the strip."""
 
     def __init__(self) -> None:
-        self._region, self._settings = RegionPanel(), GrowthSettings()
+        self._region, self._settings, self._own = RegionPanel(), GrowthSettings(), OwnExamples()
 
     def draw(self, desk: Desk) -> None:
         state = desk.examples
@@ -69,6 +70,7 @@ class ExamplesPanel:
         imgui.begin_child("chosen", ImVec2(0, 0), 0, _STILL)
         self._chosen(desk)
         imgui.end_child()
+        self._own.draw(desk)
 
     def _filters(self, desk: Desk) -> None:
         """Which group is listed; a button to add one."""
@@ -101,10 +103,10 @@ class ExamplesPanel:
         if imgui.invisible_button(entry.ident, ImVec2(wide, tall)):
             sowing.choose(desk, entry)
         chosen, hovered = desk.examples.chosen == entry.ident, imgui.is_item_hovered()
-        own = "\nRight click to delete it" if entry.own else ""
+        own = "\nDouble click to rename it, right click for more" if entry.own else ""
         w.tooltip(f"{entry.title}\n{entry.group}: click to paint with it{own}")
         if entry.own:
-            _deletes(desk, entry)
+            self._own.menu(desk, entry)
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + wide)
         rounding, white = 5 * desk.scale, theme.packed((1.0, 1.0, 1.0))
         painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
@@ -122,9 +124,12 @@ class ExamplesPanel:
     def _chosen(self, desk: Desk) -> None:
         state, entry = desk.examples, desk.examples.entry
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
-        line = imgui.get_frame_height_with_spacing()
+        line, top = imgui.get_frame_height_with_spacing(), imgui.get_cursor_pos_y()
         imgui.align_text_to_frame_padding()
-        imgui.text_unformatted(entry.title if entry else "Choose an example")
+        imgui.text_unformatted(_short(entry, room.x - 2 * imgui.get_frame_height()) if entry else "Choose an example")
+        if entry is not None and entry.own:
+            self._own.buttons(desk, entry)
+        imgui.set_cursor_pos_y(top + line)  # with buttons and without
         tall = room.y - 2 * line
         state.sampled = max(1, round(room.x)), max(1, round(tall))
         shown = desk.pictures.get("example sample") if entry else None
@@ -165,20 +170,22 @@ def tile(count: int, room: tuple[float, float], gap: float, name: float, scale: 
     return float(max(side, round(TILE * scale)))
 
 
-def _deletes(desk: Desk, entry: Entry) -> None:
-    """The menu of one of the artist's own."""
-    if not imgui.begin_popup_context_item(f"own {entry.name}"):
-        return
-    if imgui.selectable(f"Delete “{entry.title}”", False)[0]:
-        sowing.delete(desk, entry)
-    imgui.end_popup()
+def _short(entry: Entry, wide: float) -> str:
+    """The name of one, as much of it as there is room for beside two buttons if it is the artist's own."""
+    return _fitting(entry.title, wide) if entry.own else entry.title
+
+
+def _fitting(name: str, wide: float) -> str:
+    """A name no wider than that; a long one ends with dots."""
+    while len(name) > 1 and imgui.calc_text_size(name).x > wide:
+        name = name.removesuffix("…")[:-1].rstrip() + "…"
+    return name
 
 
 def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:
-    """A name below its picture, in the middle; a long one ends with dots."""
+    """A name below its picture, in the middle."""
     size = imgui.get_font_size() * NAME
     scale = size / imgui.get_font_size()
-    while len(name) > 1 and imgui.calc_text_size(name).x * scale > wide + 2:
-        name = name.removesuffix("…")[:-1].rstrip() + "…"
+    name = _fitting(name, (wide + 2) / scale)
     left = at.x + max(0.0, (wide - imgui.calc_text_size(name).x * scale) / 2)
     imgui.get_window_draw_list().add_text(imgui.get_font(), size, ImVec2(left, at.y), theme.packed(grey), name)

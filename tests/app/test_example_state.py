@@ -131,7 +131,7 @@ def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
     sowing.choose(desk, named(desk, "felt"))
     desk.examples.size, desk.examples.depth = -1, 2
     sowing.follow(desk)
-    preset = Preset("Mine", desk.brush, textures=desk.needs)
+    preset = Preset("Mine", desk.brush, textures=palette.belonging(desk)[0])
     desk.examples.size, desk.examples.depth, desk.examples.chosen = 0, 0, ""
     desk.view = desk.view.zoomed(20)
     palette.take(desk, preset)
@@ -258,6 +258,47 @@ def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     sowing.delete(desk, state.entry)
     assert not list(own.iterdir())
     assert state.entry is None
+
+
+def test_ones_own_is_renamed_and_stays_so(desk, tmp_path):
+    """Its files stay where paintings and brushes look for them."""
+    sowing.add(desk, picture(tmp_path / "rock.png"))
+    sowing.add(desk, picture(tmp_path / "sand.png"))
+    state, path = desk.examples, named(desk, "rock").picture
+    sowing.rename(desk, named(desk, "rock"), '  My "wet"\n rock ')
+    assert named(desk, "rock").title == 'My "wet" rock'
+    assert state.entry.name == "sand"  # which the brush goes on painting with
+    sowing.rename(desk, state.entry, 'my "WET" rock')
+    assert (state.entry.title, desk.brush.example) == ('my "WET" rock 2', 'my "WET" rock 2')
+    assert [need.name for need in desk.needs] == ['my "WET" rock 2']
+    sowing.rename(desk, state.entry, " \t")
+    state.set(state.entry, "kappa", 9.0)
+    sowing.use_settings(desk)
+    sowing.stock(desk)
+    own = {entry.name: entry for entry in state.entries if entry.own}
+    assert {name: entry.title for name, entry in own.items()} == {"rock": 'My "wet" rock', "sand": 'my "WET" rock 2'}
+    assert own["rock"].picture == path
+    assert own["sand"].parameters.kappa == 9.0
+    sowing.rename(desk, own["sand"], "x" * 99)
+    assert len(state.entry.title) == examples.NAME_CAP
+
+
+def test_who_paints_with_ones_own_is_told_and_keeps_on_painting_when_it_is_deleted(desk, tmp_path):
+    sowing.add(desk, picture(tmp_path / "rock.png"))
+    sowing.add(desk, picture(tmp_path / "sand.png"))
+    rock, sand = named(desk, "rock"), named(desk, "sand")
+    assert sowing.users(desk, rock) == ""
+    desk.presets = (Preset("Mine", desk.brush, textures=palette.belonging(desk)[0]), Preset("Pen", Brush(radius=3.0)))
+    desk.scene = scene_with(("Rock", {"path": str(rock.picture), "sha": "1"}))
+    sowing.gather(desk)
+    assert sowing.users(desk, rock) == "this painting"
+    assert sowing.users(desk, sand) == "the brush “Mine”"
+    sowing.delete(desk, sand)
+    assert (desk.brush.mode, desk.preset, desk.examples.chosen) == ("paint", "Pen", "")
+    sowing.choose(desk, rock)
+    sowing.delete(desk, rock)
+    assert (desk.brush.example, desk.needs) == ("Rock", ())
+    assert desk.examples.entry.here is not None
 
 
 def test_ones_own_settings_are_kept_in_its_file(desk, tmp_path):

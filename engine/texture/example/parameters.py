@@ -116,7 +116,7 @@ def check(name: str, value: Any, place: str) -> None:
 
 
 def read_toml(data: bytes) -> Parameters:
-    """The parameters in a file's bytes; `group`, under which a palette lists the example, is none of them.
+    """The parameters in a file's bytes; `title` and `group`, under which a palette lists the example, are none of them.
 
     FieldError names the line and the field.
     """
@@ -132,9 +132,10 @@ def read_toml(data: bytes) -> Parameters:
         raise FieldError("line 1", "brackets too deep", "TOML") from None
     except ValueError:  # of a whole number with thousands of digits
         raise FieldError("line 1", "a number too long", "TOML") from None
-    group = told.pop("group", "")
-    if not isinstance(group, str):
-        raise FieldError(f"line {line_of(text, 'group')}, group", _shown(group), "a name to list the example under")
+    for field in ("title", "group"):
+        name = told.pop(field, "")
+        if not isinstance(name, str):
+            raise FieldError(f"line {line_of(text, field)}, {field}", _shown(name), "a name to list the example under")
     for field, value in told.items():
         check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
     return changed(Parameters(), told)

@@ -20,6 +20,7 @@ def test_bundled_files_are_read_with_their_groups(path):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
+        ("title = 3", "line 1, title: found 3, expected a name to list the example under"),
         ("kappa = 1\ngroup = 3", "line 2, group: found 3, expected a name to list the example under"),
         ("\nkapa = 1", "line 2, kapa: found an unknown field, expected one of kappa"),
         ("kappa = 'a'", 'line 1, kappa: found "a", expected a number from 0 to 100'),
