@@ -52,6 +52,11 @@ class Predictor:
         return bool((np.abs(self.coefficients).sum(axis=1) < 1.0).all()) or self.radius < 1.0
 
     @property
+    def verdict(self) -> str:
+        """Whether it was stable as fitted, and how far out its outermost pole lies, in words."""
+        return f"{'stable' if self.shrunk == 1.0 else 'made stable'}, poles to {self.radius:.3f}"
+
+    @property
     def residual(self) -> np.ndarray:
         """The deviation of the errors of prediction over the sample, float64 (c,)."""
         return np.sqrt((self.mixing**2).sum(axis=1))

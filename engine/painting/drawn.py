@@ -12,6 +12,7 @@ from engine.brush.record import Brush
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
+from engine.numeric.prediction import Predictor
 from engine.painting.commands import Stroke
 from engine.painting.points import fitted
 from engine.painting.value import Painting, Refusal, layer_for
@@ -53,6 +54,11 @@ class Drawn:
     def _begin(self) -> None:
         """What a kind of stroke needs besides."""
         raise NotImplementedError
+
+    @property
+    def predictor(self) -> Predictor | None:
+        """The filter by which it continues what is painted, once that is fitted."""
+        return None
 
     @property
     def full(self) -> bool:

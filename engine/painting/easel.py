@@ -168,6 +168,8 @@ class Easel:
         except Exception:
             self.viewer.unsee(live)  # its preview is on the screen, and will not be paint
             raise
+        if live.predictor is not None:
+            self.send(results.Note(f"Continued by a filter of reach {live.predictor.reach}: {live.predictor.verdict}"))
         if live.flattened:
             self.viewer.changed(areas(live.before, after))
             self.tell()

@@ -83,8 +83,7 @@ class Examiner:
         yield told()
         self._send("analysis poles", _heat(_decibels(facts.all_pole)), pictures)
         rings = tuple(zip(*(column.tolist() for column in facts.radial), strict=True))
-        how = "stable" if facts.predictor.shrunk == 1.0 else "made stable"
-        lines["Model"] = f"{how}, poles to {facts.predictor.radius:.3f}"
+        lines["Model"] = facts.predictor.verdict
         lines["Falls as"] = "—" if facts.slope is None else f"1/f^{facts.slope:.2f}"
         yield told(done=True)
 

@@ -61,6 +61,11 @@ class Scenery:
         return rect if self._predicts else Rect(0, 0, 0, 0)
 
     @property
+    def predictor(self) -> Predictor | None:
+        """The filter that an op fitted to what was painted, once it has."""
+        return self._memo.get("predictor")
+
+    @property
     def scene(self) -> Scene:
         pressure = self._mask.coverage() if self._pressed else None
         return Scene(self._source, self._origin, pressure, self._start, self._seed, self._memo)

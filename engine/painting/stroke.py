@@ -20,6 +20,7 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
 from engine.numeric.address import Rect
+from engine.numeric.prediction import Predictor
 from engine.painting.bed import Bed, Meeting
 from engine.painting.drawn import Drawn
 from engine.painting.scenery import Scenery
@@ -96,6 +97,10 @@ class LiveStroke(Drawn):
         self._edit = None
         for points in self._points:
             self._mask.paint(self._stroker.walk(points))
+
+    @property
+    def predictor(self) -> Predictor | None:
+        return None if self._scenery is None else self._scenery.predictor
 
     @property
     def rect(self) -> Rect:

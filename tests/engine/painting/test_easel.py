@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from immutables import Map
 
 from engine.brush.record import Brush, Component
 from engine.numeric.address import Rect
@@ -334,3 +335,25 @@ def test_points_of_a_stroke_that_was_refused_do_not_join_the_recordings(half_pla
     window.easel.do(q.Abandon())
     assert _played_out(window) == [c.Stroke]
     assert len(window.easel.session.log[0].points) == 5
+
+
+@pytest.mark.parametrize("swelling", [False, True])
+def test_the_artist_is_told_whether_the_filter_that_continues_a_texture_is_stable(swelling):
+    """A filter that continues what swells along a row would swell for ever."""
+    window = Window()
+    if swelling:
+        for x in range(20, 64):
+            colour = f"#{min(round(1.3 ** (x - 40)) + 1, 255):02x}0000"
+            brush = Brush(radius=3.0, hardness=1.0, colour=colour)
+            window.easel.do(q.Do(c.Stroke(0, (x, 0), line(40, 0, 0, 0, 2), brush)))
+    else:
+        rocky = Brush(radius=40.0, ink=(Component("rock", 0.9, "#88aaff", Map({"period": 9.0})),))
+        window.easel.do(q.Do(c.Stroke(0, (0, 0), line(3), rocky)))
+    op = Map({"name": "predict", "reach": 3, "window": 32})
+    window.easel.do(q.Begin(0, (40, 40), Brush(radius=5.0, mode="raster", op=op)))
+    window.easel.do(q.Points(line(2, 0, 0)))
+    window.easel.do(q.Finish())
+    [told] = [r.text for r in window.other if isinstance(r, results.Note)]
+    how, poles = told.removeprefix("Continued by a filter of reach 3: ").split(", poles to ")
+    assert how == ("made stable" if swelling else "stable")
+    assert 0.0 < float(poles) < 1.0
