@@ -34,7 +34,7 @@ class Layout:
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip = Dialogs(), StripPanel()
         self._covered: list[tuple[float, float, float, float]] = []
-        self._popup, self._strip = False, ("", "palette")
+        self._popup, self._strip = False, ""
 
     def covers(self, x: float, y: float) -> bool:
         """Whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
@@ -101,7 +101,7 @@ class Layout:
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:
         """What was in the middle stays there when the strip opens or closes."""
         x, y = desk.middle()
-        strip, self._strip = self._strip, (desk.strip, desk.examples.tab)
+        strip, self._strip = self._strip, desk.strip
         desk.insets = insets
         if strip != self._strip and not desk.painting:
             desk.view = desk.view.held(desk.view.to_canvas(x, y), *desk.middle())

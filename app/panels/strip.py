@@ -36,7 +36,7 @@ class Strip(NamedTuple):
 
 
 GROW = 1.15  # of a brush, by a key
-PART, PART_LARGE, HIGHEST = 0.4, 0.58, 640.0  # of the window's height; points
+PART, HIGHEST = 0.4, 640.0  # of the window's height; points
 STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", 356.0),
     "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", 356.0),
@@ -54,11 +54,10 @@ class StripPanel:
         self._panels["examples"] = ExamplesPanel()
 
     def height(self, desk: Desk) -> float:
-        """What it takes of the screen, framebuffer pixels."""
+        """What it takes of the screen, framebuffer pixels: the same whatever it shows, or the canvas would jump."""
         if not desk.strip:
             return 0.0
-        part = PART_LARGE if desk.strip == "examples" and desk.examples.tab == "region" else PART
-        return max(STRIPS[desk.strip].height * desk.scale, min(part * desk.view.height, HIGHEST * desk.scale))
+        return max(STRIPS[desk.strip].height * desk.scale, min(PART * desk.view.height, HIGHEST * desk.scale))
 
     def draw(self, desk: Desk) -> None:
         """Into the present window."""

@@ -14,8 +14,8 @@ pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 OWN = {"a": "wash-indigo", "b": "felt"}  # copies, which are listed first
 FIRST, SECOND = (292, 526), (368, 526)
-REGION_TAB, SWAP, PAINT_OUT, SAVE = (830, 437), (925, 755), (868, 383), (867, 755)
-PICTURE = (slice(352, 764), slice(296, 706))
+REGION_TAB, SWAP, PAINT_OUT, SAVE = (830, 437), (925, 755), (868, 491), (867, 755)
+PICTURE = (slice(459, 766), slice(348, 655))
 CANVAS = (slice(60, 400), slice(280, 960))
 THUMBNAIL, SAMPLE = (slice(500, 550), slice(345, 390)), (slice(500, 730), slice(740, 980))
 BUNDLED = Path(__file__).parents[2] / "palettes" / "examples"
@@ -164,14 +164,14 @@ def test_a_region_is_painted_and_saved(program, folder):
     app.click(REGION_TAB)
     until(lambda: app.screen()[PICTURE].std() > 20)
     seen = shown_region(app)
-    app.stroke((300, 360), (330, 380), (340, 420))
+    app.stroke((351, 465), (373, 480), (381, 510))
     until_unlike(app, seen)
-    app.stroke((500, 500), (520, 520))  # in already: a step that changes nothing
-    app.do("mousemove", 500, 500)
+    app.stroke((501, 569), (516, 584))  # in already: a step that changes nothing
+    app.do("mousemove", 501, 569)
     app.keys("ctrl+z")
     app.click(PAINT_OUT)
     painted = shown_region(app)
-    app.stroke((500, 500), (520, 540))
+    app.stroke((501, 569), (516, 599))
     until_unlike(app, painted)
     app.click(SAVE)
     until(lambda: not np.array_equal(region_of(folder), before))
