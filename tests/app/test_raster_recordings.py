@@ -1,12 +1,17 @@
 """Recordings with raster-ops from the command line: the same pixels played and reopened, mistakes in one line."""
 
 import json
+import os
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
 import pytest
 
 from app.__main__ import main
 
+ROOT = Path(__file__).resolve().parents[2]
 HEADER = {"inkfall": 1, "frame": [0, 0, 64, 48], "seed": 7}
 GROUND = {"radius": 90, "hardness": 1, "colour": "#507090", "dynamics": {}}
 ROCK = [{"texture": "rock", "amount": 0.8, "period": 16}]
@@ -51,6 +56,28 @@ def test_what_is_saved_plays_as_it_was(tmp_path):
     told = [json.loads(line) for line in written.read_text().splitlines()]
     assert [line["brush"]["op"] for line in told if line.get("brush", {}).get("mode") == "raster"] == list(OPS)
     assert main(["play", str(written), "--png", str(again)]) == 0
+    assert first.read_bytes() == again.read_bytes()
+
+
+FUR = {"do": "texture", "name": "fur", "maker": "spectrum", "size": [32, 32], "shapes": [{"shape": "noise", "b": 1}]}
+THINNED = {
+    "density": {"texture": "fur", "amount": 0.7, "shaping": "threshold"},
+    "grain": {"texture": "rock", "amount": 0.8, "period": 6},
+    "shaping": [[0, 0.2], [0.4, 1], [1, 0.1]],
+    "edge": "wet",
+}
+
+
+def test_another_process_with_another_number_of_threads_paints_the_same(tmp_path):
+    brushes = [{"radius": 20, "ink": [{"texture": "fur", "shaping": "power"}], **THINNED}]
+    brushes += [{"mode": "raster", "op": op, "radius": 14, "ink": ROCK, **THINNED} for op in (*OPS, "predict")]
+    lines = [{"do": "stroke", "points": [[6, 10, 0.3], [56, 40, 1]], "brush": brush} for brush in brushes]
+    script = recording(tmp_path / "a.jsonl", FUR, *lines)
+    first, again = tmp_path / "a.png", tmp_path / "b.png"
+    assert main(["play", str(script), "--png", str(first)]) == 0
+    words = [sys.executable, "-m", "app", "play", str(script), "--png", str(again), "--threads", "3"]
+    environment = os.environ | {"OMP_NUM_THREADS": "1", "PYTHONHASHSEED": "5"}
+    assert subprocess.run(words, cwd=ROOT, env=environment, check=False).returncode == 0
     assert first.read_bytes() == again.read_bytes()
 
 
