@@ -18,7 +18,7 @@ FRAME = 1.0 / 60.0
 SIDE = 256  # of the spectrum
 SAMPLE = 64
 DENSITY = 10.0
-TOGETHER = 1024  # pixels across all the fields that are made one after the other
+TOGETHER = 1024  # pixels along a side of the square that the fields made one after the other cover
 TIMES_FASTER = {1024: 12.0, 128: 20.0}
 
 
@@ -56,7 +56,7 @@ def _field(side: int, limit: float, repeats: int) -> Iterator[Figure | Skipped]:
         return
     random = np.random.default_rng(1)
     sample = random.standard_normal((SAMPLE, SAMPLE)).astype(np.float32) * radial_window(SAMPLE)
-    impulse, noise, count = Impulse.of(sample[None]), Noise(5, DENSITY), max(1, TOGETHER // side)
+    impulse, noise, count = Impulse.of(sample[None]), Noise(5, DENSITY), (TOGETHER // side) ** 2
     places = [Rect.at((1 << 40) + 77 + side * i, -9000, side, side) for i in range(count)]
     dense = random.standard_normal((side, side)).astype(np.float32)
     around = side + SAMPLE - 1

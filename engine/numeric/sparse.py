@@ -89,16 +89,16 @@ def spread(response: np.ndarray, density: float) -> float:
 
 def reach(impulse: Impulse, rect: Rect) -> Rect:
     """Where the points lie that can touch `rect`, in pixels of the rectangle's own level."""
-    m, points = impulse.coarser, _points(impulse, rect)
-    return Rect(points.x0 >> m, points.y0 >> m, (points.x1 - 1 >> m) + 1, (points.y1 - 1 >> m) + 1)
+    m, (left, top, right, bottom) = impulse.coarser, _points(impulse, rect)
+    return Rect(left >> m, top >> m, (right - 1 >> m) + 1, (bottom - 1 >> m) + 1)
 
 
-def _points(impulse: Impulse, rect: Rect) -> Rect:
-    """The same in pixels of the points' level."""
+def _points(impulse: Impulse, rect: Rect) -> tuple[int, int, int, int]:
+    """The same as (left, top, right, bottom) in pixels of the points' level."""
     m, (height, width) = impulse.coarser, impulse.phases.shape[3:]
     down, right = impulse.size[0] // 2, impulse.size[1] // 2
     left, top = (rect.x0 - width + 1 << m) + right, (rect.y0 - height + 1 << m) + down
-    return Rect(left, top, (rect.x1 << m) + right, (rect.y1 << m) + down)
+    return left, top, (rect.x1 << m) + right, (rect.y1 << m) + down
 
 
 def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None = None) -> np.ndarray:
@@ -112,23 +112,23 @@ def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None 
         return out
     m, (height, width) = impulse.coarser, impulse.size
     cell_h, cell_w = max(_SMALLEST, height // 2), max(_SMALLEST, width // 2)
-    points = _points(impulse, rect)
-    x, y = points.x0 // cell_w, points.y0 // cell_h
-    columns, rows = (points.x1 - 1) // cell_w + 1 - x, (points.y1 - 1) // cell_h + 1 - y
+    left, top, right, bottom = _points(impulse, rect)
+    x, y = left // cell_w, top // cell_h
+    columns, rows = (right - 1) // cell_w + 1 - x, (bottom - 1) // cell_h + 1 - y
     around = rect if within is None else reach(impulse, rect)
     # From the rectangle's corner on, its place is known to the keys alone.
     corner = x * cell_w - (rect.x0 << m), y * cell_h - (rect.y0 << m)
     offsets = width // 2, height // 2, around.x0 - rect.x0, around.y0 - rect.y0
-    layout = _Layout(x & MASK32, y & MASK32, columns, rows, cell_w, cell_h, *corner, *offsets, m)
+    numbers = np.array((x & MASK32, y & MASK32, columns, rows, cell_w, cell_h, *corner, *offsets, m), np.int64)
     mean = noise.density * (cell_w * cell_h / (width * height))
     inside = _EVERYWHERE if within is None else within
     keys = _keys(noise.key, x >> 32, y >> 32)
-    _fill(out, impulse.phases, impulse.strips, impulse.rows, keys, layout, (mean, noise.levels), inside)
+    _fill(out, impulse.phases, impulse.strips, impulse.rows, keys, numbers, mean, noise.levels, inside)
     return out
 
 
 class _Layout(NamedTuple):
-    """Where a rectangle's cells lie."""
+    """Where a rectangle's cells lie; it is handed over as an array, since tuples take the kernel long to take apart."""
 
     x: int  # the first cell's column and row, their low halves
     y: int
@@ -211,8 +211,11 @@ def _cell(h, corner, layout, noise, within, places, weights, count):
 
 
 @njit(cache=True, nogil=True)
-def _fill(out, phases, strips, filled, keys, layout, noise, within):
-    """Lists the points, cell by cell, then lays them."""
+def _fill(out, phases, strips, filled, keys, numbers, mean, levels, within):
+    """Lists the points, cell by cell, then lays them.  `numbers`: int64, those of a _Layout in order."""
+    n = numbers
+    layout = _Layout(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12])
+    noise = mean, levels
     x, y, columns, rows = layout.x, layout.y, layout.columns, layout.rows
     most = columns * rows * (int(noise[0]) + 1)
     places, weights, starts = np.empty((most, 2), np.int64), np.empty(most, np.float32), np.empty(rows + 1, np.int64)

@@ -57,37 +57,48 @@ def _add(into, p, copied, q, n, weight):
 
 
 @njit(cache=True, nogil=True)
-def _lay(block, copied, rows, shape, at, weight):
-    """Adds a copy to a block of strips: shape = (its channels, strips, rows, the copy's displacements and rows)."""
-    channels, strips, height, displacements, copy_height = shape
-    top, left = at
-    tall, deep = height + _MARGIN, copy_height
-    for s in range(max(0, left // WIDE), min(strips, (left + displacements + WIDE - 1) // WIDE)):
-        d = s * WIDE - left + WIDE - 1
-        if d >= displacements:
-            break
-        a, b = max(0, top + rows[d, 0]), min(height, top + rows[d, 1])
-        if a < b:
-            n = np.uintp(((b - a + 3) >> 2) << 6)
-            for c in range(channels):
-                p = np.uintp(((c * strips + s) * tall + a) * WIDE)
-                q = np.uintp(((c * displacements + d) * deep + a - top) * WIDE)
-                _add(block, p, copied, q, n, weight)
+def _near(places, weights, first, last, block, shape, at, found):
+    """Lists the copies `first` to `last` that touch a block: (top row, displacement on its first strip) in `at`,
+    weights in `found`; how many.  block = (y, x, height, width), shape = (rows of a copy, its displacements)."""
+    y0, x0, height, width = block
+    high, displacements = shape
+    count = 0
+    for n in range(first, last):
+        top, left = places[n, 0] - y0, places[n, 1] - x0
+        if top < height and top + high > 0 and left < width and left + displacements > WIDE - 1:
+            at[count, 0], at[count, 1], found[count] = top, WIDE - 1 - left, weights[n]
+            count += 1
+    return count
 
 
 @njit(cache=True, nogil=True)
-def _unpack(out, block, strips, y0, x0):
-    """Copies a block's strips to rows and columns from (y0, x0) on of `out`."""
-    height, width = min(_BLOCK, out.shape[1] - y0), min(_BLOCK, out.shape[2] - x0)
+def _lay(strip, copied, rows, shape, at, found):
+    """Sums the listed copies on a strip, the `s`-th of a block: shape = (s, channel, its rows, a copy's displacements
+    and rows)."""
+    s, channel, height, displacements, deep = shape
+    strip[: (height + _MARGIN) * WIDE] = np.float32(0.0)
+    for n in range(found.size):
+        d = at[n, 1] + s * WIDE
+        if 0 <= d < displacements:
+            top = at[n, 0]
+            a, b = max(0, top + rows[d, 0]), min(height, top + rows[d, 1])
+            if a < b:
+                length = np.uintp(((b - a + 3) >> 2) << 6)
+                p = np.uintp(a * WIDE)
+                q = np.uintp(((channel * displacements + d) * deep + a - top) * WIDE)
+                _add(strip, p, copied, q, length, found[n])
+
+
+@njit(cache=True, nogil=True)
+def _unpack(out, strip, channel, y0, x0):
+    """Copies a strip to rows and columns from (y0, x0) on of `out`."""
+    height, wide = min(_BLOCK, out.shape[1] - y0), np.uintp(min(WIDE, out.shape[2] - x0))
     flat = out.reshape(out.size)
-    for c in range(out.shape[0]):
-        for s in range(strips):
-            wide = np.uintp(min(WIDE, width - s * WIDE))
-            for y in range(height):
-                p = np.uintp((c * out.shape[1] + y0 + y) * out.shape[2] + x0 + s * WIDE)
-                q = np.uintp(((c * strips + s) * (height + _MARGIN) + y) * WIDE)
-                for i in range(wide):
-                    flat[p + i] = block[q + i]
+    for y in range(height):
+        p = np.uintp((channel * out.shape[1] + y0 + y) * out.shape[2] + x0)
+        q = np.uintp(y * WIDE)
+        for i in range(wide):
+            flat[p + i] = strip[q + i]
 
 
 @njit(cache=True, nogil=True)
@@ -99,21 +110,19 @@ def lay_strips(out, copied, rows, places, weights, bands):
     starts, first, tall = bands
     channels, displacements, copy_height, _ = copied.shape
     high = copy_height - _MARGIN
-    side = min(_BLOCK, out.shape[2]) + WIDE - 1 & ~(WIDE - 1)
-    room = np.empty(channels * side * (min(_BLOCK, out.shape[1]) + _MARGIN) + 16, np.float32)
-    block = room[(np.uintp(-room.ctypes.data) & np.uintp(63)) >> np.uintp(2) :]
+    room = np.empty((min(_BLOCK, out.shape[1]) + _MARGIN) * WIDE + 16, np.float32)
+    strip = room[(np.uintp(-room.ctypes.data) & np.uintp(63)) >> np.uintp(2) :]
     flat = copied.reshape(copied.size)
+    at, found = np.empty((weights.size, 2), np.int64), np.empty(weights.size, np.float32)
     for y0 in range(0, out.shape[1], _BLOCK):
         height = min(_BLOCK, out.shape[1] - y0)
         j0 = max(0, (y0 - high - first) // tall)
-        j1 = min(starts.size - 1, (y0 + height - first) // tall + 1)
+        j1 = max(j0, min(starts.size - 1, (y0 + height - first) // tall + 1))
         for x0 in range(0, out.shape[2], _BLOCK):
             width = min(_BLOCK, out.shape[2] - x0)
-            strips = (width + WIDE - 1) // WIDE
-            block[: channels * strips * (height + _MARGIN) * WIDE] = np.float32(0.0)
-            shape = channels, strips, height, displacements, copy_height
-            for n in range(starts[j0], starts[max(j0, j1)]):
-                top, left = places[n, 0] - y0, places[n, 1] - x0
-                if top < height and top + high > 0 and left < width and left + displacements > WIDE - 1:
-                    _lay(block, flat, rows, shape, (top, left), weights[n])
-            _unpack(out, block, strips, y0, x0)
+            block = y0, x0, height, width
+            count = _near(places, weights, starts[j0], starts[j1], block, (high, displacements), at, found)
+            for s in range((width + WIDE - 1) // WIDE):
+                for c in range(channels):
+                    _lay(strip, flat, rows, (s, c, height, displacements, copy_height), at[:count], found[:count])
+                    _unpack(out, strip, c, y0, x0 + s * WIDE)
