@@ -139,7 +139,8 @@ class Operations:
         imgui.set_next_item_width(imgui.get_content_region_avail().x - side - imgui.get_style().item_spacing.x)
         changed, self._text = imgui.input_text("##formula", self._text)
         left = imgui.is_item_deactivated()
-        w.tooltip(_VOCABULARY)
+        if not imgui.is_item_active():  # it would cover what is said about a mistake
+            w.tooltip(_VOCABULARY)
         imgui.same_line()
         if w.icon_button("more formulas", icons.MORE, "Formulas to begin with"):
             imgui.open_popup("formulas")
