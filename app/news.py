@@ -41,7 +41,7 @@ class News:
         self.worker: Worker | None = None
         self._asked: tuple[Any, ...] = ()
         self.shelf: Shelf | None = None
-        self._gallery = Gallery(ctx, desk.pictures)
+        self.gallery = Gallery(ctx, desk.pictures)
         self._ink: Any = None
         self._ink_since = self._ink_sent = 0.0
         self._serial: int | None = None
@@ -136,7 +136,7 @@ class News:
         mask = state.mask
         if mask is not None and mask.dirty is not None:
             height, width = mask.inside.shape
-            self._gallery.touch(f"region {state.chosen}", (width, height), mask.dirty, shown(mask, mask.dirty))
+            self.gallery.touch(f"region {state.chosen}", (width, height), mask.dirty, shown(mask, mask.dirty))
             mask.dirty = None
 
     def waiting(self) -> bool:
@@ -188,7 +188,7 @@ class News:
 
     def _picture(self, r: results.Picture, _now: float) -> None:
         """A swatch over paper, as a texture for imgui."""
-        self._gallery.hang(r.ident, r.pixels)
+        self.gallery.hang(r.ident, r.pixels)
 
     def _lab(self, r: results.LabScene, _now: float) -> None:
         before, self.desk.lab.scene = self.desk.lab.scene, r

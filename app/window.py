@@ -20,6 +20,7 @@ from app.input.choose import pen_source
 from app.input.events import PointerSource
 from app.input.glfw_events import GlfwPointer
 from app.news import News
+from app.overlay import Overlay
 from app.panels.layout import Layout
 from app.router import Router
 from app.screen import Screen
@@ -57,7 +58,7 @@ class Window:
         backends.glfw_init_for_opengl(address, False)
         backends.opengl3_init("#version 330")
         self._address = address
-        self.screen = Screen(self.ctx)
+        self.screen, self.overlay = Screen(self.ctx), Overlay(self.ctx)
         self.news = News(self.desk, self.screen, self.ctx)
         self._keys: list[tuple[int, int, int, int]] = []
         self._cursors: dict[int, Any] = {}
@@ -148,7 +149,8 @@ class Window:
         self._panels()
         fading = self.screen.draw(self.desk.view, self.desk.frame, now, self.desk.insets)
         imgui.render()
-        backends.opengl3_render_draw_data(imgui.get_draw_data())
+        size = self.desk.view.width, self.desk.view.height
+        self.overlay.draw(imgui.get_draw_data(), size, self.news.gallery.fresh())
         self.news.ask(now)
         self._show_cursor()
         glfw.swap_buffers(self.handle)
