@@ -112,7 +112,7 @@ def _curves(found: Analysis) -> Image.Image:
     for decade in range(int(_DECADES) + 1):
         y = upper + (lower - upper) * decade / _DECADES
         draw.line((left, y, right, y), _FRAME)
-        draw.text((left - 5, y), "1" if not decade else f"-{decade}", _SOFT, font, anchor="rm")
+        draw.text((left - 5, y), f"-{decade}" if decade else "0", _SOFT, font, anchor="rm")
     for period in (2, 4, 8, 16, 32, 64, 128, 256, 512):
         if 1 / period >= low:
             x, _ = place(1 / period, top)
