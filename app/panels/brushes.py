@@ -110,11 +110,13 @@ class BrushList:
         """One brush; whether it was taken."""
         corner, tall = imgui.get_cursor_screen_pos(), _tall(desk, wide)
         taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
-        if not ready_at_start(preset) and preset.name not in self._asked and imgui.is_item_visible():
-            self._asked.add(preset.name)
-            ask_picture(desk, preset)
         if taken:
             take(desk, preset)
+        if not imgui.is_item_visible():  # most are scrolled away
+            return taken
+        if not ready_at_start(preset) and preset.name not in self._asked:
+            self._asked.add(preset.name)
+            ask_picture(desk, preset)
         hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
         own = preset.path is not None and preset.path.parent == presets.own_folder()
         w.tooltip(f"{preset.name}\nShift keeps the present size" + ("\nRight click to delete it" if own else ""))
