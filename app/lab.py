@@ -8,6 +8,7 @@ from typing import Any
 
 from immutables import Map
 
+from engine.brush.ops import chosen
 from engine.brush.parts import Component, Surface
 from engine.brush.record import Brush
 from engine.painting.requests import LabRest, LabSet, LabUse, Request
@@ -101,17 +102,19 @@ class LabState:
         return (x - left) / side * self.made.size[0], (y - top) / side * self.made.size[1]
 
     def brush(self, brush: Brush, colour: str, eraser: bool, built_in: frozenset[str]) -> Brush:
-        """The artist's brush as it paints in the lab: its textures are those that every painting has (`built_in`)."""
+        """The artist's brush as it paints in the lab: its textures are those that every painting has (`built_in`).  It
+        changes what is there if it can do so without colours and layers; otherwise it paints."""
         brush = only_with(brush, built_in)
+        mode = brush.mode if brush.mode in ("paint", "erase", "smooth") or _changes(brush) else "paint"
         colours = self.coloured and self.made.sheet == "amplitude"
         return replace(
             brush,
             radius=self.radius * self.made.size[0] / 256,
             opacity=self.strength,
             colour=colour if colours else WHITE,
-            mode="erase" if eraser or self.erasing else brush.mode if brush.mode in ("paint", "smooth") else "paint",
+            mode="erase" if eraser or self.erasing else mode,
             ink=brush.ink if colours else tuple(replace(part, colour=BLACK) for part in brush.ink),
-            op="toward",
+            op=brush.op if mode == "raster" else "toward",
             edge=None,
         )
 
@@ -139,6 +142,16 @@ class LabState:
         post(LabUse(name))
         if not self.follow:
             post(LabUse(""))
+
+
+def _changes(brush: Brush) -> bool:
+    """Whether it is a raster-op that needs neither a colour nor a layer nor a texture that the brush has not."""
+    if brush.mode != "raster":
+        return False
+    op = chosen(brush.op)
+    if op.row is None:
+        return True
+    return not (op.row.coloured or "layer" in op.parameters or (op.by_texture and not brush.ink))
 
 
 def only_with(brush: Brush, textures: frozenset[str]) -> Brush:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from immutables import Map
 
@@ -10,6 +11,7 @@ from app.panels import lab as panel
 from engine.brush.parts import Component, Edge, Surface
 from engine.brush.record import Brush
 from engine.numeric.spectra import radial_window
+from engine.painting import commands as c
 from engine.painting import lab as engine_lab
 from engine.painting import spectrum
 from engine.painting.requests import LabRest, LabSet, LabUse
@@ -40,10 +42,28 @@ def test_the_brush_paints_white_with_what_every_painting_has():
 def test_colour_and_the_eraser():
     lab = LabState(coloured=True)
     assert lab.brush(Brush(), "#00ff00", False, OWN).colour == "#00ff00"
-    assert lab.brush(Brush(mode="raster"), "#00ff00", False, OWN).mode == "paint"
+    assert lab.brush(Brush(mode="example", example="moss"), "#00ff00", False, OWN).mode == "paint"
     assert lab.brush(Brush(), "#00ff00", True, OWN).mode == "erase"
     lab.change(sheet="phase")
     assert lab.brush(Brush(), "#00ff00", False, OWN).colour == "#ffffff"
+
+
+def test_what_changes_pictures_changes_spectra_but_layers_are_not_copied():
+    lab = LabState()
+    painted = lab.brush(Brush(mode="raster", op=Map({"name": "contrast", "gain": 2.0})), "#00ff00", False, OWN)
+    assert (painted.mode, painted.op["name"]) == ("raster", "contrast")
+    copied = lab.brush(Brush(mode="raster", op=Map({"name": "clone", "layer": "Sky"})), "#00ff00", False, OWN)
+    assert (copied.mode, copied.op) == ("paint", "toward")
+    for op in ("multiply", Map({"name": "displace", "by": "texture"})):  # white and no texture would change nothing
+        assert lab.brush(Brush(mode="raster", op=op), "#00ff00", False, OWN).mode == "paint"
+    assert lab.brush(Brush(mode="raster", op=Map({"formula": "-pic"})), "#00ff00", False, OWN).mode == "raster"
+    sheets = spectrum.begun(spectrum.Design((64, 64), (Map({"shape": "noise"}),)))
+    stroke = c.Stroke(0, (0, 0), np.array([[20.0, 20, 1, 0, 0, 0], [30, 24, 1, 0, 0, 0]]), replace(painted, radius=5.0))
+    loud = spectrum.with_stroke(sheets, stroke).amplitude
+    changed = loud != sheets.amplitude
+    assert changed[0, 20, 20]
+    assert changed[0, 44, 44]
+    assert not changed[0, 5:9].any()
 
 
 def test_settings_are_posted_at_once_and_strokes_shown_at_rest():
