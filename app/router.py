@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import glfw
@@ -17,6 +18,7 @@ from app.tools import TOOLS, Gesture, mark, pan, pick, swap, turn, zoom
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
 _AWAY = -3.4e38  # where imgui looks for a pointer that is not there
+FOCUSING = 0.5  # seconds after a press on a panel in which a text field there may get the focus
 _TYPED_ANYWHERE = ("Ctrl+S", "Ctrl+Q", "F1")
 
 
@@ -29,6 +31,7 @@ class Router:
         self._button = 0
         self._panel_buttons: set[int] = set()
         self._keys: set[int] = set()
+        self._field_until = 0.0
 
     def pointer(self, event: PenEvent) -> None:
         """One pointer event."""
@@ -65,6 +68,7 @@ class Router:
             return
         if covered:
             self._panel_buttons.add(event.button)
+            self._field_until = time.monotonic() + FOCUSING
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
             return
         imgui.set_window_focus(None)
@@ -143,6 +147,12 @@ class Router:
         if self.gesture is None and not self._panel_buttons:
             self.desk.pointer.over_canvas = False
             imgui.get_io().add_mouse_pos_event(_AWAY, _AWAY)
+
+    @property
+    def typing(self) -> bool:
+        """Whether what is typed may be for a text field."""
+        field = imgui.get_io().want_text_input or self.layout.dialogs.open or self.layout.popup
+        return field or time.monotonic() < self._field_until
 
     @property
     def panning_key(self) -> bool:

@@ -61,6 +61,7 @@ class Window:
         self.screen, self.overlay = Screen(self.ctx), Overlay(self.ctx)
         self.news = News(self.desk, self.screen, self.ctx)
         self._keys: list[tuple[int, int, int, int]] = []
+        self._characters: list[int] = []
         self._cursors: dict[int, Any] = {}
         self._cursor = 0
         self._last = time.monotonic()
@@ -74,7 +75,7 @@ class Window:
         """Keys and text go to imgui and to the router; focus and size only mark the frame as old."""
         w = self.handle
         glfw.set_key_callback(w, self._key)
-        glfw.set_char_callback(w, lambda _, c: backends.glfw_char_callback(self._address, c))
+        glfw.set_char_callback(w, self._typed)
         glfw.set_window_focus_callback(w, self._focus)
         glfw.set_cursor_enter_callback(w, self._entered)
         glfw.set_window_refresh_callback(w, lambda _: self._wake())
@@ -88,6 +89,14 @@ class Window:
         if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
             backends.glfw_key_callback(self._address, key, scancode, action, mods)
         self._keys.append((key, scancode, action, mods))
+
+    def _typed(self, _w: Any, character: int) -> None:
+        """What may be a key of the canvas waits for what the pointer did: a press may have given the focus to a field,
+        and a field that opens later must not get it."""
+        if self.router.typing:
+            backends.glfw_char_callback(self._address, character)
+        else:
+            self._characters.append(character)
 
     def _focus(self, _w: Any, focused: int) -> None:
         self._wake()
@@ -142,6 +151,9 @@ class Window:
         keys, self._keys = self._keys, []
         for key in keys:  # after the pointer: a stroke ends before what a key does to it
             self.router.key(*key)
+        characters, self._characters = self._characters, []
+        for character in characters if self.router.typing else ():
+            backends.glfw_char_callback(self._address, character)
         if self.news.take(now):
             self._busy_until = max(self._busy_until, now + 0.05)
         moving = self.desk.glide.moving

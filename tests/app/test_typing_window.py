@@ -1,0 +1,34 @@
+"""Keys in the real window: those of the canvas do not go on into a field that opens after them."""
+
+import time
+
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(120)]
+
+
+def test_keys_just_before_a_dialog_are_not_typed_into_it(program):
+    app = program()
+    app.do("mousemove", 640, 300)
+    light = app.settled()[60:760, 1000:1270].mean()
+    app.do("key", "--delay", 2, *"bebxxxkkk", "ctrl+s")
+    end = time.monotonic() + 30.0
+    while app.screen()[60:760, 1000:1270].mean() > 0.85 * light and time.monotonic() < end:
+        time.sleep(0.05)
+    time.sleep(1.0)  # its text cursor blinks
+    app.keys("Return")
+    end = time.monotonic() + 30.0
+    while not list(app.folder.glob("*.ora")) and time.monotonic() < end:
+        time.sleep(0.1)
+    assert [path.name for path in app.folder.glob("*.ora")] == ["untitled.ora"]
+
+
+def test_a_field_takes_what_is_typed_right_after_a_click(program):
+    """The radius of the brush, by Ctrl and a click on its slider."""
+    app = program()
+    before = app.settled()[450:475, 150:240].astype(int)
+    app.do("mousemove", 130, 463)
+    time.sleep(0.3)
+    app.do("keydown", "ctrl", "click", 1, "keyup", "ctrl", "key", "--delay", 2, *"77", "Return")
+    app.do("mousemove", 640, 300)
+    assert abs(app.settled()[450:475, 150:240].astype(int) - before).max() > 60
