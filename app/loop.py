@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 assert imgui_bundle
 WIDTH, HEIGHT = 1280, 800
+SWITCH = 0.0005  # seconds after which a thread that computes lets another have the interpreter
 
 
 class WindowError(RuntimeError):
@@ -39,7 +40,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
     window = opened()
     window.frame()
     trace("first frame")
-    sys.setswitchinterval(0.0005)
+    sys.setswitchinterval(SWITCH)
     worker = _worker(window)
     for name, live in ((path, False), (play, True)):
         if name is not None:

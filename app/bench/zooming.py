@@ -13,7 +13,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from app.loop import opened  # first: it imports imgui before glfw
+from app.loop import SWITCH, opened  # first: it imports imgui before glfw
 from app.screen import cells
 from app.view import Place
 from app.window import Window
@@ -31,22 +31,22 @@ SMOOTH = 0.016
 def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float) -> dict:
     window = opened()
     window.frame()
-    sys.setswitchinterval(0.0005)
+    sys.setswitchinterval(SWITCH)
     worker = Worker(glfw.post_empty_event)
     window.connect(worker)
     worker.post(Open(Path(file)))
     place = Place(x, y, exponent)
     try:
-        _until(window, lambda: window.desk.scene is not None and window.desk.scene.path is not None)
+        until(window, lambda: window.desk.scene is not None and window.desk.scene.path is not None)
         window.desk.view = replace(window.desk.view, centre=place, level=0, fraction=0.0)
-        _until(window, lambda: sharp(window))
+        until(window, lambda: sharp(window))
         _rest(window, 2.0)  # the presets' pictures are painted
         before = processor_times()
         times, frames = _zoom(window, place, levels, duration)
         spent = {thread: after - before.get(thread, 0.0) for thread, after in processor_times().items()}
         own = spent.pop(str(os.getpid()), 0.0)
         start = time.perf_counter()
-        _until(window, lambda: sharp(window))
+        until(window, lambda: sharp(window))
         after = time.perf_counter() - start
         renderer = window.ctx.info["GL_RENDERER"].partition(" (")[0]
     finally:
@@ -101,10 +101,10 @@ def sharp(window: Window) -> bool:
 
 def _rest(window: Window, seconds: float) -> None:
     end = time.perf_counter() + seconds
-    _until(window, lambda: time.perf_counter() > end)
+    until(window, lambda: time.perf_counter() > end)
 
 
-def _until(window: Window, done) -> None:
+def until(window: Window, done) -> None:
     end = time.perf_counter() + PATIENCE
     while True:
         window.frame()

@@ -1,0 +1,51 @@
+"""The frames of a real window that pans, alone and while an example grows, at 1280 x 800."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from typing import Any
+
+from app.bench import Figure, Skipped
+from app.bench.display import NEEDED, available, display, python
+
+BLOCKS = 8
+FRAME = 1 / 60  # seconds
+LATE = 0.01  # of all frames, at most
+ROWS = {"alone": "pan", "growing": "pan while an example grows"}
+
+
+def measure(small: bool = False) -> Iterator[Figure | Skipped]:
+    if not available():
+        yield Skipped("pan, frames of the window", f"needs {NEEDED}")
+        return
+    told = window(1 if small else BLOCKS)
+    for which, name in ROWS.items():
+        times, spent = told[which]["times"], told[which]["spent"]
+        late, count = sum(t > FRAME for t in times), len(times)
+        middle, far = (1e3 * times[int(part * (count - 1))] for part in (0.5, 0.99))
+        note = f"median {middle:.1f} ms, 99 % within {far:.1f} ms, slowest {1e3 * times[-1]:.0f} ms; {told['renderer']}"
+        bound = f"all {count} frames"
+        yield Figure(f"{name}, frames over 1/60 s", late, "frames", bound, late / count, LATE, note=note)
+        taken = sum(spent.values())
+        note = f"of the window's thread {1e3 * spent['window']:.1f} ms, of a software renderer's, all together, "
+        note += f"{1e3 * spent['renderer']:.1f} ms: what one core can do, if another is taken"
+        yield Figure(
+            f"{name}, processor time", taken * 1e3, "ms", f"{FRAME * 1e3:.1f} ms", taken / FRAME, 1.0, note=note
+        )
+
+
+def window(blocks: int) -> dict[str, Any]:
+    """See `panning`."""
+    with tempfile.TemporaryDirectory() as folder, display() as environment:
+        done = subprocess.run(
+            python("-m", "app.bench.panning", str(blocks)),
+            env={**environment, "XDG_CONFIG_HOME": folder, "XDG_DATA_HOME": folder},
+            capture_output=True,
+            text=True,
+        )
+    if done.returncode != 0:
+        raise OSError(f"the window that pans: {(done.stderr.strip().splitlines() or ['ended'])[-1]}")
+    return json.loads(done.stdout.splitlines()[-1])
