@@ -86,31 +86,40 @@ def tile(source: ImageSource, period: int) -> Tile:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Response:
-    """`mean`: the sample's, float32 (c, 1, 1); `own`: its impulse response, of energy 1 per channel and area of the
-    sample; `top`: the finest octaves of that, whose strength `form` tells; both at the native level."""
+    """`mean`: the sample's, float32 (c, 1, 1); `own`: its impulse response at the native level, of energy 1 per
+    channel and area of the sample."""
 
     mean: np.ndarray
     own: Impulse
-    top: Impulse
-    form: Continuation
 
 
 @lru_cache(maxsize=8)
 def response(source: ImageSource, period: int) -> Response:
-    """The zero-mean sample under the radial Gaussian window, and what is finest in it."""
+    """The zero-mean sample under the radial Gaussian window."""
     native = _native(source, period, finer(source, period, LARGEST))
-    channels, height, width = native.shape
-    window = radial_window(height, width)
-    weight = np.float32(max(float(window.sum(dtype=np.float64)), 1e-9))
-    own = (native - (native * window).sum((1, 2), keepdims=True) / weight) * window
-    energy = float(np.square(own, dtype=np.float64).sum()) / (channels * height * width)
+    own = _windowed(native)
+    energy = float(np.square(own, dtype=np.float64).sum()) / native.size
     own *= np.float32(energy**-0.5 if energy > 1e-10 else 0.0)
-    top, form = _top(own)
+    return Response(_mean(native), Impulse.of(own))
+
+
+@lru_cache(maxsize=8)
+def finest(source: ImageSource, period: int) -> tuple[Impulse, Continuation]:
+    """The finest octaves of the impulse response, at the native level, and how they continue it.  Only who zooms in
+    needs them."""
+    top, form = _top(response(source, period).own.phases[0, 0])
     held = float(np.square(top, dtype=np.float64).sum())
-    top = (top - (top * window).sum((1, 2), keepdims=True) / weight) * window
+    top = _windowed(top)
     left = float(np.square(top, dtype=np.float64).sum())
     top *= np.float32((held / left) ** 0.5 if left > 0.0 else 0.0)
-    return Response(_mean(native), Impulse.of(own), Impulse.of(top), form)
+    return Impulse.of(top), form
+
+
+def _windowed(planes: np.ndarray) -> np.ndarray:
+    """`planes` (c, h, w) under the window, their means under it taken off."""
+    window = radial_window(*planes.shape[1:])
+    weight = np.float32(max(float(window.sum(dtype=np.float64)), 1e-9))
+    return (planes - (planes * window).sum((1, 2), keepdims=True) / weight) * window
 
 
 @lru_cache(maxsize=32)

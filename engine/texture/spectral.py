@@ -194,7 +194,7 @@ class Sparse(_Spectral):
 
     @property
     def form(self) -> Continuation:
-        return sample.response(self.source, self.period).form
+        return sample.finest(self.source, self.period)[1]
 
     @property
     def noise(self) -> sparse.Noise:
@@ -208,7 +208,7 @@ class Sparse(_Spectral):
         return self._field(self.impulse(level), 0, rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
-        return self._field(sample.response(self.source, self.period).top, depth, rect)
+        return self._field(sample.finest(self.source, self.period)[0], depth, rect)
 
     def _field(self, impulse: sparse.Impulse, octave: int, rect: Rect) -> np.ndarray:
         out = sparse.field(impulse, self._noise(octave), rect)
