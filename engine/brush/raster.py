@@ -57,7 +57,7 @@ class Scene:
     pressure: Coverage | None = None
     start: tuple[int, int] = (0, 0)
     seed: int = 0
-    memo: dict[str, Predictor] = field(default_factory=dict)
+    memo: dict[str, Predictor | None] = field(default_factory=dict)
 
 
 def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink:
@@ -242,16 +242,18 @@ class Raster(Covered):
         return self._lay(paint, (), old, weight)
 
     def _predict(self, key: TileKey, old: Planes, weight: np.ndarray, free: np.ndarray) -> Stamp | None:
-        return self._lay(self._foretold.over(key.rect), (), old, weight)
+        return None if self._foretold is None else self._lay(self._foretold.over(key.rect), (), old, weight)
 
     @cached_property
-    def _foretold(self) -> Foretold:
+    def _foretold(self) -> Foretold | None:
+        """None where nothing is painted that could be continued."""
         assert self.read is not None
         memo = self.scene.memo
         if "predictor" not in memo:
             window, reach = (round(self.op.parameters[name]) for name in ("window", "reach"))
             memo["predictor"] = predictor(self.read, self.scene.start, window, reach)
-        return foretell(self.coverage, self.read, memo["predictor"], self.scene.seed)
+        found = memo["predictor"]
+        return None if found is None else foretell(self.coverage, self.read, found, self.scene.seed)
 
     def _erase(self, key: TileKey, old: Planes, weight: np.ndarray, free: np.ndarray) -> Stamp | None:
         keep = np.empty_like(_ONES)

@@ -42,7 +42,7 @@ class Scenery:
         self._mask = StrokeMask(level, origin)
         self._seed, self._start = seed, (0, 0)
         self._predicts = op.row is not None and op.row.name == "predict"
-        self._memo: dict[str, Predictor] = {}
+        self._memo: dict[str, Predictor | None] = {}
         self._begun = False
 
     def lay(self, points: np.ndarray, rect: Rect) -> Rect:

@@ -284,6 +284,45 @@ def test_predict_continues_the_texture_of_where_the_stroke_begins():
     assert (made.stamp(KEY, old).keep[60, 60] == 0).all()
 
 
+def continued(planes, start):
+    """What lies at the tile after a dab of `predict` in its middle, and the hole that the dab covers."""
+    brush = from_json({"mode": "raster", "op": "predict", "radius": 30, "hardness": 1})
+    mask = StrokeMask(0, (0, 0))
+    mask.paint(np.array([[60.0, 60, 45, 1, 1, 1]]))
+    read = reader(planes)
+    old = old_of(planes)
+    made = kinds.edit(brush, mask, mixture(brush, {}, 0, 7), False, read, scene=Scene(read, start=start))
+    return after(made, old), (slice(None), slice(40, 80), slice(30, 90))
+
+
+def test_predict_leaves_the_gaps_that_the_texture_has():
+    """Fur and moss are bristles with bare paper between them: that is no black."""
+    y, x = np.mgrid[0:WIDE, 0:WIDE]
+    alpha = np.clip(0.5 + np.sin(2 * np.pi * (x + y) / 12), 0, 1)
+    planes = Planes(snapped(np.stack([alpha * 0.8, alpha * 0.5, alpha * 0.2, alpha])))
+    got, hole = continued(planes, (-40, -40))
+    found, want = got[hole], old_of(planes).data[hole]
+    assert np.corrcoef(found[3].ravel(), want[3].ravel())[0, 1] > 0.9
+    assert abs(found[3].mean() - want[3].mean()) < 0.05
+    covered = found[3] > 0.5
+    straight = found[:3, covered] / found[3, covered]
+    np.testing.assert_allclose(straight, np.array([[0.8], [0.5], [0.2]]) * np.ones_like(straight), atol=0.05)
+
+
+def test_predict_does_not_take_bare_paper_beyond_the_rim_for_paint():
+    planes = around(opaque=True)
+    planes.data[:, :, : TILE - 4] = 0  # the stroke begins close to where the paint ends
+    got, hole = continued(planes, (0, 60))
+    assert (got[hole][3] == 1).all()
+
+
+def test_predict_continues_nothing_where_nothing_is():
+    planes = around(opaque=True)
+    planes.data[:, :TILE, :TILE] = 0
+    got, _ = continued(planes, (-64, -64))
+    assert (got == old_of(planes).data).all()
+
+
 def test_erase_takes_by_the_texture():
     planes = around(opaque=True)
     old = old_of(planes)
