@@ -83,6 +83,7 @@ class Desk:
     found: Found | None = None  # by the analysis
     match: MatchState = field(default_factory=MatchState)
     examples: ExampleState = field(default_factory=ExampleState)
+    preparing: float | None = None  # since when the engine gets ready for painting with examples, if it does
     growing: Growing | None = None  # what is painted with examples and not yet as it will stay
     grows: float = 0.0  # since when
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant

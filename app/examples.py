@@ -147,6 +147,7 @@ class ExampleState:
     radius: float = 36.0  # of the brush when it begins to paint with examples, pixels of the screen
     eraser: int | None = None
     swapping: bool = False
+    prepared: bool = False  # whether the engine was asked to get ready
     drafts: dict[str, Map[str, Any]] = field(default_factory=dict)
     used: dict[str, Map[str, Any]] = field(default_factory=dict)
     masks: dict[str, Mask] = field(default_factory=dict)

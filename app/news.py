@@ -62,6 +62,7 @@ class News:
             results.Pending: self._pending,
             results.Writing: self._writing,
             results.Growing: self._growing,
+            results.GotReady: self._got_ready,
         }
 
     def take(self, now: float) -> bool:
@@ -92,6 +93,7 @@ class News:
             wanted += [t for t in cells(view, level - COARSER) if t not in wanted]
             wanted += _ring(seen)
             self.worker.post(q.Look(tuple((*t, self.screen.revision(t)) for t in wanted)))
+        sowing.prepare(self.desk, now)
         self._ask_swatches(now)
         self._ask_lab(now)
         if self.desk.strip == "match" and self.desk.panels:
@@ -103,7 +105,8 @@ class News:
         brush = self.desk.examples.at_home(replace(self.desk.brush, colour=to_hex(self.desk.colour)))
         if brush != self._ink:
             self._ink, self._ink_since = brush, self._ink_since or max(now, self._ink_sent + SETTLE)
-        if self._ink_since and now >= self._ink_since and self.worker:
+        early = brush.mode == "example" and self.desk.preparing is not None
+        if self._ink_since and now >= self._ink_since and self.worker and not early:
             self._ink_since, self._ink_sent = 0.0, now
             scale = self.desk.scale
             lacking = palette.lacking(self.desk)
@@ -131,7 +134,8 @@ class News:
             self.shelf.ask(state.entries, round(LARGE * desk.scale))
         if desk.strip != "examples" or not desk.panels:
             return
-        state.ask(desk.post, now)
+        if desk.preparing is None:  # or the engine would wait for it, and strokes for the engine
+            state.ask(desk.post, now)
         state.ask_thumbnails(desk.post, round(LARGE * desk.scale))
         mask = state.mask
         if mask is not None and mask.dirty is not None:
@@ -214,6 +218,10 @@ class News:
             zoom += float(np.log2(min((x1 - x0) / r.size[0], (y1 - y0) / r.size[1])))
         place = Place(x, y, int(r.level // 1) + SUBPIXEL)
         self.desk.look_at(place, zoom, r.seconds)
+
+    def _got_ready(self, _r: results.GotReady, _now: float) -> None:
+        self.desk.preparing = None
+        trace("examples ready")
 
     def _growing(self, r: results.Growing, now: float) -> None:
         desk = self.desk

@@ -13,7 +13,7 @@ from app.desk import Desk
 from app.examples import Entry
 from engine.brush.record import Brush
 from engine.painting.commands import Swap
-from engine.painting.requests import Do
+from engine.painting.requests import Do, GetReady
 
 NEAR = 1  # levels: an example that is chosen so near to where the last one was has the same pixels
 
@@ -35,6 +35,16 @@ def gather(desk: Desk) -> None:
     state.entries = tuple(examples.arranged([*(entry for entry in state.entries if entry.here is None), *here]))
     if state.group not in (examples.ALL, *state.groups()):
         state.group = examples.ALL
+
+
+def prepare(desk: Desk, now: float) -> None:
+    """Has the engine get ready for examples, once, when the palette is open or something is painted with one."""
+    state = desk.examples
+    given = () if desk.scene is None else desk.scene.texture_kinds
+    used = desk.brush.mode == "example" or desk.strip == "examples" or any(kind == examples.KIND for _, kind in given)
+    if used and not state.prepared:
+        state.prepared, desk.preparing = True, now
+        desk.post(GetReady())
 
 
 def choose(desk: Desk, entry: Entry) -> None:

@@ -133,7 +133,9 @@ class ExamplesPanel:
         tall = room.y - 2 * line
         state.sampled = max(1, round(room.x)), max(1, round(tall))
         shown = desk.pictures.get("example sample") if entry else None
-        w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on an example to try it")
+        corner = w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on one to try it")
+        if shown is None and entry is not None and desk.preparing is not None:
+            _in_middle("Getting ready…", corner, (room.x, tall))
         wide = (room.x - gap.x) / 2
         imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
         painting = entry is not None and desk.brush.mode == "example" and not desk.erasing and desk.tool == "brush"
@@ -180,6 +182,13 @@ def _fitting(name: str, wide: float) -> str:
     while len(name) > 1 and imgui.calc_text_size(name).x > wide:
         name = name.removesuffix("…")[:-1].rstrip() + "…"
     return name
+
+
+def _in_middle(text: str, corner: ImVec2, size: tuple[float, float]) -> None:
+    """A word where a picture is to come."""
+    half = imgui.calc_text_size(text) / 2
+    at = ImVec2(corner.x + size[0] / 2 - half.x, corner.y + size[1] / 2 - half.y)
+    imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), text)
 
 
 def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:

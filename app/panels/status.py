@@ -13,6 +13,8 @@ from app.panels import widgets as w
 from app.tools import TOOLS
 from app.view import zoom_text
 
+PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
+
 
 def draw(desk: Desk, pointer_name: str) -> None:
     """Fills the present window, one line high."""
@@ -45,6 +47,8 @@ def _work(desk: Desk) -> str:
         word = "Saving" if desk.writing.saving else "Writing"
         grown = f", growing {desk.writing.grown * 100:.0f} %" if desk.writing.grown < 1.0 else ""
         return f"{icons.DISK} {word}{grown}"
+    if desk.preparing is not None and time.monotonic() - desk.preparing > PATIENCE:
+        return f"{icons.WAIT} examples: getting ready"
     if desk.growing is not None:
         return f"growing {desk.growing.done * 100:.0f} %"
     return f"{desk.pending} tiles to do" if desk.pending else ""
@@ -54,7 +58,7 @@ def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
     """(text, hint, least width in ems), left to right."""
     view = desk.view
     out = [
-        (_work(desk), "Detail that is still being computed, or a file being written", 6.0),
+        (_work(desk), "What is still being computed, or written; you can go on painting", 6.0),
         (pointer_name, "The device that last moved the pointer", 0.0),
     ]
     if view.angle or view.mirrored:

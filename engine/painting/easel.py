@@ -30,6 +30,7 @@ from engine.painting.points import rounded
 from engine.painting.ready import ready
 from engine.painting.session import Session
 from engine.painting.viewer import Viewer
+from engine.painting.warming import Warming
 
 
 class Easel:
@@ -50,7 +51,7 @@ class Easel:
             q.Abandon: lambda r: self._abandon(),
             q.Swatch: self._swatch,
         }
-        for part in (self.viewer, self.filing, self.lab, self.examiner, self.matcher):
+        for part in (self.viewer, self.filing, self.lab, self.examiner, self.matcher, Warming(send)):
             self._handlers |= part.handlers
         send(ready())
         self.tell()

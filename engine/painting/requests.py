@@ -204,6 +204,11 @@ class MatchUse:
     arguments: Map[str, Any]
 
 
+@dataclass(frozen=True, slots=True)
+class GetReady:
+    """Examples are going to be painted with: what that needs is loaded, or compiled, meanwhile."""
+
+
 LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
 Request = (
     New
@@ -222,4 +227,5 @@ Request = (
     | Analyse
     | MatchSet
     | MatchUse
+    | GetReady
 )

@@ -196,6 +196,11 @@ class Writing:
 
 
 @dataclass(frozen=True, slots=True)
+class GotReady:
+    """What was asked for by GetReady is done."""
+
+
+@dataclass(frozen=True, slots=True)
 class Growing:
     """How far what is painted with examples has grown: the part done, 0..1, and where it has not, as (level,
     rectangle); nowhere, and all of it is as it will stay."""
@@ -219,6 +224,7 @@ Result = (
     | LabScene
     | Found
     | MatchScene
+    | GotReady
     | Growing
 )
 

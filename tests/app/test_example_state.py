@@ -21,7 +21,7 @@ from engine.brush.record import Brush
 from engine.numeric.address import Rect
 from engine.painting.commands import Swap, parse, to_json
 from engine.painting.definitions import defined_by
-from engine.painting.requests import Do, Swatch
+from engine.painting.requests import Do, GetReady, Swatch
 from engine.painting.results import Growing, Scene, Writing
 from engine.texture.example.parameters import Parameters
 
@@ -460,6 +460,18 @@ def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Saving, growing 40 %"
     desk.writing = Writing(1)
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Writing"
+
+
+def test_the_engine_gets_ready_when_examples_are_used_once(desk, posted):
+    desk.strip = ""
+    sowing.prepare(desk, 1.0)
+    assert not posted
+    desk.strip = "examples"
+    for now in (2.0, 3.0):
+        sowing.prepare(desk, now)
+    assert posted == [GetReady()]
+    assert desk.preparing == 2.0
+    assert "getting ready" in status._fields(desk, "")[0][0]
 
 
 # --- of the painting -------------------------------------------------------------------------------------------------
