@@ -12,6 +12,9 @@ import pytest
 from app import presets
 from app.panels import textures
 from engine.brush.record import Brush
+from engine.brush.relief import resolve
+from engine.numeric.address import TileKey
+from engine.painting.painting import apply
 from engine.painting.requests import Swatch
 from engine.painting.swatches import painted
 from engine.painting.value import Painting
@@ -37,6 +40,20 @@ def test_light_touches_meet_the_peaks_and_firm_ones_all(paper):
     assert float((seen > 0.15).mean()) > 0.05, paper.name
     firm = painted(Swatch("", brush, size, "fill", textures=paper.textures), Painting())
     assert float(firm[3].min()) > 0.99
+
+
+@pytest.mark.parametrize("level", [-2, 0, 3])
+@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
+def test_papers_lie_still_and_repeat_by_their_size_at_every_level(paper, level):
+    """A virtual surface is indexed by the place, modulo its size (Lewis 1984, section 6.1)."""
+    painting = Painting()
+    for definition in paper.textures:
+        painting = apply(painting, definition)
+    surface = resolve(Brush(grain=paper.grain), painting.textures, level, (7, 7)).grain
+    tiles = int(paper.grain.parameters["period"]) << (level + 2)  # across 512 of its periods
+    here, far = (surface.plane(TileKey(level, 1 + n * tiles, -2 - n * tiles)) for n in (0, 10**30))
+    assert np.array_equal(here, far)
+    assert here.std() > 0.01
 
 
 def test_one_name_is_one_texture_wherever_it_comes_from():
