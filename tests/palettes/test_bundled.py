@@ -77,6 +77,11 @@ def test_every_preset_brings_all_it_needs_and_draws_itself():
         assert len(used(preset.brush, preset.textures)) == len(preset.textures), preset.name
 
 
+def test_there_are_brushes_of_spectral_textures():
+    makers = [{command.maker for command in p.textures} for p in palette.load(PALETTES / "brushes")[0]]
+    assert sum(bool(found) and found <= {"spectrum", "sparse", "impulse"} for found in makers) >= 16
+
+
 @pytest.mark.parametrize("name", ["Thaw", "Stony grass"])
 def test_the_pen_chooses_between_two_matched_textures(name):
     """A light touch paints the first example, a hard one the second: their colours, and how rough they are."""
