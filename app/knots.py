@@ -70,6 +70,12 @@ def drawn(knots: Knots, start: tuple[float, float], end: tuple[float, float]) ->
     return tuple(out)
 
 
+def at_edge(point: tuple[float, float], reach: float) -> tuple[float, float]:
+    """A point of the pen, moved to an edge if it is that near: no piece of the old curve is left there."""
+    x, y = point
+    return 0.0 if x < reach else 1.0 if x > 1.0 - reach else x, y
+
+
 def thinned(knots: Knots, tolerance: float) -> Knots:
     """As few of the knots as keep the curve within `tolerance` of what it was (Ramer 1972, Douglas & Peucker 1973,
     with the distance taken along the output)."""

@@ -108,10 +108,12 @@ class CurveEditor:
     def _drawn(self, shape: Knots, at: tuple[float, float]) -> Knots | None:
         """The curve with the pen's newest piece in it; None when the pen does nothing."""
         if imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left):
-            before, self._pen = self._pen or at, at
+            before, self._pen = self._pen or knots.at_edge(at, REACH), at
             return knots.drawn(shape, before, at)
         was, self._pen = self._pen, None
-        return knots.thinned(shape, FINE) if was is not None else None
+        if was is None:
+            return None
+        return knots.thinned(knots.drawn(shape, was, knots.at_edge(was, REACH)), FINE)
 
     def _knotted(self, curve: Curve, shape: Knots, at: tuple[float, float]) -> Knots | None:
         """The curve with a knot added, moved or taken away; None when nothing is done to it."""

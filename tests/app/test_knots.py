@@ -1,5 +1,7 @@
 """Curves edited by hand: whatever is done to them, they stay curves that a brush accepts."""
 
+from itertools import pairwise
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -62,6 +64,20 @@ def test_a_curve_drawn_by_hand_follows_the_pen_whichever_way_it_goes():
     assert len(there) == knots.CAP
     assert abs(knots.at(there, 0.4) - 0.6) < 0.01
     assert abs(knots.at(there, 0.9) - 0.9) < 0.001  # untouched
+
+
+def test_a_curve_drawn_by_hand_begins_and_ends_at_the_edges_though_the_pen_does_nearly():
+    drawn, points = knots.STRAIGHT, [(0.02, 0.9), (0.4, 0.2), (0.97, 0.3)]
+    assert knots.at_edge(points[1], 0.05) == points[1]
+    pairs = [
+        (knots.at_edge(points[0], 0.05), points[0]),
+        *pairwise(points),
+        (points[2], knots.at_edge(points[2], 0.05)),
+    ]
+    for start, end in pairs:
+        drawn = knots.drawn(drawn, start, end)
+    assert (drawn[0][1], drawn[-1][1]) == (0.9, 0.3)
+    assert max(abs(a[1] - b[1]) for a, b in pairwise(drawn)) < 0.05
 
 
 def test_thinning_keeps_the_shape():
