@@ -50,6 +50,7 @@ class Desk:
     preset: str = ""
     needs: tuple[DefineTexture, ...] = ()  # textures that the brush came with
     provided: set[Any] = field(default_factory=set)  # those that were posted, with the painting that they are for
+    paper_stays: bool = False  # the brushes that are taken next are used on the paper of this one
     erasing: bool = False
     colour: RGB = (0.11, 0.16, 0.24)
     other_colour: RGB = (1.0, 1.0, 1.0)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.desk import Desk
+from app.lab import lightened
 from app.presets import Preset
+from engine.brush.record import Brush
 from engine.painting.commands import DefineTexture
 from engine.painting.definitions import fitted, portable, refers, used
 from engine.painting.requests import Do
@@ -12,8 +16,21 @@ from engine.painting.requests import Do
 def take(desk: Desk, preset: Preset) -> None:
     """Paints with a preset from now on; the painting gets those of its textures that it lacks with the first stroke: a
     brush that is only looked at leaves nothing behind."""
-    desk.brush, desk.preset, desk.needs = preset.brush, preset.name, preset.textures
+    brush, needs = _on_paper(desk, preset) if desk.paper_stays else (preset.brush, preset.textures)
+    desk.brush, desk.preset, desk.needs = brush, preset.name, needs
     _fit(desk)
+
+
+def _on_paper(desk: Desk, preset: Preset) -> tuple[Brush, tuple[DefineTexture, ...]]:
+    """The preset's brush on the paper of the present one, and what it needs."""
+    brush, grain = preset.brush, desk.brush.grain
+    along = used(Brush(grain=grain), desk.needs)
+    others = {command.name: command for command in preset.textures}
+    if grain is None or any(others.get(command.name, command) != command for command in along):
+        return brush, preset.textures
+    laid = replace(brush, grain=grain)
+    laid = laid if brush.grain is not None else lightened(laid, desk.pointer.pen)
+    return laid, (*preset.textures, *(command for command in along if command.name not in others))
 
 
 def lacking(desk: Desk) -> tuple[DefineTexture, ...]:

@@ -48,6 +48,7 @@ class Texturing:
             held = getattr(desk.brush, name)
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
+                desk.paper_stays = desk.paper_stays and name != "grain"
                 held, self._fresh = (self._start(desk, name), name) if on else (None, "")
                 if on and name == "grain":
                     desk.brush = lightened(desk.brush, desk.pointer.pen)
@@ -91,6 +92,8 @@ class Texturing:
 
     def _grain(self, desk: Desk, part: Surface) -> Surface:
         part = samples.surface(desk, part, "Papers, and any other texture")
+        _, desk.paper_stays = imgui.checkbox("For every brush", desk.paper_stays)
+        w.tooltip("The paper stays when you take another brush")
         part = _amount(part, "How deep the grain is: light touches reach its peaks alone")
         hint = "The level in whose pixels the grain is measured; higher is finer. It stays on the canvas as you zoom"
         changed, level = w.slider("Scale", float(part.level), SCALES, hint, form="level %.0f")

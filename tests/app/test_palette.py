@@ -1,6 +1,7 @@
 """Presets that bring textures along: read with care, defined once, under a free name where theirs is taken."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -51,6 +52,7 @@ class Desk(SimpleNamespace):
 
     def __init__(self):
         super().__init__(brush=record.Brush(), preset="", needs=(), provided=set(), scene=None, kinds=())
+        self.paper_stays, self.pointer = False, SimpleNamespace(pen=False)
         self.sent = []
         self.easel = Easel(self._take)
 
@@ -90,6 +92,37 @@ def test_only_what_the_brush_refers_to_comes_along(tmp_path):
     palette.take(desk, preset(tmp_path, FUR, PAPER, {"name": "moss", "maker": "rock"}))
     desk.paint()
     assert desk.scene.textures == ("fur", "paper")
+
+
+def test_a_paper_that_stays_is_felt_by_the_next_brush(tmp_path):
+    """A virtual surface is the canvas's: every brush feels it (Lewis 1984, section 6.1)."""
+    desk, fur = Desk(), preset(tmp_path, FUR, PAPER)
+    smooth, rough = Preset("Smooth", record.Brush(opacity=1.0)), presets.load_papers(presets.papers_folder())[0][0]
+    grained = Preset("Grained", record.Brush(grain=rough.grain), textures=rough.textures)
+    palette.take(desk, fur)
+    palette.take(desk, smooth)
+    assert desk.brush == smooth.brush
+    palette.take(desk, fur)
+    desk.paper_stays = True
+    palette.take(desk, smooth)
+    assert desk.brush.grain == fur.brush.grain
+    assert desk.brush.opacity < 1.0  # full coverage would fill the paper's hollows
+    palette.take(desk, grained)
+    assert desk.brush == replace(grained.brush, grain=fur.brush.grain)
+    desk.paint()
+    assert desk.scene.textures == ("paper",)
+    desk.paper_stays = False
+    palette.take(desk, grained)
+    assert desk.brush == grained.brush
+
+
+def test_a_paper_makes_way_for_another_texture_of_its_name_that_the_next_brush_brings(tmp_path):
+    desk, brush = Desk(), record.Brush(density=record.from_json(BRUSH).grain)
+    other = read([{**PAPER, "period": 20}], "textures", tmp_path)
+    palette.take(desk, preset(tmp_path, FUR, PAPER))
+    desk.paper_stays = True
+    palette.take(desk, Preset("Other", brush, textures=other))
+    assert desk.brush == brush
 
 
 def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
