@@ -9,7 +9,7 @@ _KERNEL = (1.0, 3.0, 3.0, 1.0)  # binomial, centred on the four pixels that beco
 
 def halved_region(mask: np.ndarray) -> np.ndarray:
     """A pixel belongs to the region if any of its four finer ones does: bool (h, w) -> ((h + 1) // 2, (w + 1) // 2)."""
-    even = np.pad(mask, [(0, n & 1) for n in mask.shape])
+    even = np.pad(mask, [(0, n & 1) for n in mask.shape]) if any(n & 1 for n in mask.shape) else mask
     return even[::2, ::2] | even[1::2, ::2] | even[::2, 1::2] | even[1::2, 1::2]
 
 

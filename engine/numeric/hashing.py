@@ -59,8 +59,7 @@ def fold_key(*numbers: int) -> int:
 def hash_plane(key: int, x0: int, y0: int, width: int, height: int) -> np.ndarray:
     """uint64 (height, width): `place64` over a rectangle at any unbounded origin, high bits folded into `key`."""
     out = np.empty((height, width), np.uint64)
-    rows = [(y0 + j) for j in range(height)]
-    for hy in sorted({y >> 32 for y in rows}):
+    for hy in range(y0 >> 32, ((y0 + height - 1) >> 32) + 1):
         j0, j1 = _run(y0, hy, height)
         for hx in range(x0 >> 32, ((x0 + width - 1) >> 32) + 1):
             i0, i1 = _run(x0, hx, width)

@@ -114,6 +114,7 @@ def weights(side: int = SIDE, spread: float = 2.0) -> np.ndarray:
     return flat
 
 
+@lru_cache(maxsize=8)
 def square_bits(side: int) -> np.uint64:
     """The bits of the inner `side` x `side` pixels (3, 5 or 7)."""
     near = range(RADIUS - side // 2, RADIUS + side // 2 + 1)

@@ -3,130 +3,26 @@ Ritter et al. 2006, section 5, in which the shape of the region takes part.
 
 Each pass corrects the pixels of a level in four sub-passes, one for each parity of row and column.  A pixel reads what
 its neighbourhood was before its own sub-pass, so nothing depends on the order within one, nor on threads or tiles.
-Energies are whole numbers.  All arrays are windows with MARGIN pixels around what may be corrected.
+Energies are whole numbers.
 """
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from engine.numeric.hashing import mix64
-from engine.numeric.neighbourhood import RADIUS, SIDE, ones, region_bits, row_apart, row_apart_within
+from engine.numeric.neighbourhood import RADIUS, SIDE, ones, row_apart, row_apart_within
 from engine.numeric.neighbourhood import ROW as WEIGHTS_ROW
+from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, first_of, mark_readers
 
-MARGIN = RADIUS + 1  # even
-SUBPASSES = 4
 REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
-OUTSIDE = -1  # instead of a source, where there is no region
 
 _FAR = np.int32(2**31 - 1)
 _RIM_CANDIDATES = 8
 _SHAPES = 64  # of which the nearest are searched
 _COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours inside, and pixels of the shape
-_ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
-_DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-
-
-class Example(NamedTuple):
-    """A level of the exemplar, as kernels take it; `compared` flat."""
-
-    compared: np.ndarray
-    region: np.ndarray
-    bits: np.ndarray
-    order: np.ndarray
-    starts: np.ndarray
-
-
-class Rules(NamedTuple):
-    """`penalty`: energy of a pixel of another shape; `leeway`: so many of those are free; `square`: bits of the
-    neighbourhood; `kappa`: 256 (1 + kappa); `stride`: of the search through all candidates, 0 for none; `rims`: whether
-    the region's shape counts."""
-
-    weights: np.ndarray
-    square: np.uint64
-    penalty: int
-    leeway: int
-    kappa: int
-    stride: int
-    rims: bool
-
-
-class Window(NamedTuple):
-    """`mask`, `was`: uint8 (h, w), the region now and before; `bits`: uint64 (h, w), its shapes; `now`: int32 (h, w),
-    the sources at this moment; `shown`, `care`: int16 (h * w * 4), their values, and -1 inside the region; `planes`:
-    int32 (passes + 1, h, w), the sources after each pass, from the start (0) on, as they were until they are corrected;
-    `need`: uint8 (passes + 1, h, w), what is to be corrected in each; `hashes`: uint64 (h, w), by place; `y`, `x`:
-    parity of the first row and column; `fresh`: nothing of it was there before."""
-
-    mask: np.ndarray
-    was: np.ndarray
-    bits: np.ndarray
-    now: np.ndarray
-    shown: np.ndarray
-    care: np.ndarray
-    planes: np.ndarray
-    need: np.ndarray
-    hashes: np.ndarray
-    y: int
-    x: int
-    fresh: bool
-
-
-def window_of(
-    mask: np.ndarray, was: np.ndarray, planes: np.ndarray, hashes: np.ndarray, parity: tuple[int, int]
-) -> Window:
-    """A window whose shapes, and what they ask for, are known; one of the `start` functions has to follow."""
-    size = mask.shape
-    bits, need = np.zeros(size, np.uint64), np.zeros(planes.shape, np.uint8)
-    shown, care = np.zeros(4 * mask.size, np.int16), np.zeros(4 * mask.size, np.int16)
-    region_bits(mask, bits)
-    fresh = not was.any()
-    _mark_shapes(mask, was, need, fresh)
-    now = np.full(size, OUTSIDE, np.int32)
-    return Window(mask, was, bits, now, shown, care, planes, need, hashes, *parity, fresh)
-
-
-@njit(inline="always")
-def _turn(y, x):
-    """Which of the four sub-passes corrects a pixel: (0, 0), (1, 1), (0, 1), (1, 0), by row and column."""
-    return (y & 1) * 3 if (x & 1) == 0 else 2 - (y & 1)
-
-
-@njit(cache=True, nogil=True)
-def _mark_shapes(mask, was, need, fresh):
-    """Asks for all pixels in whose neighbourhood the region changed, in every pass."""
-    height, width = mask.shape
-    if fresh:
-        need[:] = 1
-        return
-    altered = np.zeros((height, width), np.uint8)
-    for y in range(height):
-        for x in range(width):
-            altered[y, x] = mask[y, x] ^ was[y, x]
-    around = np.zeros((height, width), np.uint64)
-    region_bits(altered, around)
-    for y in range(height):
-        for x in range(width):
-            if around[y, x]:
-                for p in range(need.shape[0]):
-                    need[p, y, x] = 1
-
-
-@njit(cache=True, nogil=True)
-def _mark_readers(window, y, x, p, turn):
-    """Asks for the pixels that read the source of one as it is after pass `p` (0: at the start)."""
-    height, width = window.mask.shape
-    for row in range(max(0, y - RADIUS), min(height, y + RADIUS + 1)):
-        for column in range(max(0, x - RADIUS), min(width, x + RADIUS + 1)):
-            later = _turn(row + window.y, column + window.x) > turn
-            if later and p > 0:
-                window.need[p, row, column] = 1
-            elif not later and p + 1 < window.need.shape[0]:
-                window.need[p + 1, row, column] = 1
 
 
 @njit(inline="always")
@@ -144,101 +40,6 @@ def _show(window, compared, stride, y, x, source):
 
 
 @njit(cache=True, nogil=True)
-def _begin(window, before, example):
-    """The starts in planes[0], `before` (int32 (h, w)) having been those until now, go into the window."""
-    height, width = window.mask.shape
-    for y in range(height):
-        mask, start, now = window.mask[y], window.planes[0, y], window.now[y]
-        care, shown = window.care[4 * y * width :], window.shown[4 * y * width :]
-        for x in range(width):
-            if mask[x] == 0:
-                for p in range(window.planes.shape[0]):
-                    window.planes[p, y, x] = OUTSIDE
-                continue
-            now[x] = start[x]
-            j = 4 * ((start[x] >> 16) * example.region.shape[1] + (start[x] & 0xFFFF))
-            for c in range(4):
-                care[4 * x + c] = -1
-                shown[4 * x + c] = example.compared[j + c]
-    if window.fresh:
-        return
-    for y in range(height):
-        for x in range(width):
-            if window.was[y, x] and window.mask[y, x] and window.planes[0, y, x] != before[y, x]:
-                _mark_readers(window, y, x, 0, _turn(y + window.y, x + window.x))
-
-
-@njit(inline="always")
-def _child(parent, y, x, region):
-    """The pixel below a coarser source for an even or odd row and column, or the nearest of its four in the region."""
-    row, column = 2 * (parent >> 16) - RADIUS - 1, 2 * (parent & 0xFFFF) - RADIUS - 1
-    for k in range(4):
-        r, c = row + (y ^ (k >> 1)), column + (x ^ (k & 1))
-        if region[r, c]:
-            return np.int32(r << 16 | c)
-    return np.int32(OUTSIDE)
-
-
-@njit(cache=True, nogil=True)
-def _children(mask, parents, odd_y, odd_x, region, out):
-    """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
-    for y in range(mask.shape[0]):
-        inside, row, above = mask[y], out[y], parents[(y + odd_y) >> 1]
-        for x in range(row.size):
-            row[x] = OUTSIDE
-            if inside[x] and above[(x + odd_x) >> 1] >= 0:
-                row[x] = _child(above[(x + odd_x) >> 1], (y + odd_y) & 1, (x + odd_x) & 1, region)
-
-
-@njit(cache=True, nogil=True)
-def start_finer(window, parents, before, example):
-    """Starts from the sources one level coarser: int32 arrays of the pixels above the window's, now and before."""
-    _children(window.mask, parents, window.y, window.x, example.region, window.planes[0])
-    old = np.empty_like(window.planes[0])
-    if not window.fresh:
-        _children(window.was, before, window.y, window.x, example.region, old)
-    _begin(window, old, example)
-
-
-@njit(cache=True, nogil=True)
-def start_coarsest(window, patches, corners, block, offset, example, rules):
-    """Starts from patches of the example, or from pixels whose neighbourhoods have the shape.
-
-    `patches`: uint64 hashes of the patches that meet the window, `offset`: (row, column) of its first pixel in the
-    first of them; `corners`: names of the pixels where patches may begin.
-    """
-    height, width = window.mask.shape
-    old = window.planes[0].copy()
-    for y in range(height):
-        for x in range(width):
-            if window.mask[y, x] and (window.need[0, y, x] or old[y, x] < 0):
-                row, column = y + offset[0], x + offset[1]
-                drawn = patches[row // block, column // block] % np.uint64(corners.size)
-                start = corners[drawn] + np.int32((row % block) << 16 | (column % block))
-                window.planes[0, y, x] = _shaped(window.bits[y, x], start, window.hashes[y, x], example, rules)
-    _begin(window, old, example)
-
-
-@njit(cache=True, nogil=True)
-def _shaped(bits, start, h, example, rules):
-    """`start`, if the shape around it is alike; else the pixel that the hash draws of those with about such a shape, or
-    with the nearest if there are none."""
-    if not rules.rims:
-        return start
-    if ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
-        return start
-    least, drawn = np.int32(50), np.uint64(0)
-    for i in range(example.order.size):
-        name = example.order[i]
-        apart = max(_DRAWN, ones(bits ^ example.bits[name >> 16, name & 0xFFFF]))
-        if apart <= least:
-            chance = mix64(h + np.uint64(i) * _GOLDEN)
-            if apart < least or chance > drawn:
-                least, drawn, start = apart, chance, name
-    return start
-
-
-@njit(cache=True, nogil=True)
 def wanted(window, p, turn, beyond, places):
     """Lists the pixels to correct in a sub-pass, as row * width + column; gives their number.
 
@@ -247,15 +48,10 @@ def wanted(window, p, turn, beyond, places):
     height, width = window.mask.shape
     count = 0
     margin = max(MARGIN, beyond - RADIUS * (SUBPASSES - 1 - turn))
-    for y in range(margin, height - margin):
+    first = first_of(window, turn)
+    for y in range(margin + (margin + first[0] & 1), height - margin, 2):
         asked, mask = window.need[p, y], window.mask[y]
-        odd = -1
-        for x in range(2):
-            if _turn(y + window.y, x + window.x) == turn:
-                odd = x
-        if odd < 0:
-            continue
-        for x in range(margin + (margin + odd & 1), width - margin, 2):
+        for x in range(margin + (margin + first[1] & 1), width - margin, 2):
             if asked[x] and mask[x]:
                 places[count] = y * width + x
                 count += 1
@@ -288,8 +84,7 @@ def _energy(window, y, x, example, name, rules, bits, rim, least):
     if e >= least:
         return e
     i = 4 * ((y - RADIUS) * window.mask.shape[1] + x - RADIUS)
-    j = 4 * ((row - RADIUS) * example.region.shape[1] + column - RADIUS)
-    return _colours_apart(window, i, example, j, rules.weights, rim, e, least)
+    return _colours_apart(window, i, example, _corner(example, name), rules.weights, rim, e, least)
 
 
 @njit(cache=True, nogil=True)
@@ -333,7 +128,7 @@ def _continued(window, y, x, example, coarsest, names):
         if source < 0:
             continue
         name = np.int32(source - (dy << 16) - dx)
-        if example.region[name >> 16, name & 0xFFFF] == 0 or _holds(names, count, name):
+        if _holds(names, count, name) or example.region[name >> 16, name & 0xFFFF] == 0:
             continue
         names[count] = name
         count += 1
@@ -370,36 +165,38 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     first += np.int64(h % np.uint64(step))
     nearest, count = np.int32(SIDE * SIDE + 1), 0
     for i in range(first, last, step):
-        apart = _apart(bits, example, example.order[i], rules)
+        apart = ones(bits ^ (example.shapes[i] & rules.square))
         if apart < nearest:
             nearest, count = apart, 0
         count += apart == nearest
     near = nearest + (_SHAPES_APART if count < _RIM_CANDIDATES else 0)
+    corner = 4 * ((y - RADIUS) * window.mask.shape[1] + x - RADIUS)
+    share = (256 << 16) // rules.kappa + 1
     for i in range(first, last, step):
-        name = example.order[i]
-        apart = _apart(bits, example, name, rules)
+        apart = ones(bits ^ (example.shapes[i] & rules.square))
         shape = np.int32(rules.penalty * max(0, apart - rules.leeway))
         if apart > near or shape >= limit:
             continue
-        e = _energy(window, y, x, example, name, rules, bits, True, limit)
+        name = example.order[i]
+        most = np.int32(((limit - shape) * share >> 16) + 1)  # of the colours, beyond which it is too far in any case
+        e = _colours_apart(window, corner, example, _corner(example, name), rules.weights, True, np.int32(0), most)
+        e = np.int64(shape) + np.int64(e) * rules.kappa // 256
         if e < limit:
-            e = np.int64(shape) + np.int64(e - shape) * rules.kappa // 256
-            if e < limit:
-                limit, best = np.int32(e), name
+            limit, best = np.int32(e), name
     return best
 
 
 @njit(inline="always")
-def _apart(bits, example, name, rules):
-    """Pixels by which a shape differs from the one around a pixel of the example."""
-    return np.int32(ones(bits ^ (example.bits[name >> 16, name & 0xFFFF] & rules.square)))
+def _corner(example, name):
+    """Where the neighbourhood of a pixel of the example begins."""
+    return 4 * (((name >> 16) - RADIUS) * example.region.shape[1] + (name & 0xFFFF) - RADIUS)
 
 
 @njit(cache=True, nogil=True)
 def _alike(starts, count):
     """The part of the order with about so many neighbours inside, though not all, or with the next fewer and more."""
-    most = SIDE * SIDE
-    low, high = max(0, count - _COUNTS_APART), min(most - 1, count + _COUNTS_APART)
+    most = SIDE * SIDE - 1
+    low, high = max(0, count - _COUNTS_APART), min(most, count + _COUNTS_APART)
     while low > 0 and starts[low] == starts[count]:
         low -= 1
     while high < most and starts[high + 1] == starts[count + 1]:
@@ -426,10 +223,11 @@ def settle(window, places, count, found, p, turn, example):
         if plane[y, x] != found[i]:
             plane[y, x] = found[i]
             if not window.fresh:
-                _mark_readers(window, y, x, p, turn)
-    for y in range(height):
-        for x in range(width):
-            if _turn(y + window.y, x + window.x) == turn and plane[y, x] != window.now[y, x]:
+                mark_readers(window, y, x, p, turn)
+    first = first_of(window, turn)
+    for y in range(first[0], height, 2):
+        for x in range(first[1], width, 2):
+            if plane[y, x] != window.now[y, x]:
                 _show(window, example.compared, example.region.shape[1], y, x, plane[y, x])
 
 

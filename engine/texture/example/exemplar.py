@@ -72,6 +72,16 @@ class Exemplar:
         return premultiplied(self.pixels)[self.mask].mean(axis=0, dtype=np.float64).astype(np.float32)
 
     @cached_property
+    def shapes(self) -> tuple[np.ndarray, ...]:
+        """For each level the 7 x 7 shapes around the pixels of its `order` that do not lie wholly inside, which come
+        first, and FULL for all others: uint64, side by side, as searches along a rim compare many."""
+        found = []
+        for level in self.levels:
+            names = level.order[: level.starts[COUNTS - 1]]
+            found.append(_frozen(np.append(level.bits[names >> 16, names & 0xFFFF], FULL)))
+        return tuple(found)
+
+    @cached_property
     def colours(self) -> tuple[np.ndarray, ...]:
         """The pyramid as premultiplied float32 (h, w, 4) in 0..1, not padded, the finest first; 0 outside the region.
 

@@ -20,10 +20,11 @@ from engine.numeric.address import Rect
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.neighbourhood import RADIUS, SIDE, WEIGHT, square_bits, weights
-from engine.texture.example import correction, tiles
-from engine.texture.example.correction import MARGIN, OUTSIDE, REACH, SUBPASSES, Example, Rules, Window
+from engine.texture.example import correction, starts, tiles
+from engine.texture.example.correction import REACH
 from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.tiles import NONE, Tiles
+from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, Example, Rules, Window, window_of
 
 COARSEST_PASSES = 2
 _CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may be large and have but one
@@ -219,7 +220,8 @@ def _squares(region: Region, n: int, shared: bool) -> list[Square]:
     if max(whole.width, whole.height) <= _AT_ONCE:
         if shared and whole.area > _SHARED and not _coarsest(region, n):
             return [(part, reach + MARGIN) for part in _quarters(whole)]
-        return [(whole, MARGIN)]
+        whole = _filled_part(region, n, whole)
+        return [] if whole.empty else [(whole, MARGIN)]
     whole = whole.intersect(tiles.hull(old.mask).union(tiles.hull(region.masks[n])))  # beyond it nothing is to be done
     keys = tiles.changed(old.mask, region.masks[n])
     near = [tiles.rect_of(key).grown(RADIUS + reach) for key in keys]
@@ -246,18 +248,30 @@ def _square_keys(rect: Rect) -> Iterator[tuple[int, int]]:
             yield y, x
 
 
+def _masks(region: Region, n: int, rect: Rect) -> np.ndarray:
+    """What belongs to the region now, and before: uint8 (2, h, w)."""
+    both = np.zeros((2, 1, rect.height, rect.width), np.uint8)
+    tiles.gathered(region.masks[n], rect, both[0])
+    tiles.gathered(region.levels[n].mask, rect, both[1])
+    return both[:, 0]
+
+
+def _filled_part(region: Region, n: int, square: Rect) -> Rect:
+    """The part of a square beyond which there is no region, nor was."""
+    y0, y1, x0, x1 = tiles.bounds(_masks(region, n, square))
+    return Rect(square.x0 + x0, square.y0 + y0, square.x0 + x1, square.y0 + y1)
+
+
 def _window(region: Region, n: int, square: Rect, room: int) -> Window:
     """A square with `room` pixels around it, ready for its first pass."""
     old = region.levels[n]
     rect = square.grown(room)
     size = rect.height, rect.width
-    mask, was = np.zeros((2, 1, *size), np.uint8)
-    tiles.gathered(region.masks[n], rect, mask)
-    tiles.gathered(old.mask, rect, was)
+    mask, was = _masks(region, n, rect)
     planes = np.full((_passes(region, n) + 1, *size), OUTSIDE, np.int32)
     tiles.gathered(old.sources, rect, planes if _coarsest(region, n) else planes[1:])
     hashes = hash_plane(fold_key(_DOMAIN, region.seed, n), rect.x0, rect.y0, rect.width, rect.height)
-    window = correction.window_of(mask[0], was[0], planes, hashes, (rect.y0 & 1, rect.x0 & 1))
+    window = window_of(mask, was, planes, hashes, (rect.y0 & 1, rect.x0 & 1))
     if _coarsest(region, n):
         _start_coarsest(region, window, rect)
     else:
@@ -265,7 +279,7 @@ def _window(region: Region, n: int, square: Rect, room: int) -> Window:
         parents, before = np.full((2, 1, above.height, above.width), OUTSIDE, np.int32)
         tiles.gathered_last(region._above(n), above, parents)
         tiles.gathered_last(old.above, above, before)
-        correction.start_finer(window, parents[0], before[0], _example(region.exemplar, n))
+        starts.start_finer(window, parents[0], before[0], _example(region.exemplar, n))
     return window
 
 
@@ -278,7 +292,7 @@ def _start_coarsest(region: Region, window: Window, rect: Rect) -> None:
     n = len(exemplar.levels) - 1
     offset = rect.y0 - y * block, rect.x0 - x * block
     arrays = patches, exemplar.blocks
-    correction.start_coarsest(window, *arrays, block, offset, _example(exemplar, n), _rules(exemplar, n))
+    starts.start_coarsest(window, *arrays, block, offset, _example(exemplar, n), _rules(exemplar, n))
 
 
 def _correcting(region: Region, n: int, window: Window, room: int, threads: Executor | None) -> Iterator[float]:
@@ -328,7 +342,7 @@ def _corrected(window, places, count, p, example, rules, found, step, threads):
 
 def _example(exemplar: Exemplar, n: int) -> Example:
     level = exemplar.levels[n]
-    return Example(level.compared.reshape(-1), level.region, level.bits, level.order, level.starts)
+    return Example(level.compared.reshape(-1), level.region, level.bits, level.order, exemplar.shapes[n], level.starts)
 
 
 def _rules(exemplar: Exemplar, n: int) -> Rules:

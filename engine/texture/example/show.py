@@ -36,10 +36,10 @@ def preview(region: Region, rect: Rect) -> np.ndarray:
     """Colours of the region's pixels in a rectangle of level 0, as far as they are known: premultiplied float32
     (4, h, w) in 0..1, on the grid; 0 outside.
 
-    Each pixel has the finest level's source that it has, be it one of before the region changed: of a coarser level
-    what the example has below that, fading to what it has below the next one, and at least FAINT of that level's own
-    colour, as the example may end there.  Where no level has a source it has the example's average colour, and where
-    the region is refined it is `picture`.
+    Each pixel has its own source, be it one of before the region changed, or that of the finest level that has one
+    for the region as it is: of a coarser level what the example has below that, fading to what it has below the next
+    one, and at least FAINT of that level's own colour, as the example may end there.  Where no level has a source it
+    has the example's average colour, and where the region is refined it is `picture`.
     """
     mask = tiles.gathered(region.masks[0], rect, np.zeros((1, rect.height, rect.width), np.uint8))[0]
     out = _blended(region, rect, 0)[0]
@@ -52,10 +52,26 @@ def preview(region: Region, rect: Rect) -> np.ndarray:
         place = rect.y0 - (above.y0 << n), rect.x0 - (above.x0 << n)
         mirrored = not region.exemplar.boundary
         colours = region.exemplar.colours[0], region.exemplar.colours[n]
-        left = _fill(out, mask, sources(region, above, n), *colours, mirrored, n, *place)
+        left = _fill(out, mask, _valid(region, above, n), *colours, mirrored, n, *place)
     if left:
         out[:, mask > 0] = region.exemplar.average[:, None]
     return snapped(out)
+
+
+def _valid(region: Region, rect: Rect, level: int) -> np.ndarray:
+    """Sources as `sources`, but none where a neighbour of a pixel has joined or left the region since that level was
+    refined: what was a rim is none any more."""
+    names = sources(region, rect, level)
+    then, now = region.levels[level].mask, region.masks[level]
+    if then is not now:
+        around = rect.grown(1)
+        held = [
+            tiles.gathered(one, around, np.zeros((1, around.height, around.width), np.uint8))[0] for one in (then, now)
+        ]
+        differs = held[0] != held[1]
+        rows = differs[:-2] | differs[1:-1] | differs[2:]
+        names[rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:]] = OUTSIDE
+    return names
 
 
 def pixels(region: Region, rect: Rect) -> np.ndarray:

@@ -39,25 +39,35 @@ def hull(tiles: Tiles) -> Rect:
     return Rect(min(columns) * SIDE, min(rows) * SIDE, (max(columns) + 1) * SIDE, (max(rows) + 1) * SIDE)
 
 
+def _shared(rect: Rect) -> Iterator[tuple[Key, tuple[slice, slice], tuple[slice, slice]]]:
+    """The tiles that meet a rectangle, and where what they share lies in the rectangle and in the tile."""
+    if rect.empty:
+        return
+    for row in range(rect.y0 // SIDE, -(-rect.y1 // SIDE)):
+        top = row * SIDE
+        y0, y1 = max(top, rect.y0), min(top + SIDE, rect.y1)
+        outer, inner = slice(y0 - rect.y0, y1 - rect.y0), slice(y0 - top, y1 - top)
+        for column in range(rect.x0 // SIDE, -(-rect.x1 // SIDE)):
+            left = column * SIDE
+            x0, x1 = max(left, rect.x0), min(left + SIDE, rect.x1)
+            yield (row, column), (outer, slice(x0 - rect.x0, x1 - rect.x0)), (inner, slice(x0 - left, x1 - left))
+
+
 def gathered(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
     """Copies what tiles hold of a rectangle into `out` (planes, h, w), and leaves the rest of it alone."""
-    for key in keys_of(rect):
+    for key, outer, inner in _shared(rect):
         tile = tiles.get(key)
         if tile is not None:
-            place = rect_of(key)
-            both = place.intersect(rect)
-            out[(slice(None), *both.slices(rect))] = tile[(slice(None), *both.slices(place))]
+            out[:, *outer] = tile[:, *inner]
     return out
 
 
 def gathered_last(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
     """The same with the last plane of each tile alone; `out` (1, h, w)."""
-    for key in keys_of(rect):
+    for key, outer, inner in _shared(rect):
         tile = tiles.get(key)
         if tile is not None:
-            place = rect_of(key)
-            both = place.intersect(rect)
-            out[0][both.slices(rect)] = tile[-1][both.slices(place)]
+            out[0, *outer] = tile[-1, *inner]
     return out
 
 
@@ -68,21 +78,19 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
     left out.
     """
     changing, altered = tiles.mutate(), False
-    for key in keys_of(within):
-        place = rect_of(key)
-        both = place.intersect(within)
-        new = values[(slice(None), *both.slices(rect))]
-        old = tiles.get(key)
-        held = (slice(None), *both.slices(place))
-        if old is not None and np.array_equal(old[held], new):
+    given = values[(slice(None), *within.slices(rect))]
+    for key, outer, inner in _shared(within):
+        new, old = given[:, *outer], tiles.get(key)
+        if old is not None and (old[:, *inner] == new).all():
             continue
-        if old is None and (new == empty).all():
+        blank = (new == empty).all()
+        if old is None and blank:
             continue
         altered = True
         tile = np.full((len(values), SIDE, SIDE), empty, values.dtype) if old is None else old.copy()
-        tile[held] = new
+        tile[:, *inner] = new
         tile.flags.writeable = False
-        if (tile == empty).all():
+        if blank and (tile == empty).all():
             changing.pop(key, None)
         else:
             changing[key] = tile
@@ -117,14 +125,32 @@ def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> 
                 nothing = np.full(there.shape, empty, there.dtype)
                 nothing.flags.writeable = False  # as tiles are: so the kernel is compiled once for each type
             one, other = (nothing, there) if one is None else (there, nothing)
-        y0, y1, x0, x1 = _bounds(one[planes], other[planes])
+        y0, y1, x0, x1 = _differing(one[planes], other[planes])
         if y1 > y0:
             x, y = key[1] * SIDE, key[0] * SIDE
             yield Rect(x + x0, y + y0, x + x1, y + y1)
 
 
 @njit(cache=True, nogil=True)
-def _bounds(one, other):
+def bounds(planes):
+    """Rows [0, 1) and columns [2, 3) outside which arrays (planes, h, w) are 0; empty ones if all of it is."""
+    y0, y1, x0, x1 = planes.shape[1], 0, planes.shape[2], 0
+    for c in range(planes.shape[0]):
+        for y in range(planes.shape[1]):
+            row, first, last = planes[c, y], 0, planes.shape[2]
+            while first < last and row[first] == 0:
+                first += 1
+            if first == last:
+                continue
+            while row[last - 1] == 0:
+                last -= 1
+            y0, y1 = min(y0, y), max(y1, y + 1)
+            x0, x1 = min(x0, first), max(x1, last)
+    return (y0, y1, x0, x1) if y1 > y0 else (0, 0, 0, 0)
+
+
+@njit(cache=True, nogil=True)
+def _differing(one, other):
     """Rows [0, 1) and columns [2, 3) within which two arrays (planes, SIDE, SIDE) differ; none if they do not."""
     y0, y1, x0, x1 = SIDE, 0, SIDE, 0
     for c in range(one.shape[0]):

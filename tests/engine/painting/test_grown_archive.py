@@ -51,6 +51,7 @@ from engine.painting.manifest import FORMAT, WITHOUT_EXAMPLES
 from engine.painting.opening import open_painting
 from engine.painting.session import Session
 from engine.painting.settling import settled
+from engine.texture.example import SYNTHESIS
 from engine.texture.example import region as regions
 from engine.texture.example.tiles import NONE
 
@@ -139,7 +140,7 @@ def test_another_way_of_growing_is_told(members, tmp_path):
     found = opened(rewritten(members, altered(members, ("synthesis",), 99)), tmp_path)
     assert found.native
     assert len(found.notes) == 1
-    assert "(revision 99, now 1)" in found.notes[0]
+    assert f"(revision 99, now {SYNTHESIS})" in found.notes[0]
 
 
 @pytest.mark.parametrize("depth", [0.1, -(2.0**31), 1e-300])

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from engine.numeric.address import Rect
+from engine.numeric.neighbourhood import FULL
 from engine.painting.exemplars import read_exemplar, read_parameters
 from engine.texture.example import region as regions
 from engine.texture.example import tiles
@@ -205,6 +206,38 @@ def test_rims_come_from_rims_and_insides_from_insides(side, values, seed):
     found[mask] = here[(names[mask] >> 16) - PAD, (names[mask] & 0xFFFF) - PAD]
     assert (found[mask & (there <= 3)] <= 3).mean() > 0.9
     assert (found[there > 6] <= 3).mean() < 0.1
+
+
+@st.composite
+def planes(draw):
+    """Some planes of tiles, most of whose pixels are 0."""
+    held = np.zeros(draw(st.tuples(st.integers(1, 2), st.integers(1, 9), st.integers(1, 9))), np.uint8)
+    for place in draw(st.lists(st.tuples(*(st.integers(0, n - 1) for n in held.shape)), max_size=3)):
+        held[place] = draw(st.integers(1, 255))
+    return held
+
+
+@settings(deadline=None, max_examples=60)
+@given(held=planes())
+def test_bounds_are_those_of_what_is_not_0(held):
+    y0, y1, x0, x1 = tiles.bounds(held)
+    rows, columns = (np.flatnonzero(held.any((0, axis))) for axis in (2, 1))
+    if held.any():
+        assert (y0, y1, x0, x1) == (rows[0], rows[-1] + 1, columns[0], columns[-1] + 1)
+    else:
+        assert y0 == y1 == x0 == x1
+
+
+def test_shapes_of_rims_are_kept_side_by_side():
+    for exemplar in EXEMPLARS.values():
+        for level, shapes in zip(exemplar.levels, exemplar.shapes, strict=True):
+            names = level.order[: shapes.size - 1]
+            assert np.array_equal(shapes[:-1], level.bits[names >> 16, names & 0xFFFF])
+            assert (
+                level.bits[level.order[shapes.size - 1 :] >> 16, level.order[shapes.size - 1 :] & 0xFFFF] == FULL
+            ).all()
+            assert shapes[-1] == FULL
+            assert (shapes[:-1] != FULL).all()
 
 
 @pytest.mark.parametrize("name", ["wash-indigo", "torn-rag-paper", "felt"])

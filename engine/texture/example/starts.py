@@ -1,0 +1,110 @@
+"""What a level begins with before its corrections: what lies below the coarser level's sources, or, at the coarsest
+level, patches of the example.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from engine.numeric.hashing import mix64
+from engine.numeric.neighbourhood import RADIUS, ones
+from engine.texture.example.window import OUTSIDE, mark_readers, shape_at, turn_of
+
+_ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
+_DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
+_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+
+
+@njit(cache=True, nogil=True)
+def _begin(window, before, example):
+    """The starts in planes[0], `before` (int32 (h, w)) having been those until now, go into the window."""
+    height, width = window.mask.shape
+    for y in range(height):
+        mask, start, now = window.mask[y], window.planes[0, y], window.now[y]
+        care, shown = window.care[4 * y * width :], window.shown[4 * y * width :]
+        for x in range(width):
+            if mask[x] == 0:
+                for p in range(window.planes.shape[0]):
+                    window.planes[p, y, x] = OUTSIDE
+                continue
+            now[x] = start[x]
+            j = 4 * ((start[x] >> 16) * example.region.shape[1] + (start[x] & 0xFFFF))
+            for c in range(4):
+                care[4 * x + c] = -1
+                shown[4 * x + c] = example.compared[j + c]
+    if window.fresh:
+        return
+    for y in range(height):
+        for x in range(width):
+            if window.was[y, x] and window.mask[y, x] and window.planes[0, y, x] != before[y, x]:
+                mark_readers(window, y, x, 0, turn_of(window, y, x))
+
+
+@njit(inline="always")
+def _child(parent, y, x, region):
+    """The pixel below a coarser source for an even or odd row and column, or the nearest of its four in the region."""
+    row, column = 2 * (parent >> 16) - RADIUS - 1, 2 * (parent & 0xFFFF) - RADIUS - 1
+    for k in range(4):
+        r, c = row + (y ^ (k >> 1)), column + (x ^ (k & 1))
+        if region[r, c]:
+            return np.int32(r << 16 | c)
+    return np.int32(OUTSIDE)
+
+
+@njit(cache=True, nogil=True)
+def _children(mask, parents, odd_y, odd_x, region, out):
+    """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
+    for y in range(mask.shape[0]):
+        inside, row, above = mask[y], out[y], parents[(y + odd_y) >> 1]
+        for x in range(row.size):
+            row[x] = OUTSIDE
+            if inside[x] and above[(x + odd_x) >> 1] >= 0:
+                row[x] = _child(above[(x + odd_x) >> 1], (y + odd_y) & 1, (x + odd_x) & 1, region)
+
+
+@njit(cache=True, nogil=True)
+def start_finer(window, parents, before, example):
+    """Starts from the sources one level coarser: int32 arrays of the pixels above the window's, now and before."""
+    _children(window.mask, parents, window.y, window.x, example.region, window.planes[0])
+    old = np.empty_like(window.planes[0])
+    if not window.fresh:
+        _children(window.was, before, window.y, window.x, example.region, old)
+    _begin(window, old, example)
+
+
+@njit(cache=True, nogil=True)
+def start_coarsest(window, patches, corners, block, offset, example, rules):
+    """Starts from patches of the example, or from pixels whose neighbourhoods have the shape.
+
+    `patches`: uint64 hashes of the patches that meet the window, `offset`: (row, column) of its first pixel in the
+    first of them; `corners`: names of the pixels where patches may begin.
+    """
+    height, width = window.mask.shape
+    old = window.planes[0].copy()
+    for y in range(height):
+        for x in range(width):
+            if window.mask[y, x] and (window.need[0, y, x] or old[y, x] < 0):
+                row, column = y + offset[0], x + offset[1]
+                drawn = patches[row // block, column // block] % np.uint64(corners.size)
+                start = corners[drawn] + np.int32((row % block) << 16 | (column % block))
+                window.planes[0, y, x] = _shaped(window.bits[y, x], start, window.hashes[y, x], example, rules)
+    _begin(window, old, example)
+
+
+@njit(cache=True, nogil=True)
+def _shaped(bits, start, h, example, rules):
+    """`start`, if the shape around it is alike; else the pixel that the hash draws of those with about such a shape, or
+    with the nearest if there are none."""
+    if not rules.rims:
+        return start
+    if ones(bits ^ example.bits[start >> 16, start & 0xFFFF]) <= _ALIKE:
+        return start
+    least, drawn = np.int32(50), np.uint64(0)
+    for i in range(example.order.size):
+        apart = max(_DRAWN, ones(bits ^ shape_at(example, i)))
+        if apart <= least:
+            chance = mix64(h + np.uint64(i) * _GOLDEN)
+            if apart < least or chance > drawn:
+                least, drawn, start = apart, chance, example.order[i]
+    return start
