@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -42,7 +43,7 @@ def grown(path: str, found: Opened) -> Painting:
 
 
 def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
-    """The path's ending in lower case, if it is one of `endings` and its folder is there."""
+    """The path's ending in lower case, if it is one of `endings` and its folder can be written to."""
     if path is None:
         return None
     ending = Path(path).suffix.lower()
@@ -52,6 +53,10 @@ def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
     folder = os.path.dirname(path) or "."
     if not os.path.isdir(folder):
         raise Failed(f"{path}: there is no folder {folder}")
+    if os.path.isdir(path):
+        raise Failed(f"{path}: cannot be written: a folder; expected a file name")
+    if not os.access(folder, os.W_OK):
+        raise Failed(f"{path}: cannot be written: {os.strerror(errno.EACCES)}")
     return ending
 
 

@@ -206,6 +206,16 @@ def test_what_cannot_be_written_is_a_failure(script, tmp_path, capsys):
     assert [p.name for p in tmp_path.iterdir()] == ["taken.png"]
 
 
+def test_what_cannot_be_written_is_told_before_the_work(tmp_path, capsys, monkeypatch):
+    """A recording that is none would be told first if it were read first."""
+    (tmp_path / "taken.png").mkdir()
+    nothing = tmp_path / "nothing.jsonl"
+    assert "a folder" in refused(capsys, "play", nothing, "--png", tmp_path / "taken.png", status=1)
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    line = refused(capsys, "play", nothing, "--png", tmp_path / "a.png", status=1)
+    assert "a.png: cannot be written: Permission denied" in line
+
+
 # ---- export, info ----
 
 
