@@ -171,7 +171,7 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
         count += apart == nearest
     near = nearest + (_SHAPES_APART if count < _RIM_CANDIDATES else 0)
     corner = 4 * ((y - RADIUS) * window.mask.shape[1] + x - RADIUS)
-    share = (256 << 16) // rules.kappa + 1
+    share = (256 << 16) // rules.rim_kappa + 1
     for i in range(first, last, step):
         apart = ones(bits ^ (example.shapes[i] & rules.square))
         shape = np.int32(rules.penalty * max(0, apart - rules.leeway))
@@ -180,7 +180,7 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
         name = example.order[i]
         most = np.int32(((limit - shape) * share >> 16) + 1)  # of the colours, beyond which it is too far in any case
         e = _colours_apart(window, corner, example, _corner(example, name), rules.weights, True, np.int32(0), most)
-        e = np.int64(shape) + np.int64(e) * rules.kappa // 256
+        e = np.int64(shape) + np.int64(e) * rules.rim_kappa // 256
         if e < limit:
             limit, best = np.int32(e), name
     return best

@@ -19,13 +19,13 @@ MOST_LEVELS = 8
 @dataclass(frozen=True, slots=True)
 class Parameters:
     """`kappa`: how much nearer a pixel from elsewhere in the example must be than one that continues what lies around
-    it; `neighbourhood`: pixels along its side; `levels`: of the pyramid, 0 to choose by the example's size; `every`:
-    one in so many pixels (scanline) or candidates of the coarsest level (correction) is searched for; `channels`,
-    `alpha`: what is compared; `e_max`: the energy of a pixel inside the region against one outside, where 1 is a
-    channel from black to white; `boundary`: whether the example shows its rim ("auto": unless it fills its picture);
-    `smooth`: pixels over which its mask is smoothed; `block`: pixels along the patches of the coarsest level;
-    `passes`: corrections at each finer level; `feather`: pixels over which seams are blended, 0 to 3; half as many,
-    rounded down, in an example with a rim."""
+    it, at a rim 2 at most; `neighbourhood`: pixels along its side; `levels`: of the pyramid, 0 to choose by the
+    example's size; `every`: one in so many pixels (scanline) or candidates of the coarsest level (correction) is
+    searched for; `channels`, `alpha`: what is compared; `e_max`: the energy of a pixel inside the region against one
+    outside, where 1 is a channel from black to white; `boundary`: whether the example shows its rim ("auto": unless
+    it fills its picture); `smooth`: pixels over which its mask is smoothed; `block`: pixels along the patches of the
+    coarsest level; `passes`: corrections at each finer level; `feather`: pixels over which seams are blended, 0 to 3;
+    half as many, rounded down, in an example with a rim."""
 
     kappa: float = 2.0
     neighbourhood: int = 7

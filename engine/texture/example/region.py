@@ -31,6 +31,8 @@ _CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may
 # Pixels of another shape that are free, from the coarsest level on: where pixels are large the example has few shapes
 # like the stroke's, and the same ones again and again would show as a comb.
 _LEEWAY = 6, 2
+# At a rim, at most: else where a stroke is narrow what continues one side of it goes on to its other side.
+_RIM_KAPPA = 2.0
 _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
 _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
@@ -356,6 +358,7 @@ def _rules(exemplar: Exemplar, n: int) -> Rules:
         penalty,
         _LEEWAY[above] if n >= 2 and above < len(_LEEWAY) and exemplar.boundary else 0,
         int(256 * (1.0 + given.kappa)),
+        int(256 * (1.0 + min(given.kappa, _RIM_KAPPA))),
         max(given.every, exemplar.levels[n].order.size // _CANDIDATES) if above == 0 else 0,
         exemplar.boundary,
     )

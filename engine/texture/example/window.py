@@ -32,14 +32,15 @@ class Example(NamedTuple):
 
 class Rules(NamedTuple):
     """`penalty`: energy of a pixel of another shape; `leeway`: so many of those are free; `square`: bits of the
-    neighbourhood; `kappa`: 256 (1 + kappa); `stride`: of the search through all candidates, 0 for none; `rims`: whether
-    the region's shape counts."""
+    neighbourhood; `kappa`, `rim_kappa`: 256 (1 + kappa), inside and at a rim; `stride`: of the search through all
+    candidates, 0 for none; `rims`: whether the region's shape counts."""
 
     weights: np.ndarray
     square: np.uint64
     penalty: int
     leeway: int
     kappa: int
+    rim_kappa: int
     stride: int
     rims: bool
 

@@ -24,6 +24,11 @@ EXAMPLES = Path(__file__).parents[3] / "palettes" / "examples"
 places = st.tuples(st.integers(-40, 60), st.integers(-40, 60), st.integers(1, 24))
 
 
+def bundled(name):
+    at = EXAMPLES / name
+    return read_exemplar(f"{at}.png", f"{at}.mask.png", read_parameters(f"{at}.toml"))
+
+
 def disc(radius):
     y, x = np.mgrid[-radius : radius + 1, -radius : radius + 1]
     return x * x + y * y <= radius * radius
@@ -240,11 +245,27 @@ def test_shapes_of_rims_are_kept_side_by_side():
             assert (shapes[:-1] != FULL).all()
 
 
+@pytest.mark.parametrize("width", [8, 16])
+@pytest.mark.parametrize("name", ["embroidery", "orange-peel", "torn-newsprint", "torn-rag-paper"])
+def test_narrow_strokes_come_from_rims(name, width):
+    """Both of their sides are near, and what continues one must not go on to the other."""
+    exemplar = bundled(name)
+    y, x = np.mgrid[:160, :300]
+    wave = 0.25 * np.arange(4 * 300)
+    mask = np.zeros((160, 300), bool)
+    for at, middle in zip(wave, 80.0 + 60.0 * np.sin(wave / 40.0), strict=True):
+        mask |= (y - middle) ** 2 + (x - at) ** 2 < (0.5 * width) ** 2
+    rect = Rect(0, 0, 300, 160)
+    names = sources(refined(painted(empty(exemplar, 1), rect, mask)), rect)
+    near = mask & (depths(mask) <= 3)
+    found = depths(exemplar.mask)[(names[near] >> 16) - PAD, (names[near] & 0xFFFF) - PAD]
+    assert (found <= 4).mean() > 0.9
+
+
 @pytest.mark.parametrize("name", ["wash-indigo", "torn-rag-paper", "felt"])
 def test_a_straight_band_does_not_repeat(name):
     """Along it all shapes are one: few pixels may come from where another one some way along the row comes from."""
-    at = EXAMPLES / name
-    exemplar = read_exemplar(f"{at}.png", f"{at}.mask.png", read_parameters(f"{at}.toml"))
+    exemplar = bundled(name)
     grown = refined(painted(empty(exemplar, 1), Rect(0, 0, 660, 100), np.ones((100, 660), bool)))
     found = sources(grown, Rect(40, 0, 620, 100))
     assert max((found[:, lag:] == found[:, :-lag]).mean() for lag in range(6, 60)) < 0.25
