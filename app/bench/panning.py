@@ -27,9 +27,10 @@ from engine.painting.commands import Undo
 from engine.painting.requests import Do
 from engine.painting.worker import Worker
 
-SECONDS = 2.0  # of one pan
+SECONDS = 2.5  # of one pan at most
 CALM = 1.5  # seconds without a new picture: the presets' are painted
-RADIUS = 45.0
+RADIUS = 60.0  # of the stroke that grows, pixels
+DEPTHS = range(4)  # of the strokes, which grow one after another
 TURN = 3.0  # radians a second
 
 Frames = list[float]
@@ -47,7 +48,8 @@ def main(blocks: int) -> dict[str, Any]:
         _prepare(window)
         for _ in range(blocks):
             found["alone"].append(_panned(window, lambda: True))
-            _stroke(window, RADIUS)
+            for depth in DEPTHS:
+                _stroke(window, RADIUS, depth)
             until(window, lambda: window.desk.growing is not None)
             found["growing"].append(_panned(window, lambda: window.desk.growing is not None))
             _undo(window)
@@ -70,8 +72,9 @@ def _prepare(window: Window) -> None:
     until(window, lambda: desk.ready and desk.scene is not None)
     until(window, _calm(window))
     desk.view = replace(desk.view, level=0, fraction=0.0)
+    desk.stabiliser = 0.0
     sowing.choose(desk, next(entry for entry in desk.examples.entries if not entry.own))
-    _stroke(window, 12.0)
+    _stroke(window, 12.0, 0)
     until(window, lambda: desk.growing is not None)
     _undo(window)
     until(window, _calm(window))
@@ -93,7 +96,8 @@ def _calm(window: Window) -> Callable[[], bool]:
 
 def _undo(window: Window) -> None:
     until(window, lambda: window.desk.growing is None)
-    window.desk.post(Do(Undo()))
+    for _ in DEPTHS:
+        window.desk.post(Do(Undo()))
     until(window, lambda: window.desk.scene is not None and not window.desk.scene.can_undo)
 
 
@@ -101,14 +105,14 @@ def _event(window: Window, kind: str, at: tuple[float, float], button: int = 0) 
     window.router.pointer(PenEvent(kind, *at, time=time.monotonic(), button=button))
 
 
-def _stroke(window: Window, radius: float) -> None:
-    """Up and down across the canvas, an event a frame."""
-    window.desk.brush = replace(window.desk.brush, radius=radius)
-    points = [(450.0 + 20 * n, 300.0 + 200 * (n % 4 < 2)) for n in range(20)]
+def _stroke(window: Window, radius: float, depth: int) -> None:
+    """Up and down across the canvas, faster than any hand: all of it grows from then on."""
+    window.desk.examples.depth = depth
+    window.desk.brush = replace(window.desk.brush, radius=radius, depth=float(depth))
+    points = [(400.0 + 20 * n, 250.0 + 250 * (n % 4 < 2)) for n in range(20)]
     _event(window, "down", points[0], LEFT)
     for at in points:
         _event(window, "move", at)
-        window.frame()
     _event(window, "up", points[-1], LEFT)
 
 
