@@ -110,31 +110,47 @@ def _stale(base: Tiles, drawn: Region | None, region: Region) -> Generator[None,
     """Tiles of the region's own level that may look different, and the part of each."""
     found: dict[Key, Rect] = {}
     masks, names = region.masks[0], region.levels[0].sources
+    bare: dict[Key, Rect] = {}  # what of a tile has no source of its own
 
-    def add(area: Rect) -> None:
-        for key in keys_within(area, (masks, base)):
-            found[key] = found.get(key, Rect(0, 0, 0, 0)).union(area.intersect(tiles.rect_of(key)))
+    def add(key: Key, area: Rect) -> None:
+        found[key] = found.get(key, _NOWHERE).union(area)
 
     for k, (n, area) in enumerate(_altered(drawn, region), 1):
-        if n <= 0:
-            add(area.grown(region.exemplar.parameters.feather) if n == 0 else area)
-        else:  # a coarser level shows where a pixel has no source of its own, also beside where it changes
-            below = area.grown(1).zoomed(n)
-            for key in keys_within(below, (masks,)):
-                part = _sourceless(masks[key], names.get(key), key).intersect(below)
-                if not part.empty:
-                    add(part)
+        for key in keys_within(area, (masks, base) if n == 0 else (masks,)):
+            if n and key not in bare:
+                bare[key] = _sourceless(masks[key], names.get(key), key)
+            part = area.intersect(bare[key] if n else tiles.rect_of(key))
+            if not part.empty:
+                add(key, part)
         if n > 0 or k % _RUN == 0:
             yield
     return found
 
 
 def _altered(drawn: Region | None, region: Region) -> Iterator[tuple[int, Rect]]:
-    """Where the sources of each level are not what they were, and the region's pixels (-1), tile by tile."""
-    yield from ((-1, area) for area in tiles.changed_rects(drawn.masks[0] if drawn else NONE, region.masks[0], 0))
-    for n, level in enumerate(region.levels):
-        was = drawn.levels[n].sources if drawn else NONE
-        yield from ((n, area) for area in tiles.changed_rects(was, level.sources, OUTSIDE))
+    """Where pixels may look different, tile by tile: because of their own sources or as they join or leave the region
+    (0), or because of those of a coarser level, if they have none."""
+    if drawn is None:
+        yield from ((0, area) for area in tiles.changed_rects(NONE, region.masks[0], 0))
+        return
+    yield from ((0, area) for area in tiles.changed_rects(drawn.masks[0], region.masks[0], 0))
+    feather = region.exemplar.parameters.feather
+    own = tiles.changed_rects(drawn.levels[0].sources, region.levels[0].sources, OUTSIDE)
+    yield from ((0, area.grown(feather)) for area in own)
+    for n in range(1, len(region.levels)):
+        then, now = drawn.levels[n], region.levels[n]
+        areas: dict[Key, Rect] = {}
+        # A source counts for the pixels beside it too; not where masks differ, and neither do those beside that.
+        pairs = (
+            (then.sources, now.sources, OUTSIDE, 1),
+            (then.mask, now.mask, 0, 2),
+            (drawn.masks[n], region.masks[n], 0, 2),
+        )
+        for one, other, empty, reach in pairs:
+            for area in tiles.changed_rects(one, other, empty):
+                key = area.y0 // SIDE, area.x0 // SIDE
+                areas[key] = areas.get(key, _NOWHERE).union(area.grown(reach))
+        yield from ((n, area.zoomed(n)) for area in areas.values())
 
 
 def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:

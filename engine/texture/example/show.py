@@ -48,6 +48,8 @@ def preview(region: Region, rect: Rect) -> np.ndarray:
     for n in range(1, len(region.levels)):
         if not left:
             break
+        if not region.levels[n].sources:
+            continue
         above = rect.zoomed(-n).grown(1)
         place = rect.y0 - (above.y0 << n), rect.x0 - (above.x0 << n)
         mirrored = not region.exemplar.boundary
@@ -63,7 +65,7 @@ def _valid(region: Region, rect: Rect, level: int) -> np.ndarray:
     refined: what was a rim is none any more."""
     names = sources(region, rect, level)
     then, now = region.levels[level].mask, region.masks[level]
-    if then is not now:
+    if then is not now and (names >= 0).any():
         around = rect.grown(1)
         held = [
             tiles.gathered(one, around, np.zeros((1, around.height, around.width), np.uint8))[0] for one in (then, now)

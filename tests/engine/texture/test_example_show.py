@@ -48,7 +48,11 @@ def plain_preview(region, rect):
 
 
 def source(region, n, y, x):
-    return show.sources(region, Rect.at(x, y, 1, 1), n)[0, 0]
+    """A pixel's source; none of a coarser level where the region around it was another one when that was refined."""
+    around = Rect.at(x - 1, y - 1, 3, 3)
+    masks = region.masks[n], region.levels[n].mask
+    now, then = (tiles.gathered(mask, around, np.zeros((1, 3, 3), np.uint8)) for mask in masks)
+    return -1 if n and (now != then).any() else show.sources(region, Rect.at(x, y, 1, 1), n)[0, 0]
 
 
 def continued(region, n, y, x):
@@ -103,6 +107,18 @@ def test_a_preview_shows_no_squares(name):
     inside = inside[:, 1:] & inside[:, :-1]
     border = np.broadcast_to((np.arange(PICTURE.x0 + 1, PICTURE.x1) % (1 << n) == 0)[None], step.shape)
     assert step[inside & border].mean() < 2 * step[inside & ~border].mean()
+
+
+def test_what_is_new_does_not_look_like_the_rim_that_was_there():
+    """Around an old rim levels in between still have sources of it: new pixels look as if it had never been."""
+    exemplar = bounded(levels=4, feather=0)
+    grown = dabbed(refined(dabbed(empty(exemplar, 1), 10, 0, 14)), 10, 0, 30)
+    fresh = dabbed(empty(exemplar, 1), 10, 0, 30)
+    top = len(exemplar.levels) - 1
+    assert top > 1
+    new = mask_of(grown, PICTURE) & ~mask_of(dabbed(empty(exemplar, 1), 10, 0, 14), PICTURE)
+    old, plain = (show.preview(refined(region, top), PICTURE) for region in (grown, fresh))
+    assert np.array_equal(old[:, new], plain[:, new])
 
 
 def test_old_sources_show_until_there_are_new_ones():
