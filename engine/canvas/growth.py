@@ -239,7 +239,7 @@ def _settling(plot: Plot, threads: Executor | None) -> Iterator[Plot]:
             yield plot
             continue
         region = step.region
-        if step.level < _PASSING:
+        if step.level < _PASSING or plot.drawn is None:  # what was never seen is, at once
             plot = yield from _following(plot, region, threads)
         else:
             plot = replace(plot, region=region)

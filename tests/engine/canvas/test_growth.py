@@ -19,6 +19,7 @@ from engine.texture.example import region as regions
 from engine.texture.example import show, tiles
 from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import PAD, analysed, shrunk
+from engine.texture.example.parameters import Parameters
 
 WHOLE = Rect.at(-128, -128, 256, 256)
 places = st.tuples(st.integers(-50, 50), st.integers(-50, 50), st.integers(2, 20))
@@ -320,6 +321,16 @@ def test_rectangles_hold_all_that_changes(stack, level):
         rect.x0 >= 400 << level if level > 0 else rect.x0 >= 400 >> -level
         for rect in growths.changed_rects(stack, far, level)
     )
+
+
+def test_what_was_never_seen_is_seen_as_soon_as_its_coarsest_level_is_grown():
+    """As in a file that is opened: its regions are grown again."""
+    exemplar = analysed(blob(1, 200), None, Parameters(levels=5))
+    growth = growths.laid((), 0.0, 0, "a", "a", exemplar, 0, around(0, 0, 60), disc(60))
+    states = [state for state in growths.settling(growth) if growths.planes(state, 0, WHOLE) is not None]
+    assert states[0][0].region.finest == 4
+    assert follows(states[0][0])
+    assert same(states[-1], growths.settled(growth))
 
 
 def test_bytes_are_counted_once():
