@@ -74,6 +74,7 @@ class Desk:
     pending: int = 0
     writing: Writing = field(default_factory=Writing)
     export_level: int = 0
+    behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
     asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
     then: Callable[[Desk], None] | None = None  # goes on once unsaved changes are dealt with
     quit: bool = False
@@ -116,8 +117,8 @@ class Desk:
         self.asked = name
 
     def guard(self, then: Callable[[Desk], None]) -> None:
-        """Does `then`, after asking about unsaved changes if there are any."""
-        if self.modified:
+        """Does `then`, after asking about unsaved changes if there are any, or may be when all is carried out."""
+        if self.modified or self.behind():
             self.then, self.asked = then, "unsaved"
         else:
             then(self)

@@ -39,6 +39,7 @@ class News:
     def __init__(self, desk: Desk, screen: Screen, ctx: moderngl.Context) -> None:
         self.desk, self.screen, self.ctx = desk, screen, ctx
         self.worker: Worker | None = None
+        desk.behind = lambda: self.worker is not None and self.worker.behind
         self._asked: tuple[Any, ...] = ()
         self.shelf: Shelf | None = None
         self.gallery = Gallery(ctx, desk.pictures)

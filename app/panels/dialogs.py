@@ -120,7 +120,7 @@ class Unsaved:
 
     def draw(self, desk: Desk) -> bool:
         then, going = desk.then, False
-        if then is not None and not desk.modified:  # what was being saved is saved by now
+        if then is not None and not desk.modified and not desk.behind():  # nothing was changed, or it is saved by now
             then(desk)
             return False
         name, writing = desk.path.name if desk.path else "This painting", desk.writing

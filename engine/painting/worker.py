@@ -69,6 +69,7 @@ class Worker:
         self._results: deque[Result] = deque()
         self._signal = threading.Condition()
         self._closing = False
+        self._doing = False  # a command
         self._told = -1
         self._thread = threading.Thread(target=self._run, name="inkfall engine", daemon=True)
         self._thread.start()
@@ -91,6 +92,12 @@ class Worker:
             out.append(self._results.popleft())
         return out
 
+    @property
+    def behind(self) -> bool:
+        """Whether commands are still to be carried out, or their results to be taken."""
+        with self._signal:
+            return bool(self._posted) or self._doing or bool(self._results)
+
     def close(self, timeout: float = 10.0) -> None:
         """Ends the thread after what was posted before is done."""
         with self._signal:
@@ -107,6 +114,7 @@ class Worker:
         then, then swatches; None to end."""
         with self._signal:
             while True:
+                self._doing = bool(self._posted)
                 if self._posted:
                     request = self._posted.popleft()
                     return lambda: bench.do(request)

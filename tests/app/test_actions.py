@@ -109,3 +109,7 @@ def test_unsaved_changes_are_asked_about(desk):
     went = []
     desk.guard(went.append)
     assert went == [desk]
+    desk.behind = lambda: True  # a stroke may be among what is still to be carried out
+    desk.guard(went.append)
+    assert went == [desk]
+    assert desk.asked == "unsaved"

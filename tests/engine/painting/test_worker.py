@@ -70,6 +70,22 @@ def until(condition):
         time.sleep(0.002)
 
 
+def test_it_is_behind_until_all_is_carried_out_and_its_results_are_taken(worker):
+    one, bench = worker, worker.bench
+    one.results()
+    assert not one.behind
+    bench.gate.clear()
+    one.post(q.Finish())
+    assert one.behind
+    bench.gate.set()
+    end = time.monotonic() + 5
+    while one.behind:
+        one.results()
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    assert bench.did == [q.Finish()]
+
+
 def test_requests_are_carried_out_in_order(worker):
     posts = [q.New(Rect(0, 0, n, n)) for n in range(1, 20)]
     for post in posts:
