@@ -53,6 +53,7 @@ class Overlay:
         self._room_for(32)
         self._picture: Any = None
         self._frame: Any = None
+        self._lists: list[imgui.ImDrawList] = []
         self._sheets: dict[str, Sheet] = {}  # by the window's name
         self._drawn: set[tuple[Box, tuple[Sheet, ...]]] = set()
 
@@ -61,22 +62,32 @@ class Overlay:
         self._boxes = self._ctx.buffer(reserve=16 * boxes)
         self._quads = self._ctx.vertex_array(self._program, [(self._boxes, "4f/i", "box")])
 
-    def draw(self, data: imgui.ImDrawData, size: tuple[int, int], fresh: bool = False) -> None:
-        """Lays what imgui shows over the screen of `size` (width, height); `fresh`: pictures in it have changed."""
-        lists = list(data.cmd_lists)
-        _render(data, [one for one in lists if one._owner_name == _UNDER])  # brings imgui's textures up to date, too
-        lists = [one for one in lists if one._owner_name != _UNDER]
+    def look(self, data: imgui.ImDrawData, size: tuple[int, int], fresh: bool = False) -> bool:
+        """Takes in what imgui shows on a screen of `size` (width, height); True if that is something else than before.
+
+        `fresh`: pictures in it have changed.
+        """
+        self._lists = list(data.cmd_lists)
+        _render(data, [])  # brings imgui's own textures up to date, which the lists name
         known, self._sheets = self._sheets, {}
-        for one in lists:
+        for one in self._lists:
             self._sheets[one._owner_name] = _sheet(data, one, size, known.get(one._owner_name))
         if fresh or self._picture is None or self._picture.size != size:
             self._begin(size)
-        groups = grouped([*self._sheets.values()])
+            return True
+        return list(self._sheets.items()) != list(known.items())
+
+    def draw(self, data: imgui.ImDrawData) -> None:
+        """Lays over the screen what `look` took in."""
+        lists = {one._owner_name: one for one in self._lists}
+        _render(data, [lists[_UNDER]] if _UNDER in lists else [])
+        names = [name for name in self._sheets if name != _UNDER]
+        groups = grouped([self._sheets[name] for name in names])
         for group in groups:
             if (group.box, group.sheets) not in self._drawn:
-                self._redraw(data, group.box, [lists[n] for n in group.lists])
+                self._redraw(data, group.box, [lists[names[n]] for n in group.lists])
         self._drawn = {(group.box, group.sheets) for group in groups}
-        self._lay([group.box for group in groups], size)
+        self._lay([group.box for group in groups], self._picture.size)
 
     def _begin(self, size: tuple[int, int]) -> None:
         """Nothing is drawn yet, in a picture of that size."""

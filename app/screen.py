@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -51,13 +51,18 @@ class _Held:
 
 
 @dataclass(slots=True)
-class _Plan:
-    """Cells of each pass: nine floats each, as canvas.vert reads them; the paper needs only where they lie."""
+class Plan:
+    """What the canvas is to show.  Cells of each pass: nine floats each, as canvas.vert reads them; the paper needs
+    only where they lie.  Plans that are equal look alike."""
 
-    paper: list[Row]
-    whole: list[Row]
-    fading: list[Row]
-    moving: bool = False
+    view: View
+    frame: Rect | None
+    insets: Insets
+    uploads: int  # of tiles, so far
+    paper: list[Row] = field(default_factory=list)
+    whole: list[Row] = field(default_factory=list)
+    fading: list[Row] = field(default_factory=list)
+    moving: bool = False  # something still fades
 
 
 def cells(view: View, level: int) -> list[ScreenTile]:
@@ -122,6 +127,7 @@ class Screen:
         self._array: Any = None
         self._held: OrderedDict[ScreenTile, _Held] = OrderedDict()
         self._free: list[int] = []
+        self._uploads = 0
 
     def _allocate(self, view: View) -> None:
         """Room for the visible tiles at the smallest scale, their ancestors and some places visited before."""
@@ -152,6 +158,7 @@ class Screen:
                 return
             held = self._held[tile] = _Held(self._room(), patch.revision, now)
         self._array.write(patch.pixels, viewport=(area.x0, area.y0, held.layer, area.width, area.height, 1))
+        self._uploads += 1
         alpha = patch.pixels[..., 3]
         held.opaque = bool(alpha.min() == 255) and (whole or held.opaque)
         held.empty = not alpha.any() and (whole or held.empty)
@@ -175,15 +182,12 @@ class Screen:
             return oldest.layer
         return self._free.pop()
 
-    def draw(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> bool:
-        """Draws the canvas; True while something still fades.
-
-        `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
-        """
-        plan = self._plan(view, now)
-        self._set_uniforms(view, frame)
+    def draw(self, plan: Plan) -> None:
+        """Draws the canvas."""
+        view = plan.view
+        self._set_uniforms(view, plan.frame)
         self.ctx.viewport = (0, 0, view.width, view.height)
-        self.ctx.scissor = _free(view, insets)
+        self.ctx.scissor = _free(view, plan.insets)
         self.ctx.disable(moderngl.BLEND)
         self._paper.draw(plan.paper)
         if self._array is not None:
@@ -195,7 +199,6 @@ class Screen:
             self._whole.draw(plan.whole)
             self._fading.draw(plan.fading)
         self.ctx.scissor = None
-        return plan.moving
 
     def _set_uniforms(self, view: View, frame: Rect | None) -> None:
         a, b, c, d = view.matrix()
@@ -213,9 +216,12 @@ class Screen:
         p["phase"], p["blend"] = tuple(phase), view.fraction
         p["light"], p["dark"] = LIGHT, DARK
 
-    def _plan(self, view: View, now: float) -> _Plan:
-        """What to draw, decided before anything is drawn."""
-        plan = _Plan([], [], [])
+    def plan(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> Plan:
+        """What to draw, decided before anything is drawn.
+
+        `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
+        """
+        plan = Plan(view, frame, insets, self._uploads)
         exact = not view.fraction and not view.angle
         for tile in cells(view, view.shown_level):
             held = self._touch(tile)
@@ -244,7 +250,7 @@ class Screen:
             self._held.move_to_end(tile)
         return held
 
-    def _descendants(self, plan: _Plan, view: View, tile: ScreenTile, depth: int) -> None:
+    def _descendants(self, plan: Plan, view: View, tile: ScreenTile, depth: int) -> None:
         """Finer tiles, shrunk, for a place left by zooming out."""
         for n in (0, 1, 2, 3):
             child = ScreenTile(tile.level + 1, tile.x * 2 + (n & 1), tile.y * 2 + (n >> 1))

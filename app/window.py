@@ -23,7 +23,7 @@ from app.news import News
 from app.overlay import Overlay
 from app.panels.layout import Layout
 from app.router import Router
-from app.screen import Screen
+from app.screen import Plan, Screen
 from app.shelf import Shelf
 from app.view import Place, View
 from engine.painting.requests import Open
@@ -32,6 +32,7 @@ from engine.painting.worker import Worker
 LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
 IDLE = 5.0  # seconds to wait for an event when nothing moves
 PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
+STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
 
 
 class Window:
@@ -66,6 +67,10 @@ class Window:
         self._cursor = 0
         self._last = time.monotonic()
         self._busy_until = 0.0
+        self._plan: Plan | None = None  # of the canvas, as it was last drawn
+        self._drawn, self._exposed = False, True
+        self._took = 0.0  # seconds, by the last frame
+        self._resting = False  # until something happens
         self._title = ""
 
     def _not_yet(self, _request: Any) -> None:
@@ -78,7 +83,7 @@ class Window:
         glfw.set_char_callback(w, self._typed)
         glfw.set_window_focus_callback(w, self._focus)
         glfw.set_cursor_enter_callback(w, self._entered)
-        glfw.set_window_refresh_callback(w, lambda _: self._wake())
+        glfw.set_window_refresh_callback(w, self._refresh)
         glfw.set_framebuffer_size_callback(w, lambda *_: self._wake())
         drop: Any = self._dropped  # gets a list of names
         glfw.set_drop_callback(w, drop)
@@ -103,6 +108,11 @@ class Window:
         backends.glfw_window_focus_callback(self._address, focused)
         if not focused:
             self.router.lost_focus()
+
+    def _refresh(self, _w: Any) -> None:
+        """The window system has lost what the window showed."""
+        self._wake()
+        self._exposed = True
 
     def _entered(self, _w: Any, entered: int) -> None:
         self._wake()
@@ -139,6 +149,11 @@ class Window:
         self.news.worker = worker
         self.news.shelf = Shelf(glfw.post_empty_event)
 
+    def told(self) -> None:
+        """The engine has results; called from its thread.  Where frames go on anyway, the next one takes them in."""
+        if self._resting:
+            glfw.post_empty_event()
+
     def frame(self) -> bool:
         """Takes in what happened and draws; True while something still moves."""
         now = time.monotonic()
@@ -159,14 +174,25 @@ class Window:
         moving = self.desk.glide.moving
         self.desk.view = self.desk.glide.step(self.desk.view, seconds)
         self._panels()
-        fading = self.screen.draw(self.desk.view, self.desk.frame, now, self.desk.insets)
         imgui.render()
-        size = self.desk.view.width, self.desk.view.height
-        self.overlay.draw(imgui.get_draw_data(), size, self.news.gallery.fresh())
         self.news.ask(now)
         self._show_cursor()
-        glfw.swap_buffers(self.handle)
+        fading = self._draw(now)
+        self._took = time.monotonic() - now
         return moving or fading
+
+    def _draw(self, now: float) -> bool:
+        """Draws, if anything is to be seen that is not on the screen; True while something fades."""
+        desk, data = self.desk, imgui.get_draw_data()
+        plan = self.screen.plan(desk.view, desk.frame, now, desk.insets)
+        told = self.overlay.look(data, (desk.view.width, desk.view.height), self.news.gallery.fresh())
+        self._drawn = told or plan != self._plan or self._exposed
+        if self._drawn:
+            self._plan, self._exposed = plan, False
+            self.screen.draw(plan)
+            self.overlay.draw(data)
+            glfw.swap_buffers(self.handle)
+        return plan.moving
 
     def _resize(self) -> None:
         width, height = glfw.get_framebuffer_size(self.handle)
@@ -201,14 +227,23 @@ class Window:
             glfw.set_window_title(self.handle, title)
 
     def wait(self, moving: bool) -> None:
-        """Sleeps until there is something to do, at most one frame while something moves."""
+        """Sleeps until an event, at most one frame while something moves or is about to."""
         now = time.monotonic()
         if moving or now < self._busy_until:
-            rest = PACE - (now - self._last)
+            rest = (PACE if moving else self._pace()) - (now - self._last)
             glfw.wait_events_timeout(rest) if rest > 0 else glfw.poll_events()
         else:
-            glfw.wait_events_timeout(0.3 if imgui.get_io().want_text_input else IDLE)
+            self._resting = True
+            if self.news.worker is None or not self.news.worker.ready:  # what comes from now on wakes
+                glfw.wait_events_timeout(0.3 if imgui.get_io().want_text_input else IDLE)
+            self._resting = False
             self._last = min(self._last + IDLE, time.monotonic() - PACE)
+
+    def _pace(self) -> float:
+        """Seconds from one frame to the next where no event comes between: a slow one is followed by as long a rest."""
+        if not self._drawn and not self.desk.painting:
+            return STILL
+        return min(STILL, max(PACE, 2 * self._took))
 
     def closed(self) -> bool:
         """Whether the window is to go; asks about unsaved changes first."""

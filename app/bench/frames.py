@@ -12,7 +12,7 @@ from app.bench import Figure, Skipped
 from app.bench.display import NEEDED, available, display, python
 
 BLOCKS = 8
-FRAME = 1 / 60  # seconds
+FRAME = 1 / 60  # seconds, as in `panning`
 LATE = 0.01  # of all frames, at most
 ROWS = {"alone": "pan", "growing": "pan while an example grows"}
 

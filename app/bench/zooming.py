@@ -17,9 +17,6 @@ from app.loop import SWITCH, opened  # first: it imports imgui before glfw
 from app.screen import cells
 from app.view import Place
 from app.window import Window
-
-import glfw  # isort: skip
-
 from engine.painting.requests import Open
 from engine.painting.worker import Worker
 
@@ -32,7 +29,7 @@ def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float)
     window = opened()
     window.frame()
     sys.setswitchinterval(SWITCH)
-    worker = Worker(glfw.post_empty_event)
+    worker = Worker(window.told)
     window.connect(worker)
     worker.post(Open(Path(file)))
     place = Place(x, y, exponent)

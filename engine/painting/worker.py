@@ -85,6 +85,11 @@ class Worker:
                 self._posted.append(request)
             self._signal.notify()
 
+    @property
+    def ready(self) -> bool:
+        """Whether results lie ready."""
+        return bool(self._results)
+
     def results(self) -> list[Result]:
         """What came since the last call, in order."""
         out: list[Result] = []

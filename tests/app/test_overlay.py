@@ -67,7 +67,8 @@ class Stage:
         if overlay is None:
             backends.opengl3_render_draw_data(data)
         else:
-            overlay.draw(data, SIZE, fresh)
+            self.changed = overlay.look(data, SIZE, fresh)
+            overlay.draw(data)
         return np.frombuffer(self.target.read(), np.uint8).reshape(SIZE[1], SIZE[0], 3)[::-1].astype(int)
 
 
@@ -127,7 +128,9 @@ def test_what_did_not_change_is_not_drawn_anew(stage, monkeypatch):
     redrawn.clear()
     stage.draw(lambda: show("10 %"))
     assert redrawn == []
+    assert not stage.changed
     stage.draw(lambda: show("20 %"))
+    assert stage.changed
     assert redrawn == [(0, 200, 320, 240)]
     redrawn.clear()
     stage.draw(lambda: show("20 %"), fresh=True)
@@ -155,6 +158,7 @@ def test_what_is_drawn_below_all_windows_is_never_kept(stage):
     for x in (200, 240, 90):
         kept, anew = stage.draw(lambda x=x: show(x))
         assert np.array_equal(kept, anew)
+        assert stage.changed
     assert (kept[120, 105] == 255).all()
     assert (kept[120, 80] != 255).any()
 

@@ -46,10 +46,11 @@ def shown(screen, at, now=100.0, frame=FRAME, **insets):
     target = screen.ctx.simple_framebuffer(SIZE)
     target.use()
     target.clear()
-    moving = screen.draw(at, frame, now, **insets)
+    plan = screen.plan(at, frame, now, **insets)
+    screen.draw(plan)
     picture = np.frombuffer(target.read(), np.uint8).reshape(SIZE[1], SIZE[0], 3)[::-1]
     target.release()
-    return picture.astype(int), moving
+    return picture.astype(int), plan.moving
 
 
 def test_a_tile_lies_where_its_pixels_do(screen):
@@ -130,6 +131,27 @@ def test_nothing_is_drawn_under_the_panels(screen):
     assert not picture[:, :100].any()
     assert not picture[:10].any()
     assert picture[11, 101].any()
+
+
+def test_plans_are_equal_where_nothing_changes(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), RED), at, 0.0)
+    first = screen.plan(at, FRAME, 100.0)
+    assert screen.plan(at, FRAME, 101.0) == first
+    assert screen.plan(view(centre=Place(1, 0, 0)), FRAME, 101.0) != first
+    assert screen.plan(at, FRAME, 101.0, insets=(10, 0, 0, 0)) != first
+    assert screen.plan(at, None, 101.0) != first
+    screen.upload(patch((0, 0, 0), GREEN, 2, Rect(0, 0, 9, 9)), at, 102.0)
+    assert screen.plan(at, FRAME, 103.0) != first
+
+
+def test_plans_differ_while_a_tile_fades_in(screen):
+    at = view(1, centre=Place(32, 32, 0))
+    screen.upload(patch((0, 0, 0), GREEN), view(), 0.0)
+    screen.upload(patch((1, 0, 0), RED), at, 100.0)
+    early, later = (screen.plan(at, FRAME, 100.0 + part * FADE) for part in (0.3, 0.6))
+    assert early.moving
+    assert early != later
 
 
 def test_old_tiles_make_room(screen):
