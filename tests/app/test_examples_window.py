@@ -68,6 +68,7 @@ def folder(tmp_path):
 def opened(app):
     app.do("mousemove", 640, 300)
     app.keys("p")
+    until(lambda: "examples ready" in app.log.read_text(), 150.0)  # at the first start kernels are compiled
     until(lambda: app.screen()[THUMBNAIL].std() > 20)
     return app
 
