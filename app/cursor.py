@@ -60,17 +60,29 @@ def draw_growing(desk: Desk) -> None:
     if growing is None or time.monotonic() - desk.grows < PATIENCE:
         return
     painter, (x0, y0, x1, y1) = imgui.get_background_draw_list(), desk.free_area()
+    middles: list[tuple[float, float]] = []
     for level, rect in growing.rects[:MARKS]:
         ends = [desk.view.pixel_to_screen(level, x, y) for x in (rect.x0, rect.x1) for y in (rect.y0, rect.y1)]
         xs, ys = zip(*ends, strict=True)
         left, top, right, bottom = max(min(xs), x0), max(min(ys), y0), min(max(xs), x1), min(max(ys), y1)
         if left >= right or top >= bottom:
             continue
-        at = ImVec2((left + right) / 2, (top + bottom) / 2)
+        middles.append(((left + right) / 2, (top + bottom) / 2))
+    for x, y in apart(middles, 4 * radius):
+        at = ImVec2(x, y)
         painter.add_circle_filled(at, 1.7 * radius, theme.packed((0.0, 0.0, 0.0), 0.45), 32)
         painter.add_circle(at, radius, theme.packed((1.0, 1.0, 1.0), 0.3), 32, 2.5 * desk.scale)
         painter.path_arc_to(at, radius, -math.pi / 2, (2 * growing.done - 0.5) * math.pi, 32)
         painter.path_stroke(theme.packed((1.0, 1.0, 1.0), 0.95), 2.5 * desk.scale)
+
+
+def apart(places: list[tuple[float, float]], least: float) -> list[tuple[float, float]]:
+    """Those that no place before them is nearer to than that: as marks they would lie on one another."""
+    found: list[tuple[float, float]] = []
+    for place in places:
+        if all(math.dist(place, other) >= least for other in found):
+            found.append(place)
+    return found
 
 
 def _draw_marked(corners: tuple[float, float, float, float]) -> None:

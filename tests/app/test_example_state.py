@@ -9,6 +9,7 @@ from PIL import Image
 
 from app import examples, icons, keeping, palette, shelf, sowing, tools
 from app.actions import ACTIONS
+from app.cursor import apart
 from app.desk import Desk
 from app.examples import Entry
 from app.input.events import PenEvent
@@ -460,6 +461,11 @@ def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Saving, growing 40 %"
     desk.writing = Writing(1)
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Writing"
+
+
+def test_marks_of_what_grows_do_not_lie_on_one_another():
+    places = [(0.0, 0.0), (5.0, 5.0), (20.0, 0.0), (20.0, 1.0), (0.0, 11.0)]
+    assert apart(places, 10.0) == [(0.0, 0.0), (20.0, 0.0), (0.0, 11.0)]
 
 
 def test_the_engine_gets_ready_when_examples_are_used_once(desk, posted):
