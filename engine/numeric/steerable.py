@@ -94,11 +94,19 @@ def _made(height: int, width: int, levels: int, orientations: int) -> Filters:
     bands = []
     for level, (h, w) in enumerate(sizes[:-1]):
         logarithm, angle = _logarithm(height, width, h, w)
-        radial = _split(logarithm + level)[1] * _split(logarithm + level + 1)[0]
-        bands.append(np.stack([radial * _angular(angle, k, orientations) for k in range(orientations)]))
-    low = _split(_logarithm(height, width, *sizes[-1])[0] + levels)[1]
+        bands.append(masks(logarithm, angle, level, levels, orientations))
+    (low,) = masks(*_logarithm(height, width, *sizes[-1]), levels, levels, orientations)
     fine, *oriented, coarse = (_kept(mask) for mask in (high, *bands, low))
     return Filters(levels, orientations, tuple(sizes), fine, tuple(oriented), coarse)
+
+
+def masks(logarithm: np.ndarray, angle: np.ndarray, level: int, levels: int, orientations: int) -> np.ndarray:
+    """The masks of the subbands of a level, 0 to `levels` (the low-pass residue), at any frequencies (...): log2 of
+    them in parts of the highest along an axis, and their direction.  float64 (K, ...), K being 1 for the residue."""
+    if level == levels:
+        return _split(logarithm + level)[1][None]
+    radial = _split(logarithm + level)[1] * _split(logarithm + level + 1)[0]
+    return np.stack([radial * _angular(angle, k, orientations) for k in range(orientations)])
 
 
 def _kept(mask: np.ndarray) -> np.ndarray:

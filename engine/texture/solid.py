@@ -9,7 +9,8 @@ which every sqrt(2)nd row is looked at.  The cube is seamless in all three direc
 
 What is large in a cube settles slowest, for a slice has few samples of it, and shows in single slices that are unlike
 the rest.  So a cube grows from one of half its size, of what the example has at that size, which takes an eighth of the
-time for each turn and has more of them.
+time for each turn and has more of them; and after each turn what is large is settled by itself, of the planes as tiles
+in more directions (settling.py) and as pictures (framing.py).
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.pyramid import reduce
 from engine.numeric.resample import rows_at
 from engine.numeric.steerable import Filters, Place, finished
+from engine.texture.framing import Framing
 from engine.texture.matching import Pattern, Shape, Step, analysed, filters_for
+from engine.texture.settling import Settling
 
 ITERATIONS = 8
 
@@ -118,15 +121,17 @@ def _grown(wanted: Patterns, cubes: np.ndarray, turns: int, before: int, threads
 def _turned(wanted: Patterns, cubes: np.ndarray, turns: int, threads: Executor | None) -> Iterator[Step]:
     """Some turns of cubes, in place."""
     made = filters_for(cubes, wanted.oriented.shape)
+    side, shape = cubes.shape[-1], wanted.oriented.shape
+    large = Settling(side, shape), Framing(side, shape)
     _match_voxels(cubes, wanted.oriented)
-    parts = 1 + len(CUTS)
+    parts = 2 + len(CUTS)
     total, done = turns * len(cubes) * parts, 0
     for turn in range(turns):
         for channel, cube in enumerate(cubes):
             for piece in _changed(wanted, cube, channel, made, threads):
                 yield Step((done + piece) / total)
+            _settled(large, cube, wanted.oriented, channel, threads)
             done += parts
-        _match_voxels(cubes, wanted.oriented)
         yield Step((turn + 1) / turns, cubes.copy())
     if not total:
         yield Step(1.0, cubes)
@@ -191,6 +196,20 @@ def _sliced(
     return slices
 
 
-def _match_voxels(cubes: np.ndarray, pattern: Pattern) -> None:
-    for cube, ordered in zip(cubes, pattern.pixels or (), strict=False):
+def _settled(
+    turns: tuple[Settling, Framing], cube: np.ndarray, pattern: Pattern, channel: int, threads: Executor | None
+) -> None:
+    """Settles what is large in a cube, in place; its voxels have the example's values before and after it."""
+    bands = pattern.bands[channel]
+    settling, framing = turns
+    _match_voxels(cube[None], pattern, channel)
+    settling.turn(cube, bands, threads)
+    _match_voxels(cube[None], pattern, channel)
+    for centred in (False, True):
+        framing.turn(cube, bands, centred, threads)
+        _match_voxels(cube[None], pattern, channel)
+
+
+def _match_voxels(cubes: np.ndarray, pattern: Pattern, first: int = 0) -> None:
+    for cube, ordered in zip(cubes, (pattern.pixels or ())[first:], strict=False):
         histograms.match(cube, ordered)

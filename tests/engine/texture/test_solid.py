@@ -52,8 +52,8 @@ def test_planes_look_like_the_example(name, granite):
         start = matching.noise(pattern.colours.count, (SIDE, SIDE), seed)
         flat.append(unlikeness(picture(pattern, matched(pattern, start)), example))
     found = [unlikeness(plane, example) for plane in planes_of(cube)]
-    assert np.mean(found) < 1.25 * np.mean(flat)
-    assert max(found) < 1.6 * np.mean(flat)
+    assert np.mean(found) < 1.15 * np.mean(flat), np.mean(found) / np.mean(flat)
+    assert max(found) < 1.5 * np.mean(flat), max(found) / np.mean(flat)
     axes = axes_of(example)
     values = tuple(np.sort(plane, axis=None) for plane in axes.planes(example))
     noisy = unlikeness(noise_like(axes, values, matching.noise(axes.count, (SIDE, SIDE), 5)), example)
@@ -106,17 +106,20 @@ def test_slices_across_diagonals_take_streaks_away(monkeypatch):
 
 
 def test_no_single_plane_is_unlike_the_example():
-    example = specimens.moss((64, 64))
+    """Neither of those along the faces of the cube, nor where it is cut elsewhere."""
+    example = specimens.sand((64, 64))
     pattern = analysed(example, Shape())
     flat = []
-    for seed in range(3):
+    for seed in range(4):
         start = matching.noise(pattern.colours.count, (64, 64), seed)
         flat.append(unlikeness(picture(pattern, matched(pattern, start)), example))
     cube = made(example, 64)
-    found = [
-        unlikeness(np.ascontiguousarray(np.take(cube, k, axis)), example) for axis in (1, 2, 3) for k in range(0, 64, 2)
-    ]
-    assert max(found) < 1.5 * np.mean(flat), max(found) / np.mean(flat)
+    for shift, step in ((0, 1), (21, 4)):
+        moved = np.roll(cube, (shift,) * 3, (1, 2, 3))
+        planes = [np.ascontiguousarray(np.take(moved, k, axis)) for axis in (1, 2, 3) for k in range(0, 64, step)]
+        found = [unlikeness(plane, example) for plane in planes]
+        assert np.mean(found) < 1.15 * np.mean(flat), np.mean(found) / np.mean(flat)
+        assert max(found) < 1.5 * np.mean(flat), max(found) / np.mean(flat)
 
 
 def test_no_seams_in_any_direction(granite):
