@@ -15,6 +15,7 @@ pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 OWN = {"a": "wash-indigo", "b": "felt"}  # copies, which are listed first
 FIRST, SECOND = (292, 526), (368, 526)
 REGION_TAB, SWAP, PAINT_OUT, SAVE = (830, 437), (925, 755), (868, 491), (867, 755)
+DELETE = (972, 470)
 PICTURE = (slice(459, 766), slice(348, 655))
 CANVAS = (slice(60, 400), slice(280, 960))
 THUMBNAIL, SAMPLE = (slice(500, 550), slice(345, 390)), (slice(500, 730), slice(740, 980))
@@ -181,3 +182,16 @@ def test_a_region_is_painted_and_saved(program, folder):
     assert (after & ~before)[:50, :60].sum() > 500
     assert (before & ~after)[100:150, 140:180].sum() > 500
     assert not list(folder.glob("*.part"))
+
+
+def test_ones_own_is_renamed_by_a_double_click_and_deleted(program, folder):
+    app = opened(program())
+    app.do("mousemove", *FIRST)
+    app.do("click", "--repeat", 2, "--delay", 80, 1)
+    time.sleep(0.8)
+    app.type("Zebra")
+    app.keys("Return")
+    until(lambda: 'title = "Zebra"' in (folder / "a.toml").read_text())
+    app.click(DELETE)
+    until(lambda: not list(folder.glob("a.*")))
+    assert len(list(folder.glob("b.*"))) == 3
