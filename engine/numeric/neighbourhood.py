@@ -21,6 +21,7 @@ ROW = 32  # values of a row of weights
 FULL = np.uint64((1 << SIDE * SIDE) - 1)
 WEIGHT = 8  # mean of the weights over 7 x 7 pixels
 
+_MIDDLE, _OTHERS = (2, 3, 4), (0, 1, 5, 6)
 _LANES = ir.VectorType(ir.IntType(16), ROW)
 _WIDE = ir.VectorType(ir.IntType(32), ROW)
 
@@ -42,39 +43,59 @@ def _lanes(context: Any, builder: Any, kind: Any, array: Any, at: Any) -> Any:
     return builder.load(pointer, align=2)
 
 
-def _sum_of_squares(context: Any, builder: Any, difference: Any, weights: Any) -> Any:
+def _weighted_squares(builder: Any, difference: Any, weights: Any) -> Any:
     weighted = builder.mul(difference, weights)
-    products = builder.mul(builder.sext(difference, _WIDE), builder.sext(weighted, _WIDE))
+    return builder.mul(builder.sext(difference, _WIDE), builder.sext(weighted, _WIDE))
+
+
+def _summed(builder: Any, products: Any) -> Any:
     name = f"llvm.vector.reduce.add.v{ROW}i32"
     add = cgutils.get_or_insert_function(builder.module, ir.FunctionType(ir.IntType(32), [_WIDE]), name)
     return builder.call(add, [products])
 
 
-@intrinsic
-def row_apart(context, a, i, b, j, weights, k):
-    """Sum of weights[k + t] (a[i + t] - b[j + t])^2 over t < 32: int32; all arrays int16, flat, 0 <= index."""
-    signature = types.int32(a, types.intp, b, types.intp, weights, types.intp)
+def _apart_over(rows: tuple[int, ...], within: bool) -> Any:
+    """How far some of the rows of two neighbourhoods are apart, which are added up in one register."""
 
     def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        kinds = signature.args
-        one, other, weight = (_lanes(context, builder, kinds[n], arguments[n], arguments[n + 1]) for n in (0, 2, 4))
-        return _sum_of_squares(context, builder, builder.sub(one, other), weight)
+        a, i, a_row, b, j, b_row, weights, k, *care = arguments
+        kinds, total = signature.args, None
 
-    return signature, emit
+        def lanes(n: int, array: Any, first: Any, step: Any, r: int) -> Any:
+            at = builder.add(first, builder.mul(step, ir.Constant(step.type, r)))
+            return _lanes(context, builder, kinds[n], array, at)
+
+        for r in rows:
+            one, other = lanes(0, a, i, a_row, r), lanes(3, b, j, b_row, r)
+            if care:
+                other = builder.and_(other, lanes(8, care[0], i, a_row, r))
+            weight = lanes(6, weights, k, ir.Constant(k.type, ROW), r)
+            products = _weighted_squares(builder, builder.sub(one, other), weight)
+            total = products if total is None else builder.add(total, products)
+        return _summed(builder, total)
+
+    places = types.intp, types.intp
+    if within:
+
+        @intrinsic
+        def apart(context, a, i, a_row, b, j, b_row, weights, k, care):
+            return types.int32(a, *places, b, *places, weights, types.intp, care), emit
+
+    else:
+
+        @intrinsic
+        def apart(context, a, i, a_row, b, j, b_row, weights, k):
+            return types.int32(a, *places, b, *places, weights, types.intp), emit
+
+    return apart
 
 
-@intrinsic
-def row_apart_within(context, a, i, b, j, weights, k, within):
-    """As `row_apart`, but b counts only where `within[i + t]` is -1 (it is 0 elsewhere, and so is a)."""
-    signature = types.int32(a, types.intp, b, types.intp, weights, types.intp, within)
-
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        kinds = signature.args
-        one, other, weight = (_lanes(context, builder, kinds[n], arguments[n], arguments[n + 1]) for n in (0, 2, 4))
-        mask = _lanes(context, builder, kinds[6], arguments[6], arguments[1])
-        return _sum_of_squares(context, builder, builder.sub(one, builder.and_(other, mask)), weight)
-
-    return signature, emit
+# Sum of weights[k + 32 r + t] (a[i + r a_row + t] - b[j + r b_row + t])^2 over t < 32 and the three rows r in the
+# middle of a neighbourhood, or over the four others: int32; all arrays int16, flat, 0 <= index.  Those in the middle
+# weigh most: they may tell that the others need not be looked at.
+middle_apart, others_apart = _apart_over(_MIDDLE, False), _apart_over(_OTHERS, False)
+# The same, but b counts only where `care[i + r a_row + t]` is -1 (it is 0 elsewhere, and so is a).
+middle_apart_within, others_apart_within = _apart_over(_MIDDLE, True), _apart_over(_OTHERS, True)
 
 
 @njit(cache=True, nogil=True)

@@ -12,9 +12,16 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.hashing import mix64
-from engine.numeric.neighbourhood import RADIUS, SIDE, ones, row_apart, row_apart_within
-from engine.numeric.neighbourhood import ROW as WEIGHTS_ROW
-from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, first_of, mark_readers
+from engine.numeric.neighbourhood import (
+    RADIUS,
+    SIDE,
+    middle_apart,
+    middle_apart_within,
+    ones,
+    others_apart,
+    others_apart_within,
+)
+from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, first_of, inner, kernel, mark_readers
 
 REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
 
@@ -39,7 +46,7 @@ def _show(window, compared, stride, y, x, source):
         window.shown[i + c] = compared[j + c]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def wanted(window, p, turn, beyond, places):
     """Lists the pixels to correct in a sub-pass, as row * width + column; gives their number.
 
@@ -58,18 +65,18 @@ def wanted(window, p, turn, beyond, places):
     return count
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _colours_apart(window, i, example, j, weights, rim, e, least):
     """`e` and how far the colours of two neighbourhoods are apart, or some number from `least` on."""
-    for r in range(SIDE):
-        if e >= least:
-            break
-        if rim:
-            e += row_apart_within(window.shown, i, example.compared, j, weights, r * WEIGHTS_ROW, window.care)
-        else:
-            e += row_apart(window.shown, i, example.compared, j, weights, r * WEIGHTS_ROW)
-        i += 4 * window.mask.shape[1]
-        j += 4 * example.region.shape[1]
+    row, other = 4 * window.mask.shape[1], 4 * example.region.shape[1]
+    if rim:
+        e += middle_apart_within(window.shown, i, row, example.compared, j, other, weights, 0, window.care)
+        if e < least:
+            e += others_apart_within(window.shown, i, row, example.compared, j, other, weights, 0, window.care)
+    else:
+        e += middle_apart(window.shown, i, row, example.compared, j, other, weights, 0)
+        if e < least:
+            e += others_apart(window.shown, i, row, example.compared, j, other, weights, 0)
     return np.int32(e)
 
 
@@ -87,7 +94,7 @@ def _energy(window, y, x, example, name, rules, bits, rim, least):
     return _colours_apart(window, i, example, _corner(example, name), rules.weights, rim, e, least)
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def _corrected(window, y, x, p, example, rules, tried):
     """The best source for one pixel: what continues its neighbours' sources, or what is much nearer."""
     bits = window.bits[y, x] & rules.square
@@ -116,7 +123,7 @@ def _corrected(window, y, x, p, example, rules, tried):
     return best
 
 
-@njit(cache=True, nogil=True)
+@njit(inline="always")
 def _continued(window, y, x, example, coarsest, names):
     """The coherence search: lists the sources that continue those of a pixel and its neighbours; gives their number."""
     count = 0
@@ -143,7 +150,7 @@ def _holds(names, count, name):
     return found
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _searched(window, y, x, example, rules, bits, rim, limit, best, first, last, stride):
     """The best of some of the example's pixels in their order, if its energy is below `limit`; else `best`."""
     for i in range(first, last, stride):
@@ -153,7 +160,7 @@ def _searched(window, y, x, example, rules, bits, rim, limit, best, first, last,
     return best
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     """The best of those with about as many neighbours inside whose shapes are nearest, if it is below `limit`.
 
@@ -192,7 +199,7 @@ def _corner(example, name):
     return 4 * (((name >> 16) - RADIUS) * example.region.shape[1] + (name & 0xFFFF) - RADIUS)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _alike(starts, count):
     """The part of the order with about so many neighbours inside, though not all, or with the next fewer and more."""
     most = SIDE * SIDE - 1
@@ -204,16 +211,20 @@ def _alike(starts, count):
     return np.int64(starts[low]), np.int64(starts[high + 1])
 
 
-@njit(cache=True, nogil=True)
-def correct(window, places, first, last, p, example, rules, found):
-    """Finds the sources of the pixels places[first:last]."""
-    tried = np.empty(9, np.int32)
+@inner
+def _correct(window, places, first, last, p, example, rules, found, tried):
     width = window.mask.shape[1]
     for i in range(first, last):
         found[i] = _corrected(window, places[i] // width, places[i] % width, p, example, rules, tried)
 
 
 @njit(cache=True, nogil=True)
+def correct(window, places, first, last, p, example, rules, found):
+    """Finds the sources of the pixels places[first:last]."""
+    _correct(window, places, first, last, p, example, rules, found, np.empty(9, np.int32))
+
+
+@kernel
 def settle(window, places, count, found, p, turn, example):
     """Takes over the sources found in a sub-pass; asks for what reads one that changed."""
     height, width = window.mask.shape

@@ -16,7 +16,17 @@ from numba import njit
 
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
-from engine.numeric.neighbourhood import FULL, RADIUS, ROW, SIDE, ones, region_bits, row_apart_within, weights
+from engine.numeric.neighbourhood import (
+    FULL,
+    RADIUS,
+    ROW,
+    SIDE,
+    middle_apart_within,
+    ones,
+    others_apart_within,
+    region_bits,
+    weights,
+)
 from engine.texture.example.exemplar import COUNTS, PAD, ExampleLevel, Exemplar
 
 AXES = 24  # of the vectors that are searched
@@ -187,13 +197,14 @@ def _energy(y, x, name, levels, least):
 
 @njit(cache=True, nogil=True)
 def _apart(made, y, x, own, row, column, window, first, e, least):
-    width, other = made.region.shape[1], own.region.shape[1]
-    for r in range(SIDE):
-        if e >= least:
-            break
-        i = 4 * ((y + r - RADIUS) * width + x - RADIUS)
-        j = 4 * ((row + r - RADIUS) * other + column - RADIUS)
-        e += row_apart_within(made.compared, i, own.compared, j, window, first + r * ROW, made.care)
+    if e >= least:
+        return e
+    width, other = 4 * made.region.shape[1], 4 * own.region.shape[1]
+    i = (y - RADIUS) * width + 4 * (x - RADIUS)
+    j = (row - RADIUS) * other + 4 * (column - RADIUS)
+    e += middle_apart_within(made.compared, i, width, own.compared, j, other, window, first, made.care)
+    if e < least:
+        e += others_apart_within(made.compared, i, width, own.compared, j, other, window, first, made.care)
     return e
 
 

@@ -9,14 +9,14 @@ from numba import njit
 
 from engine.numeric.hashing import mix64
 from engine.numeric.neighbourhood import RADIUS, ones
-from engine.texture.example.window import OUTSIDE, mark_readers, shape_at, turn_of
+from engine.texture.example.window import OUTSIDE, inner, mark_readers, shape_at, turn_of
 
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _begin(window, before, example):
     """The starts in planes[0], `before` (int32 (h, w)) having been those until now, go into the window."""
     height, width = window.mask.shape
@@ -52,7 +52,7 @@ def _child(parent, y, x, region):
     return np.int32(OUTSIDE)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _children(mask, parents, odd_y, odd_x, region, out):
     """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
     for y in range(mask.shape[0]):
@@ -80,19 +80,26 @@ def start_coarsest(window, patches, corners, block, offset, example, rules):
     `patches`: uint64 hashes of the patches that meet the window, `offset`: (row, column) of its first pixel in the
     first of them; `corners`: names of the pixels where patches may begin.
     """
-    height, width = window.mask.shape
     old = window.planes[0].copy()
-    for y in range(height):
-        for x in range(width):
-            if window.mask[y, x] and (window.need[0, y, x] or old[y, x] < 0):
-                row, column = y + offset[0], x + offset[1]
-                drawn = patches[row // block, column // block] % np.uint64(corners.size)
-                start = corners[drawn] + np.int32((row % block) << 16 | (column % block))
-                window.planes[0, y, x] = _shaped(window.bits[y, x], start, window.hashes[y, x], example, rules)
+    _draw(window, patches, corners, block, offset, example, rules)
     _begin(window, old, example)
 
 
-@njit(cache=True, nogil=True)
+@inner
+def _draw(window, patches, corners, block, offset, example, rules):
+    """Puts the starts that are new, or whose neighbourhoods are, into planes[0]."""
+    height, width = window.mask.shape
+    starts = window.planes[0]
+    for y in range(height):
+        for x in range(width):
+            if window.mask[y, x] and (window.need[0, y, x] or starts[y, x] < 0):
+                row, column = y + offset[0], x + offset[1]
+                drawn = patches[row // block, column // block] % np.uint64(corners.size)
+                start = corners[drawn] + np.int32((row % block) << 16 | (column % block))
+                starts[y, x] = _shaped(window.bits[y, x], start, window.hashes[y, x], example, rules)
+
+
+@inner
 def _shaped(bits, start, h, example, rules):
     """`start`, if the shape around it is alike; else the pixel that the hash draws of those with about such a shape, or
     with the nearest if there are none."""

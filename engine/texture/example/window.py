@@ -17,6 +17,12 @@ MARGIN = RADIUS + 1  # even
 SUBPASSES = 4
 OUTSIDE = -1  # instead of a source, where there is no region
 
+# Compiles what may not allocate, without counting references: else each array that is read from one of these tuples is
+# counted, for all threads at once, which takes several times as long as the work itself.
+kernel = njit(cache=True, nogil=True, _nrt=False)
+# The same for what kernels alone call: what Python would call it by is not made, which takes a second for each.
+inner = njit(cache=True, nogil=True, _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+
 
 class Example(NamedTuple):
     """A level of the exemplar; `compared` flat; `shapes`: uint64, the bits of those of `order` that do not lie wholly
@@ -119,7 +125,7 @@ def _mark_shapes(mask, was, need, fresh):
                     need[p, y, x] = 1
 
 
-@njit(cache=True, nogil=True)
+@inner
 def mark_readers(window, y, x, p, turn):
     """Asks for the pixels that read the source of one as it is after pass `p` (0: at the start)."""
     height, width = window.mask.shape
