@@ -38,6 +38,7 @@ NOWHERE = Path()  # the files of those that only the painting has
 SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
 NAME_CAP = 40  # characters
 TABS = ("palette", "region", "settings")
+SAMPLE = "example sample"  # what the picture of a stroke is called
 KIND = "example"  # of textures
 
 
@@ -153,6 +154,8 @@ class ExampleState:
     masks: dict[str, Mask] = field(default_factory=dict)
     spot: tuple[float, float, float] | None = None
     sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
+    sampling: str = ""  # the entry whose picture of a stroke was asked for last
+    seen: str = ""  # and the one whose picture is there
     _hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
     _asked: Any = None
     _since: float = 0.0
@@ -248,6 +251,7 @@ class ExampleState:
         if self._since and now >= self._since:
             self._since, self._sent = 0.0, now
             if wanted is not None and min(self.sampled) > 0:
+                self.sampling = self.chosen
                 post(sample(*wanted[:4]))
 
     def ask_thumbnails(self, post: Callable[[Request], None], side: int) -> None:
@@ -294,7 +298,7 @@ def sample(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], o
     radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
     brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
     brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
-    return Swatch("example sample", brush, size, textures=needs, soon=True)
+    return Swatch(SAMPLE, brush, size, textures=needs, soon=True)
 
 
 def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:

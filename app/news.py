@@ -13,6 +13,7 @@ import numpy as np
 from app import palette, presets, sowing
 from app.colours import to_hex
 from app.desk import Desk
+from app.examples import SAMPLE
 from app.gallery import Gallery
 from app.lab import only_with
 from app.mask import shown
@@ -193,6 +194,8 @@ class News:
 
     def _picture(self, r: results.Picture, _now: float) -> None:
         """A swatch over paper, as a texture for imgui."""
+        if r.ident == SAMPLE:
+            self.desk.examples.seen = self.desk.examples.sampling
         self.gallery.hang(r.ident, r.pixels)
 
     def _lab(self, r: results.LabScene, _now: float) -> None:

@@ -132,8 +132,12 @@ class ExamplesPanel:
         imgui.set_cursor_pos_y(top + line)  # with buttons and without
         tall = room.y - 2 * line
         state.sampled = max(1, round(room.x)), max(1, round(tall))
-        shown = desk.pictures.get("example sample") if entry else None
+        shown = desk.pictures.get(examples.SAMPLE) if entry else None
         corner = w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on one to try it")
+        if shown is not None and state.seen != state.chosen:  # it is of another one yet
+            end = ImVec2(corner.x + room.x, corner.y + tall)
+            veil = theme.packed(theme.FIELD, 0.75)
+            imgui.get_window_draw_list().add_rect_filled(corner, end, veil, imgui.get_style().frame_rounding)
         if shown is None and entry is not None and desk.preparing is not None:
             _in_middle("Getting ready…", corner, (room.x, tall))
         wide = (room.x - gap.x) / 2

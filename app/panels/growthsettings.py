@@ -8,7 +8,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import icons, sowing, theme
 from app.desk import Desk
-from app.examples import Entry
+from app.examples import SAMPLE, Entry
 from app.panels import widgets as w
 from app.panels.widgets import Col
 
@@ -80,7 +80,7 @@ class GrowthSettings:
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
         wide = min((1 - SIDE) * room.x, BROADEST * room.y)
         desk.examples.sampled = max(1, round(wide)), max(1, round(room.y))
-        w.picture(desk.pictures.get("example sample"), (wide, room.y), "A stroke with these settings")
+        w.picture(desk.pictures.get(SAMPLE), (wide, room.y), "A stroke with these settings")
         imgui.same_line(0, gap)
         imgui.begin_child("growth", ImVec2(0, 0))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, 4 * desk.scale))
