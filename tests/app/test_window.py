@@ -116,3 +116,25 @@ def test_escape_abandons_a_stroke(program):
     app.keys("Escape")
     app.do("mouseup", 1)
     assert app.comes_to(empty)
+
+
+def test_what_the_window_system_lost_is_drawn_again(program):
+    app = program()
+    app.stroke(*WAVE)
+    app.canvas()
+    time.sleep(1.5)  # frames linger
+    shown = app.settled()
+    app.do("search", "--name", "Inkfall", "windowunmap", "--sync")
+    assert differing(shown.astype(int), app.screen().astype(int)) > 100_000
+    app.do("search", "--name", "Inkfall", "windowmap", "--sync")
+    assert np.array_equal(app.settled(), shown)
+
+
+def test_hovering_shows_in_a_panel_that_was_at_rest(program):
+    app = program()
+    app.parked((640, 790))
+    time.sleep(1.5)  # frames linger
+    still = app.parked((640, 790))
+    over = app.parked((96, 46))  # the eraser
+    assert 100 < differing(still, over)
+    assert np.array_equal(app.parked((640, 790)), still)
