@@ -31,7 +31,7 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
         yield Figure(f"{name}, frames over 1/60 s", late, "frames", bound, late / count, LATE, note=note)
         taken = sum(spent.values())
         note = f"of the window's thread {1e3 * spent['window']:.1f} ms, of a software renderer's, all together, "
-        note += f"{1e3 * spent['renderer']:.1f} ms: what one core can do, if another is taken"
+        note += f"{1e3 * spent['renderer']:.1f} ms; one core has to do, of two, while the engine takes the other"
         yield Figure(
             f"{name}, processor time", taken * 1e3, "ms", f"{FRAME * 1e3:.1f} ms", taken / FRAME, 1.0, note=note
         )
