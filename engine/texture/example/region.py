@@ -19,21 +19,15 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
-from engine.numeric.neighbourhood import RADIUS, SIDE, WEIGHT, square_bits, weights
+from engine.numeric.neighbourhood import RADIUS
 from engine.texture.example import correction, starts, tiles
 from engine.texture.example.correction import REACH
 from engine.texture.example.exemplar import Exemplar
+from engine.texture.example.rules import example_of, rules_of
 from engine.texture.example.tiles import NONE, Tiles
 from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, Example, Rules, Window, window_of
 
 COARSEST_PASSES = 2
-_CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may be large and have but one
-# Pixels of another shape that are free, from the coarsest level on: where pixels are large the example has few shapes
-# like the stroke's, and the same ones again and again would show as a comb.
-_LEEWAY = 6, 2
-# At a rim, at most: else where a stroke is narrow what continues one side of it goes on to its other side.
-_RIM_KAPPA = 2.0
-_MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures
 _AT_ONCE = 640  # pixels along a window, at most; larger ones are refined in squares of _SQUARE
 _SQUARE = 512
@@ -281,7 +275,7 @@ def _window(region: Region, n: int, square: Rect, room: int) -> Window:
         parents, before = np.full((2, 1, above.height, above.width), OUTSIDE, np.int32)
         tiles.gathered_last(region._above(n), above, parents)
         tiles.gathered_last(old.above, above, before)
-        starts.start_finer(window, parents[0], before[0], _example(region.exemplar, n))
+        starts.start_finer(window, parents[0], before[0], example_of(region.exemplar, n))
     return window
 
 
@@ -294,12 +288,12 @@ def _start_coarsest(region: Region, window: Window, rect: Rect) -> None:
     n = len(exemplar.levels) - 1
     offset = rect.y0 - y * block, rect.x0 - x * block
     arrays = patches, exemplar.blocks
-    starts.start_coarsest(window, *arrays, block, offset, _example(exemplar, n), _rules(exemplar, n))
+    starts.start_coarsest(window, *arrays, block, offset, example_of(exemplar, n), rules_of(exemplar, n))
 
 
 def _correcting(region: Region, n: int, window: Window, room: int, threads: Executor | None) -> Iterator[float]:
     """The part done, 0..1, after each piece of work."""
-    example, rules = _example(region.exemplar, n), _rules(region.exemplar, n)
+    example, rules = example_of(region.exemplar, n), rules_of(region.exemplar, n)
     passes = len(window.planes) - 1
     heavy = _SEARCHING if _coarsest(region, n) else 1
     for p in range(1, passes + 1):
@@ -340,25 +334,3 @@ def _corrected(window, places, count, p, example, rules, found, step, threads):
     for (_, last), job in zip(slices, jobs, strict=True):
         job.result()
         yield last
-
-
-def _example(exemplar: Exemplar, n: int) -> Example:
-    level = exemplar.levels[n]
-    return Example(level.compared.reshape(-1), level.region, level.bits, level.order, exemplar.shapes[n], level.starts)
-
-
-def _rules(exemplar: Exemplar, n: int) -> Rules:
-    given = exemplar.parameters
-    above = len(exemplar.levels) - 1 - n
-    size = SIDE * SIDE / given.neighbourhood**2
-    penalty = int(min(given.e_max * size, _MOST) * 65025 * WEIGHT)
-    return Rules(
-        weights(given.neighbourhood),
-        square_bits(given.neighbourhood),
-        penalty,
-        _LEEWAY[above] if n >= 2 and above < len(_LEEWAY) and exemplar.boundary else 0,
-        int(256 * (1.0 + given.kappa)),
-        int(256 * (1.0 + min(given.kappa, _RIM_KAPPA))),
-        max(given.every, exemplar.levels[n].order.size // _CANDIDATES) if above == 0 else 0,
-        exemplar.boundary,
-    )
