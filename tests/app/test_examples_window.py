@@ -77,7 +77,12 @@ def opened(app):
 def choose(app, at):
     before = app.screen()[SAMPLE].astype(int)
     app.click(at)
-    until(lambda: changed(app.screen()[SAMPLE].astype(int), before) > 2000)
+
+    def is_shown():
+        now = app.screen()[SAMPLE].astype(int)
+        return changed(now, before) > 2000 and now.mean() > 128  # not dark, as while it is of another one
+
+    until(is_shown)
 
 
 def with_palette(program, *words):
