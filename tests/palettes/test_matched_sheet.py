@@ -1,0 +1,45 @@
+"""The sheet of matched textures shows what its script says: examples, mixtures of them, and solids."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+SCRIPT = Path(__file__).resolve().parents[2] / "palettes" / "pictures" / "make_matched.py"
+
+
+@pytest.fixture(scope="module")
+def sheet():
+    before = list(sys.path)
+    spec = importlib.util.spec_from_file_location("make_matched", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    sys.path[:] = before
+    return made
+
+
+def test_rows_of_examples_and_mixtures_are_as_long(sheet):
+    found = sheet.examples()
+    mixtures = sheet.mixtures(found)
+    assert len(found) == len(mixtures) == 7
+    assert {picture.shape[1:] for picture in found.values()} == {(sheet.SIDE, sheet.SIDE)}
+    first = mixtures[0].colours.colours(np.zeros((3, 1, 1), np.float32))
+    assert first[1] > max(first[0], first[2])  # green, as moss is
+
+
+def test_a_solid_is_shown_by_slices_and_faces_that_fit(sheet):
+    with ThreadPoolExecutor(2) as threads:
+        body = sheet.voxels(sheet.examples()["moss"], threads, 8)
+    assert body.shape == (8, 8, 8, 3)
+    shown = sheet.shown(body)
+    width = 7 * (sheet.SIDE + sheet.GAP) - sheet.GAP
+    assert len(sheet.SOLIDS) * (shown.shape[1] + sheet.GAP // 2) <= width + sheet.GAP // 2
+    assert (shown[:, : sheet.SLICE].min(axis=2) < 1.0).sum() == 2 * sheet.SLICE**2
+    assert shown[len(shown) // 2, -10].max() < 1.0
