@@ -28,6 +28,7 @@ REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
 _FAR = np.int32(2**31 - 1)
 _RIM_CANDIDATES = 8
 _SHAPES = 64  # of which the nearest are searched
+_ONE_IN = 3  # shapes at most, drawn by place: along a straight rim the best of all would be the same again and again
 _COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours inside, and pixels of the shape
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
@@ -168,7 +169,7 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     neighbours: so shapes override colours, whatever the rim looks like (Ritter et al. 2006, section 5).
     """
     first, last = _alike(example.starts, ones(window.bits[y, x]))
-    step = max(1, (last - first) // _SHAPES)
+    step = max(_ONE_IN, (last - first) // _SHAPES)
     first += np.int64(h % np.uint64(step))
     nearest, count = np.int32(SIDE * SIDE + 1), 0
     for i in range(first, last, step):

@@ -19,7 +19,7 @@ MOST_LEVELS = 8
 @dataclass(frozen=True, slots=True)
 class Parameters:
     """`kappa`: how much nearer a pixel from elsewhere in the example must be than one that continues what lies around
-    it, at a rim 2 at most; `neighbourhood`: pixels along its side; `levels`: of the pyramid, 0 to choose by the
+    it, at a rim 1.5 at most; `neighbourhood`: pixels along its side; `levels`: of the pyramid, 0 to choose by the
     example's size; `every`: one in so many pixels (scanline) or candidates of the coarsest level (correction) is
     searched for; `channels`, `alpha`: what is compared; `e_max`: the energy of a pixel inside the region against one
     outside, where 1 is a channel from black to white; `boundary`: whether the example shows its rim ("auto": unless

@@ -13,7 +13,7 @@ _CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may
 # like the stroke's, and the same ones again and again would show as a comb.
 _LEEWAY = 6, 2
 # At a rim, at most: else where a stroke is narrow what continues one side of it goes on to its other side.
-_RIM_KAPPA = 2.0
+_RIM_KAPPA = 1.5
 _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 
 
