@@ -1,5 +1,6 @@
 """A display of their own for tests that open the real window, and the program under a test's hand."""
 
+import ctypes
 import os
 import subprocess
 import sys
@@ -7,10 +8,11 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import moderngl
 import numpy as np
 import pytest
 from PIL import ImageGrab
-from xserver import need, started_server
+from xserver import lacking, need, started_server
 
 ROOT = Path(__file__).parents[2]
 PATIENCE = 90.0  # seconds; the first start compiles kernels
@@ -164,3 +166,15 @@ def program(display, tmp_path):
     yield start
     for one in opened:
         one.close()
+
+
+@pytest.fixture(scope="module")
+def context():
+    """OpenGL without a display."""
+    try:
+        made = moderngl.create_context(standalone=True, backend="egl")
+    except Exception as error:  # whatever the driver says: no GL here
+        lacking(f"EGL: {error}")
+    yield made
+    made.release()
+    ctypes.CDLL("libEGL.so.1").eglReleaseThread()  # X refuses windows of a thread that has a context of EGL's

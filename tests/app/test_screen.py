@@ -1,9 +1,7 @@
 """The canvas on the card, drawn without any display: what covers what, and where."""
 
-import moderngl
 import numpy as np
 import pytest
-from xserver import lacking
 
 from app.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
 from app.view import Place, View
@@ -13,16 +11,6 @@ from engine.painting.results import Patch
 SIZE = (640, 480)
 RED, GREEN, CLEAR = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 0, 0)
 FRAME = Rect(-100, -100, 100, 100)
-
-
-@pytest.fixture(scope="module")
-def context():
-    try:
-        ctx = moderngl.create_context(standalone=True, backend="egl")
-    except Exception as error:  # whatever the driver says: no GL here
-        lacking(f"EGL: {error}")
-    yield ctx
-    ctx.release()
 
 
 @pytest.fixture
