@@ -56,6 +56,7 @@ class Overlay:
         self._lists: list[imgui.ImDrawList] = []
         self._sheets: dict[str, Sheet] = {}  # by the window's name
         self._drawn: set[tuple[Box, tuple[Sheet, ...]]] = set()
+        self._laid: list[Box] = []
 
     def _room_for(self, boxes: int) -> None:
         self._most = boxes
@@ -77,17 +78,22 @@ class Overlay:
             return True
         return list(self._sheets.items()) != list(known.items())
 
-    def draw(self, data: imgui.ImDrawData) -> None:
-        """Lays over the screen what `look` took in."""
-        lists = {one._owner_name: one for one in self._lists}
-        _render(data, [lists[_UNDER]] if _UNDER in lists else [])
-        names = [name for name in self._sheets if name != _UNDER]
-        groups = grouped([self._sheets[name] for name in names])
+    def redraw(self, data: imgui.ImDrawData) -> None:
+        """Draws into the picture what changed in it; before anything is drawn to the screen, for a software renderer
+        waits for all that was begun when it turns from one picture to the other.
+        """
+        lists = [one for one in self._lists if one._owner_name != _UNDER]
+        groups = grouped([self._sheets[one._owner_name] for one in lists])
         for group in groups:
             if (group.box, group.sheets) not in self._drawn:
-                self._redraw(data, group.box, [lists[names[n]] for n in group.lists])
+                self._render_box(data, group.box, [lists[n] for n in group.lists])
         self._drawn = {(group.box, group.sheets) for group in groups}
-        self._lay([group.box for group in groups], self._picture.size)
+        self._laid = [group.box for group in groups]
+
+    def draw(self, data: imgui.ImDrawData) -> None:
+        """Lays over the screen what `look` took in and `redraw` drew."""
+        _render(data, [one for one in self._lists if one._owner_name == _UNDER])
+        self._lay(self._laid, self._picture.size)
 
     def _begin(self, size: tuple[int, int]) -> None:
         """Nothing is drawn yet, in a picture of that size."""
@@ -101,7 +107,7 @@ class Overlay:
         self._picture.filter = moderngl.NEAREST, moderngl.NEAREST
         self._frame = self._ctx.framebuffer([self._picture])
 
-    def _redraw(self, data: imgui.ImDrawData, box: Box, lists: list[imgui.ImDrawList]) -> None:
+    def _render_box(self, data: imgui.ImDrawData, box: Box, lists: list[imgui.ImDrawList]) -> None:
         left, top, right, bottom = box
         self._frame.use()
         self._frame.clear(viewport=(left, self._frame.height - bottom, right - left, bottom - top))

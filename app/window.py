@@ -189,6 +189,7 @@ class Window:
         self._drawn = told or plan != self._plan or self._exposed
         if self._drawn:
             self._plan, self._exposed = plan, False
+            self.overlay.redraw(data)
             self.screen.draw(plan)
             self.overlay.draw(data)
             glfw.swap_buffers(self.handle)

@@ -62,6 +62,7 @@ class Stage:
             backends.opengl3_render_draw_data(data)
         else:
             self.changed = overlay.look(data, SIZE, fresh)
+            overlay.redraw(data)
             overlay.draw(data)
         return np.frombuffer(self.target.read(), np.uint8).reshape(SIZE[1], SIZE[0], 3)[::-1].astype(int)
 
@@ -108,9 +109,9 @@ def test_the_screen_shows_what_imgui_would_have_drawn_anew(panels, layouts, alph
 
 def test_what_did_not_change_is_not_drawn_anew(stage, monkeypatch):
     redrawn = []
-    draw = Overlay._redraw
+    draw = Overlay._render_box
     monkeypatch.setattr(
-        Overlay, "_redraw", lambda self, data, box, lists: (redrawn.append(box), draw(self, data, box, lists))
+        Overlay, "_render_box", lambda self, data, box, lists: (redrawn.append(box), draw(self, data, box, lists))
     )
 
     def show(text):
