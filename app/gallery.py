@@ -19,7 +19,7 @@ class Gallery:
     def __init__(self, ctx: moderngl.Context, shown: dict[str, Any]) -> None:
         self._ctx, self._shown = ctx, shown
         self._textures: dict[str, moderngl.Texture] = {}
-        self._fresh = False
+        self._fresh: set[int] = set()
 
     def hang(self, name: str, pixels: np.ndarray) -> None:
         """A picture, uint8 (h, w, 4) premultiplied, over paper."""
@@ -32,18 +32,18 @@ class Gallery:
         viewport = (box.x0, box.y0, box.width, box.height)
         self._of(name, *size).write(np.ascontiguousarray(pixels), viewport=viewport, alignment=1)
 
-    def fresh(self) -> bool:
-        """Whether any picture has changed since the last call."""
-        fresh, self._fresh = self._fresh, False
+    def fresh(self) -> set[int]:
+        """The textures that have changed since the last call."""
+        fresh, self._fresh = self._fresh, set()
         return fresh
 
     def _of(self, name: str, width: int, height: int) -> moderngl.Texture:
         """The texture that a picture is written to."""
-        self._fresh = True
         old = self._textures.get(name)
         if old is None or old.size != (width, height):
             if old is not None:
                 old.release()
             old = self._textures[name] = self._ctx.texture((width, height), 3, alignment=1)
             self._shown[name] = imgui.ImTextureRef(old.glo)
+        self._fresh.add(old.glo)
         return old

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,17 +63,17 @@ class Overlay:
         self._boxes = self._ctx.buffer(reserve=16 * boxes)
         self._quads = self._ctx.vertex_array(self._program, [(self._boxes, "4f/i", "box")])
 
-    def look(self, data: imgui.ImDrawData, size: tuple[int, int], fresh: bool = False) -> bool:
+    def look(self, data: imgui.ImDrawData, size: tuple[int, int], fresh: Set[int] = frozenset()) -> bool:
         """Takes in what imgui shows on a screen of `size` (width, height); True if that is something else than before.
 
-        `fresh`: pictures in it have changed.
+        `fresh`: the textures that show something else now.
         """
         self._lists = list(data.cmd_lists)
         _render(data, [])  # brings imgui's own textures up to date, which the lists name
         known, self._sheets = self._sheets, {}
         for one in self._lists:
-            self._sheets[one._owner_name] = _sheet(data, one, size, known.get(one._owner_name))
-        if fresh or self._picture is None or self._picture.size != size:
+            self._sheets[one._owner_name] = _sheet(data, one, size, known.get(one._owner_name), fresh)
+        if self._picture is None or self._picture.size != size:
             self._begin(size)
             return True
         return list(self._sheets.items()) != list(known.items())
@@ -98,8 +98,6 @@ class Overlay:
     def _begin(self, size: tuple[int, int]) -> None:
         """Nothing is drawn yet, in a picture of that size."""
         self._drawn = set()
-        if self._picture is not None and self._picture.size == size:
-            return
         for old in (self._frame, self._picture):
             if old is not None:
                 old.release()
@@ -137,8 +135,10 @@ def _render(data: imgui.ImDrawData, lists: list[imgui.ImDrawList]) -> None:
     backends.opengl3_render_draw_data(data)
 
 
-def _sheet(data: imgui.ImDrawData, one: imgui.ImDrawList, size: tuple[int, int], known: Sheet | None) -> Sheet:
-    """What a list tells; `known` itself if that is the same."""
+def _sheet(
+    data: imgui.ImDrawData, one: imgui.ImDrawList, size: tuple[int, int], known: Sheet | None, fresh: Set[int]
+) -> Sheet:
+    """What a list tells; `known` itself if that looks the same."""
     vertices, indices = one.vtx_buffer, one.idx_buffer
     told = (
         tuple(_command(command) for command in one.cmd_buffer if command.elem_count),
@@ -146,7 +146,8 @@ def _sheet(data: imgui.ImDrawData, one: imgui.ImDrawList, size: tuple[int, int],
         _bytes(indices.data_address(), indices.size() * imgui.INDEX_SIZE),
         size,
     )
-    return known if known is not None and known.told == told else Sheet(told, _touched(data, told))
+    same = known is not None and known.told == told and fresh.isdisjoint(texture for _, _, texture in told[0])
+    return known if known is not None and same else Sheet(told, _touched(data, told))
 
 
 def _command(command: imgui.ImDrawCmd) -> Command:

@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui import backends
 
 from app import theme
+from app.gallery import Gallery
 from app.overlay import NOTHING, Overlay, Sheet, grouped
 
 SIZE = (320, 240)
@@ -40,7 +41,7 @@ class Stage:
         self.target = ctx.simple_framebuffer(SIZE)
         self.overlay = Overlay(ctx, self.target)
 
-    def draw(self, show, pointer=(-9, -9), fresh=False):
+    def draw(self, show, pointer=(-9, -9), fresh=frozenset()):
         io = imgui.get_io()
         io.display_size, io.delta_time = ImVec2(*SIZE), 0.1
         io.add_mouse_pos_event(*pointer)
@@ -50,7 +51,7 @@ class Stage:
         imgui.render()
         data = imgui.get_draw_data()
         lists = list(data.cmd_lists)
-        return self._picture(data, lists, self.overlay, fresh), self._picture(data, lists, None, False)
+        return self._picture(data, lists, self.overlay, fresh), self._picture(data, lists, None, frozenset())
 
     def _picture(self, data, lists, overlay, fresh):
         self.target.use()
@@ -72,13 +73,15 @@ def stage(panels):
     return Stage(panels)
 
 
-def window(name, x, y, width, height, text, alpha=1.0):
+def window(name, x, y, width, height, text, alpha=1.0, picture=None):
     imgui.set_next_window_pos(ImVec2(x, y))
     imgui.set_next_window_size(ImVec2(width, height))
     imgui.set_next_window_bg_alpha(alpha)
     imgui.begin(name, None, _PLAIN)
     imgui.text(text)
     imgui.button("press")
+    if picture is not None:
+        imgui.image(picture, ImVec2(60, 40))
     imgui.end()
 
 
@@ -107,13 +110,18 @@ def test_the_screen_shows_what_imgui_would_have_drawn_anew(panels, layouts, alph
         assert abs(kept - anew).max() <= (1 if alpha == 1.0 else 3)
 
 
-def test_what_did_not_change_is_not_drawn_anew(stage, monkeypatch):
-    redrawn = []
+@pytest.fixture
+def redrawn(monkeypatch):
+    """The boxes that are drawn anew."""
+    boxes = []
     draw = Overlay._render_box
     monkeypatch.setattr(
-        Overlay, "_render_box", lambda self, data, box, lists: (redrawn.append(box), draw(self, data, box, lists))
+        Overlay, "_render_box", lambda self, data, box, lists: (boxes.append(box), draw(self, data, box, lists))
     )
+    return boxes
 
+
+def test_what_did_not_change_is_not_drawn_anew(stage, redrawn):
     def show(text):
         window("left", 0, 0, 100, 200, "still")
         window("below", 0, 200, 320, 40, text)
@@ -127,9 +135,30 @@ def test_what_did_not_change_is_not_drawn_anew(stage, monkeypatch):
     stage.draw(lambda: show("20 %"))
     assert stage.changed
     assert redrawn == [(0, 200, 320, 240)]
+
+
+def test_only_windows_with_a_picture_that_changed_are_drawn_anew(stage, redrawn):
+    shown = {}
+    gallery = Gallery(stage.ctx, shown)
+    for name in ("one", "other"):
+        gallery.hang(name, np.full((20, 30, 4), 255, np.uint8))
+
+    def show():
+        window("left", 0, 0, 100, 200, "still")
+        for n, name in enumerate(("one", "other")):
+            window(name, 110 * n + 100, 0, 100, 200, name, picture=shown[name])
+
+    stage.draw(show, fresh=gallery.fresh())
+    stage.draw(show, fresh=gallery.fresh())
     redrawn.clear()
-    stage.draw(lambda: show("20 %"), fresh=True)
-    assert len(redrawn) == 2
+    gallery.hang("other", np.zeros((20, 30, 4), np.uint8) + np.array([0, 0, 0, 255], np.uint8))
+    kept, anew = stage.draw(show, fresh=gallery.fresh())
+    assert redrawn == [(210, 0, 310, 200)]
+    assert stage.changed
+    assert abs(kept - anew).max() <= 1
+    redrawn.clear()
+    stage.draw(show, fresh=gallery.fresh())
+    assert redrawn == []
 
 
 def test_a_small_window_goes_from_the_screen_again(stage):
