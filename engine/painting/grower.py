@@ -62,10 +62,18 @@ class Grower:
 
     @property
     def pending(self) -> bool:
-        return self._told is not None or self._bed() is not None or bool(self._waiting())
+        return self._told is not None or self._open
+
+    @property
+    def _open(self) -> bool:
+        """Whether anything is to be refined."""
+        return self._bed() is not None or bool(self._waiting())
 
     def step(self) -> None:
-        """A piece of the refinement, some milliseconds."""
+        """A piece of the refinement, some milliseconds; now and then how far that is."""
+        if self._told is not None and time.monotonic() > self._told:
+            self._tell()
+            return
         bed, layers = self._bed(), self._waiting()
         old = bed.growth if bed is not None else layers[0].growth if layers else None
         if old is not None:
@@ -78,7 +86,8 @@ class Grower:
                 self._seen(self.host.live, bed.follow(grown))
             elif grown is not old:
                 self._amend(layers[0], grown)
-        self._tell()
+        if self._told is None or not self._open:
+            self._tell()
 
     def close(self) -> None:
         self._steps = None  # ends what threads are at
@@ -130,15 +139,15 @@ class Grower:
         self.host.viewer.changed(areas(before, after))
 
     def _tell(self) -> None:
-        """How far all of it is, now and then, and that it is done."""
+        """How far all of it is, or that it is done."""
         now = time.monotonic()
         bed = self._bed()
         growths = [layer.growth for layer in self._waiting()] + ([] if bed is None else [bed.growth])
-        if growths and (self._told is None or now > self._told):
+        if growths:
             rects, done = progress(tuple(plot for growth in growths for plot in growth))
             self.host.send(results.Growing(done, tuple(rects)))
             took = time.monotonic() - now
             self._told = now + max(TELL, SHARE * took)
-        elif not growths and self._told is not None:
+        elif self._told is not None:
             self._told = None
             self.host.send(results.Growing(1.0))

@@ -8,7 +8,7 @@ gives others, and any of them may be kept.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from concurrent.futures import Executor, Future, wait
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -153,10 +153,8 @@ def _refining_level(region: Region, n: int, threads: Executor | None) -> Iterato
 
 def _one_by_one(region: Region, n: int, squares: list[Square], threads: Executor | None) -> Iterator[Filling]:
     for k, (square, room) in enumerate(squares):
-        window = _window(region, n, square, room)
-        for done in _correcting(region, n, window, room, threads):
-            yield (k + done) / len(squares), square, None
-        yield (k + 1) / len(squares), square, _kept(region, n, window, room)
+        for done, found in _filling(region, n, square, room, threads):
+            yield (k + done) / len(squares), square, found
 
 
 def _at_once(region: Region, n: int, squares: list[Square], threads: Executor) -> Iterator[Filling]:
@@ -181,13 +179,22 @@ def _at_once(region: Region, n: int, squares: list[Square], threads: Executor) -
 
 def _alone(region: Region, n: int, square: Rect, room: int, over: Event) -> np.ndarray | None:
     """What a square is filled with; None if that is over before it is done."""
-    if over.is_set():
-        return None
-    window = _window(region, n, square, room)
-    for _ in _correcting(region, n, window, room, None):
-        if over.is_set():
-            return None
-    return _kept(region, n, window, room).copy()  # the window takes much more memory
+    filling = _filling(region, n, square, room, None)
+    while not over.is_set():
+        _, found = next(filling)
+        if found is not None:
+            return found.copy()  # the window takes much more memory
+    return None
+
+
+def _filling(
+    region: Region, n: int, square: Rect, room: int, threads: Executor | None
+) -> Iterator[tuple[float, np.ndarray | None]]:
+    """The part done after each piece of work, at last with what the square is filled with."""
+    window = yield from _readying(region, n, square, room)
+    for done in _correcting(region, n, window, room, threads):
+        yield done, None
+    yield 1.0, _kept(region, n, window, room)
 
 
 def _kept(region: Region, n: int, window: Window, room: int) -> np.ndarray:
@@ -258,16 +265,18 @@ def _filled_part(region: Region, n: int, square: Rect) -> Rect:
     return Rect(square.x0 + x0, square.y0 + y0, square.x0 + x1, square.y0 + y1)
 
 
-def _window(region: Region, n: int, square: Rect, room: int) -> Window:
-    """A square with `room` pixels around it, ready for its first pass."""
+def _readying(region: Region, n: int, square: Rect, room: int) -> Generator[tuple[float, None], None, Window]:
+    """A square with `room` pixels around it, ready for its first pass; pauses between pieces of work."""
     old = region.levels[n]
     rect = square.grown(room)
     size = rect.height, rect.width
     mask, was = _masks(region, n, rect)
     planes = np.full((_passes(region, n) + 1, *size), OUTSIDE, np.int32)
     tiles.gathered(old.sources, rect, planes if _coarsest(region, n) else planes[1:])
+    yield 0.0, None
     hashes = hash_plane(fold_key(_DOMAIN, region.seed, n), rect.x0, rect.y0, rect.width, rect.height)
     window = window_of(mask, was, planes, hashes, (rect.y0 & 1, rect.x0 & 1))
+    yield 0.0, None
     if _coarsest(region, n):
         _start_coarsest(region, window, rect)
     else:

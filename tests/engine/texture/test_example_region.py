@@ -127,13 +127,13 @@ def test_threads_stop_where_no_more_is_asked_for(monkeypatch):
     monkeypatch.setattr(regions, "_TOGETHER", 0)
     start = painted(empty(EXEMPLARS["two passes"], 5), Rect.at(-17, 33, 300, 200), np.ones((200, 300), bool))
     whole = refined(start)
-    window, alone, gate, ended = regions._window, regions._alone, Event(), []
+    readying, alone, gate, ended = regions._readying, regions._alone, Event(), []
 
     def gated(region, n, *where):
         assert n > 0 or gate.wait(20)
-        return window(region, n, *where)
+        return (yield from readying(region, n, *where))
 
-    monkeypatch.setattr(regions, "_window", gated)
+    monkeypatch.setattr(regions, "_readying", gated)
     monkeypatch.setattr(regions, "_alone", lambda *given: ended.append(alone(*given)) or ended[-1])
     with ThreadPoolExecutor(2) as pool:
         steps = refining(start, threads=pool)
