@@ -76,7 +76,7 @@ def _load(name: str) -> None:
 def _worker(window: Window) -> Any:
     from engine.painting.worker import Worker
 
-    worker = Worker(window.told)
+    worker = Worker(window.pace.told)
     window.connect(worker)
     return worker
 

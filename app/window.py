@@ -21,6 +21,7 @@ from app.input.events import PointerSource
 from app.input.glfw_events import GlfwPointer
 from app.news import News
 from app.overlay import Overlay
+from app.pace import Pace
 from app.panels.layout import Layout
 from app.router import Router
 from app.screen import Plan, Screen
@@ -29,11 +30,6 @@ from app.view import Place, View
 from engine.painting.requests import Open
 from engine.painting.worker import Worker
 
-LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
-IDLE = 5.0  # seconds to wait for an event when nothing moves
-PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
-STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
-
 
 class Window:
     """A GLFW window whose context is current, and imgui on it; everything happens on the thread that made it."""
@@ -41,6 +37,7 @@ class Window:
     def __init__(self, handle: Any) -> None:
         self.handle = handle
         self.ctx = moderngl.create_context(require=330)
+        self.pace = Pace(self.ctx.info["GL_RENDERER"])
         imgui.create_context()
         io = imgui.get_io()
         io.set_ini_filename("")
@@ -65,12 +62,8 @@ class Window:
         self._characters: list[int] = []
         self._cursors: dict[int, Any] = {}
         self._cursor = 0
-        self._last = time.monotonic()
-        self._busy_until = 0.0
         self._plan: Plan | None = None  # of the canvas, as it was last drawn
         self._drawn, self._exposed = False, True
-        self._took = 0.0  # seconds, by the last frame
-        self._resting = False  # until something happens
         self._title = ""
 
     def _not_yet(self, _request: Any) -> None:
@@ -84,12 +77,12 @@ class Window:
         glfw.set_window_focus_callback(w, self._focus)
         glfw.set_cursor_enter_callback(w, self._entered)
         glfw.set_window_refresh_callback(w, self._refresh)
-        glfw.set_framebuffer_size_callback(w, lambda *_: self._wake())
+        glfw.set_framebuffer_size_callback(w, lambda *_: self.pace.event())
         drop: Any = self._dropped  # gets a list of names
         glfw.set_drop_callback(w, drop)
 
     def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
-        self._wake()
+        self.pace.event()
         typing = imgui.get_io().want_text_input or self.layout.dialogs.open
         if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
             backends.glfw_key_callback(self._address, key, scancode, action, mods)
@@ -104,23 +97,23 @@ class Window:
             self._characters.append(character)
 
     def _focus(self, _w: Any, focused: int) -> None:
-        self._wake()
+        self.pace.event()
         backends.glfw_window_focus_callback(self._address, focused)
         if not focused:
             self.router.lost_focus()
 
     def _refresh(self, _w: Any) -> None:
         """The window system has lost what the window showed."""
-        self._wake()
+        self.pace.event()
         self._exposed = True
 
     def _entered(self, _w: Any, entered: int) -> None:
-        self._wake()
+        self.pace.event()
         if not entered:
             self.router.left()
 
     def _dropped(self, _w: Any, paths: Any) -> None:
-        self._wake()
+        self.pace.event()
         if not paths or not self.desk.ready:
             return
         x, y = self._pointer()
@@ -139,29 +132,21 @@ class Window:
         """Opens a file; `live`: a recording is seen as it grows."""
         self.desk.post(Open(path, live))
 
-    def _wake(self) -> None:
-        self._busy_until = time.monotonic() + LINGER
-
     def connect(self, worker: Worker) -> None:
         """From now on pens are heard, and requests go to the engine's thread."""
         self.pen = pen_source(self.handle)
-        self.desk.post = worker.post
+        self.desk.post, self.pace.worker = worker.post, worker
         self.news.worker = worker
         self.news.shelf = Shelf(glfw.post_empty_event)
-
-    def told(self) -> None:
-        """The engine has results; called from its thread.  Where frames go on anyway, the next one takes them in."""
-        if self._resting:
-            glfw.post_empty_event()
 
     def frame(self) -> bool:
         """Takes in what happened and draws; True while something still moves."""
         now = time.monotonic()
-        seconds, self._last = min(0.1, now - self._last), now
+        seconds = self.pace.begin(now)
         self._resize()
         for source in (self.pen, self.mouse):
             for event in source.events() if source is not None else ():
-                self._wake()
+                self.pace.event()
                 self.router.pointer(event)
         keys, self._keys = self._keys, []
         for key in keys:  # after the pointer: a stroke ends before what a key does to it
@@ -170,16 +155,16 @@ class Window:
         for character in characters if self.router.typing else ():
             backends.glfw_char_callback(self._address, character)
         if self.news.take(now):
-            self._busy_until = max(self._busy_until, now + 0.05)
+            self.pace.news(now)
         moving = self.desk.glide.moving
         self.desk.view = self.desk.glide.step(self.desk.view, seconds)
         self._panels()
         imgui.render()
         self.news.ask(now)
         self._show_cursor()
-        fading = self._draw(now)
-        self._took = time.monotonic() - now
-        return moving or fading
+        moving = self._draw(now) or moving
+        self.pace.end(self._drawn, moving, self.desk.growing is not None)
+        return moving
 
     def _draw(self, now: float) -> bool:
         """Draws, if anything is to be seen that is not on the screen; True while something fades."""
@@ -228,23 +213,8 @@ class Window:
             glfw.set_window_title(self.handle, title)
 
     def wait(self, moving: bool) -> None:
-        """Sleeps until an event, at most one frame while something moves or is about to."""
-        now = time.monotonic()
-        if moving or now < self._busy_until:
-            rest = (PACE if moving else self._pace()) - (now - self._last)
-            glfw.wait_events_timeout(rest) if rest > 0 else glfw.poll_events()
-        else:
-            self._resting = True
-            if self.news.worker is None or not self.news.worker.ready:  # what comes from now on wakes
-                glfw.wait_events_timeout(0.3 if imgui.get_io().want_text_input else IDLE)
-            self._resting = False
-            self._last = min(self._last + IDLE, time.monotonic() - PACE)
-
-    def _pace(self) -> float:
-        """Seconds from one frame to the next where no event comes between: a slow one is followed by as long a rest."""
-        if not self._drawn and not self.desk.painting:
-            return STILL
-        return min(STILL, max(PACE, 2 * self._took))
+        """Sleeps until the next frame; `moving`: what the last one gave."""
+        self.pace.wait(moving, self.desk.painting, imgui.get_io().want_text_input)
 
     def closed(self) -> bool:
         """Whether the window is to go; asks about unsaved changes first."""

@@ -30,7 +30,7 @@ ORDER = (
     ("app.sowing",),
     ("app.actions", "app.tools", "app.pictured"),
     ("app.panels",),
-    ("app.router", "app.cursor", "app.news", "app.overlay"),
+    ("app.router", "app.cursor", "app.news", "app.overlay", "app.pace"),
     ("app.window",),
     ("app.loop",),
     ("app.bench",),

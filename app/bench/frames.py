@@ -1,4 +1,4 @@
-"""The frames of a real window that pans, alone and while an example grows, at 1280 x 800."""
+"""A real window, 1280 x 800, that pans while an example grows, and over the same painting when it has."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ from app.bench.display import NEEDED, available, display, python
 BLOCKS = 8
 FRAME = 1 / 60  # seconds, as in `panning`
 LATE = 0.01  # of all frames, at most
+WAKES = 0.006  # seconds by which a loop of 60 turns a second may wake late
 SOFTWARE = "llvmpipe"
 UNDRAWN = {"LP_NO_RAST": "1"}  # llvmpipe takes all calls but fills no pixels: what a card leaves to the processor
-ROWS = {"alone": "pan", "growing": "pan while an example grows"}
+ROWS = {"alone": "pan over what has grown", "growing": "pan while an example grows"}
 
 
 def measure(small: bool = False) -> Iterator[Figure | Skipped]:
@@ -41,9 +42,14 @@ def _rows(told: dict[str, Any], how: str) -> Iterator[Figure]:
         yield Figure(f"{name}, frames over 1/60 s{how}", late, "frames", bound, late / count, LATE, note=note)
         taken = sum(spent.values())
         note = f"of the window's thread {1e3 * spent['window']:.1f} ms, of a software renderer's, all together, "
-        note += f"{1e3 * spent['renderer']:.1f} ms; one core has to do, of two, while the engine takes the other"
-        name, bound = f"{name}, processor time{how}", f"{FRAME * 1e3:.1f} ms"
-        yield Figure(name, taken * 1e3, "ms", bound, taken / FRAME, 1.0, note=note)
+        note += f"{1e3 * spent['renderer']:.1f} ms"
+        bound = f"{FRAME * 1e3:.1f} ms"
+        yield Figure(f"{name}, processor time{how}", taken * 1e3, "ms", bound, taken / FRAME, 1.0, note=note)
+        woken = told[which]["late"]
+        late = woken[int(0.99 * (len(woken) - 1))]
+        note, bound = f"99th percentile of {len(woken)} turns", f"{WAKES * 1e3:.0f} ms"
+        name = f"{name}, a 60 Hz loop beside it, late{how}"
+        yield Figure(name, late * 1e3, "ms", bound, late / WAKES, 1.0, note=note)
 
 
 def window(blocks: int, more: Mapping[str, str] = MappingProxyType({})) -> dict[str, Any]:

@@ -1,7 +1,9 @@
-"""The real window panning by itself, alone and while an example grows: `python -m app.bench.panning BLOCKS`.
+"""The real window panning by itself, while an example grows and over the same painting when it has: `python -m
+app.bench.panning BLOCKS`.
 
 Prints one JSON object.  The view follows the pointer in a circle, as if the middle button were held; it moves 60 times
-a second, and a frame's time is from when it moved until that is on the screen.
+a second, and a frame's time is from when it moved until that is on the screen.  A thread
+beside it wants to wake 60 times a second.
 """
 
 from __future__ import annotations
@@ -13,16 +15,14 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from threading import Event, Thread
 from typing import Any
-
-from app.loop import SWITCH, opened  # first: it imports imgui before glfw
-from app.window import Window
-
-import glfw  # isort: skip
 
 from app import sowing
 from app.bench.zooming import processor_times, until
 from app.input.events import LEFT, MIDDLE, PenEvent
+from app.loop import SWITCH, opened
+from app.window import Window
 from engine.painting.commands import Undo
 from engine.painting.requests import Do
 from engine.painting.worker import Worker
@@ -30,29 +30,31 @@ from engine.painting.worker import Worker
 FRAME = 1 / 60  # seconds
 SECONDS = 2.5  # of one pan at most
 CALM = 1.5  # seconds without a new picture: the presets' are painted
-RADIUS = 60.0  # of the stroke that grows, pixels
-DEPTHS = range(4)  # of the strokes, which grow one after another
+RADIUS = 80.0  # of the stroke that grows, pixels
 TURN = 3.0  # radians a second
 
 Frames = list[float]
+Pan = tuple[Frames, Frames, dict[str, float]]  # frames; how late the loop beside them woke; processor time by thread
 
 
 def main(blocks: int) -> dict[str, Any]:
-    """By what goes on: the seconds of each frame, and the processor time of one, by thread."""
+    """By what goes on: the seconds of each frame, by which a loop beside it wakes late, and the processor time of a
+    frame, by thread."""
     window = opened()
     window.frame()
     sys.setswitchinterval(SWITCH)
-    worker = Worker(window.told)
+    worker = Worker(window.pace.told)
     window.connect(worker)
-    found: dict[str, list[tuple[Frames, dict[str, float]]]] = {"alone": [], "growing": []}
+    window.mouse = hand = Hand()
+    found: dict[str, list[Pan]] = {"alone": [], "growing": []}
     try:
-        _prepare(window)
+        _prepare(window, hand)
         for _ in range(blocks):
-            found["alone"].append(_panned(window, lambda: True))
-            for depth in DEPTHS:
-                _stroke(window, RADIUS, depth)
+            _stroke(window, hand)
             until(window, lambda: window.desk.growing is not None)
-            found["growing"].append(_panned(window, lambda: window.desk.growing is not None))
+            found["growing"].append(_panned(window, hand, lambda: window.desk.growing is not None))
+            until(window, _calm(window))
+            found["alone"].append(_panned(window, hand, lambda: True))
             _undo(window)
         renderer = window.ctx.info["GL_RENDERER"].partition(" (")[0]
     finally:
@@ -61,13 +63,13 @@ def main(blocks: int) -> dict[str, Any]:
     return {"renderer": renderer, **{name: _told(parts) for name, parts in found.items()}}
 
 
-def _told(parts: list[tuple[Frames, dict[str, float]]]) -> dict[str, Any]:
-    times = sorted(t for frames, _ in parts for t in frames)
-    spent = {name: sum(by.get(name, 0.0) for _, by in parts) for name in ("window", "renderer")}
-    return {"times": times, "spent": {name: taken / max(1, len(times)) for name, taken in spent.items()}}
+def _told(pans: list[Pan]) -> dict[str, Any]:
+    times, late = (sorted(t for pan in pans for t in pan[n]) for n in (0, 1))
+    spent = {name: sum(pan[2].get(name, 0.0) for pan in pans) for name in ("window", "renderer")}
+    return {"times": times, "late": late, "spent": {name: taken / max(1, len(times)) for name, taken in spent.items()}}
 
 
-def _prepare(window: Window) -> None:
+def _prepare(window: Window, hand: Hand) -> None:
     """An example is chosen, analysed and has grown once; nothing else is left to do."""
     desk = window.desk
     until(window, lambda: desk.ready and desk.scene is not None)
@@ -75,10 +77,11 @@ def _prepare(window: Window) -> None:
     desk.view = replace(desk.view, level=0, fraction=0.0)
     desk.stabiliser = 0.0
     sowing.choose(desk, next(entry for entry in desk.examples.entries if not entry.own))
-    _stroke(window, 12.0, 0)
+    desk.brush = replace(desk.brush, radius=RADIUS)
+    until(window, _calm(window))
+    _stroke(window, hand)
     until(window, lambda: desk.growing is not None)
     _undo(window)
-    until(window, _calm(window))
 
 
 def _calm(window: Window) -> Callable[[], bool]:
@@ -97,46 +100,73 @@ def _calm(window: Window) -> Callable[[], bool]:
 
 def _undo(window: Window) -> None:
     until(window, lambda: window.desk.growing is None)
-    for _ in DEPTHS:
-        window.desk.post(Do(Undo()))
+    window.desk.post(Do(Undo()))
     until(window, lambda: window.desk.scene is not None and not window.desk.scene.can_undo)
+    until(window, _calm(window))
 
 
-def _event(window: Window, kind: str, at: tuple[float, float], button: int = 0) -> None:
-    window.router.pointer(PenEvent(kind, *at, time=time.monotonic(), button=button))
+class Hand:
+    """The pointer, instead of a mouse."""
+
+    name = "hand"
+
+    def __init__(self) -> None:
+        self._events: list[PenEvent] = []
+
+    def does(self, kind: str, at: tuple[float, float], button: int = 0) -> None:
+        self._events.append(PenEvent(kind, *at, time=time.monotonic(), button=button))
+
+    def events(self) -> list[PenEvent]:
+        events, self._events = self._events, []
+        return events
+
+    def close(self) -> None: ...
 
 
-def _stroke(window: Window, radius: float, depth: int) -> None:
+def _stroke(window: Window, hand: Hand) -> None:
     """Up and down across the canvas, faster than any hand: all of it grows from then on."""
-    window.desk.examples.depth = depth
-    window.desk.brush = replace(window.desk.brush, radius=radius, depth=float(depth))
-    points = [(400.0 + 20 * n, 250.0 + 250 * (n % 4 < 2)) for n in range(20)]
-    _event(window, "down", points[0], LEFT)
+    points = [(360.0 + 12 * n, 180.0 + 480 * (n % 4 < 2)) for n in range(50)]
+    hand.does("down", points[0], LEFT)
     for at in points:
-        _event(window, "move", at)
-    _event(window, "up", points[-1], LEFT)
+        hand.does("move", at)
+    hand.does("up", points[-1], LEFT)
+    window.frame()
 
 
-def _panned(window: Window, goes_on: Callable[[], bool]) -> tuple[Frames, dict[str, float]]:
+def _panned(window: Window, hand: Hand, goes_on: Callable[[], bool]) -> Pan:
     """How long after each move of the pointer it was seen; processor time of the window and a software renderer."""
+    late: Frames = []
+    over = Event()
+    beside = Thread(target=_loop, args=(over, late))
+    beside.start()
     before, frames, path = processor_times(), [], _circle()
-    _event(window, "down", next(path), MIDDLE)
+    hand.does("down", next(path), MIDDLE)
     start = due = time.perf_counter()
     while due - start < SECONDS and goes_on():
         rest = due - time.perf_counter()
-        glfw.wait_events_timeout(rest) if rest > 0 else glfw.poll_events()
+        window.pace.rest(rest)
         moved = time.perf_counter() >= due  # otherwise something of the painting has come
         if moved:
-            _event(window, "move", next(path))
+            hand.does("move", next(path))
         window.frame()
         if moved:
             frames.append(time.perf_counter() - due)
             due += FRAME * (1 + int(frames[-1] / FRAME))  # what was missed is not made up for
-    _event(window, "up", next(path), MIDDLE)
+    over.set()
+    beside.join()
+    hand.does("up", next(path), MIDDLE)
     spent = {"window": 0.0, "renderer": 0.0}
     for thread, after in processor_times().items():
         spent["window" if thread == str(os.getpid()) else "renderer"] += after - before.get(thread, 0.0)
-    return frames, spent
+    return frames, late, spent
+
+
+def _loop(over: Event, late: Frames) -> None:
+    due = time.perf_counter()
+    while not over.is_set():
+        due = max(due + FRAME, time.perf_counter())
+        time.sleep(max(0.0, due - time.perf_counter()))
+        late.append(time.perf_counter() - due)
 
 
 def _circle() -> Iterator[tuple[float, float]]:

@@ -7,6 +7,7 @@ so that anything newer is seen after at most one tile.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import deque
@@ -38,6 +39,11 @@ class Bench(Protocol):
         ...
 
     @property
+    def urgent(self) -> bool:
+        """Whether the next piece is what a hand waits for."""
+        ...
+
+    @property
     def due(self) -> float | None:
         """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
         ...
@@ -48,6 +54,7 @@ class Bench(Protocol):
 
 
 PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
+PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
 Maker = Callable[[Callable[[Result], None]], Bench]
 
 
@@ -66,6 +73,9 @@ class Worker:
         self._look: Look | None = None
         self._swatches: dict[str, Swatch] = {}
         self._swatched = 0.0  # when tiles last let one pass
+        self._turn: float | None = None  # when it ends; None: it does not
+        self._worked = 0.0  # when a piece of open work was last begun
+        self._asked = 0.0  # when the first of the swatches was
         self._results: deque[Result] = deque()
         self._signal = threading.Condition()
         self._closing = False
@@ -80,9 +90,20 @@ class Worker:
             if isinstance(request, Look):
                 self._look = request
             elif isinstance(request, Swatch):
+                self._asked = self._asked if self._swatches else time.monotonic()
                 self._swatches[request.ident] = request
             else:
                 self._posted.append(request)
+            self._signal.notify()
+
+    def turn(self, end: float | None) -> None:
+        """Open work that is not urgent is begun until `end`, by the monotonic clock, then after the next call; None: at
+        any time.  Swatches, which take longer, wait until then.  For a window that wants the processor now and then:
+        nothing waits longer than `PATIENCE` or `LONGER`.  Commands are not held up."""
+        if end == self._turn:
+            return
+        with self._signal:
+            self._turn = end
             self._signal.notify()
 
     @property
@@ -129,15 +150,27 @@ class Worker:
                     look, self._look = self._look, None
                     return lambda: bench.look(look)
                 now = time.monotonic()
-                if bench.pending and not (self._swatches and now - self._swatched > PASSING):
+                open_in, swatch_in = self._waits(bench, now)
+                if bench.pending and open_in <= 0.0 and not (swatch_in <= 0.0 and now - self._swatched > PASSING):
+                    self._worked = now
                     return lambda: (bench.step(), None)[1]
-                if self._swatches:
-                    self._swatched = now
+                if swatch_in <= 0.0:
+                    self._swatched = self._worked = now
                     swatch = self._swatches.pop(self._foremost())
                     return lambda: bench.do(swatch)
                 if bench.due is not None and bench.due <= now:
                     return bench.play
-                self._signal.wait(None if bench.due is None else bench.due - now)
+                rest = min(open_in, swatch_in, math.inf if bench.due is None else bench.due - now)
+                self._signal.wait(None if rest == math.inf else rest)
+
+    def _waits(self, bench: Bench, now: float) -> tuple[float, float]:
+        """Seconds until open work, and until a swatch, may be begun; endless where there is none."""
+        open_in, swatch_in = (0.0 if there else math.inf for there in (bench.pending, self._swatches))
+        if self._turn is not None:
+            if now >= self._turn and not bench.urgent:
+                open_in += max(0.0, self._worked + PATIENCE - now)
+            swatch_in += max(0.0, self._asked + LONGER - now)
+        return open_in, swatch_in
 
     def _foremost(self) -> str:
         """The swatch that is painted next: of those that are wanted soon, or of all, the one that waits longest."""

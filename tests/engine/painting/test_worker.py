@@ -15,6 +15,7 @@ class Bench:
     """A stand-in that writes down what it is asked to do; `gate` holds it up."""
 
     due = None
+    urgent = False
 
     def __init__(self, send):
         self.send, self.did, self.open, self.gate = send, [], [], threading.Event()
@@ -192,3 +193,67 @@ def test_an_engine_that_does_not_load_is_told(capfd):
     woken.wait(5)
     assert worker.results() == [results.Note("The paint engine did not load: no numba here", bad=True)]
     worker.close()
+
+
+FEW = 10  # pieces of work that are done without a turn while a test looks, at most
+
+
+def held(worker, count=1000):
+    """A worker whose turn is over, with open work."""
+    worker.bench.gate.clear()
+    worker.post(q.Look(tuple((0, n, 0, -1) for n in range(count))))
+    until(lambda: len(worker.bench.open) == count)
+    worker.turn(time.monotonic() - 1.0)
+    worker.bench.gate.set()
+
+
+def test_open_work_waits_for_its_turn(worker):
+    held(worker)
+    time.sleep(0.1)
+    assert len(worker.bench.did) < FEW
+    worker.turn(None)
+    until(lambda: len(worker.bench.did) == 1000)
+
+
+def test_a_turn_ends_by_itself(worker):
+    held(worker, 100_000)
+    worker.turn(time.monotonic() + 0.02)
+    time.sleep(0.1)
+    did = len(worker.bench.did)
+    assert FEW < did < 100_000
+    time.sleep(0.1)
+    assert len(worker.bench.did) < did + FEW
+
+
+def test_work_goes_on_slowly_where_no_turn_ever_comes(worker):
+    held(worker, 3)
+    until(lambda: len(worker.bench.did) == 3)
+
+
+def test_what_a_hand_waits_for_needs_no_turn(worker):
+    worker.bench.urgent = True
+    held(worker)
+    until(lambda: len(worker.bench.did) == 1000)
+
+
+def test_commands_need_no_turn(worker):
+    held(worker)
+    worker.post(q.Finish())
+    until(lambda: q.Finish() in worker.bench.did)
+    assert len(worker.bench.did) < FEW
+
+
+def test_a_swatch_waits_until_turns_are_over(worker):
+    worker.turn(time.monotonic() + 60.0)
+    worker.post(q.Swatch("ink", None, (1, 1)))
+    time.sleep(0.1)
+    assert worker.bench.did == []
+    worker.turn(None)
+    until(lambda: len(worker.bench.did) == 1)
+
+
+def test_a_swatch_does_not_wait_for_ever(worker, monkeypatch):
+    monkeypatch.setattr("engine.painting.worker.LONGER", 0.05)
+    worker.turn(time.monotonic() + 60.0)
+    worker.post(q.Swatch("ink", None, (1, 1)))
+    until(lambda: len(worker.bench.did) == 1)

@@ -1,0 +1,109 @@
+"""When the next frame begins, and what the engine does meanwhile."""
+
+from __future__ import annotations
+
+import time
+from typing import Protocol
+
+import imgui_bundle  # before glfw, so that both use one libglfw
+
+import glfw  # isort: skip
+
+assert imgui_bundle
+LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
+IDLE, BLINK = 5.0, 0.3  # seconds to wait for an event when nothing moves, and where text is typed
+PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
+STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
+SOFTWARE = ("llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer", "GDI Generic")  # renderers
+AT_HAND = 0.25  # seconds after an event during which each frame counts
+STEP = 0.003  # seconds that a piece of the engine's work takes, at most, nearly always
+SHARE = 0.25  # of a late frame's time, that the engine gets after it
+
+
+class Worker(Protocol):
+    """What it needs of the engine's thread."""
+
+    @property
+    def ready(self) -> bool: ...
+
+    def turn(self, end: float | None) -> None: ...
+
+
+class Pace:
+    """The rest between two frames of a window.
+
+    Where the processor fills the pixels, too, examples would be grown at the cost of frames: then the engine's turn is
+    in the rests, while something is moved by hand.
+    """
+
+    def __init__(self, renderer: str) -> None:
+        self.worker: Worker | None = None
+        self._shared = renderer.startswith(SOFTWARE)
+        self._last = self._moved = time.monotonic()
+        self._busy_until = 0.0
+        self._took = 0.0  # seconds, by the last frame
+        self._drawn = False
+        self._resting = False  # until something happens
+        self._growing = False
+        self._by_turns = False
+
+    def event(self) -> None:
+        """Something came from the artist or the window system."""
+        self._moved = time.monotonic()
+        self._busy_until = self._moved + LINGER
+        if self._shared and self._growing:
+            self._give(self._moved)
+
+    def news(self, now: float) -> None:
+        """Something came from the engine."""
+        self._busy_until = max(self._busy_until, now + 0.05)
+
+    def told(self) -> None:
+        """The engine has news; called from its thread.  Where frames go on anyway, the next one takes them in."""
+        if self._resting:
+            glfw.post_empty_event()
+
+    def begin(self, now: float) -> float:
+        """A frame begins; seconds since the last one did, 0.1 at most."""
+        seconds, self._last = min(0.1, now - self._last), now
+        return seconds
+
+    def end(self, drawn: bool, moving: bool, growing: bool) -> None:
+        """It ends; whether anything was drawn, something moves by itself, and the engine grows examples."""
+        now = time.monotonic()
+        self._took, self._drawn, self._growing = now - self._last, drawn, growing
+        self._by_turns = self._shared and growing and (moving or now - self._moved < AT_HAND)
+
+    def wait(self, moving: bool, painting: bool = False, typing: bool = False) -> None:
+        """Sleeps until an event, at most one frame while something moves or is about to."""
+        now = time.monotonic()
+        if moving or self._by_turns or now < self._busy_until:
+            self.rest((PACE if moving and not self._by_turns else self._still(painting)) - (now - self._last))
+        else:
+            self._resting = True
+            if self.worker is None or not self.worker.ready:  # what comes from now on wakes
+                self._give(None)
+                glfw.wait_events_timeout(BLINK if typing else IDLE)
+            self._resting = False
+            self._last = min(self._last + IDLE, time.monotonic() - PACE)
+
+    def rest(self, seconds: float) -> None:
+        """Sleeps so long, or until an event if the engine needs no turn."""
+        if self._by_turns:
+            seconds = max(seconds, SHARE * self._took if self._took > STILL else 0.0)
+            self._give(time.monotonic() + seconds - STEP)
+            time.sleep(max(0.0, seconds))
+            glfw.poll_events()
+        else:
+            self._give(None)
+            glfw.wait_events_timeout(seconds) if seconds > 0 else glfw.poll_events()
+
+    def _give(self, end: float | None) -> None:
+        if self.worker is not None:
+            self.worker.turn(end)
+
+    def _still(self, painting: bool) -> float:
+        """Seconds from one frame to the next where no event comes between: a slow one is followed by as long a rest."""
+        if self._by_turns or (not self._drawn and not painting):
+            return STILL
+        return min(STILL, max(PACE, 2 * self._took))

@@ -1,0 +1,123 @@
+"""Frames and the engine by turns, where the processor fills the pixels, too."""
+
+import time
+
+import pytest
+
+from app import pace
+from app.pace import STILL, Pace
+
+CARD, SOFTWARE = "Mesa Intel(R) UHD Graphics 620", "llvmpipe (LLVM 15.0.6, 256 bits)"
+
+
+class Worker:
+    ready = False
+
+    def __init__(self):
+        self.turns = []
+
+    def turn(self, end):
+        self.turns.append(end)
+
+
+class Events:
+    """Takes the place of the window system: nothing ever happens; `waited`: for how long, each time."""
+
+    def __init__(self):
+        self.waited, self.woken = [], 0
+
+    def wait_events_timeout(self, seconds):
+        self.waited.append(seconds)
+
+    def poll_events(self):
+        pass
+
+    def post_empty_event(self):
+        self.woken += 1
+
+
+@pytest.fixture
+def events(monkeypatch):
+    stand_in = Events()
+    monkeypatch.setattr(pace, "glfw", stand_in)
+    return stand_in
+
+
+def paced(renderer):
+    one = Pace(renderer)
+    one.worker = Worker()
+    return one
+
+
+def frame(one, growing, moving=False):
+    one.begin(time.monotonic())
+    one.end(True, moving, growing)
+
+
+def test_the_engine_has_the_rest_between_two_frames(events):
+    one = paced(SOFTWARE)
+    one.event()
+    start = time.monotonic()
+    frame(one, growing=True)
+    one.wait(False)
+    (end,) = one.worker.turns
+    assert start < end < start + STILL
+    assert time.monotonic() - start >= STILL - 0.001
+    assert events.waited == []  # events do not cut it short
+
+
+def test_an_event_ends_the_engines_turn(events):
+    one = paced(SOFTWARE)
+    frame(one, growing=True)
+    one.event()
+    (end,) = one.worker.turns
+    assert end <= time.monotonic()
+
+
+@pytest.mark.parametrize(("renderer", "growing"), [(CARD, True), (SOFTWARE, False)])
+def test_there_are_no_turns_with_a_card_or_while_nothing_grows(events, renderer, growing):
+    one = paced(renderer)
+    one.event()
+    frame(one, growing)
+    one.event()
+    one.wait(False)
+    assert set(one.worker.turns) == {None}
+    assert len(events.waited) == 1
+
+
+def test_there_are_no_turns_while_the_hand_rests(events, monkeypatch):
+    monkeypatch.setattr(pace, "AT_HAND", 0.0)
+    one = paced(SOFTWARE)
+    one.event()
+    frame(one, growing=True)
+    one.worker.turns.clear()
+    one.wait(False)
+    assert one.worker.turns == [None]
+
+
+def test_what_moves_by_itself_has_turns_too(events, monkeypatch):
+    monkeypatch.setattr(pace, "AT_HAND", 0.0)
+    one = paced(SOFTWARE)
+    frame(one, growing=True, moving=True)
+    one.wait(True)
+    assert None not in one.worker.turns
+
+
+def test_the_engine_gets_its_share_after_a_late_frame(events):
+    one = paced(SOFTWARE)
+    one.event()
+    one.begin(time.monotonic() - 0.08)
+    one.end(True, False, True)
+    start = time.monotonic()
+    one.wait(False)
+    assert one.worker.turns[-1] > start
+
+
+def test_nothing_waits_where_nothing_happens(events):
+    one = paced(CARD)
+    frame(one, growing=False)
+    one.wait(False)
+    one.wait(False, typing=True)
+    assert events.waited == [pace.IDLE, pace.BLINK]
+    one.told()
+    assert events.woken == 0  # frames go on
