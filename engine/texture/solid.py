@@ -32,7 +32,7 @@ from engine.texture.framing import Framing
 from engine.texture.matching import Pattern, Shape, Step, analysed, filters_for
 from engine.texture.settling import Settling
 
-ITERATIONS = 8
+ITERATIONS = 10
 
 _DOMAIN = 0x736F6C64  # "sold": tells these hashes from those of other textures
 _ROUND = np.float32(0.3)  # the weight of the pyramid in three dimensions, that of slices across the axes being 1
