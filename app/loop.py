@@ -49,6 +49,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
         while not window.closed():
             window.wait(window.frame())
     finally:
+        window.hide()  # files may still be written for a while
         worker.close()
         window.close()
     return 0

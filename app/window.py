@@ -223,6 +223,11 @@ class Window:
             close(self.desk)
         return self.desk.quit
 
+    def hide(self) -> None:
+        """Takes it from the screen."""
+        glfw.hide_window(self.handle)
+        glfw.poll_events()
+
     def close(self) -> None:
         self.router.cancel()
         if self.pen is not None:

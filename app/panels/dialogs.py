@@ -85,7 +85,7 @@ class NewPainting:
         w.tooltip("Of the frame, in pixels of level 0")
         good = 1 <= self._width <= MOST_SIDE and 1 <= self._height <= MOST_SIDE
         imgui.spacing()
-        if w.text_button("Start", "Start the new painting", enabled=good, width=em * 8):
+        if w.default_button("Start", "Start the new painting", enabled=good, width=em * 8):
             desk.post(New(Rect(0, 0, self._width, self._height)))
             return False
         imgui.same_line()
@@ -106,7 +106,7 @@ class ExportDepth:
         size = desk.frame.zoomed(desk.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
         imgui.spacing()
-        chosen = w.text_button("Choose file…", "Choose where to write it", width=em * 8)
+        chosen = w.default_button("Choose file…", "Choose where to write it", width=em * 8)
         if chosen:
             desk.ask("export to")
         imgui.same_line()
@@ -130,9 +130,9 @@ class Unsaved:
         imgui.spacing()
         em = imgui.get_font_size()
         if writing.saving:
-            if w.text_button("Wait", "Go on as soon as it is saved", width=em * 7) and then is not None:
+            if w.default_button("Wait", "Go on as soon as it is saved", width=em * 7) and then is not None:
                 desk.after_save, going = (lambda d: d.guard(then)), True
-        elif w.text_button("Save", "Save, then go on", width=em * 7):
+        elif w.default_button("Save", "Save, then go on", width=em * 7):
             desk.after_save, going = then, True
             desk.save()
         imgui.same_line()
@@ -168,7 +168,7 @@ class Keys:
                     imgui.text_unformatted(title)
             imgui.end_table()
         imgui.spacing()
-        return not w.text_button("Close", "Close the list", width=em * 7)
+        return not w.default_button("Close", "Close the list", width=em * 7)
 
 
 class About:
@@ -184,7 +184,7 @@ class About:
         )
         imgui.pop_text_wrap_pos()
         imgui.spacing()
-        return not w.text_button("Close", "Close", width=em * 7)
+        return not w.default_button("Close", "Close", width=em * 7)
 
 
 DIALOGS: dict[str, Callable[[Desk], Dialog]] = {

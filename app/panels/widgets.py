@@ -50,6 +50,17 @@ def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0
     return pressed
 
 
+def default_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
+    """The button of a dialog that the Return key presses, too."""
+    imgui.push_style_color(Col.button, theme.vec(theme.ACCENT, 0.45))
+    imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT, 0.6))
+    imgui.push_style_color(Col.button_active, theme.vec(theme.ACCENT, 0.75))
+    pressed = text_button(label, hint, enabled=enabled, width=width)
+    imgui.pop_style_color(3)
+    keys = imgui.Key.enter, imgui.Key.keypad_enter
+    return pressed or (enabled and any(imgui.is_key_pressed(key, repeat=False) for key in keys))
+
+
 def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = False) -> bool:
     """A panel's header; a click folds it.  `shared`: a button may lie on its right end."""
     imgui.dummy(ImVec2(0, 1))
