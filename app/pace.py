@@ -14,7 +14,8 @@ LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
 IDLE, BLINK = 5.0, 0.3  # seconds to wait for an event when nothing moves, and where text is typed
 PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
 STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
-SOFTWARE = ("llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer", "GDI Generic")  # renderers
+# What software renderers call themselves.
+SOFTWARE = "llvmpipe", "softpipe", "swrast", "SwiftShader", "Software R", "Basic Render Driver", "GDI Generic"
 AT_HAND = 0.25  # seconds after an event during which each frame counts
 STEP = 0.003  # seconds that a piece of the engine's work takes, at most, nearly always
 SHARE = 0.25  # of a late frame's time, that the engine gets after it
@@ -38,7 +39,7 @@ class Pace:
 
     def __init__(self, renderer: str) -> None:
         self.worker: Worker | None = None
-        self._shared = renderer.startswith(SOFTWARE)
+        self._shared = any(name in renderer for name in SOFTWARE)
         self._last = self._moved = time.monotonic()
         self._busy_until = 0.0
         self._took = 0.0  # seconds, by the last frame

@@ -46,7 +46,7 @@ BENCHES = {
     "example": "painting with example textures: preview, refinement, threads, and G'MIC's synthesis",
     "stroke": "a stroke of 1,000 points to committed pixels at all levels",
     "zoom": "a continuous zoom through 40 levels at 1280 x 800: the engine's work, and the frames of a real window",
-    "frames": "the frames of a real window that pans, alone and while an example grows",
+    "frames": "the frames of a real window that pans",
     "files": "saving and opening four layers of 4000 x 4000",
     "start": "from the command to the first frame of the window",
     "memory": "what the process and its history hold after 1,000 strokes",
