@@ -49,10 +49,22 @@ def run(path: str | None = None, play: str | None = None) -> int:
         while not window.closed():
             window.wait(window.frame())
     finally:
-        window.hide()  # files may still be written for a while
-        worker.close()
-        window.close()
-    return 0
+        try:
+            window.hide()
+            worker.close(None)  # files may still be written for a while
+        finally:
+            window.close()
+    return _told(worker)
+
+
+def _told(worker: Any) -> int:
+    """Tells the terminal what went wrong when no window was there any more to show it; the exit status."""
+    from engine.painting.results import Note
+
+    faults = [result.text for result in worker.results() if isinstance(result, Note) and result.bad]
+    for text in faults:
+        print(f"inkfall: {text}", file=sys.stderr)
+    return 1 if faults else 0
 
 
 def opened() -> Window:

@@ -18,6 +18,7 @@ STILL = 1 / 60  # and at most, where frames go on without an event: the engine w
 SOFTWARE = "llvmpipe", "softpipe", "swrast", "SwiftShader", "Software R", "Basic Render Driver", "GDI Generic"
 AT_HAND = 0.25  # seconds after an event during which each frame counts
 STEP = 0.003  # seconds that a piece of the engine's work takes, at most, nearly always
+LEAST = 0.001  # seconds of a turn in which such pieces are begun, after frames that take nearly all of the time
 SHARE = 0.25  # of a late frame's time, that the engine gets after it
 
 
@@ -89,11 +90,11 @@ class Pace:
             self._last = min(self._last + IDLE, time.monotonic() - PACE)
 
     def rest(self, seconds: float) -> None:
-        """Sleeps so long, or until an event if the engine needs no turn."""
+        """Sleeps so long, or until an event; the engine's turn is no shorter than it has to be."""
         if self._by_turns:
-            seconds = max(seconds, SHARE * self._took if self._took > STILL else 0.0)
-            self._give(time.monotonic() + seconds - STEP)
-            time.sleep(max(0.0, seconds))
+            seconds = max(seconds, LEAST, SHARE * self._took if self._took > STILL else 0.0)
+            self._give(time.monotonic() + max(LEAST, seconds - STEP))
+            time.sleep(seconds)
             glfw.poll_events()
         else:
             self._give(None)

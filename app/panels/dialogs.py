@@ -53,7 +53,7 @@ class Dialogs:
             given_up = imgui.is_key_pressed(imgui.Key.escape)
             if given_up:
                 desk.after_save = None
-            if not dialog.draw(desk) or given_up:
+            if given_up or not dialog.draw(desk):
                 imgui.close_current_popup()
                 self._open = None
             imgui.end_popup()
@@ -101,7 +101,8 @@ class ExportDepth:
         em = imgui.get_font_size()
         imgui.text_unformatted("Each level deeper doubles the picture, with new detail.")
         imgui.set_next_item_width(em * 20)
-        _, desk.export_level = imgui.slider_int("Level", desk.export_level, EXPORT_LEVELS[0], EXPORT_LEVELS[1])
+        flags = imgui.SliderFlags_.always_clamp
+        _, desk.export_level = imgui.slider_int("Level", desk.export_level, *EXPORT_LEVELS, flags=flags)
         w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
         size = desk.frame.zoomed(desk.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")

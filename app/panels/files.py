@@ -85,18 +85,15 @@ class Browser:
         imgui.end_child()
         imgui.pop_style_color()
         imgui.set_next_item_width(em * 24)
-        if self._focus and self._saving:
+        if self._focus and self._saving and not w.return_down():  # a key that still is would take it away again
             imgui.set_keyboard_focus_here()
-        self._focus = False
-        entered, self._name = imgui.input_text("##name", self._name, imgui.InputTextFlags_.enter_returns_true)
+            self._focus = False
+        _, self._name = imgui.input_text("##name", self._name)
         w.tooltip("The file’s name")
         imgui.same_line()
         word = "Replace" if self._sure else "Save" if self._saving else "Open"
-        if (
-            w.text_button(f"{word}###go", f"{word} this file", enabled=bool(self._name), width=em * 6)
-            or entered
-            or picked
-        ):
+        hint = f"{word} this file"
+        if w.default_button(f"{word}###go", hint, enabled=bool(self._name), width=em * 6) or picked:
             return self._choose(desk)
         imgui.same_line()
         if w.text_button("Cancel", "Go back", width=em * 6):

@@ -11,6 +11,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 
 Col = imgui.Col_
+_RETURN = imgui.Key.enter, imgui.Key.keypad_enter
 
 
 def tooltip(text: str) -> None:
@@ -51,14 +52,18 @@ def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0
 
 
 def default_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
-    """The button of a dialog that the Return key presses, too."""
+    """The button of a dialog that the Return key presses, too; not one that was held down as the dialog came up."""
     imgui.push_style_color(Col.button, theme.vec(theme.ACCENT, 0.45))
     imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT, 0.6))
     imgui.push_style_color(Col.button_active, theme.vec(theme.ACCENT, 0.75))
     pressed = text_button(label, hint, enabled=enabled, width=width)
     imgui.pop_style_color(3)
-    keys = imgui.Key.enter, imgui.Key.keypad_enter
-    return pressed or (enabled and any(imgui.is_key_pressed(key, repeat=False) for key in keys))
+    return pressed or (enabled and any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN))
+
+
+def return_down() -> bool:
+    """Whether a Return key is held down."""
+    return any(imgui.is_key_down(key) for key in _RETURN)
 
 
 def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = False) -> bool:

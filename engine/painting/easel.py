@@ -79,7 +79,7 @@ class Easel:
 
     @property
     def urgent(self) -> bool:
-        """Whether what the pen just painted waits to be seen."""
+        """Whether what the pen just painted waits to be seen; for tiles that have not come, others stand in."""
         return self.grower.behind or self.viewer.fresh
 
     def step(self) -> bool:

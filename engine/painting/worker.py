@@ -2,7 +2,7 @@
 
 The window posts frozen requests and drains read-only results; it never waits.  Commands and strokes are carried out in
 the order of posting; between them the thread works off the newest view request, tile by tile, most urgent first,
-so that anything newer is seen after at most one tile.
+so that anything newer is seen after at most one tile; in turns with the window where that wants the processor, too.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class Worker:
         self._swatches: dict[str, Swatch] = {}
         self._swatched = 0.0  # when tiles last let one pass
         self._turn: float | None = None  # when it ends; None: it does not
-        self._worked = 0.0  # when a piece of open work was last begun
+        self._worked = 0.0  # when a piece of work was last begun that waits for its turn
         self._asked = 0.0  # when the first of the swatches was
         self._results: deque[Result] = deque()
         self._signal = threading.Condition()
@@ -97,9 +97,10 @@ class Worker:
             self._signal.notify()
 
     def turn(self, end: float | None) -> None:
-        """Open work that is not urgent is begun until `end`, by the monotonic clock, then after the next call; None: at
-        any time.  Swatches, which take longer, wait until then.  For a window that wants the processor now and then:
-        nothing waits longer than `PATIENCE` or `LONGER`.  Commands are not held up."""
+        """Open work that is not urgent, and what plays, is begun until `end`, by the monotonic clock, then after the
+        next call; None: at any time.  Swatches, which take longer, wait until then.  For a window that wants the
+        processor now and then: no piece waits longer than `PATIENCE`, and no swatch than `LONGER`.  Commands are not
+        held up."""
         if end == self._turn:
             return
         with self._signal:
@@ -124,8 +125,9 @@ class Worker:
         with self._signal:
             return bool(self._posted) or self._doing or bool(self._results)
 
-    def close(self, timeout: float = 10.0) -> None:
-        """Ends the thread after what was posted before is done."""
+    def close(self, timeout: float | None = 10.0) -> None:
+        """Ends the thread after what was posted before is done and files are written; waits so many seconds for it,
+        at most."""
         with self._signal:
             self._closing = True
             self._signal.notify()
@@ -150,27 +152,30 @@ class Worker:
                     look, self._look = self._look, None
                     return lambda: bench.look(look)
                 now = time.monotonic()
-                open_in, swatch_in = self._waits(bench, now)
+                open_in, swatch_in, play_in = self._waits(bench, now)
                 if bench.pending and open_in <= 0.0 and not (swatch_in <= 0.0 and now - self._swatched > PASSING):
                     self._worked = now
                     return lambda: (bench.step(), None)[1]
                 if swatch_in <= 0.0:
-                    self._swatched = self._worked = now
+                    self._swatched = self._worked = self._asked = now
                     swatch = self._swatches.pop(self._foremost())
                     return lambda: bench.do(swatch)
-                if bench.due is not None and bench.due <= now:
+                if play_in <= 0.0:
+                    self._worked = now
                     return bench.play
-                rest = min(open_in, swatch_in, math.inf if bench.due is None else bench.due - now)
+                rest = min(open_in, swatch_in, play_in)
                 self._signal.wait(None if rest == math.inf else rest)
 
-    def _waits(self, bench: Bench, now: float) -> tuple[float, float]:
-        """Seconds until open work, and until a swatch, may be begun; endless where there is none."""
-        open_in, swatch_in = (0.0 if there else math.inf for there in (bench.pending, self._swatches))
+    def _waits(self, bench: Bench, now: float) -> tuple[float, float, float]:
+        """Seconds until open work, a swatch, and what plays, may be begun; endless where there is none."""
+        turn = swatch_in = 0.0
         if self._turn is not None:
             if now >= self._turn and not bench.urgent:
-                open_in += max(0.0, self._worked + PATIENCE - now)
-            swatch_in += max(0.0, self._asked + LONGER - now)
-        return open_in, swatch_in
+                turn = max(0.0, self._worked + PATIENCE - now)
+            swatch_in = max(0.0, self._asked + LONGER - now)
+        open_in = turn if bench.pending else math.inf
+        play_in = math.inf if bench.due is None else max(turn, bench.due - now)
+        return open_in, swatch_in if self._swatches else math.inf, play_in
 
     def _foremost(self) -> str:
         """The swatch that is painted next: of those that are wanted soon, or of all, the one that waits longest."""

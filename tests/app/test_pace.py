@@ -59,9 +59,10 @@ def test_the_engine_has_the_rest_between_two_frames(events):
     one.event()
     start = time.monotonic()
     frame(one, growing=True)
+    drawn = time.monotonic()
     one.wait(False)
     (end,) = one.worker.turns
-    assert start < end < start + STILL
+    assert start < end < drawn + STILL
     assert time.monotonic() - start >= STILL - 0.001
     assert events.waited == []  # events do not cut it short
 
@@ -75,7 +76,9 @@ def test_an_event_ends_the_engines_turn(events):
 
 
 @pytest.mark.parametrize(("renderer", "growing"), [(CARD, True), (SOFTWARE, False)])
-def test_there_are_no_turns_with_a_card_or_while_nothing_grows(events, renderer, growing):
+def test_there_are_no_turns_with_a_card_or_while_nothing_grows(events, monkeypatch, renderer, growing):
+    monkeypatch.setattr(pace, "PACE", 10.0)  # however slow the machine is
+    monkeypatch.setattr(pace, "STILL", 10.0)
     one = paced(renderer)
     one.event()
     frame(one, growing)
@@ -103,14 +106,17 @@ def test_what_moves_by_itself_has_turns_too(events, monkeypatch):
     assert None not in one.worker.turns
 
 
-def test_the_engine_gets_its_share_after_a_late_frame(events):
+@pytest.mark.parametrize("took", [0.012, 0.014, 0.0155, 0.0166, 0.018, 0.08])
+def test_the_engine_gets_its_turn_however_long_a_frame_takes(events, took):
     one = paced(SOFTWARE)
     one.event()
-    one.begin(time.monotonic() - 0.08)
+    one.begin(time.monotonic() - took)
     one.end(True, False, True)
     start = time.monotonic()
     one.wait(False)
-    assert one.worker.turns[-1] > start
+    assert one.worker.turns[-1] >= start + pace.LEAST
+    if took > STILL:
+        assert time.monotonic() - start >= pace.SHARE * took
 
 
 def test_nothing_waits_where_nothing_happens(events):
@@ -121,3 +127,11 @@ def test_nothing_waits_where_nothing_happens(events):
     assert events.waited == [pace.IDLE, pace.BLINK]
     one.told()
     assert events.woken == 0  # frames go on
+
+
+def test_news_wakes_a_window_that_rests(events, monkeypatch):
+    one = paced(CARD)
+    frame(one, growing=False)
+    monkeypatch.setattr(events, "wait_events_timeout", lambda seconds: one.told())
+    one.wait(False)
+    assert events.woken == 1

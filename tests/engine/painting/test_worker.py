@@ -14,7 +14,7 @@ from engine.painting.worker import Worker
 class Bench:
     """A stand-in that writes down what it is asked to do; `gate` holds it up."""
 
-    due = None
+    due = endless = None
     urgent = False
 
     def __init__(self, send):
@@ -42,7 +42,7 @@ class Bench:
 
     def play(self):
         self.did.append("play")
-        self.due = None
+        self.due = None if self.endless is None else 0.0
 
     def close(self):
         self.did.append("closed")
@@ -216,11 +216,11 @@ def test_open_work_waits_for_its_turn(worker):
 
 
 def test_a_turn_ends_by_itself(worker):
-    held(worker, 100_000)
-    worker.turn(time.monotonic() + 0.02)
-    time.sleep(0.1)
+    held(worker, 1_000_000)
+    worker.turn(time.monotonic() + 0.1)
+    time.sleep(0.2)
     did = len(worker.bench.did)
-    assert FEW < did < 100_000
+    assert FEW < did < 1_000_000
     time.sleep(0.1)
     assert len(worker.bench.did) < did + FEW
 
@@ -257,3 +257,35 @@ def test_a_swatch_does_not_wait_for_ever(worker, monkeypatch):
     worker.turn(time.monotonic() + 60.0)
     worker.post(q.Swatch("ink", None, (1, 1)))
     until(lambda: len(worker.bench.did) == 1)
+
+
+def test_swatches_that_waited_come_one_by_one(worker, monkeypatch):
+    monkeypatch.setattr("engine.painting.worker.LONGER", 0.1)
+    worker.turn(time.monotonic() - 1.0)
+    for n in range(20):
+        worker.post(q.Swatch(f"{n}", None, (1, 1)))
+    until(lambda: worker.bench.did)
+    time.sleep(0.25)
+    assert len(worker.bench.did) < FEW
+
+
+def test_what_plays_has_its_turns_too(worker):
+    worker.bench.endless, worker.bench.due = True, 0.0
+    worker.turn(time.monotonic() - 1.0)
+    worker.post(q.Finish())
+    until(lambda: "play" in worker.bench.did)
+    did = len(worker.bench.did)
+    time.sleep(0.1)
+    assert len(worker.bench.did) < did + FEW
+    worker.turn(None)
+    until(lambda: len(worker.bench.did) > did + 10 * FEW)
+
+
+def test_closing_waits_as_long_as_it_takes(worker):
+    worker.bench.gate.clear()
+    worker.post(q.Finish())
+    threading.Timer(0.3, worker.bench.gate.set).start()
+    worker.close(0.05)
+    assert "closed" not in worker.bench.did
+    worker.close(None)
+    assert worker.bench.did[-1] == "closed"
