@@ -105,6 +105,7 @@ def test_slices_across_diagonals_take_streaks_away(monkeypatch):
     assert found < 0.8 * without, (found, without)
 
 
+@pytest.mark.nightly
 def test_no_single_plane_is_unlike_the_example():
     """Neither of those along the faces of the cube, nor where it is cut elsewhere."""
     example = specimens.sand((64, 64))
