@@ -77,11 +77,6 @@ class Easel:
         parts = (self.viewer, self.grower, self.lab, self.examiner, self.matcher)
         return self.grower.behind + sum(part.pending for part in parts)
 
-    @property
-    def urgent(self) -> bool:
-        """Whether what the pen just painted waits to be seen; for tiles that have not come, others stand in."""
-        return self.grower.behind or self.viewer.fresh
-
     def step(self) -> bool:
         """The most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, examples being
         grown, textures being matched, analysis."""

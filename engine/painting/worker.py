@@ -39,11 +39,6 @@ class Bench(Protocol):
         ...
 
     @property
-    def urgent(self) -> bool:
-        """Whether the next piece is what a hand waits for."""
-        ...
-
-    @property
     def due(self) -> float | None:
         """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
         ...
@@ -97,10 +92,10 @@ class Worker:
             self._signal.notify()
 
     def turn(self, end: float | None) -> None:
-        """Open work that is not urgent, and what plays, is begun until `end`, by the monotonic clock, then after the
-        next call; None: at any time.  Swatches, which take longer, wait until then.  For a window that wants the
-        processor now and then: no piece waits longer than `PATIENCE`, and no swatch than `LONGER`.  Commands are not
-        held up."""
+        """Open work, and what plays, is begun until `end`, by the monotonic clock, then after the next call; None: at
+        any time.  Swatches, which take longer, wait until then.  For a window that wants the processor now and then: no
+        piece waits longer than `PATIENCE`, and no swatch than `LONGER`.  Commands are not held up; what they have to
+        show is not later than it would be, if the turn begins as a frame ends."""
         if end == self._turn:
             return
         with self._signal:
@@ -170,7 +165,7 @@ class Worker:
         """Seconds until open work, a swatch, and what plays, may be begun; endless where there is none."""
         turn = swatch_in = 0.0
         if self._turn is not None:
-            if now >= self._turn and not bench.urgent:
+            if now >= self._turn:
                 turn = max(0.0, self._worked + PATIENCE - now)
             swatch_in = max(0.0, self._asked + LONGER - now)
         open_in = turn if bench.pending else math.inf

@@ -15,7 +15,6 @@ class Bench:
     """A stand-in that writes down what it is asked to do; `gate` holds it up."""
 
     due = endless = None
-    urgent = False
 
     def __init__(self, send):
         self.send, self.did, self.open, self.gate = send, [], [], threading.Event()
@@ -228,12 +227,6 @@ def test_a_turn_ends_by_itself(worker):
 def test_work_goes_on_slowly_where_no_turn_ever_comes(worker):
     held(worker, 3)
     until(lambda: len(worker.bench.did) == 3)
-
-
-def test_what_a_hand_waits_for_needs_no_turn(worker):
-    worker.bench.urgent = True
-    held(worker)
-    until(lambda: len(worker.bench.did) == 1000)
 
 
 def test_commands_need_no_turn(worker):
