@@ -69,6 +69,11 @@ def hash_plane(key: int, x0: int, y0: int, width: int, height: int) -> np.ndarra
     return out
 
 
+def uniform(key: int, count: int) -> np.ndarray:
+    """Numbers evenly in [0, 1): float64 (count,)."""
+    return (hash_plane(key, 0, 0, count, 1)[0] >> np.uint64(11)) * 2.0**-53
+
+
 def _run(origin: int, high: int, size: int) -> tuple[int, int]:
     """The indices i in [0, size) for which (origin + i) >> 32 == high, as a half-open range."""
     return max(0, (high << 32) - origin), min(size, ((high + 1) << 32) - origin)
