@@ -47,6 +47,7 @@ def measure(small: bool = False) -> Iterator[Figure | Skipped]:
     yield _transforms(example, side, repeats)
     yield _preview(_example(side // 4), repeats)
     yield _solid(_example(side // 4), 16 if small else CUBE, repeats)
+    yield _settling(_example(side // 4), 16 if small else CUBE, repeats)
 
 
 def _example(side: int) -> np.ndarray:
@@ -195,9 +196,26 @@ def _solid(example: np.ndarray, side: int, repeats: int) -> Figure:
     made = matching.filters_for(start, wanted.oriented.shape)
 
     def own() -> None:
-        for _ in solid.matching(wanted, start, 1):
+        for _ in solid.matching(wanted, start, 1, settling=0):
             pass
 
     bare = _bare(start[0], made, len(solid.CUTS) * len(start))
     taken, floor = best(min(repeats, 5), own, bare)
     return Figure(f"a turn of a solid {side}", taken * 1e3, "ms", "its transforms", taken / floor, 2 * TRANSFORMS)
+
+
+def _settling(example: np.ndarray, side: int, repeats: int) -> Figure:
+    """A turn of settling a cube, against one of matching its slices."""
+    wanted = replace(solid.patterns(example[:1], side, SHAPE), coarser=None)
+    start = solid.noise(1, side, 1)
+
+    def settled(turns: int) -> Work:
+        def work() -> None:
+            for _ in solid.matching(wanted, start, 1, settling=turns):
+                pass
+
+        return work
+
+    matched, both = best(min(repeats, 5), settled(0), settled(TURNS))
+    taken = (both - matched) / TURNS
+    return Figure(f"a turn of settling {side}", taken * 1e3, "ms", "one of matching", taken / matched, 1.0)

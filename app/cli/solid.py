@@ -21,7 +21,8 @@ SIDES = 4, 2048
 SLICES = 5  # of the cube, on the sheet
 GAP = 4  # pixels between pictures on the sheet
 SHADES = (1.0, 0.86, 0.72)  # of the top, the left and the right face
-EACH = 48  # bytes of memory for each channel of a voxel
+ITERATIONS = 6
+EACH = 64  # bytes of memory for each channel of a voxel
 
 
 def run(words: list[str]) -> int:
@@ -61,7 +62,7 @@ def _parser() -> Parser:
         "--size", type=matched.whole(*SIDES), default=64, metavar="N", help="voxels a side (default 64)"
     )
     parser.add_argument("--png", metavar="P.png", help="a sheet: a row of slices, and the cube")
-    matched.add_common(parser, 8)
+    matched.add_common(parser, ITERATIONS)
     return parser
 
 

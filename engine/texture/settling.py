@@ -1,165 +1,227 @@
-"""What is large in a cube of texture is settled by itself: the coarse subbands of whole sheaves of parallel planes.
+"""A cube of texture is settled until planes in all directions look as much like the example as they can.
 
-A plane has a few samples of its coarsest subbands only, which go together by chance in planes whose neighbours are as
-they should be; and planes that none of the cube's pyramids are made of may be blotchier than all that are.  The
-coarse subbands of a whole sheaf of parallel planes are a rod in the spectrum of the cube, along the planes' normal.  So
-little is worked on that there is time for sheaves across the three axes, the six diagonals of faces, and the four of
-the cube.
+Slices across axes and diagonals, of which a cube is made first (solid.py), say nothing of planes in between, and have
+few samples of what is large, which go together by chance.  No cube can be right for all planes: a plane shows the waves
+of a cube in projection, what it has of a frequency is the sum of the cube's power along a line across it.  So what is
+fine in planes in one direction is large in others, and where an example has little that is large, as sand has, they
+cannot all have as little.  What can be had is the best for all together.
 
-The histograms are the example's (Heeger & Bergen 1995, section 4).  Each frequency moves by the mean of what those
-planes want that see it as coarse.
+So the measure itself goes down its slope: the distances of the histograms of subbands from the example's (Heeger &
+Bergen 1995, section 4), on average over planes across the axes and over others.  Whichever kind is further off than
+flat textures are counts for more, so that neither is left behind.  Fine subbands are seen in single planes, others in
+each turn; coarse ones in whole sheaves of parallel planes, whose smooth parts are quickly had from the cube's spectrum.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
-from itertools import product
+from typing import Any
 
 import numpy as np
 
-from engine.numeric import histograms
-from engine.numeric.steerable import Place, masks
+from engine.numeric import bspline, histograms, steerable
+from engine.numeric.bspline import Plane
+from engine.numeric.directions import frame, frames
+from engine.numeric.hashing import fold_key, uniform
+from engine.numeric.sheaf import Rod, Sheaves
+from engine.numeric.steerable import Place
 from engine.texture.matching import Bands, Shape
+from engine.texture.slope import Inside, Wanted, beyond, folded, mirrored, sloped, wanted_of
 
-_ALONG_AXES, _OBLIQUE = 2, 3  # the finest levels that are settled
-_WEIGHTS = {1: 1.0, 2: 0.5, 3: 0.5}  # of sheaves, by the squared length of their normals
-# Half of a change stays that goes to and fro so many times a voxel along the normal: without it, cubes have layers.
-_LAYERS = 0.25
-_LEAST = 2  # the finest level of which oblique planes, whose voxels are farther apart, have all frequencies
+_DOMAIN = 0x73657474  # "sett": tells these hashes from those of other textures
+_FEW = 16  # samples along an axis of a subband that is seen in sheaves
+_SEEN = 16  # turns after which all directions have been seen whose sheaves overlap but little
+_MOST = 48  # directions of a level in a turn
+_PLANES = 12  # slanted ones in each turn
+_SLICES = 5  # turns after which all slices across the axes have been seen
+_EDGE = 12  # pixels along the edges of slanted planes, which do not tile, that do not count
+_STRIDE = 0.03  # how far voxels go in a turn, in spreads of the cube
+_LASTING = np.float32(0.9)  # what is left of a turn's way in the next
+_TILE = 0.6  # flat textures are so far from an example, pieces that were cut out of them at a slant being 1 away
+_EAGER = 3  # the power of how far planes of one kind are, relative to the other, with which they count for more
+_LATELY = 0.2  # of how far planes are from the example, what part is news in a turn
+_MATCHED = 5  # turns after which voxels are given the example's values again
 
-
-@dataclass(frozen=True, slots=True)
-class Sheaf:
-    """Parallel planes n . x = 0, 1, 2 ... of a cube: `normal` n of numbers -1, 0 and 1, not 0 at the axis `step`;
-    `down` and `across`, of length 1, are how pictures lie on them."""
-
-    normal: tuple[int, int, int]
-    step: int
-    down: np.ndarray
-    across: np.ndarray
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Rod:
-    """One level of the subbands of a sheaf: its `places` in the cube's spectrum, flat, int64 (n, h, w//2 + 1), first
-    along the normal; its `masks` (K, h, w//2 + 1); the `size` (h, w) of its bands."""
-
-    places: np.ndarray
-    masks: np.ndarray
-    size: tuple[int, int]
-    level: int
-    odd: bool
-    weight: np.float32
-
-
-def sheaves() -> Iterator[Sheaf]:
-    """Across the axes, with rows and columns as the cube's own slices have them, and across all diagonals."""
-    for normal in product((-1, 0, 1), (-1, 0, 1), (-1, 0, 1)):
-        if normal > (0, 0, 0):
-            unit = np.array(normal) / math.hypot(*normal)
-            level = [axis for axis, v in enumerate(normal) if not v] or [2]
-            across = np.eye(3)[level[-1]]
-            across -= unit * (unit @ across)
-            across /= math.hypot(*across)
-            down = np.cross(across, unit)
-            down *= np.sign(down[np.flatnonzero(np.abs(down) > 1e-9)[0]])
-            yield Sheaf(normal, [abs(v) for v in normal].index(1), down, across)
+_SLANTED, _ACROSS = 0, 1  # kinds of planes: at a slant, and across the axes
+_ALL = (0, 1, 2)
 
 
 class Settling:
-    """What turns a cube of `side`, again and again, towards the coarse subbands of an example."""
+    """What turns a cube of `side` towards an example's sorted values: its `bands`; those of it `between` voxels, where
+    there is less of what is fine; and `voxels` unless None."""
 
-    def __init__(self, side: int, shape: Shape) -> None:
-        self._rods = list(_rods(side, shape))
-        whole = np.zeros(side**3, np.float32)
-        for rod in self._rods:
-            whole[rod.places] += rod.weight * np.square(rod.masks).sum(axis=0) * _shares(rod.size)
-        cube = whole.reshape(side, side, side)
-        cube = cube + cube[np.ix_(*[-np.arange(side) % side] * 3)]
-        self._share = np.float32(1.0) / np.maximum(cube, np.float32(1.0))
+    def __init__(self, side: int, shape: Shape, bands: Bands, between: Bands, voxels: np.ndarray | None) -> None:
+        self._voxels = voxels
+        self._away = np.ones(2)  # how far from the example planes of each kind have been lately
+        wanted = wanted_of(bands)
+        coarse = [level for level in range(1, shape.levels + 1) if -(-side >> level) <= _FEW]
+        self._fine = _Fine(side, shape, *(_without(coarse, each) for each in (wanted, wanted_of(between))))
+        self._coarse = [_Coarse(side, level, shape, wanted) for level in coarse]
 
-    def turn(self, cube: np.ndarray, bands: Bands, threads: Executor | None = None) -> None:
-        """Moves a cube (n, n, n), in place, towards the example's `bands`."""
-        from scipy.fft import fftn, ifftn
+    def turns(self, cube: np.ndarray, count: int, threads: Executor | None = None) -> Iterator[float]:
+        """Settles a cube (n, n, n), float32, in place; it is right after the last turn.  Tells what part is done."""
+        from scipy.fft import irfftn, rfftn
 
-        spectrum = fftn(cube).reshape(-1)
+        spread = float(cube.std(dtype=np.float64))
+        spectrum = rfftn(cube)
+        way = np.zeros_like(spectrum)
+        for turn in range(count):
+            way *= _LASTING
+            way += self._slope(spectrum, turn, threads)
+            stride = _STRIDE * spread * min(1.0, 2.0 - 2.0 * turn / count)
+            spectrum -= way * np.float32(stride / max(_size(way, len(cube)), 1e-30))
+            if turn % _MATCHED == _MATCHED - 1 or turn == count - 1:
+                cube[...] = irfftn(spectrum, s=cube.shape, axes=_ALL)
+                if self._voxels is not None:
+                    histograms.match(cube, self._voxels)
+                spectrum = rfftn(cube)
+            yield (turn + 1) / count
 
-        def change(rod: Rod) -> np.ndarray:
-            return _changed(spectrum, rod, bands)
-
-        whole = np.zeros_like(spectrum)
-        found = map(change, self._rods) if threads is None else threads.map(change, self._rods)
-        for rod, values in zip(self._rods, found, strict=True):
-            whole[rod.places] += values
-        way = whole.reshape(cube.shape)
-        way *= self._share
-        cube += ifftn(way, overwrite_x=True).real
-
-
-def _rods(side: int, shape: Shape) -> Iterator[Rod]:
-    for sheaf in sheaves():
-        length = sum(v * v for v in sheaf.normal)
-        first = min(_ALONG_AXES if length == 1 else _OBLIQUE, shape.levels)
-        if length == 1 or first >= _LEAST:
-            for level in range(first, shape.levels + 1):
-                yield _rod(side, sheaf, level, shape, np.float32(_WEIGHTS[length]))
-
-
-def _rod(side: int, sheaf: Sheaf, level: int, shape: Shape, weight: np.float32) -> Rod:
-    n, step = sheaf.normal, sheaf.step
-    first, second = (axis for axis in range(3) if axis != step)
-    size = _size(side, math.hypot(n[step], n[first]), level), _size(side, math.hypot(n[step], n[second]), level)
-    # Frequencies of the sheaf are those of the cube: k of the step along the normal, i and j along the other axes.
-    k, i = np.arange(side)[:, None, None], _frequencies(size[0])[None, :, None]
-    j = np.arange(size[1] // 2 + 1)[None, None]
-    where = {step: n[step] * k, first: n[first] * k + i, second: n[second] * k + j}
-    places = sum(where[axis] % side * side ** (2 - axis) for axis in range(3))
-    rows, columns = (i[0] * axis[first] + j[0] * axis[second] for axis in (sheaf.down, sheaf.across))
-    logarithm = np.log2(np.maximum(np.hypot(rows, columns) * (2.0 / side), 1e-9))
-    made = masks(logarithm, np.arctan2(rows, columns), level, shape.levels, shape.orientations)
-    made *= (2 * np.abs(i[0]) < size[0]) & (2 * j[0] < size[1])
-    odd = level < shape.levels and shape.orientations % 2 == 0
-    return Rod(np.asarray(places), made.astype(np.float32), size, level, odd, weight)
+    def _slope(self, spectrum: np.ndarray, turn: int, threads: Executor | None) -> np.ndarray:
+        """How the measure grows with each voxel, as half of a spectrum, by the planes that are looked at in a turn."""
+        weight = (self._away[_ACROSS] / max(_TILE * self._away[_SLANTED], 1e-9)) ** _EAGER
+        total, away = self._fine.slope(spectrum, turn, weight, threads)
+        for coarse in self._coarse:
+            away += coarse.slope(total, spectrum, turn, weight, threads)
+        self._away += (away - self._away) * (_LATELY if turn else 1.0)
+        return total
 
 
-def _size(side: int, spread: float, level: int) -> int:
-    """Samples along an axis of a band whose frequencies reach `spread` times as far as along a cube's axis."""
-    return min(2 * math.ceil(-(-side >> level) * spread / 2.0), side)
+class _Fine:
+    """The subbands that are seen in single planes: what is `wanted` of slices, and `between` voxels."""
+
+    def __init__(self, side: int, shape: Shape, wanted: dict[Place, Wanted], between: dict[Place, Wanted]) -> None:
+        self._side, self._wanted, self._between = side, wanted, between
+        self._filters = steerable.filters(side, side, shape.levels, shape.orientations)
+        along = bspline.prefilter(side)
+        self._prefilter = along[:, None, None] * along[:, None] * along[: side // 2 + 1]
+
+    def slope(
+        self, spectrum: np.ndarray, turn: int, weight: float, threads: Executor | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The slope as half of a spectrum, planes across the axes having the `weight`; how far those of each kind are,
+        float64 (2,)."""
+        total, across = self._across(spectrum, turn, weight, threads)
+        laid, slanted = self._slanted(spectrum * self._prefilter, turn, threads)
+        total += laid * self._prefilter
+        return total, np.array([slanted, across])
+
+    def _across(
+        self, spectrum: np.ndarray, turn: int, weight: float, threads: Executor | None
+    ) -> tuple[np.ndarray, float]:
+        from scipy.fft import irfftn, rfftn
+
+        cube = irfftn(spectrum, s=(self._side,) * 3, axes=_ALL)
+        step = min(_SLICES, self._side)
+        slices = [(axis, k) for axis in _ALL for k in range(3 * turn % step, self._side, step)]
+        found = np.stack([np.take(cube, k, axis) for axis, k in slices])
+        distances, slope = sloped(found, self._filters, self._wanted, _within(0), threads)
+        slope *= _outstanding(distances) * np.float32(weight / len(slices))
+        cube[...] = 0.0
+        for (axis, k), values in zip(slices, slope, strict=True):
+            np.moveaxis(cube, axis, 0)[k] += values
+        return rfftn(cube), float(distances.mean())
+
+    def _slanted(self, spectrum: np.ndarray, turn: int, threads: Executor | None) -> tuple[np.ndarray, float]:
+        """Of and by the coefficients of splines between voxels."""
+        from scipy.fft import rfftn
+
+        numbers = uniform(fold_key(_DOMAIN, turn), 3 + 3 * _PLANES)
+        corners = numbers[3:].reshape(-1, 3) * self._side
+        planes = [Plane(corner, *at[1:]) for corner, at in zip(corners, frames(_PLANES, numbers[:3]), strict=True)]
+        found = self._cut(spectrum, planes, threads)
+        inside = _within(min(_EDGE, self._side // 8))
+        distances, slope = sloped(found, self._filters, self._between, inside, threads)
+        slope *= np.float32(1.0 / _PLANES)
+        pairs = list(zip(planes, slope, strict=True))
+        one, other = _each(threads)(self._laid, (pairs[::2], pairs[1::2]))
+        one += other
+        return rfftn(one), float(distances.mean())
+
+    def _cut(self, spectrum: np.ndarray, planes: list[Plane], threads: Executor | None) -> np.ndarray:
+        from scipy.fft import irfftn
+
+        spline = irfftn(spectrum, s=(self._side,) * 3, axes=_ALL)
+        return np.stack(list(_each(threads)(lambda plane: bspline.cut(spline, plane, self._side), planes)))
+
+    def _laid(self, pairs: list[tuple[Plane, np.ndarray]]) -> np.ndarray:
+        total = np.zeros((self._side,) * 3, np.float32)
+        for plane, values in pairs:
+            bspline.lay(total, plane, values)
+        return total
 
 
-def _frequencies(count: int) -> np.ndarray:
-    places = np.arange(count)
-    return np.where(places < -(-count // 2), places, places - count)
+class _Coarse:
+    """The subbands of a level that are seen in sheaves, of planes as pictures: beyond their edges are mirror images."""
+
+    def __init__(self, side: int, level: int, shape: Shape, wanted: dict[Place, Wanted]) -> None:
+        self._side, self._level = side, level
+        small = -(-side >> level)
+        self._own = slice(beyond(small)[0], beyond(small)[0] + small)
+        self._sheaves = Sheaves(side, small, 0.5 * side * 2.0**-level)
+        self._filters = steerable.filters(2 * small, 2 * small, shape.levels - level, shape.orientations)
+        self._wanted = {Place(0, place.orientation): band for place, band in wanted.items() if place.level == level}
+
+    def slope(
+        self, total: np.ndarray, spectrum: np.ndarray, turn: int, weight: float, threads: Executor | None
+    ) -> np.ndarray:
+        """Adds the slope to half of a spectrum, in place; how far planes of each kind are, float64 (2,)."""
+        flat, each, away = total.reshape(-1), _each(threads), np.zeros(2)
+        views = {_SLANTED: self._slanted(turn), _ACROSS: self._across(turn)}
+        for kind, rods in views.items():
+            planes = list(each(lambda rod: self._sheaves.planes(spectrum, rod), rods))
+            pictures = mirrored(np.concatenate(planes))
+            distances, slope = sloped(pictures, self._filters, self._wanted, lambda *_: self._own, threads)
+            away[kind] = distances.mean()
+            slope = folded(slope) * np.float32(1.0 / len(slope))
+            if kind == _ACROSS:
+                slope *= _outstanding(distances) * np.float32(weight)
+            parts = slope.reshape(len(rods), *planes[0].shape)
+            for rod, values in zip(rods, each(self._sheaves.given, rods, parts), strict=True):
+                flat[rod.places] += values
+        return away
+
+    def _slanted(self, turn: int) -> list[Rod]:
+        count = min(max(2 * 4**self._level // _SEEN, 1), _MOST)
+        numbers = uniform(fold_key(_DOMAIN, turn, self._level), 3 + 3 * count)
+        between, centres = (
+            bspline.response(np.arange(self._side // 2 + 1) / self._side),
+            numbers[3:].reshape(-1, 3) * self._side,
+        )
+        at = zip(frames(count, numbers[:3]), centres, strict=True)
+        return [self._sheaves.rod(frame, centre, between) for frame, centre in at]
+
+    def _across(self, turn: int) -> list[Rod]:
+        """Their pictures have their edges along the cube's faces and in its middle by turns."""
+        centre, all_of_it = np.full(3, self._side // 2 * (1.0 + turn % 2)), np.ones(self._side // 2 + 1)
+        return [self._sheaves.rod(frame(normal), centre, all_of_it) for normal in np.eye(3)]
 
 
-def _shares(size: tuple[int, int]) -> np.ndarray:
-    """What part of a wave is at one of the two places where the whole spectrum has it: float32 (w//2 + 1,)."""
-    return np.where(np.arange(size[1] // 2 + 1) > 0, np.float32(1.0), np.float32(0.5))
+def _without(levels: list[int], wanted: dict[Place, Wanted]) -> dict[Place, Wanted]:
+    return {place: band for place, band in wanted.items() if place.level not in levels}
 
 
-def _changed(spectrum: np.ndarray, rod: Rod, bands: Bands) -> np.ndarray:
-    """What is to be added to a cube's spectrum at a rod's places for its bands to be those of the example; twice there
-    for what is at none of the mirrored places."""
-    from scipy.fft import fft, ifft, irfft2, rfft2
-
-    planes = ifft(spectrum[rod.places], axis=0)
-    scale = math.prod(rod.size) / round(spectrum.size ** (2.0 / 3.0))
-    turn = 1j if rod.odd else 1.0
-    whole = np.zeros_like(planes)
-    for k, mask in enumerate(rod.masks):
-        values = np.ascontiguousarray(irfft2(planes * (mask * np.complex64(scale * turn)), s=rod.size))
-        matched = values.copy()
-        histograms.match_rows(matched, bands[Place(rod.level, k)])
-        matched -= values
-        whole += rfft2(matched) * (mask * np.complex64(rod.weight / (scale * turn)))
-    whole *= np.float32(2.0) * _shares(rod.size)
-    return fft(whole, axis=0, overwrite_x=True) * _slowly(len(whole))[:, None, None]
+def _outstanding(distances: np.ndarray) -> np.ndarray:
+    """How much more planes count that are further off than others: float32 (m, 1, 1)."""
+    return (distances / max(distances.mean(), 1e-9)).astype(np.float32)[:, None, None]
 
 
-def _slowly(side: int) -> np.ndarray:
-    """Which part of a change stays, by its frequency along the normal, float32 (side,): neighbours change together."""
-    away = np.abs(_frequencies(side)) / side
-    return np.clip(2.5 - 2.0 * away / _LAYERS, 0.0, 1.0).astype(np.float32)
+def _within(edge: int) -> Inside:
+    """All of a picture but `edge` pixels along its edges."""
+
+    def inside(place: Place, count: int) -> slice:
+        away = edge >> max(place.level, 0)
+        return slice(away, count - away)
+
+    return inside
+
+
+def _each(threads: Executor | None) -> Callable[..., Iterator[Any]]:
+    return map if threads is None else threads.map
+
+
+def _size(half: np.ndarray, side: int) -> float:
+    """The root of the mean square of the voxels of half of a spectrum."""
+    whole = 2.0 * np.vdot(half, half).real - np.vdot(half[..., 0], half[..., 0]).real
+    return float(np.sqrt(max(whole, 0.0))) / side**3

@@ -7,14 +7,13 @@ in three directions agree on streaks along the axes, which each of them takes fo
 diagonal directions have slices too: x + y = const and so on, whose voxels are as far apart as those of an example of
 which every sqrt(2)nd row is looked at.  The cube is seamless in all three directions, and so are all slices.
 
-What is large in a cube settles slowest, for a slice has few samples of it, and shows in single slices that are unlike
-the rest.  So a cube grows from one of half its size, of what the example has at that size, which takes an eighth of the
-time for each turn and has more of them; and after each turn what is large is settled by itself, of the planes as tiles
-in more directions (settling.py) and as pictures (framing.py).
+A cube grows from one of half its size, of what the example has at that size, which takes an eighth of the time for each
+turn.  In the end it is settled, until planes in all directions are as like the example as they can be (settling.py).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
@@ -22,17 +21,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.numeric import histograms, laplacian, steerable
+from engine.numeric import bspline, histograms, laplacian, steerable
 from engine.numeric.colour_axes import ColourAxes, axes_of
 from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.pyramid import reduce
 from engine.numeric.resample import rows_at
 from engine.numeric.steerable import Filters, Place, finished
-from engine.texture.framing import Framing
 from engine.texture.matching import Pattern, Shape, Step, analysed, filters_for
 from engine.texture.settling import Settling
 
-ITERATIONS = 10
+ITERATIONS, SETTLING = 6, 10
 
 _DOMAIN = 0x736F6C64  # "sold": tells these hashes from those of other textures
 _ROUND = np.float32(0.3)  # the weight of the pyramid in three dimensions, that of slices across the axes being 1
@@ -41,7 +39,15 @@ _SLANTED = np.float32(0.5)  # that of slices across diagonals
 _STRIDE = np.float32(2.4)
 _TOGETHER = 1 << 18  # voxels of the slices that are worked on at once
 _SMALLEST = 32  # side of a cube that grows from a smaller one
-_MORE = 3  # times as many turns of smaller cubes
+_MORE = 3  # times as many turns of matching smaller cubes
+_COARSER = 0.2  # what part of the time these take
+
+
+class Turns(NamedTuple):
+    """Of matching all slices in some directions, and then of settling planes in all directions."""
+
+    matching: int
+    settling: int
 
 
 class Cut(NamedTuple):
@@ -59,11 +65,13 @@ CUTS = (Cut(1, 0), Cut(0, 1), Cut(0, 2), *(Cut(a, b, slant) for a, b in ((0, 1),
 @dataclass(frozen=True, slots=True, eq=False)
 class Patterns:
     """What is matched of an example in a cube: `oriented`, by slices across the axes; `slanted`, across diagonals;
-    `round`, by the pyramid in three dimensions; `coarser`, in the cube of half the size from which it grows."""
+    `round`, by the pyramid in three dimensions; `between` voxels, by planes in any direction; `coarser`, in the cube of
+    half the size from which it grows."""
 
     oriented: Pattern
     slanted: Pattern
     round: Pattern
+    between: Pattern
     coarser: Patterns | None = None
 
 
@@ -82,7 +90,8 @@ def _patterns(picture: np.ndarray, side: int, shape: Shape, axes: ColourAxes) ->
     mirrored = np.concatenate([picture, picture[:, ::-1]], axis=1)
     spread = rows_at(mirrored, np.arange(0.0, mirrored.shape[1] - 1.0, 2.0**0.5))
     round_ = analysed(picture, Shape("laplacian", shape.levels), axes)
-    return Patterns(analysed(picture, shape, axes), analysed(spread, shape, axes), round_, coarser)
+    between = analysed(bspline.blur(picture), shape, axes)
+    return Patterns(analysed(picture, shape, axes), analysed(spread, shape, axes), round_, between, coarser)
 
 
 def noise(count: int, side: int, seed: int) -> np.ndarray:
@@ -97,44 +106,56 @@ def noise(count: int, side: int, seed: int) -> np.ndarray:
 
 
 def matching(
-    wanted: Patterns, start: np.ndarray, iterations: int = ITERATIONS, threads: Executor | None = None
+    wanted: Patterns,
+    start: np.ndarray,
+    iterations: int = ITERATIONS,
+    threads: Executor | None = None,
+    settling: int = SETTLING,
 ) -> Iterator[Step]:
-    """The steps that make cubes `start` (R, n, n, n) like an example's `patterns`; the last has the finished solid."""
-    yield from _grown(wanted, np.array(start, np.float32), iterations, _MORE * iterations, threads)
+    """The steps that make cubes `start` (R, n, n, n) like an example's `patterns`; the last has the finished solid.
+
+    Each iteration has `settling` turns of settling with it, which come after all of them."""
+    if not len(start):
+        yield Step(1.0, start)
+        return
+    yield from _grown(wanted, np.array(start, np.float32), Turns(iterations, iterations * settling), threads)
 
 
-def _grown(wanted: Patterns, cubes: np.ndarray, turns: int, before: int, threads: Executor | None) -> Iterator[Step]:
-    """Cubes, worked on in place, that first are of half the size for `before` turns."""
+def _grown(wanted: Patterns, cubes: np.ndarray, turns: Turns, threads: Executor | None) -> Iterator[Step]:
+    """Cubes, worked on in place, that first are of half the size."""
     part = 0.0
-    if wanted.coarser is not None and turns and len(cubes):
-        part = before / (before + 8.0 * turns)
+    if wanted.coarser is not None and turns.matching:
+        part = _COARSER
         fine, coarse = zip(*(laplacian.build(cube, 1, dimensions=3) for cube in cubes), strict=True)
         smaller = np.stack(coarse)
-        for step in _grown(wanted.coarser, smaller, before, _MORE * before, threads):
+        before = Turns(_MORE * turns.matching, math.ceil(turns.settling / 2))
+        for step in _grown(wanted.coarser, smaller, before, threads):
             yield Step(part * step.done)
         for cube, *bands in zip(cubes, fine, smaller, strict=True):
             cube[...] = laplacian.collapse(bands, dimensions=3)
+        del fine, coarse, smaller, cube, bands  # their place is needed
     for step in _turned(wanted, cubes, turns, threads):
         yield Step(part + (1.0 - part) * step.done, step.planes)
 
 
-def _turned(wanted: Patterns, cubes: np.ndarray, turns: int, threads: Executor | None) -> Iterator[Step]:
-    """Some turns of cubes, in place."""
+def _turned(wanted: Patterns, cubes: np.ndarray, turns: Turns, threads: Executor | None) -> Iterator[Step]:
+    """Turns of cubes, in place."""
     made = filters_for(cubes, wanted.oriented.shape)
-    side, shape = cubes.shape[-1], wanted.oriented.shape
-    large = Settling(side, shape), Framing(side, shape)
     _match_voxels(cubes, wanted.oriented)
-    parts = 2 + len(CUTS)
-    total, done = turns * len(cubes) * parts, 0
-    for turn in range(turns):
+    pieces = 1 + len(CUTS)
+    total, done = len(cubes) * (turns.matching * pieces + turns.settling), 0
+    for _ in range(turns.matching):
         for channel, cube in enumerate(cubes):
             for piece in _changed(wanted, cube, channel, made, threads):
                 yield Step((done + piece) / total)
-            _settled(large, cube, wanted.oriented, channel, threads)
-            done += parts
-        yield Step((turn + 1) / turns, cubes.copy())
-    if not total:
-        yield Step(1.0, cubes)
+            _match_voxels(cube[None], wanted.oriented, channel)
+            done += pieces
+        yield Step(done / total, cubes.copy())
+    for channel, cube in enumerate(cubes):
+        for part in _settled(cube, wanted, channel, turns.settling, threads):
+            yield Step((done + part * turns.settling) / total)
+        done += turns.settling
+    yield Step(1.0, cubes)
 
 
 def _changed(
@@ -196,18 +217,11 @@ def _sliced(
     return slices
 
 
-def _settled(
-    turns: tuple[Settling, Framing], cube: np.ndarray, pattern: Pattern, channel: int, threads: Executor | None
-) -> None:
-    """Settles what is large in a cube, in place; its voxels have the example's values before and after it."""
-    bands = pattern.bands[channel]
-    settling, framing = turns
-    _match_voxels(cube[None], pattern, channel)
-    settling.turn(cube, bands, threads)
-    _match_voxels(cube[None], pattern, channel)
-    for centred in (False, True):
-        framing.turn(cube, bands, centred, threads)
-        _match_voxels(cube[None], pattern, channel)
+def _settled(cube: np.ndarray, wanted: Patterns, channel: int, turns: int, threads: Executor | None) -> Iterator[float]:
+    pattern, between = wanted.oriented, wanted.between.bands[channel]
+    voxels = None if pattern.pixels is None else pattern.pixels[channel]
+    settling = Settling(len(cube), pattern.shape, pattern.bands[channel], between, voxels)
+    return settling.turns(cube, turns, threads)
 
 
 def _match_voxels(cubes: np.ndarray, pattern: Pattern, first: int = 0) -> None:

@@ -14,6 +14,7 @@ from PIL import Image
 from app.__main__ import main
 from app.cli import solid
 from engine.painting import matches
+from engine.texture import solid as engines
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"L": 1, "RGB": 3, "RGBA": 4}
@@ -131,6 +132,10 @@ def test_options_change_what_is_made(tmp_path, capsys):
     assert capsys.readouterr().out.startswith("3 levels: the pictures have no room for 9\n")
     made(tmp_path, "match", path, "--size", "8x8")
     assert capsys.readouterr().out.startswith("1 level: the pictures have no room for 4\n")
+
+
+def test_solids_are_made_in_as_many_turns_as_the_engine_says():
+    assert solid.ITERATIONS == engines.ITERATIONS
 
 
 @pytest.mark.parametrize("mode", ["L", "RGB", "RGBA", "L16"])

@@ -88,20 +88,21 @@ def streaks(cube):
 
 def test_a_cube_that_grows_from_a_smaller_one_has_no_streaks(monkeypatch):
     example = specimens.granite((96, 96))[:1]
-    found = streaks(made(example, 48))
+    assert streaks(made(example, 48)) < 1.3
+    found = streaks(made(example, 48, settling=0))
     assert found < 1.5
     monkeypatch.setattr(solid, "_SMALLEST", 1 << 16)
-    without = streaks(made(example, 48))
+    without = streaks(made(example, 48, settling=0))
     assert found < 0.75 * without, (found, without)
 
 
 def test_slices_across_diagonals_take_streaks_away(monkeypatch):
-    """Also of a cube that does not grow from a smaller one."""
+    """Also of a cube that does not grow from a smaller one, and is not settled."""
     monkeypatch.setattr(solid, "_SMALLEST", 1 << 16)
     example = specimens.granite((96, 96))[:1]
-    found = streaks(made(example, 48))
+    found = streaks(made(example, 48, settling=0))
     monkeypatch.setattr(solid, "CUTS", solid.CUTS[:3])
-    without = streaks(made(example, 48))
+    without = streaks(made(example, 48, settling=0))
     assert found < 0.8 * without, (found, without)
 
 
@@ -133,11 +134,13 @@ def test_no_seams_in_any_direction(granite):
 
 
 def test_no_direction_is_preferred(granite):
-    """Of an example that prefers none: differences along x, y and z are as large."""
+    """Of an example that prefers none: differences along x, y and z are as large, and as in a flat texture."""
     example, cube = granite
+    pattern = analysed(example, Shape().within((SIDE, SIDE)))
+    flat = picture(pattern, matched(pattern, matching.noise(pattern.colours.count, (SIDE, SIDE), 1)))
     found = [np.abs(np.diff(cube, axis=axis)).mean() for axis in (1, 2, 3)]
     assert max(found) < 1.06 * min(found)
-    assert np.mean(found) == pytest.approx(np.abs(np.diff(example, axis=1)).mean(), rel=0.15)
+    assert np.mean(found) == pytest.approx(np.abs(np.diff(flat, axis=1)).mean(), rel=0.1)
 
 
 def test_steps_and_threads():
@@ -148,7 +151,9 @@ def test_steps_and_threads():
     steps = list(solid.matching(wanted, solid.noise(3, 16, 1), 2))
     assert [s.done for s in steps] == sorted(s.done for s in steps)
     assert len(steps) > 2 * 3 * 4
-    assert [s.done for s in steps if s.planes is not None] == [0.5, 1.0]
+    shown = [s.done for s in steps if s.planes is not None]
+    assert len(shown) == 3
+    assert shown[-1] == 1.0
     begun = solid.matching(wanted, solid.noise(3, 16, 1), 2)
     assert next(begun).planes is None
     begun.close()

@@ -46,3 +46,17 @@ def test_planes_at_a_slant(grown):
     found = likened(planes.at_a_slant(cube), example)
     assert found.mean() < 1.5 * flat, found.mean() / flat
     assert np.quantile(found, 0.9) < 2.0 * flat, np.quantile(found, 0.9) / flat
+
+
+def test_planes_at_a_slant_through_a_large_cube():
+    """Of sand, whose power rises with frequency, which planes in all directions cannot have: the more samples they have
+    of what is large, the more it shows."""
+    example = specimens.sand((128, 128)).mean(axis=0, keepdims=True)
+    cube = planes.solid_of(example, 128)
+    flat = likened(planes.pieces(example, 128), example).mean()
+    found = likened(planes.at_a_slant(cube), example)
+    assert found.mean() < 1.5 * flat, found.mean() / flat
+    assert np.quantile(found, 0.9) < 1.9 * flat, np.quantile(found, 0.9) / flat
+    tiles = likened((planes.flat_of(example, 128, seed) for seed in range(4)), example).mean()
+    slices = likened(planes.along_axes(cube), example)
+    assert slices.max() < 1.5 * tiles, slices.max() / tiles
