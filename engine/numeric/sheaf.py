@@ -57,13 +57,9 @@ class Sheaves:
         samples = ifftn(grid, norm="forward", overwrite_x=True)[self._samples].real
         return samples * (self._mend * np.float32(1.0 / self.side**3))
 
-    def give(self, total: np.ndarray, rod: Rod, planes: np.ndarray) -> None:
-        """Adds to half of a spectrum, in place, that of what each voxel has to do with the samples of `planes`: the
-        transpose of `planes`."""
-        total.reshape(-1)[rod.places] += self.given(rod, planes)
-
     def given(self, rod: Rod, planes: np.ndarray) -> np.ndarray:
-        """What is to be added there at the rod's places: complex64 (m,)."""
+        """What each voxel has to do with the samples of `planes`, the transpose of that: half of a spectrum at the
+        rod's places, which has nothing elsewhere; complex64 (m,)."""
         from scipy.fft import fftn
 
         grid = np.zeros(self._grid, np.complex64)

@@ -185,12 +185,10 @@ class _Coarse:
     def _slanted(self, turn: int) -> list[Rod]:
         count = min(max(2 * 4**self._level // _SEEN, 1), _MOST)
         numbers = uniform(fold_key(_DOMAIN, turn, self._level), 3 + 3 * count)
-        between, centres = (
-            bspline.response(np.arange(self._side // 2 + 1) / self._side),
-            numbers[3:].reshape(-1, 3) * self._side,
-        )
-        at = zip(frames(count, numbers[:3]), centres, strict=True)
-        return [self._sheaves.rod(frame, centre, between) for frame, centre in at]
+        between = bspline.response(np.arange(self._side // 2 + 1) / self._side)
+        centres = numbers[3:].reshape(-1, 3) * self._side
+        places = zip(frames(count, numbers[:3]), centres, strict=True)
+        return [self._sheaves.rod(at, centre, between) for at, centre in places]
 
     def _across(self, turn: int) -> list[Rod]:
         """Their pictures have their edges along the cube's faces and in its middle by turns."""

@@ -1,6 +1,7 @@
 """Solid textures: planes in three directions look like the example, and nothing shows where the cube ends."""
 
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 
 import numpy as np
 import pytest
@@ -36,16 +37,21 @@ def askew(cube, across, down):
         yield np.stack(seen).astype(np.float32)
 
 
-@pytest.fixture(scope="module")
-def granite():
-    example = specimens.granite((64, 64))
+@cache
+def grown(name):
+    """An example, and the solid made of it."""
+    example = specimens.STOCHASTIC[name]((64, 64))
     return example, made(example)
 
 
+@pytest.fixture(scope="module")
+def granite():
+    return grown("granite")
+
+
 @pytest.mark.parametrize("name", ["granite", "moss", "sand"])
-def test_planes_look_like_the_example(name, granite):
-    example = specimens.STOCHASTIC[name]((64, 64))
-    cube = granite[1] if name == "granite" else made(example)
+def test_planes_look_like_the_example(name):
+    example, cube = grown(name)
     flat = []
     for seed in range(3):
         pattern = analysed(example, Shape().within((SIDE, SIDE)))
@@ -61,10 +67,9 @@ def test_planes_look_like_the_example(name, granite):
 
 
 @pytest.mark.parametrize("name", ["granite", "moss", "sand"])
-def test_planes_askew_look_like_the_example(name, granite):
+def test_planes_askew_look_like_the_example(name):
     """As much as pieces of a flat texture that were cut out of it, and so do not tile either."""
-    example = specimens.STOCHASTIC[name]((64, 64))
-    cube = granite[1] if name == "granite" else made(example)
+    example, cube = grown(name)
     pattern = analysed(example, Shape().within((SIDE, SIDE)))
     whole = picture(pattern, matched(pattern, matching.noise(pattern.colours.count, (2 * SIDE, 2 * SIDE), 0)))
     pieces = [whole[:, y : y + SIDE, x : x + SIDE] for y in (0, SIDE) for x in (0, SIDE)]
