@@ -9,9 +9,9 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from app.desk import Desk
+from app.desk.desk import Desk
 from engine.painting import commands as c
-from engine.painting.requests import Do
+from engine.studio.requests import Do
 
 Check = Callable[[Desk], bool]
 

@@ -12,7 +12,7 @@ import glfw
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.desk import Desk
+from app.desk.desk import Desk
 from app.tools import TOOLS
 
 PATIENCE = 0.35  # seconds that something grows before that is shown

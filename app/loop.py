@@ -59,7 +59,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
 
 def _told(worker: Any) -> int:
     """Tells the terminal what went wrong when no window was there any more to show it; the exit status."""
-    from engine.painting.results import Note
+    from engine.studio.results import Note
 
     faults = [result.text for result in worker.results() if isinstance(result, Note) and result.bad]
     for text in faults:
@@ -87,7 +87,7 @@ def _load(name: str) -> None:
 
 
 def _worker(window: Window) -> Any:
-    from engine.painting.worker import Worker
+    from engine.studio.worker import Worker
 
     worker = Worker(window.pace.told)
     window.connect(worker)

@@ -10,25 +10,25 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from app import palette, presets, sowing
-from app.colours import to_hex
-from app.desk import Desk
-from app.examples import SAMPLE
-from app.gallery import Gallery
-from app.lab import only_with
-from app.mask import shown
-from app.panels.brush import PREVIEW
-from app.panels.brushes import ask_picture, ready_at_start
-from app.panels.examples import LARGE
-from app.panels.ink import DEEPER, SWATCH_HEIGHT
-from app.screen import Screen, ScreenTile, cells, near_first
-from app.shelf import Shelf
+from app.canvas.gallery import Gallery
+from app.canvas.screen import Screen, ScreenTile, cells, near_first
+from app.canvas.view import SUBPIXEL, Place
+from app.desk import example_use, palette, presets
+from app.desk.colours import to_hex
+from app.desk.desk import Desk
+from app.desk.example_state import SAMPLE
+from app.desk.lab_state import only_with
+from app.desk.region_mask import shown
+from app.desk.thumbnails import Shelf
+from app.panels.brush.brush_list import ask_picture, ready_at_start
+from app.panels.brush.brush_panel import PREVIEW
+from app.panels.colour.ink_mixer import DEEPER, SWATCH_HEIGHT
+from app.panels.examples.examples_panel import LARGE
 from app.trace import trace
-from app.view import SUBPIXEL, Place
-from engine.brush.record import Brush
-from engine.painting import requests as q
-from engine.painting import results
-from engine.painting.worker import Worker
+from engine.brush.settings import Brush
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.worker import Worker
 
 COARSER = 3  # levels: a coarse layer of tiles around the view is kept for when it moves
 SETTLE = 0.12  # seconds from one painting of the brush's swatches to the next
@@ -95,7 +95,7 @@ class News:
             wanted += [t for t in cells(view, level - COARSER) if t not in wanted]
             wanted += _ring(seen)
             self.worker.post(q.Look(tuple((*t, self.screen.revision(t)) for t in wanted)))
-        sowing.prepare(self.desk, now)
+        example_use.prepare(self.desk, now)
         self._ask_swatches(now)
         self._ask_lab(now)
         if self.desk.strip == "match" and self.desk.panels:
@@ -161,7 +161,7 @@ class News:
         desk.papers = tuple(papers)
         for fault in faults + more + torn:
             desk.say(fault, bad=True)
-        sowing.stock(desk)
+        example_use.stock(desk)
         if not desk.preset:
             first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
             desk.preset, desk.brush, desk.needs = first.name, first.brush, first.textures
@@ -178,7 +178,7 @@ class News:
     def _scene(self, scene: results.Scene, _now: float) -> None:
         before, self.desk.scene = self.desk.scene, scene
         if before is None or before.definitions != scene.definitions:
-            sowing.gather(self.desk)
+            example_use.gather(self.desk)
         if scene.serial != self._serial:
             self.screen.forget()
             if self._serial is not None or scene.path is not None:

@@ -9,7 +9,7 @@ import glfw
 from imgui_bundle import imgui
 
 from app.actions import by_key, perform
-from app.desk import Desk
+from app.desk.desk import Desk
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout

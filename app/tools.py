@@ -11,15 +11,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app import icons, palette, sowing
-from app.colours import to_hex
-from app.desk import Desk
+from app import icons
+from app.canvas.view import Place, View
+from app.desk import example_use, palette
+from app.desk.colours import to_hex
+from app.desk.desk import Desk
+from app.desk.match_state import SMALLEST
 from app.input.events import PenEvent
-from app.match import SMALLEST
-from app.view import Place, View
 from engine.brush.smoothing import Smoother
 from engine.numeric.address import Rect
-from engine.painting.requests import Abandon, Begin, Finish, LabBegin, LabEnd, LabPoints, Pick, Points
+from engine.studio.requests import Abandon, Begin, Finish, LabBegin, LabEnd, LabPoints, Pick, Points
 
 Gesture = Generator[None, PenEvent, None]
 
@@ -40,7 +41,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     if layer:
         desk.say(f"Layer “{layer}” is locked", bad=True)
         return
-    sowing.reach(desk)
+    example_use.reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
@@ -207,7 +208,7 @@ def swap(desk: Desk, first: PenEvent) -> Gesture:
     event = first
     while event.kind != "up":
         event = yield
-    sowing.swap(desk, event.x, event.y)
+    example_use.swap(desk, event.x, event.y)
 
 
 class Tool(NamedTuple):

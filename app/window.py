@@ -13,22 +13,23 @@ import glfw  # isort: skip
 import moderngl
 from imgui_bundle.imgui import backends
 
-from app import cursor, sowing, theme
+from app import cursor, theme
 from app.actions import close
-from app.desk import Desk
+from app.canvas.overlay import Overlay
+from app.canvas.screen import Plan, Screen
+from app.canvas.view import Place, View
+from app.desk import example_use
+from app.desk.desk import Desk
+from app.desk.thumbnails import Shelf
 from app.input.choose import pen_source
 from app.input.events import PointerSource
 from app.input.glfw_events import GlfwPointer
 from app.news import News
-from app.overlay import Overlay
 from app.pace import Pace
 from app.panels.layout import Layout
 from app.router import Router
-from app.screen import Plan, Screen
-from app.shelf import Shelf
-from app.view import Place, View
-from engine.painting.requests import Open
-from engine.painting.worker import Worker
+from engine.studio.requests import Open
+from engine.studio.worker import Worker
 
 
 class Window:
@@ -118,7 +119,7 @@ class Window:
             return
         x, y = self._pointer()
         taken = self.desk.strip == "match" and self.desk.panels and self.desk.match.dropped(Path(paths[0]), x, y)
-        taken = taken or sowing.dropped(self.desk, Path(paths[0]))
+        taken = taken or example_use.dropped(self.desk, Path(paths[0]))
         if not taken:
             self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
 

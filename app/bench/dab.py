@@ -13,7 +13,7 @@ from engine.brush import kinds
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
-from engine.brush.record import Brush, Component
+from engine.brush.settings import Brush, Component
 from engine.canvas import kernels
 from engine.numeric.address import TileKey
 from engine.texture.planes import Planes

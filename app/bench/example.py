@@ -20,9 +20,9 @@ import numpy as np
 
 from app.bench import Figure, Skipped
 from app.bench.clock import Work, best, second_core, slowness
+from engine.files.atomic import replacing
+from engine.files.png_writer import write_png
 from engine.numeric.address import Rect
-from engine.painting.atomic import replacing
-from engine.painting.pngstream import write_png
 from engine.texture.example import scanline, show
 from engine.texture.example.exemplar import Exemplar, analysed
 from engine.texture.example.region import Region, empty, painted, refined, refining

@@ -18,14 +18,14 @@ import numpy as np
 
 from app.bench import Figure
 from app.bench.clock import seconds, slowness
+from engine.archive.imports import pasted
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas.layers import EMPTY, Layer, layers
 from engine.numeric.address import Rect
-from engine.painting.archive import Snapshot, save
 from engine.painting.commands import parse
-from engine.painting.imports import pasted
-from engine.painting.opening import open_painting
-from engine.painting.painting import Painting, apply
 from engine.painting.rendering import strips
+from engine.session.apply import Painting, apply
 from engine.texture.table import instance
 
 SIDE = 4000

@@ -18,12 +18,12 @@ from app.bench import Figure
 from app.bench.display import ROOT, python
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import layers
 from engine.painting.commands import Stroke
-from engine.painting.history import History
-from engine.painting.session import Session
+from engine.session.history import History
+from engine.session.session import Session
 
 STROKES = 1000
 SIDE, PIXEL = 64, 8  # of MyPaint's tiles: pixels, bytes of a pixel

@@ -18,14 +18,14 @@ from dataclasses import replace
 from threading import Event, Thread
 from typing import Any
 
-from app import sowing
 from app.bench.zooming import processor_times, until
+from app.desk import example_use
 from app.input.events import LEFT, MIDDLE, PenEvent
 from app.loop import SWITCH, opened
 from app.window import Window
 from engine.painting.commands import Undo
-from engine.painting.requests import Do
-from engine.painting.worker import Worker
+from engine.studio.requests import Do
+from engine.studio.worker import Worker
 
 FRAME = 1 / 60  # seconds
 SECONDS = 2.5  # of one pan at most
@@ -76,7 +76,7 @@ def _prepare(window: Window, hand: Hand) -> None:
     until(window, _calm(window))
     desk.view = replace(desk.view, level=0, fraction=0.0)
     desk.stabiliser = 0.0
-    sowing.choose(desk, next(entry for entry in desk.examples.entries if not entry.own))
+    example_use.choose(desk, next(entry for entry in desk.examples.entries if not entry.own))
     desk.brush = replace(desk.brush, radius=RADIUS)
     until(window, _calm(window))
     _stroke(window, hand)

@@ -14,7 +14,7 @@ from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
 from engine.brush.ops import OPS
 from engine.brush.raster import Scene, mixture
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.canvas import kernels
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped

@@ -10,9 +10,9 @@ import numpy as np
 
 from app.bench import Figure, libmypaint
 from app.bench.clock import best, slowness
-from engine.brush.record import Brush, Component
-from engine.painting.painting import Painting
-from engine.painting.stroke import LiveStroke
+from engine.brush.settings import Brush, Component
+from engine.session.apply import Painting
+from engine.strokes.paint_stroke import LiveStroke
 
 POINTS = 1000
 REPEATS = 15

@@ -11,7 +11,7 @@ from engine.canvas.layers import layers
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
-from engine.painting.painting import Painting, apply
+from engine.session.apply import Painting, apply
 from engine.texture.planes import Planes
 
 VIEW = Rect.at(64, 64, 1920, 1080)

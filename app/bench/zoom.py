@@ -11,16 +11,16 @@ from pathlib import Path
 
 from app.bench import Figure, Skipped
 from app.bench.display import NEEDED, ROOT, available, display, python
-from app.view import Place, View, place_of_pixel
-from engine.painting.archive import Snapshot, save
+from app.canvas.view import Place, View, place_of_pixel
+from engine.archive.saving import Snapshot, save
 from engine.painting.commands import parse
-from engine.painting.easel import Easel
-from engine.painting.painting import Painting, apply
 from engine.painting.recording import read
-from engine.painting.replay import replay
-from engine.painting.requests import SIDE, Look
-from engine.painting.results import Patch
-from engine.painting.session import Session
+from engine.session.apply import Painting, apply
+from engine.session.replay import replay
+from engine.session.session import Session
+from engine.studio.easel import Easel
+from engine.studio.requests import SIDE, Look
+from engine.studio.results import Patch
 
 LEVELS = 40
 PACE = 4.0  # levels a second

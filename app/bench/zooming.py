@@ -13,12 +13,12 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+from app.canvas.screen import cells
+from app.canvas.view import Place
 from app.loop import SWITCH, opened  # first: it imports imgui before glfw
-from app.screen import cells
-from app.view import Place
 from app.window import Window
-from engine.painting.requests import Open
-from engine.painting.worker import Worker
+from engine.studio.requests import Open
+from engine.studio.worker import Worker
 
 PATIENCE = 120.0
 WARM = 0.5  # seconds of zooming before frames are counted: the first tiles' memory on the screen is made

@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _read(path: str) -> tuple[np.ndarray, list[str]]:
     """RGBA (h, w, 4) of 8 or 16 bits, and what is to be told of the file."""
-    from engine.painting.images import read_image
+    from engine.files.images import read_image
 
     if not path.lower().endswith(".ora"):
         pixels, meta = read_image(path)
@@ -132,8 +132,8 @@ def _numbers(values: np.ndarray) -> list[float]:
 
 def _write(path: str, found: Analysis) -> None:
     from app.cli.sheet import sheet
-    from engine.painting.atomic import replacing
-    from engine.painting.pngstream import write_png
+    from engine.files.atomic import replacing
+    from engine.files.png_writer import write_png
 
     pixels = sheet(found)
     with replacing(path) as file:

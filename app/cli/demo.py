@@ -51,11 +51,11 @@ def _in_window() -> bool:
 
 
 def _in_pictures(folder: Path, as_json: bool) -> int:
-    from engine.painting.archive import Snapshot, save
-    from engine.painting.export import export
+    from engine.archive.export import export
+    from engine.archive.saving import Snapshot, save
+    from engine.painting.grown import settled
     from engine.painting.recording import read
-    from engine.painting.replay import replay
-    from engine.painting.settling import settled
+    from engine.session.replay import replay
 
     places = [Rectangle(*place) for place in json.loads(PLACES.read_text())["zoom"]]
     try:

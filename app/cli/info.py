@@ -11,11 +11,11 @@ from app.cli.outcome import DONE
 from app.cli.output import opened
 
 if TYPE_CHECKING:
+    from engine.archive.imports import Opened
     from engine.canvas.growth import Plot
     from engine.canvas.layers import Group, Node
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
-    from engine.painting.imports import Opened
 
 WIDE = 2048  # pixels: how finely bounds are found
 

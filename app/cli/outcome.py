@@ -67,7 +67,7 @@ def _of_system(error: OSError) -> str:
 
 
 def _judged_by_engine(error: BaseException) -> tuple[int, str]:
-    from engine.painting.fault import FileError, WriteError
+    from engine.files.fault import FileError, WriteError
 
     match error:
         case WriteError():

@@ -14,15 +14,15 @@ from app.cli.outcome import Failed, Refused
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
+    from engine.archive.export import Picture
+    from engine.archive.imports import Opened
     from engine.numeric.address import Rect
-    from engine.painting.export import Picture
-    from engine.painting.imports import Opened
     from engine.painting.value import Painting
 
 
 def opened(path: str, tell: bool = True) -> Opened:
     """The painting in an .ora; what was lost or replaced on the way is told on standard error."""
-    from engine.painting.opening import open_painting
+    from engine.archive.opening import open_painting
 
     with Progress("opening", 100) as progress:
         found = open_painting(path, progress.part)
@@ -33,8 +33,8 @@ def opened(path: str, tell: bool = True) -> Opened:
 
 def grown(path: str, found: Opened) -> Painting:
     """What was opened, with all that was painted with examples grown; it is told if that is not what it was."""
-    from engine.painting.growths import OTHERWISE, otherwise
-    from engine.painting.settling import settled
+    from engine.archive.plot_files import OTHERWISE, otherwise
+    from engine.painting.grown import settled
 
     painting = settled(found.painting)
     if otherwise(found.marks, painting.root):
@@ -69,7 +69,7 @@ def rect_of(at: Rectangle) -> tuple[int, Rect]:
 
 def picture_of(painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8) -> Picture:
     """A rectangle of a painting, or its frame, as a picture to export."""
-    from engine.painting.export import SIDE, Picture
+    from engine.archive.export import SIDE, Picture
 
     if at is None:
         return Picture(painting, layer=layer, depth=depth)

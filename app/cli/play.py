@@ -8,7 +8,7 @@ import os
 import time
 
 from app.cli.arguments import count, rectangle, seed
-from app.cli.matched import MOST, whole
+from app.cli.match_command import MOST, whole
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output, picture_of
 from app.cli.progress import Progress
@@ -30,11 +30,11 @@ def run(options: argparse.Namespace) -> int:
         raise Refused("--rect: found no --png, expected one to write the rectangle to")
     checked_output(options.save, (".ora",))
     checked_output(options.png, (".png",))
-    from engine.painting.archive import Snapshot, save
-    from engine.painting.export import export
+    from engine.archive.export import export
+    from engine.archive.saving import Snapshot, save
+    from engine.painting.grown import settled
     from engine.painting.recording import read
-    from engine.painting.replay import replay
-    from engine.painting.settling import settled
+    from engine.session.replay import replay
 
     recording = read(options.recording)
     if options.until is not None:

@@ -63,13 +63,13 @@ def declare(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     name = options.maker
     if name == "example":
-        from app.cli import example
+        from app.cli import example_command
 
-        return example.run(options.words)
+        return example_command.run(options.words)
     if name in MATCHED:
-        from app.cli import matched, solid
+        from app.cli import match_command, solid_command
 
-        return solid.run(options.words) if name == "solid" else matched.run(name, options.words)
+        return solid_command.run(options.words) if name == "solid" else match_command.run(name, options.words)
     if name not in MAKERS:
         raise Refused(f"texture: found the maker {name[:40]!a}, expected one of {_known()}")
     given = _parser(name).parse_args(options.words)
@@ -138,9 +138,9 @@ def _defined(name: str, given: argparse.Namespace) -> Texture:
     from immutables import Map
 
     from engine.canvas import layers
+    from engine.files.strict_json import FormatError
+    from engine.makers.makers import define
     from engine.painting.commands import DefineTexture
-    from engine.painting.makers import define
-    from engine.painting.strictjson import FormatError
     from engine.painting.textures import Around
     from engine.texture.table import TextureError
 
@@ -156,8 +156,8 @@ def _defined(name: str, given: argparse.Namespace) -> Texture:
 
 def _own_size(name: str, picture: str, texture: Texture) -> tuple[int, int]:
     """Of the sample: that of a narrow spectrum holds several side by side, and only the first is asked for."""
-    from engine.painting.images import read_image
-    from engine.painting.makers import NARROWEST
+    from engine.files.images import read_image
+    from engine.makers.makers import NARROWEST
 
     assert texture.source is not None
     width, height = texture.source.width, texture.source.height
@@ -168,9 +168,9 @@ def _own_size(name: str, picture: str, texture: Texture) -> tuple[int, int]:
 
 def _write(given: argparse.Namespace, instance: Instance, size: tuple[int, int]) -> int:
     """Writes the texture strip by strip; gives its channels."""
+    from engine.files.atomic import replacing
+    from engine.files.png_writer import PngWriter
     from engine.numeric.address import Rect
-    from engine.painting.atomic import replacing
-    from engine.painting.pngstream import PngWriter
 
     width, height = size
     x, y = getattr(given, "origin", (0, 0))

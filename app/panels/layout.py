@@ -6,14 +6,14 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.actions import ACTIONS, MENUS, Action, perform
-from app.desk import Desk
+from app.desk.desk import Desk
 from app.panels import status
-from app.panels import widgets as w
-from app.panels.brush import BrushPanel
-from app.panels.colour import ColourPanel
-from app.panels.dialogs import Dialogs
-from app.panels.ink import InkPanel
-from app.panels.layers import LayersPanel
+from app.panels.brush.brush_panel import BrushPanel
+from app.panels.colour.colour_panel import ColourPanel
+from app.panels.colour.ink_mixer import InkPanel
+from app.panels.controls import widgets as w
+from app.panels.dialogs.dialogs import Dialogs
+from app.panels.layers.layers_panel import LayersPanel
 from app.panels.strip import Painting, StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points

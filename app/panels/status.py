@@ -8,10 +8,10 @@ import time
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import Desk
-from app.panels import widgets as w
+from app.canvas.view import zoom_text
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
 from app.tools import TOOLS
-from app.view import zoom_text
 
 PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
 

@@ -9,15 +9,15 @@ from imgui_bundle import imgui
 
 from app import icons, theme
 from app.actions import ACTIONS, Action
-from app.desk import Desk
+from app.desk.desk import Desk
 from app.input.events import PenEvent
-from app.panels import widgets as w
-from app.panels.analysis import AnalysisPanel
-from app.panels.examples import ExamplesPanel
-from app.panels.lab import LabPanel
-from app.panels.matching import MatchingPanel
+from app.panels.controls import widgets as w
+from app.panels.examples.examples_panel import ExamplesPanel
+from app.panels.lab.analysis_panel import AnalysisPanel
+from app.panels.lab.lab_panel import LabPanel
+from app.panels.match.match_panel import MatchingPanel
 from app.tools import Gesture, paint_lab, paint_region
-from engine.painting.requests import LabStep
+from engine.studio.requests import LabStep
 
 Painting = Callable[[Desk, PenEvent], Gesture]
 

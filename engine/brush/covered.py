@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import Planes
 

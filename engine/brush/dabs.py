@@ -8,8 +8,8 @@ import numpy as np
 from numba import njit
 
 from engine.brush.dynamics import FLOW, HARDNESS, OPACITY, RADIUS, SPACING, respond, response
-from engine.brush.record import Brush
 from engine.brush.samples import cleaned
+from engine.brush.settings import Brush
 
 DAB = 6  # columns: x, y, radius, opacity, flow, hardness
 STEP_FLOOR = 0.25  # px

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from engine.brush.record import SETTINGS, Brush, Curve
+from engine.brush.settings import SETTINGS, Brush, Curve
 
 DYNAMIC = ("radius", "opacity", "flow", "hardness", "spacing")
 RADIUS, OPACITY, FLOW, HARDNESS, SPACING = range(len(DYNAMIC))

@@ -16,8 +16,8 @@ import numpy as np
 
 from engine.brush.ink import Texture, named
 from engine.brush.mask import Coverage
-from engine.brush.record import Brush
 from engine.brush.rim import Tiles
+from engine.brush.settings import Brush
 from engine.numeric import sparse
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.spectra import radial_window

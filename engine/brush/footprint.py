@@ -18,7 +18,7 @@ from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.brush.tip import Pattern
 from engine.numeric.address import TILE, Rect
 

@@ -21,7 +21,7 @@ import numpy as np
 from engine.brush import sway
 from engine.brush.checks import BrushError
 from engine.brush.parts import Component, Surface, Tip
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.brush.sway import Hat, Swayed
 from engine.numeric.address import Rect, TileKey
 from engine.texture.image import Image, ImageSource

@@ -17,8 +17,8 @@ from engine.brush.covered import Covered, Read
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.raster import Raster, Scene
-from engine.brush.record import Brush
 from engine.brush.relief import Relief
+from engine.brush.settings import Brush
 from engine.brush.stamp import Edit, Stamp
 from engine.numeric.address import TILE, TileKey
 from engine.texture.planes import COLOURS, Planes

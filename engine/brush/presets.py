@@ -11,9 +11,9 @@ from typing import Any
 
 from immutables import Map
 
-from engine.brush import checks, record
+from engine.brush import checks, settings
 from engine.brush.checks import BrushError
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 
 BYTES_CAP = 1 << 18
 FILES_CAP = 2000
@@ -79,14 +79,14 @@ def from_json(data: Any) -> Preset:
         raise BrushError("preset", checks.shown(data), 'an object {"name": ..., "group": ..., "brush": {...}}')
     return Preset(
         checks.text(data.get("name"), "name"),
-        record.from_json(data.get("brush"), "brush"),
+        settings.from_json(data.get("brush"), "brush"),
         checks.text(data.get("group", GROUP), "group"),
         checks.frozen({k: v for k, v in data.items() if k not in ("name", "group", "brush")}),
     )
 
 
 def to_json(preset: Preset) -> dict[str, Any]:
-    own = {"name": preset.name, "group": preset.group, "brush": record.to_json(preset.brush)}
+    own = {"name": preset.name, "group": preset.group, "brush": settings.to_json(preset.brush)}
     return own | checks.thawed(preset.extra)
 
 

@@ -23,7 +23,7 @@ from engine.brush.covered import Covered, Read
 from engine.brush.foretell import Foretold, foretell, predictor
 from engine.brush.ink import Ink, Texture, resolve
 from engine.brush.mask import Coverage
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.brush.stamp import Stamp
 from engine.brush.tints import constants
 from engine.numeric import formula_kernel

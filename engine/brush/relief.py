@@ -27,8 +27,8 @@ from engine.brush.extent import Extent
 from engine.brush.ink import Texture, named
 from engine.brush.mask import Coverage
 from engine.brush.parts import Surface
-from engine.brush.record import Brush
 from engine.brush.rim import Rim, Tiles
+from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table

@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 
 from engine.brush.parts import Edge
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.numeric.address import TILE, TileKey
 from engine.numeric.shaping import look_up, table
 

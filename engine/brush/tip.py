@@ -18,7 +18,7 @@ from numba import njit
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.brush.ink import Texture, named
 from engine.brush.parts import Tip
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect
 from engine.numeric.curves import Shape
 from engine.numeric.hashing import fold_key, mix64

@@ -14,16 +14,16 @@ from immutables import Map
 from engine.brush.checks import thawed
 from engine.canvas import layers
 from engine.canvas.layers import Group
+from engine.files.fault import FileError
+from engine.files.images import read_image
+from engine.files.limits import LIMITS
+from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.numeric.grid import snapped
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
-from engine.painting.fault import FileError
-from engine.painting.images import read_image
-from engine.painting.limits import LIMITS
+from engine.painting.grown import settled_root
 from engine.painting.rendering import strips
-from engine.painting.settling import settled_root
-from engine.painting.strictjson import Fields
 from engine.texture.image import ImageSource
 
 PIXELS_CAP = 1 << 26  # of a picture: 1 GiB as float32 planes

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from immutables import Map
 
-from engine.brush import record
+from engine.brush import settings
 from engine.brush.checks import BrushError, thawed
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
+from engine.files.strict_json import Fields, FormatError
 from engine.painting.points import plain, points_array, points_json
-from engine.painting.strictjson import Fields, FormatError
 
 LEVEL_LIMIT = 4096  # a level beyond this has more digits than a painting needs
 PLACE_LIMIT = 1 << 8192  # origins: 2^40 level-0 pixels at the finest level have fewer bits
@@ -207,7 +207,7 @@ def _read_stroke(members: Fields) -> Stroke:
 
 def _read_brush(members: Fields) -> Brush:
     try:
-        return record.from_json(members.take("brush", {}), members.at("brush"))
+        return settings.from_json(members.take("brush", {}), members.at("brush"))
     except BrushError as error:
         raise FormatError(error.place, error.found, error.expected) from None
 
@@ -218,7 +218,12 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         out["layer"] = stroke.layer
     if stroke.seed is not None:
         out["seed"] = stroke.seed
-    return {**out, "brush": record.to_json(stroke.brush), "points": points_json(stroke.points), **thawed(stroke.extra)}
+    return {
+        **out,
+        "brush": settings.to_json(stroke.brush),
+        "points": points_json(stroke.points),
+        **thawed(stroke.extra),
+    }
 
 
 class LayerForm(NamedTuple):
@@ -345,8 +350,10 @@ def _read_swap(members: Fields) -> Swap:
         (x, y),
         members.text("example"),
         None if members.take("layer", None) is None else members.text("layer"),
-        None if members.take("depth", None) is None else members.number("depth", lo=-record.DEEPEST, hi=record.DEEPEST),
-        members.integer("example_detail", 0, lo=0, hi=record.MOST_DETAIL),
+        None
+        if members.take("depth", None) is None
+        else members.number("depth", lo=-settings.DEEPEST, hi=settings.DEEPEST),
+        members.integer("example_detail", 0, lo=0, hi=settings.MOST_DETAIL),
         members.rest(),
     )
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from engine.painting.strictjson import FormatError, described
+from engine.files.strict_json import FormatError, described
 
 POINTS_CAP = 1_000_000  # of one stroke
 REACH = float(1 << 24)  # pixels from a stroke's origin to its points

@@ -14,11 +14,11 @@ from typing import Any, BinaryIO
 from immutables import Map
 
 from engine.brush.checks import thawed
+from engine.files.atomic import replacing
+from engine.files.fault import FileError
+from engine.files.strict_json import BYTES_CAP, Fields, FormatError, dumps, loads
 from engine.numeric.address import Rect
-from engine.painting.atomic import replacing
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, Redo, Undo, parse, to_json
-from engine.painting.fault import FileError
-from engine.painting.strictjson import BYTES_CAP, Fields, FormatError, dumps, loads
 
 VERSION = 1
 TOTAL_CAP = 2 << 30  # bytes of a recording

@@ -11,8 +11,8 @@ from engine.canvas.composite import Read, composite
 from engine.canvas.fold import fold
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import layer_planes
+from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
-from engine.painting.fault import Cancelled
 
 STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 256

@@ -20,7 +20,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "engine" / "texture")]
 
 import specimens  # noqa: E402
 
-from app.cli.solid import cube  # noqa: E402
+from app.cli.solid_command import cube  # noqa: E402
 from engine.numeric.pyramid import reduce  # noqa: E402
 from engine.texture import matching, mixing, solid  # noqa: E402
 from engine.texture.matching import Pattern, Shape, matched, picture  # noqa: E402

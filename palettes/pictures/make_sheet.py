@@ -17,16 +17,16 @@ from PIL import Image, ImageDraw, ImageFont
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parents[1]))
 
-from app import presets  # noqa: E402
-from engine.brush.record import Brush  # noqa: E402
+from app.desk import presets  # noqa: E402
+from engine.brush.settings import Brush  # noqa: E402
 from engine.canvas.composite import composite  # noqa: E402
 from engine.canvas.layers import Layer  # noqa: E402
 from engine.canvas.reading import layer_planes  # noqa: E402
 from engine.numeric.address import Rect  # noqa: E402
 from engine.painting.commands import DefineTexture, Stroke  # noqa: E402
-from engine.painting.painting import apply  # noqa: E402
-from engine.painting.settling import settled  # noqa: E402
+from engine.painting.grown import settled  # noqa: E402
 from engine.painting.value import Painting  # noqa: E402
+from engine.session.apply import apply  # noqa: E402
 
 COLUMNS, MARGIN, GAP, CAPTION = 4, 26, 14, 20
 WIDE, NEAR, TALL = 208, 78, 96  # of a stroke, of what is seen of it from near, and of both

@@ -9,12 +9,12 @@ import glfw  # isort: skip
 
 from app import icons
 from app.actions import ACTIONS, MENUS, by_key, perform
-from app.desk import Desk
+from app.canvas.view import Place, View
+from app.desk.desk import Desk
 from app.keys import chord
-from app.panels.brush import BrushPanel  # noqa: F401  # the panels name actions; importing them checks the names
-from app.panels.dialogs import DIALOGS
+from app.panels.brush.brush_panel import BrushPanel  # noqa: F401  # the panels name actions; importing them checks the names
+from app.panels.dialogs.dialogs import DIALOGS
 from app.tools import TOOLS
-from app.view import Place, View
 
 
 @pytest.fixture

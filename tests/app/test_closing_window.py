@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from app.loop import _told
-from engine.painting import results
+from engine.studio import results
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 

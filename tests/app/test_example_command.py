@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from app.__main__ import main
-from engine.painting.exemplars import kept, key, read_parameters
-from engine.painting.fault import FileError
+from engine.files.fault import FileError
+from engine.strokes.example_files import kept, key, read_parameters
 from engine.texture.example.parameters import FIELDS, Parameters
 
 

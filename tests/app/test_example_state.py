@@ -7,29 +7,30 @@ import pytest
 from immutables import Map
 from PIL import Image
 
-from app import examples, icons, keeping, palette, shelf, sowing, tools
+from app import icons, tools
 from app.actions import ACTIONS
+from app.canvas.view import Place, View
 from app.cursor import apart
-from app.desk import Desk
-from app.examples import Entry
+from app.desk import example_state, example_use, own_example_files, palette, thumbnails
+from app.desk.desk import Desk
+from app.desk.example_state import Entry
+from app.desk.presets import Preset
 from app.input.events import PenEvent
 from app.panels import status
-from app.panels.examples import tile
+from app.panels.examples.examples_panel import tile
 from app.panels.strip import StripPanel
-from app.presets import Preset
-from app.view import Place, View
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
+from engine.makers.definitions import defined_by
 from engine.numeric.address import Rect
 from engine.painting.commands import Swap, parse, to_json
-from engine.painting.definitions import defined_by
-from engine.painting.requests import Do, GetReady, Swatch
-from engine.painting.results import Growing, Scene, Writing
+from engine.studio.requests import Do, GetReady, Swatch
+from engine.studio.results import Growing, Scene, Writing
 from engine.texture.example.parameters import Parameters
 
 
 @pytest.fixture
 def own(tmp_path, monkeypatch):
-    monkeypatch.setattr(examples, "own_folder", lambda: tmp_path / "examples")
+    monkeypatch.setattr(example_state, "own_folder", lambda: tmp_path / "examples")
     return tmp_path / "examples"
 
 
@@ -42,7 +43,7 @@ def posted():
 def desk(own, posted):
     made = Desk(View(Place(0, 0, 0), 0, 0.0, 800, 600), posted.append)
     made.ready, made.strip = True, "examples"
-    sowing.stock(made)
+    example_use.stock(made)
     return made
 
 
@@ -59,18 +60,18 @@ def picture(path, size=(40, 30), mode="RGBA"):
 
 def test_all_bundled_examples_are_listed_by_group(desk):
     state = desk.examples
-    assert len(state.entries) == len(list(examples.bundled_folder().glob("*.toml"))) >= 10
+    assert len(state.entries) == len(list(example_state.bundled_folder().glob("*.toml"))) >= 10
     assert state.groups()[:2] == ["Watercolour", "Paper"]
     assert all(entry.mask is not None for entry in state.entries)
     state.group = "Watercolour"
-    assert {examples.label(entry, state.entries) for entry in state.listed()} >= {"Indigo", "Sap green"}
+    assert {example_state.label(entry, state.entries) for entry in state.listed()} >= {"Indigo", "Sap green"}
     assert named(desk, "wash-indigo").title == "Wash indigo"
     assert desk.message[0] == ""
 
 
 def test_the_brush_grows_what_was_chosen_and_the_painting_gets_it_with_the_first_stroke(desk, posted):
     desk.brush = Brush(radius=1.0, mode="paint", hardness=0.2)
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     assert (desk.brush.mode, desk.brush.example, desk.brush.depth) == ("example", "Felt", 0.0)
     assert desk.brush.radius > 10
     assert not posted
@@ -85,40 +86,40 @@ def test_the_brush_grows_what_was_chosen_and_the_painting_gets_it_with_the_first
 @pytest.mark.parametrize(("size", "level", "detail"), [(-2, 5, 2), (-1, 5, 1), (0, 5, 0), (1, 4, 0), (2, 3, 0)])
 def test_sizes_go_by_the_zoom_at_which_it_was_chosen(desk, size, level, detail):
     desk.view = desk.view.zoomed(5)
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     desk.examples.size = size
-    sowing.follow(desk)
+    example_use.follow(desk)
     desk.view = desk.view.zoomed(-3)
     assert (desk.brush.example_level, desk.brush.example_detail) == (level, detail)
-    sowing.fit(desk)
+    example_use.fit(desk)
     assert desk.brush.example_level == level - 3
 
 
 def test_strokes_too_far_from_the_size_fit_it_anew(desk):
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     for levels, fitted in ((8, False), (-13, True), (-1, False)):
         desk.view = desk.view.zoomed(levels)
         before = desk.brush.example_level
-        sowing.reach(desk)
+        example_use.reach(desk)
         assert (desk.brush.example_level != before) == fitted
         level, brush = desk.stroke_brush(eraser=False)
         assert abs(brush.example_level - level) <= 8
 
 
 def test_another_example_chosen_near_by_has_the_same_pixels_and_far_away_its_own(desk):
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     desk.view = desk.view.zoomed(1)
-    sowing.choose(desk, named(desk, "turf"))
+    example_use.choose(desk, named(desk, "turf"))
     assert desk.brush.example_level == 0
     desk.view = desk.view.zoomed(3)
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     assert desk.brush.example_level == 4
 
 
 def test_the_eraser_takes_everything_or_one_depth(desk):
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     desk.examples.depth = 3
-    sowing.follow(desk)
+    example_use.follow(desk)
     _, brush = desk.stroke_brush(eraser=True)
     assert (brush.mode, brush.depth) == ("erase", None)
     desk.examples.eraser = 2
@@ -129,14 +130,14 @@ def test_the_eraser_takes_everything_or_one_depth(desk):
 
 
 def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     desk.examples.size, desk.examples.depth = -1, 2
-    sowing.follow(desk)
+    example_use.follow(desk)
     preset = Preset("Mine", desk.brush, textures=palette.belonging(desk)[0])
     desk.examples.size, desk.examples.depth, desk.examples.chosen = 0, 0, ""
     desk.view = desk.view.zoomed(20)
     palette.take(desk, preset)
-    sowing.adopt(desk)
+    example_use.adopt(desk)
     state = desk.examples
     assert (state.entry.name, state.size, state.depth) == ("felt", -1, 2)
     assert (desk.brush.example_level, desk.brush.example_detail, desk.brush.depth) == (20, 1, 2.0)
@@ -144,15 +145,15 @@ def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
 
 def test_growing_without_an_example_opens_the_palette(desk):
     desk.strip = ""
-    sowing.take(desk)
+    example_use.take(desk)
     assert desk.strip == "examples"
     assert desk.brush.mode == "paint"
 
 
 def test_a_swap_defines_the_example_and_names_the_pixel(desk, posted):
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     desk.examples.swapping = True
-    sowing.swap(desk, 430.0, 300.0)
+    example_use.swap(desk, 430.0, 300.0)
     assert not desk.examples.swapping
     assert [type(request) for request in posted] == [Do, Do]
     assert posted[1].command == Swap(0, (30, 0), "Felt")
@@ -160,26 +161,26 @@ def test_a_swap_defines_the_example_and_names_the_pixel(desk, posted):
 
 def test_settings_are_told_where_they_differ_and_are_used_on_demand(desk):
     entry = named(desk, "felt")
-    sowing.choose(desk, entry)
+    example_use.choose(desk, entry)
     state = desk.examples
     state.set(entry, "kappa", 9.0)
     assert state.tried(entry)
     usual = {"bundled": "felt", **asdict(entry.parameters)}
     assert dict(state.command(entry).arguments) == usual
     assert dict(state.command(entry, draft=True).arguments) == usual | {"kappa": 9.0}
-    sowing.use_settings(desk)
+    example_use.use_settings(desk)
     assert not state.tried(entry)
     assert desk.needs[-1].arguments["kappa"] == 9.0
     state.reset(entry)
     assert state.tried(entry)
-    sowing.use_settings(desk)
+    example_use.use_settings(desk)
     assert dict(desk.needs[-1].arguments) == usual
     assert not defined_by(desk.needs[-1], "example", usual | {"kappa": 9.0})  # the painting gets it anew
 
 
 def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, posted):
     entry, state = named(desk, "felt"), desk.examples
-    sowing.choose(desk, entry)
+    example_use.choose(desk, entry)
     state.tab, state.sampled = "settings", (200, 100)
     for now in (10.0, 10.01, 10.5):
         state.ask(posted.append, now)
@@ -196,122 +197,122 @@ def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, 
 
 
 def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp_path):
-    assert not sowing.dropped(desk, tmp_path / "a.ora")
-    assert sowing.dropped(desk, picture(tmp_path / "My rock.png"))
+    assert not example_use.dropped(desk, tmp_path / "a.ora")
+    assert example_use.dropped(desk, picture(tmp_path / "My rock.png"))
     assert {path.name for path in own.iterdir()} == {"My rock.png", "My rock.mask.png", "My rock.toml"}
     state = desk.examples
-    assert (state.entry.own, state.entry.group, state.tab) == (True, examples.OWN, "region")
+    assert (state.entry.own, state.entry.group, state.tab) == (True, example_state.OWN, "region")
     assert state.mask.inside[:, :20].all()
     assert not state.mask.inside[:, 20:].any()
     assert desk.brush.example == "My rock"
-    sowing.add(desk, tmp_path / "My rock.png")
+    example_use.add(desk, tmp_path / "My rock.png")
     assert state.entry.name == "My rock 2"
     desk.strip = ""
-    assert not sowing.dropped(desk, tmp_path / "My rock.png")
+    assert not example_use.dropped(desk, tmp_path / "My rock.png")
 
 
 def test_what_is_no_picture_is_told_and_leaves_nothing(desk, own, tmp_path):
     (tmp_path / "bad.png").write_bytes(b"no picture")
-    sowing.add(desk, tmp_path / "bad.png")
+    example_use.add(desk, tmp_path / "bad.png")
     assert desk.message[1]
     assert not own.exists() or not list(own.iterdir())
 
 
 def test_a_large_picture_is_made_smaller(desk, tmp_path):
-    sowing.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
+    example_use.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
     assert desk.examples.mask.pixels.shape == (10, 1024, 4)
     assert "smaller" in desk.message[0]
     assert desk.examples.mask.way == "colour"  # it has no holes: its background is to be clicked
 
 
 def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
-    sowing.add(desk, picture(tmp_path / "rock.png"))
+    example_use.add(desk, picture(tmp_path / "rock.png"))
     state = desk.examples
     first = state.command(state.entry)
     assert parse(to_json(first)) == first
     known = {**first.arguments}
     assert defined_by(first, "example", known)
     state.mask.put(np.ones_like(state.mask.inside))
-    sowing.save_region(desk)
+    example_use.save_region(desk)
     second = state.command(state.entry)
     assert not defined_by(second, "example", known)
-    assert keeping.opened(state.entry).inside.all()
+    assert own_example_files.opened(state.entry).inside.all()
     assert not state.mask.modified
 
 
 def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     entry, state = named(desk, "felt"), desk.examples
-    sowing.choose(desk, entry)
-    sowing.edit(desk)
+    example_use.choose(desk, entry)
+    example_use.edit(desk)
     state.mask.begin(3.0, 3.0)
     state.set(entry, "kappa", 9.0)
     state.mask.dirty = None
-    sowing.save_region(desk)
+    example_use.save_region(desk)
     assert state.mask.dirty == state.mask.whole  # the copy has no picture yet
     assert (state.entry.own, state.entry.name, state.entry.parameters.kappa) == (True, "felt", 9.0)
     assert "“Felt”" in desk.message[0]
-    assert keeping.opened(state.entry).inside[3, 3]
-    assert not keeping.opened(entry).inside[3, 3]
+    assert own_example_files.opened(state.entry).inside[3, 3]
+    assert not own_example_files.opened(entry).inside[3, 3]
     state.mask.inside[:] = False
-    sowing.save_region(desk)
+    example_use.save_region(desk)
     assert desk.message[1]
-    assert keeping.opened(state.entry).inside.any()
-    sowing.delete(desk, state.entry)
+    assert own_example_files.opened(state.entry).inside.any()
+    example_use.delete(desk, state.entry)
     assert not list(own.iterdir())
     assert state.entry is None
 
 
 def test_ones_own_is_renamed_and_stays_so(desk, tmp_path):
     """Its files stay where paintings and brushes look for them."""
-    sowing.add(desk, picture(tmp_path / "rock.png"))
-    sowing.add(desk, picture(tmp_path / "sand.png"))
+    example_use.add(desk, picture(tmp_path / "rock.png"))
+    example_use.add(desk, picture(tmp_path / "sand.png"))
     state, path = desk.examples, named(desk, "rock").picture
-    sowing.rename(desk, named(desk, "rock"), '  My "wet"\n rock ')
+    example_use.rename(desk, named(desk, "rock"), '  My "wet"\n rock ')
     assert named(desk, "rock").title == 'My "wet" rock'
     assert state.entry.name == "sand"  # which the brush goes on painting with
-    sowing.rename(desk, state.entry, 'my "WET" rock')
+    example_use.rename(desk, state.entry, 'my "WET" rock')
     assert (state.entry.title, desk.brush.example) == ('my "WET" rock 2', 'my "WET" rock 2')
     assert [need.name for need in desk.needs] == ['my "WET" rock 2']
-    sowing.rename(desk, state.entry, " \t")
+    example_use.rename(desk, state.entry, " \t")
     state.set(state.entry, "kappa", 9.0)
-    sowing.use_settings(desk)
-    sowing.stock(desk)
+    example_use.use_settings(desk)
+    example_use.stock(desk)
     own = {entry.name: entry for entry in state.entries if entry.own}
     assert {name: entry.title for name, entry in own.items()} == {"rock": 'My "wet" rock', "sand": 'my "WET" rock 2'}
     assert own["rock"].picture == path
     assert own["sand"].parameters.kappa == 9.0
-    sowing.rename(desk, own["sand"], "x" * 99)
-    assert len(state.entry.title) == examples.NAME_CAP
+    example_use.rename(desk, own["sand"], "x" * 99)
+    assert len(state.entry.title) == example_state.NAME_CAP
 
 
 def test_who_paints_with_ones_own_is_told_and_keeps_on_painting_when_it_is_deleted(desk, tmp_path):
-    sowing.add(desk, picture(tmp_path / "rock.png"))
-    sowing.add(desk, picture(tmp_path / "sand.png"))
+    example_use.add(desk, picture(tmp_path / "rock.png"))
+    example_use.add(desk, picture(tmp_path / "sand.png"))
     rock, sand = named(desk, "rock"), named(desk, "sand")
-    assert sowing.users(desk, rock) == ""
+    assert example_use.users(desk, rock) == ""
     desk.presets = (Preset("Mine", desk.brush, textures=palette.belonging(desk)[0]), Preset("Pen", Brush(radius=3.0)))
     desk.scene = scene_with(("Rock", {"path": str(rock.picture), "sha": "1"}))
-    sowing.gather(desk)
-    assert sowing.users(desk, rock) == "this painting"
-    assert sowing.users(desk, sand) == "the brush “Mine”"
-    sowing.delete(desk, sand)
+    example_use.gather(desk)
+    assert example_use.users(desk, rock) == "this painting"
+    assert example_use.users(desk, sand) == "the brush “Mine”"
+    example_use.delete(desk, sand)
     assert (desk.brush.mode, desk.preset, desk.examples.chosen) == ("paint", "Pen", "")
-    sowing.choose(desk, rock)
-    sowing.delete(desk, rock)
+    example_use.choose(desk, rock)
+    example_use.delete(desk, rock)
     assert (desk.brush.example, desk.needs) == ("Rock", ())
     assert desk.examples.entry.here is not None
 
 
 def test_ones_own_settings_are_kept_in_its_file(desk, tmp_path):
-    sowing.add(desk, picture(tmp_path / "rock.png"))
+    example_use.add(desk, picture(tmp_path / "rock.png"))
     state = desk.examples
     for name, value in (("kappa", 4.5), ("channels", "luminance"), ("feather", 0), ("neighbourhood", 5)):
         state.set(state.entry, name, value)
-    sowing.use_settings(desk)
-    (read,), faults = examples.load(examples.own_folder(), True)
+    example_use.use_settings(desk)
+    (read,), faults = example_state.load(example_state.own_folder(), True)
     assert not faults
     assert read.parameters == replace(Parameters(), kappa=4.5, channels="luminance", feather=0, neighbourhood=5)
-    sowing.keep_settings(desk)
+    example_use.keep_settings(desk)
     assert state.entry.name == "rock 2"
     assert state.entry.parameters == read.parameters
 
@@ -320,29 +321,29 @@ def test_a_file_of_parameters_that_is_none_is_told_by_its_line(own):
     own.mkdir()
     picture(own / "a.png")
     (own / "a.toml").write_text('group = "X"\nkappa = "much"\n')
-    (entry,), (fault,) = examples.load(own, True)
+    (entry,), (fault,) = example_state.load(own, True)
     assert entry.parameters == Parameters()
     assert fault.startswith("a.toml: line 2, kappa")
 
 
 @pytest.mark.parametrize("stem", ["", "///", "..", "a\0b", "x" * 400, "Größe"])
 def test_any_stem_makes_a_name(stem, own):
-    name = keeping.free_name(stem)
+    name = own_example_files.free_name(stem)
     assert 0 < len(name) <= 40
     assert not set(name) & set("/\\\0.")
 
 
 def test_a_thumbnail_is_cut_out_by_the_region(desk):
-    seen = shelf.thumbnail(named(desk, "felt"), 64)
+    seen = thumbnails.thumbnail(named(desk, "felt"), 64)
     assert seen.shape == (64, 64, 4)
     assert (seen[..., 3] == 255).all()
-    assert (seen[0, 0, :3] == shelf.PAPER).all()
-    assert (seen[32, 32, :3] != shelf.PAPER).any()
+    assert (seen[0, 0, :3] == thumbnails.PAPER).all()
+    assert (seen[32, 32, :3] != thumbnails.PAPER).any()
 
 
 def test_thumbnails_are_made_once_and_again_for_another_region(desk, tmp_path):
     woken = []
-    made = shelf.Shelf(lambda: woken.append(1))
+    made = thumbnails.Shelf(lambda: woken.append(1))
     entry = named(desk, "felt")
     for known in (
         entry,
@@ -374,8 +375,8 @@ def pen(kind, x, y, eraser=False):
 @pytest.fixture
 def region(desk):
     """A region on the screen, its corner at (100, 200), two pixels of the screen for each of its own."""
-    sowing.choose(desk, named(desk, "felt"))
-    sowing.edit(desk)
+    example_use.choose(desk, named(desk, "felt"))
+    example_use.edit(desk)
     desk.examples.spot = (100.0, 200.0, 2.0)
     return desk.examples.mask
 
@@ -426,7 +427,7 @@ def test_keys_over_the_region_are_the_regions(desk, region, posted):
 def test_the_strip_is_as_tall_whatever_it_shows(desk):
     strip = StripPanel()
     heights = {strip.height(desk)}
-    for desk.examples.tab in examples.TABS:
+    for desk.examples.tab in example_state.TABS:
         heights.add(strip.height(desk))
     assert len(heights) == 1
     desk.strip = ""
@@ -434,7 +435,7 @@ def test_the_strip_is_as_tall_whatever_it_shows(desk):
 
 
 def test_a_click_swaps_and_escape_does_not(desk, posted):
-    sowing.choose(desk, named(desk, "felt"))
+    example_use.choose(desk, named(desk, "felt"))
     desk.examples.swapping = True
     ACTIONS["escape"].do(desk)
     assert not desk.examples.swapping
@@ -470,11 +471,11 @@ def test_marks_of_what_grows_do_not_lie_on_one_another():
 
 def test_the_engine_gets_ready_when_examples_are_used_once(desk, posted):
     desk.strip = ""
-    sowing.prepare(desk, 1.0)
+    example_use.prepare(desk, 1.0)
     assert not posted
     desk.strip = "examples"
     for now in (2.0, 3.0):
-        sowing.prepare(desk, now)
+        example_use.prepare(desk, now)
     assert posted == [GetReady()]
     assert desk.preparing == 2.0
     assert "getting ready" in status._fields(desk, "")[0][0]
@@ -497,36 +498,36 @@ def test_examples_that_only_the_painting_has_are_listed_and_painted_with(desk, p
     given = (("Felt", plain), ("F", plain | {"kappa": 9.0}), ("G", plain | {"kappa": 8.0}), ("Rag", lost))
     desk.scene = scene_with(*given)
     count = len(desk.examples.entries)
-    sowing.gather(desk)
-    sowing.gather(desk)
+    example_use.gather(desk)
+    example_use.gather(desk)
     state = desk.examples
-    state.group = examples.HERE
+    state.group = example_state.HERE
     assert [entry.title for entry in state.listed()] == ["G", "Rag"]
-    assert examples.label(state.listed()[1], state.entries) == "Rag"
+    assert example_state.label(state.listed()[1], state.entries) == "Rag"
     assert len(state.entries) == count + 2
-    sowing.choose(desk, named(desk, "Rag"))
+    example_use.choose(desk, named(desk, "Rag"))
     assert (desk.brush.mode, desk.brush.example, desk.needs) == ("example", "Rag", ())
-    sowing.swap(desk, 430.0, 300.0)
+    example_use.swap(desk, 430.0, 300.0)
     assert [request.command for request in posted] == [Swap(0, (30, 0), "Rag")]
     desk.scene = scene_with()
-    sowing.gather(desk)
-    assert (state.entry, state.group, len(state.entries)) == (None, examples.ALL, count)
+    example_use.gather(desk)
+    assert (state.entry, state.group, len(state.entries)) == (None, example_state.ALL, count)
 
 
 def test_their_thumbnails_are_strokes_asked_for_once(desk, posted):
-    made = shelf.Shelf(lambda: None)
+    made = thumbnails.Shelf(lambda: None)
     desk.scene = scene_with(("Rag", {"sha": "1"}))
-    sowing.gather(desk)
+    example_use.gather(desk)
     state = desk.examples
     made.ask((named(desk, "Rag"),), 32)
     assert made.take() == []
     for side in (60, 60, 90):
         state.ask_thumbnails(posted.append, side)
     desk.scene = scene_with(("Rag", {"sha": "2"}))
-    sowing.gather(desk)
+    example_use.gather(desk)
     state.ask_thumbnails(posted.append, 90)
     assert [(swatch.ident, swatch.size[0]) for swatch in posted] == [("example here Rag", n) for n in (60, 90, 90)]
-    sowing.choose(desk, named(desk, "Rag"))
+    example_use.choose(desk, named(desk, "Rag"))
     state.sampled = (200, 100)
     state.ask(posted.append, 10.0)
     assert (posted[-1].brush.example, posted[-1].textures) == ("Rag", ())

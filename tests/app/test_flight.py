@@ -2,9 +2,9 @@
 
 import pytest
 
-from app.glide import Glide
+from app.canvas.glide import Glide
+from app.canvas.view import SUBPIXEL, Place, View
 from app.news import _middle
-from app.view import SUBPIXEL, Place, View
 from engine.numeric.address import Rect
 
 

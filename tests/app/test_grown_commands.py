@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from app.__main__ import main
-from engine.painting.growths import OTHERWISE
+from engine.archive.plot_files import OTHERWISE
 
 MANIFEST = "inkfall/manifest.json"
 

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import knots
+from app.desk import knots
 from engine.brush import checks
 
 PART = st.floats(0.0, 1.0, width=32)

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from immutables import Map
 
-from app.lab import PICTURED, SETTLE, LabState, only_with, with_texture
-from app.panels import lab as panel
+from app.desk.lab_state import PICTURED, SETTLE, LabState, only_with, with_texture
+from app.panels.lab import lab_panel as panel
 from engine.brush.parts import Component, Edge, Surface
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
+from engine.makers import spectrum
 from engine.numeric.spectra import radial_window
 from engine.painting import commands as c
-from engine.painting import lab as engine_lab
-from engine.painting import spectrum
-from engine.painting.requests import LabRest, LabSet, LabUse
+from engine.studio import lab as engine_lab
+from engine.studio.requests import LabRest, LabSet, LabUse
 
 OWN = frozenset({"rock", "stripes"})
 

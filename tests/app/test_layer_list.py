@@ -2,12 +2,12 @@
 
 import pytest
 
-from app.panels.layers import dropped
+from app.panels.layers.layers_panel import dropped
 from engine.canvas import layers
 from engine.painting import commands as c
-from engine.painting.outline import rows
-from engine.painting.painting import apply
 from engine.painting.value import Painting
+from engine.session.apply import apply
+from engine.studio.outline import rows
 
 
 def painting(*names):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.mask import STEPS, Mask, alike, shown, smoothed
+from app.desk.region_mask import STEPS, Mask, alike, shown, smoothed
 from engine.numeric.address import Rect
 
 

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from immutables import Map
 
-from app.match import MatchState, title
-from app.panels.subbands import gain_of, part_of
+from app.desk.match_state import MatchState, title
+from app.panels.match.subbands import gain_of, part_of
+from engine.makers import definitions
 from engine.numeric.address import Rect
-from engine.painting import definitions
 from engine.painting.commands import DefineTexture, parse, to_json
-from engine.painting.requests import MatchSet, MatchUse
+from engine.studio.requests import MatchSet, MatchUse
 
 
 def state(*names):

@@ -12,8 +12,8 @@ import pytest
 from PIL import Image
 
 from app.__main__ import main
-from app.cli import solid
-from engine.painting import matches
+from app.cli import solid_command
+from engine.makers import heeger_bergen
 from engine.texture import solid as engines
 
 ROOT = Path(__file__).parents[2]
@@ -106,8 +106,8 @@ def test_the_whole_command_as_a_program(tmp_path):
 def test_what_is_done_otherwise_than_while_painting_is_told(name, capsys):
     assert main(["texture", name, "--help"]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert f"longer than {matches.SHRUNK} pixels is halved" in told
-    assert f"the middle {matches.EXAMPLE_SIDE} x {matches.EXAMPLE_SIDE}" in told
+    assert f"longer than {heeger_bergen.SHRUNK} pixels is halved" in told
+    assert f"the middle {heeger_bergen.EXAMPLE_SIDE} x {heeger_bergen.EXAMPLE_SIDE}" in told
 
 
 def test_options_change_what_is_made(tmp_path, capsys):
@@ -135,7 +135,7 @@ def test_options_change_what_is_made(tmp_path, capsys):
 
 
 def test_solids_are_made_in_as_many_turns_as_the_engine_says():
-    assert solid.ITERATIONS == engines.ITERATIONS
+    assert solid_command.ITERATIONS == engines.ITERATIONS
 
 
 @pytest.mark.parametrize("mode", ["L", "RGB", "RGBA", "L16"])
@@ -158,7 +158,7 @@ def test_solids_as_an_array_and_as_slices(tmp_path, mode):
 def test_the_cube_shows_three_faces():
     """Planes of x, y and z in red, green and blue: each face lacks the one that ends there."""
     z, y, x = np.mgrid[:16, :16, :16] / 15.0
-    drawn = solid.cube(np.stack([x, y, z], axis=-1), 32)
+    drawn = solid_command.cube(np.stack([x, y, z], axis=-1), 32)
     assert drawn.shape == (64, 55, 3)
     assert drawn[32, 27] == pytest.approx([1.0, 1.0, 0.0], abs=0.35)  # the corner that is nearest
     assert drawn[2, 27] == pytest.approx([0.0, 0.0, 0.0], abs=0.15)

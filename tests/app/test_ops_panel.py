@@ -2,40 +2,40 @@
 
 import pytest
 
-from app.panels import ops
+from app.panels.brush import operations
 from engine.brush.ops import OPS
 from engine.numeric.formula import parse
 
 
 def test_every_op_has_a_place_in_the_chooser_and_every_kind_of_parameter_a_control():
-    listed = [name for _, names in ops.GROUPS for name in names]
+    listed = [name for _, names in operations.GROUPS for name in names]
     assert len(set(listed)) == len(listed)
     assert set(OPS) <= set(listed)
-    assert {part.kind for row in OPS.values() for part in row.parameters} <= set(ops.CONTROLS)
+    assert {part.kind for row in OPS.values() for part in row.parameters} <= set(operations.CONTROLS)
 
 
-@pytest.mark.parametrize(("title", "formula"), ops.FORMULAS)
+@pytest.mark.parametrize(("title", "formula"), operations.FORMULAS)
 def test_the_formulas_to_begin_with_can_be_read(title, formula):
     parse(formula)
-    assert ops.fault(formula) is None
+    assert operations.fault(formula) is None
 
 
 def test_a_mistake_is_shown_in_its_surroundings():
     formula = "0.5 * (colour - pic) + image(x) * 0.25 + 0.125 * pic"
-    fault = ops.fault(formula)
-    before, there, behind = ops.around(formula, fault.column)
+    fault = operations.fault(formula)
+    before, there, behind = operations.around(formula, fault.column)
     assert formula[fault.column - 1 :].startswith("image")
     assert (before, there, behind) == ("…our - pic) + ", "i", "mage(x) * 0.2…")
 
 
 def test_a_mistake_at_the_end_is_shown_behind_the_last_character():
-    fault = ops.fault("pic *")
-    assert ops.around("pic *", fault.column) == ("pic *", " ", "")
-    assert ops.around("", 1) == ("", " ", "")
+    fault = operations.fault("pic *")
+    assert operations.around("pic *", fault.column) == ("pic *", " ", "")
+    assert operations.around("", 1) == ("", " ", "")
 
 
 def test_a_clone_begins_with_another_layer_where_there_is_one():
-    assert ops.copied(["top", "middle", "bottom"], "middle") == "bottom"
-    assert ops.copied(["top", "bottom"], "bottom") == "top"
-    assert ops.copied(["only"], "only") == "only"
-    assert ops.copied(["top", "bottom"], "a group") == "top"
+    assert operations.copied(["top", "middle", "bottom"], "middle") == "bottom"
+    assert operations.copied(["top", "bottom"], "bottom") == "top"
+    assert operations.copied(["only"], "only") == "only"
+    assert operations.copied(["top", "bottom"], "a group") == "top"

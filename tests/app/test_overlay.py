@@ -8,8 +8,8 @@ from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui import backends
 
 from app import theme
-from app.gallery import Gallery
-from app.overlay import NOTHING, Overlay, Sheet, grouped
+from app.canvas.gallery import Gallery
+from app.canvas.overlay import NOTHING, Overlay, Sheet, grouped
 
 SIZE = (320, 240)
 _PLAIN = (

@@ -5,9 +5,9 @@ import json
 import pytest
 from immutables import Map
 
-from app import presets
-from app.presets import Preset
-from engine.brush.record import Brush, Component
+from app.desk import presets
+from app.desk.presets import Preset
+from engine.brush.settings import Brush, Component
 
 
 def test_a_saved_brush_is_read_again_with_all_it_has(tmp_path):

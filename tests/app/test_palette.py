@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app import palette, presets
-from app.presets import Preset
-from engine.brush import record
-from engine.painting import requests as q
-from engine.painting import results
+from app.desk import palette, presets
+from app.desk.presets import Preset
+from engine.brush import settings
+from engine.makers.definitions import fitted, read, renamed, used
 from engine.painting.commands import Stroke, parse
-from engine.painting.definitions import fitted, read, renamed, used
-from engine.painting.easel import Easel
-from engine.painting.swatches import painted
 from engine.painting.value import Painting
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.easel import Easel
+from engine.studio.swatches import painted
 
 FUR = {
     "name": "fur",
@@ -51,7 +51,7 @@ class Desk(SimpleNamespace):
     """What of a desk the palette uses, with an engine that does at once what is posted."""
 
     def __init__(self):
-        super().__init__(brush=record.Brush(), preset="", needs=(), provided=set(), scene=None, kinds=())
+        super().__init__(brush=settings.Brush(), preset="", needs=(), provided=set(), scene=None, kinds=())
         self.paper_stays, self.pointer = False, SimpleNamespace(pen=False)
         self.sent = []
         self.easel = Easel(self._take)
@@ -97,8 +97,8 @@ def test_only_what_the_brush_refers_to_comes_along(tmp_path):
 def test_a_paper_that_stays_is_felt_by_the_next_brush(tmp_path):
     """A virtual surface is the canvas's: every brush feels it (Lewis 1984, section 6.1)."""
     desk, fur = Desk(), preset(tmp_path, FUR, PAPER)
-    smooth, rough = Preset("Smooth", record.Brush(opacity=1.0)), presets.load_papers(presets.papers_folder())[0][0]
-    grained = Preset("Grained", record.Brush(grain=rough.grain), textures=rough.textures)
+    smooth, rough = Preset("Smooth", settings.Brush(opacity=1.0)), presets.load_papers(presets.papers_folder())[0][0]
+    grained = Preset("Grained", settings.Brush(grain=rough.grain), textures=rough.textures)
     palette.take(desk, fur)
     palette.take(desk, smooth)
     assert desk.brush == smooth.brush
@@ -117,7 +117,7 @@ def test_a_paper_that_stays_is_felt_by_the_next_brush(tmp_path):
 
 
 def test_a_paper_makes_way_for_another_texture_of_its_name_that_the_next_brush_brings(tmp_path):
-    desk, brush = Desk(), record.Brush(density=record.from_json(BRUSH).grain)
+    desk, brush = Desk(), settings.Brush(density=settings.from_json(BRUSH).grain)
     other = read([{**PAPER, "period": 20}], "textures", tmp_path)
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     desk.paper_stays = True
@@ -173,7 +173,7 @@ def test_a_definition_is_recognised_after_saving(tmp_path):
 def test_the_thumbnail_knows_them(tmp_path):
     found = preset(tmp_path, FUR, PAPER)
     picture = painted(q.Swatch("it", found.brush, (104, 44), textures=found.textures), Painting())
-    plain = painted(q.Swatch("it", record.Brush(radius=9), (104, 44)), Painting())
+    plain = painted(q.Swatch("it", settings.Brush(radius=9), (104, 44)), Painting())
     assert picture[3].max() > 0.2
     assert not np.array_equal(picture, plain)
 
@@ -212,8 +212,8 @@ def test_faulty_definitions_are_told_with_the_file(tmp_path, textures, message):
 
 
 def test_names_are_changed_only_where_textures_are_meant():
-    brush = record.from_json({**BRUSH, "tip": "fur", "note": "fur"})
-    other = record.to_json(renamed(brush, {"fur": "pelt", "paper": "paper"}))
+    brush = settings.from_json({**BRUSH, "tip": "fur", "note": "fur"})
+    other = settings.to_json(renamed(brush, {"fur": "pelt", "paper": "paper"}))
     assert other["note"] == "fur"
     assert [part["texture"] for part in other["ink"]] == ["pelt", "rock"]
     assert (other["density"], other["tip"]) == ("pelt", "pelt")
@@ -223,7 +223,7 @@ def test_names_are_changed_only_where_textures_are_meant():
 
 def test_two_brushes_with_one_name_for_two_textures():
     first, second = (read([{**FUR, "seed": seed}], "textures") for seed in (1, 2))
-    brush = record.from_json({"ink": [{"texture": "fur"}]})
+    brush = settings.from_json({"ink": [{"texture": "fur"}]})
     known = {"fur": ("sparse", first[0].arguments)}
     same, _, missing = fitted(brush, first, known)
     assert (same, missing) == (brush, ())
@@ -249,7 +249,7 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
     members = {key: value.format(dir=tmp_path) if key == "path" else value for key, value in members.items()}
     desk, other = Desk(), Desk()
     desk.post(q.Do(parse({"do": "texture", "name": "fur", **members})))
-    desk.brush = record.from_json({"radius": 9, "ink": [{"texture": "fur", "colour": "#ffffff"}]})
+    desk.brush = settings.from_json({"radius": 9, "ink": [{"texture": "fur", "colour": "#ffffff"}]})
     textures, stay = palette.belonging(desk)
     assert stay == ()
     palette.take(other, Preset("Fur", desk.brush, textures=textures))
@@ -266,5 +266,5 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
 def test_what_only_the_painting_has_is_told():
     desk = Desk()
     desk.post(q.Do(parse({"do": "texture", "name": "fur", "maker": "canvas", "rect": [0, 0, 0, 8, 8]})))
-    desk.brush = record.from_json({"ink": [{"texture": "fur"}]})
+    desk.brush = settings.from_json({"ink": [{"texture": "fur"}]})
     assert palette.belonging(desk) == ((), ("fur",))

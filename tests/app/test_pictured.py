@@ -5,16 +5,16 @@ from types import SimpleNamespace
 import numpy as np
 from PIL import Image
 
-from app import pictured
-from app.view import View, place_of_pixel
-from engine.brush.record import Brush, Component
+from app.canvas.view import View, place_of_pixel
+from app.desk import pictured
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
+from engine.brush.settings import Brush, Component
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting.archive import Snapshot, save
-from engine.painting.opening import open_painting
-from engine.painting.session import Session
+from engine.session.session import Session
 
 
 def desk(session=None):

@@ -5,8 +5,8 @@ from itertools import pairwise
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app import ramps
-from app.colours import from_hex
+from app.desk import ramps
+from app.desk.colours import from_hex
 
 PART = st.floats(0.0, 1.0, width=32)
 GESTURE = st.tuples(st.sampled_from(["add", "move", "remove", "colour", "turn"]), st.integers(0, 9), PART)

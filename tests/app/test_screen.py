@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
-from app.view import Place, View
+from app.canvas.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
+from app.canvas.view import Place, View
 from engine.numeric.address import Rect
-from engine.painting.results import Patch
+from engine.studio.results import Patch
 
 SIZE = (640, 480)
 RED, GREEN, CLEAR = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 0, 0)

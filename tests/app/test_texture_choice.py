@@ -5,11 +5,11 @@ from types import SimpleNamespace
 import pytest
 from immutables import Map
 
-from app.panels import textures
-from app.presets import Preset
-from engine.brush.record import Brush
+from app.desk.presets import Preset
+from app.panels.controls import texture_rows
+from engine.brush.settings import Brush
 from engine.painting.commands import parse
-from engine.painting.ready import ready
+from engine.studio.ready import ready
 
 FUR = parse({"do": "texture", "name": "fur", "maker": "sparse", "size": [8, 8], "density": 20.0})
 LINEN = parse({"do": "texture", "name": "linen", "maker": "spectrum", "size": [8, 8], "period": 77})
@@ -28,55 +28,55 @@ def desk(*defined):
 
 def test_each_texture_is_offered_once_and_the_paintings_own_is_meant():
     made = desk(("linen", "sparse", Map({"period": 9.0})))
-    names = [name for name, _ in textures.names(made)]
+    names = [name for name, _ in texture_rows.names(made)]
     assert names.count("linen") == names.count("fur") == names.count("rock") == 1
     assert "image" not in names
-    assert textures.kind_of(made, "linen") == "sparse"
-    assert textures.kind_of(made, "fur") == "sparse"
-    assert textures.kind_of(made, "rock") == "rock"
-    assert textures.kind_of(made, "no such") == "no such"
+    assert texture_rows.kind_of(made, "linen") == "sparse"
+    assert texture_rows.kind_of(made, "fur") == "sparse"
+    assert texture_rows.kind_of(made, "rock") == "rock"
+    assert texture_rows.kind_of(made, "no such") == "no such"
 
 
 def test_a_texture_of_the_brushes_is_brought_once_and_not_where_it_is_already():
     made = desk()
     for _ in range(2):
-        textures.bring(made, "fur")
-        textures.bring(made, "rock")
+        texture_rows.bring(made, "fur")
+        texture_rows.bring(made, "rock")
     assert made.needs == (FUR,)
     made = desk(("fur", "sparse", Map()))
-    textures.bring(made, "fur")
+    texture_rows.bring(made, "fur")
     assert made.needs == ()
 
 
 @pytest.mark.parametrize("name", [row.name for row in ready().kinds])
 def test_every_parameter_of_every_kind_has_a_slider(name):
     made = desk(("it", name, Map()))
-    for row in textures.rows(made, "it"):
+    for row in texture_rows.rows(made, "it"):
         assert row.name == "seed" or float(row.lo) < float(row.hi)
         assert float(row.lo) <= float(row.default) <= float(row.hi)
 
 
 def test_sliders_begin_at_what_the_texture_was_defined_with():
-    assert textures.own(desk(), "linen")["period"] == 77
-    assert textures.own(desk(("linen", "spectrum", Map({"period": 5}))), "linen")["period"] == 5
-    assert textures.own(desk(("linen", "spectrum", Map())), "linen")["period"] == 48  # its picture's width
-    assert textures.own(desk(), "fur")["period"] == 8
-    assert textures.own(desk(), "rock") == {}
+    assert texture_rows.own(desk(), "linen")["period"] == 77
+    assert texture_rows.own(desk(("linen", "spectrum", Map({"period": 5}))), "linen")["period"] == 5
+    assert texture_rows.own(desk(("linen", "spectrum", Map())), "linen")["period"] == 48  # its picture's width
+    assert texture_rows.own(desk(), "fur")["period"] == 8
+    assert texture_rows.own(desk(), "rock") == {}
 
 
 def test_a_picture_is_asked_for_again_only_where_a_name_means_another_texture():
     made = desk()
     made.lab = SimpleNamespace(scene=None)
     made.scene.serial = 1
-    known = {textures.meant(made, name) for name in ("rock", "fur", "linen")}
+    known = {texture_rows.meant(made, name) for name in ("rock", "fur", "linen")}
     assert len(known) == 3
-    assert textures.meant(made, "fur") in known
-    assert textures.brought(made, "fur") == (FUR,)
+    assert texture_rows.meant(made, "fur") in known
+    assert texture_rows.brought(made, "fur") == (FUR,)
     here = desk(("fur", "sparse", Map({"density": 3.0})))
     here.lab, here.scene.serial = SimpleNamespace(scene=SimpleNamespace(using="fur", version=4)), 1
-    first = textures.meant(here, "fur")
+    first = texture_rows.meant(here, "fur")
     assert first not in known
     here.lab.scene.version = 5
-    assert textures.meant(here, "fur") != first
-    assert textures.brought(here, "fur") == ()
-    assert [title for title, _ in textures.groups(here)] == ["Of this painting", "Built in", "Of the brushes"]
+    assert texture_rows.meant(here, "fur") != first
+    assert texture_rows.brought(here, "fur") == ()
+    assert [title for title, _ in texture_rows.groups(here)] == ["Of this painting", "Built in", "Of the brushes"]

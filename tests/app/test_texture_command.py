@@ -11,7 +11,7 @@ from PIL import Image
 
 from app.__main__ import main
 from engine.painting.commands import parse
-from engine.painting.painting import Around, Painting, apply
+from engine.session.apply import Around, Painting, apply
 
 ROOT = Path(__file__).parents[2]
 MAKERS = ("spectrum", "sparse", "impulse")

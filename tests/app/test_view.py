@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.glide import Glide
-from app.view import Place, View, distance, fitted, place_of_pixel, zoom_text
+from app.canvas.glide import Glide
+from app.canvas.view import Place, View, distance, fitted, place_of_pixel, zoom_text
 from engine.numeric.address import Rect
 
 LEVELS = st.integers(-40, 200)

@@ -12,18 +12,18 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app import presets as palette
+from app.desk import presets as palette
 from engine.brush import kinds, presets
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.makers.definitions import used
 from engine.numeric.address import Rect
 from engine.painting import commands
-from engine.painting.definitions import used
-from engine.painting.painting import apply
 from engine.painting.recording import read
-from engine.painting.requests import Swatch
-from engine.painting.swatches import painted
 from engine.painting.value import Painting
+from engine.session.apply import apply
+from engine.studio.requests import Swatch
+from engine.studio.swatches import painted
 
 PALETTES = Path(__file__).resolve().parents[2] / "palettes"
 DEMO = PALETTES / "demo"

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app import presets
 from app.__main__ import main
+from app.desk import presets
 from engine.painting import commands
 from engine.painting.recording import read
 

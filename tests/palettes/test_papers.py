@@ -9,15 +9,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app import presets
-from app.panels import textures
-from engine.brush.record import Brush
+from app.desk import presets
+from app.panels.controls import texture_rows
 from engine.brush.relief import resolve
+from engine.brush.settings import Brush
 from engine.numeric.address import TileKey
-from engine.painting.painting import apply
-from engine.painting.requests import Swatch
-from engine.painting.swatches import painted
 from engine.painting.value import Painting
+from engine.session.apply import apply
+from engine.studio.requests import Swatch
+from engine.studio.swatches import painted
 
 PAPERS, FAULTS = presets.load_papers(presets.papers_folder())
 
@@ -67,8 +67,8 @@ def test_one_name_is_one_texture_wherever_it_comes_from():
 def test_papers_are_offered_and_come_along():
     desk = SimpleNamespace(kinds=(), scene=None, presets=(), papers=tuple(PAPERS), needs=())
     for paper in PAPERS:
-        assert paper.grain.texture in dict(textures.names(desk))
-        textures.bring(desk, paper.grain.texture)
+        assert paper.grain.texture in dict(texture_rows.names(desk))
+        texture_rows.bring(desk, paper.grain.texture)
     assert {command.name for command in desk.needs} == {paper.grain.texture for paper in PAPERS}
 
 

@@ -21,7 +21,7 @@ from engine.numeric.neighbourhood import (
     others_apart,
     others_apart_within,
 )
-from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, first_of, inner, kernel, mark_readers
+from engine.texture.example.region_window import MARGIN, OUTSIDE, SUBPASSES, first_of, inner, kernel, mark_readers
 
 REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
 

@@ -23,9 +23,9 @@ from engine.numeric.neighbourhood import RADIUS
 from engine.texture.example import correction, starts, tiles
 from engine.texture.example.correction import REACH
 from engine.texture.example.exemplar import Exemplar
+from engine.texture.example.region_window import MARGIN, OUTSIDE, SUBPASSES, Example, Rules, Window, window_of
 from engine.texture.example.rules import example_of, rules_of
 from engine.texture.example.tiles import NONE, Tiles
-from engine.texture.example.window import MARGIN, OUTSIDE, SUBPASSES, Example, Rules, Window, window_of
 
 COARSEST_PASSES = 2
 _DOMAIN, _PATCHES = 0x65786D70, 0x70617463  # tell these hashes from those of other textures

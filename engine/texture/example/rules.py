@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from engine.numeric.neighbourhood import SIDE, WEIGHT, square_bits, weights
 from engine.texture.example.exemplar import Exemplar
-from engine.texture.example.window import Example, Rules
+from engine.texture.example.region_window import Example, Rules
 
 _CANDIDATES = 1024  # of a search at the coarsest level, at most: an example may be large and have but one
 # Pixels of another shape that are free, from the coarsest level on: where pixels are large the example has few shapes

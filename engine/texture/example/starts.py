@@ -9,7 +9,7 @@ from numba import njit
 
 from engine.numeric.hashing import mix64
 from engine.numeric.neighbourhood import RADIUS, ones
-from engine.texture.example.window import OUTSIDE, inner, mark_readers, shape_at, turn_of
+from engine.texture.example.region_window import OUTSIDE, inner, mark_readers, shape_at, turn_of
 
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from engine.brush.checks import BrushError
 from engine.brush.dabs import SEGMENT_CAP, STROKE_CAP, Stroker
 from engine.brush.dynamics import evaluate, knots_of, respond, response
-from engine.brush.record import Brush, from_json
 from engine.brush.samples import PenSample, cleaned
+from engine.brush.settings import Brush, from_json
 
 POINTS = st.lists(st.tuples(st.floats(-200, 200), st.floats(-200, 200), st.floats(0, 1)), min_size=1, max_size=25).map(
     np.array

@@ -10,7 +10,7 @@ from engine.brush.coat import local_mean
 from engine.brush.ink import Ink, resolve
 from engine.brush.kinds import MODES, edit
 from engine.brush.mask import StrokeMask
-from engine.brush.record import MODE_NAMES, from_json
+from engine.brush.settings import MODE_NAMES, from_json
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.texture.image import ImageSource

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.numeric.address import TILE, Rect, TileKey
 
 DABS = st.lists(

@@ -10,7 +10,7 @@ from engine.brush.checks import rgb
 from engine.brush.mask import StrokeMask
 from engine.brush.ops import OPS
 from engine.brush.raster import Scene, mixture
-from engine.brush.record import from_json, to_json
+from engine.brush.settings import from_json, to_json
 from engine.brush.tints import saturating, turning
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped

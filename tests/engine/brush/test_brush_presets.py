@@ -7,7 +7,7 @@ import pytest
 from engine.brush.checks import BrushError
 from engine.brush.kinds import check
 from engine.brush.presets import Preset, load, load_folder, save
-from engine.brush.record import Brush, from_json
+from engine.brush.settings import Brush, from_json
 
 BUNDLED = Path(__file__).parents[3] / "palettes" / "brushes"
 

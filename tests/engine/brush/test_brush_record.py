@@ -12,7 +12,7 @@ from immutables import Map
 from engine.brush.checks import BrushError
 from engine.brush.kinds import check
 from engine.brush.parts import Edge, Surface
-from engine.brush.record import SETTINGS, Brush, from_json, to_json
+from engine.brush.settings import SETTINGS, Brush, from_json, to_json
 
 EVERYTHING = {
     "radius": 12.5,

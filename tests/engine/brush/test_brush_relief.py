@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from engine.brush.checks import BrushError
 from engine.brush.kinds import edit
 from engine.brush.mask import Coverage, StrokeMask
-from engine.brush.record import from_json
 from engine.brush.relief import SOFTNESS, Heights, resolve
+from engine.brush.settings import from_json
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce

@@ -5,8 +5,8 @@ import pytest
 
 from engine.brush.extent import FULL, STEPS, WIDEST, resolve
 from engine.brush.mask import StrokeMask
-from engine.brush.record import from_json
 from engine.brush.relief import resolve as resolve_relief
+from engine.brush.settings import from_json
 from engine.numeric import sparse
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped

@@ -9,7 +9,7 @@ from engine.brush import tip
 from engine.brush.checks import BrushError
 from engine.brush.footprint import Footprint
 from engine.brush.mask import StrokeMask
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.numeric.address import Rect
 
 WHOLE = Rect(-600, -600, 1200, 1200)

@@ -9,9 +9,9 @@ from scipy.ndimage import distance_transform_edt
 from engine.brush.ink import resolve as resolve_ink
 from engine.brush.kinds import edit
 from engine.brush.mask import StrokeMask
-from engine.brush.record import from_json
 from engine.brush.relief import resolve
 from engine.brush.rim import CAP, Rim
+from engine.brush.settings import from_json
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.numeric.shaping import table

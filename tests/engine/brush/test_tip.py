@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from engine.brush.checks import BrushError
 from engine.brush.mask import StrokeMask
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.brush.tip import resolve
 from engine.numeric.address import TILE, Rect
 from engine.numeric.grid import snapped

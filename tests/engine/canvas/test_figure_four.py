@@ -10,7 +10,7 @@ from scipy.ndimage import distance_transform_edt
 
 from engine.canvas import growth as growths
 from engine.numeric.address import Rect
-from engine.painting.exemplars import read_exemplar, read_parameters
+from engine.strokes.example_files import read_exemplar, read_parameters
 from engine.texture.example import show
 from engine.texture.example.exemplar import PAD
 

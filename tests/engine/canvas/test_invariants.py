@@ -9,7 +9,7 @@ from strokes import ArrayEdit, Grain, fill, random_stroke, spread_planes
 from engine.brush.ink import resolve
 from engine.brush.kinds import edit as edit_of
 from engine.brush.mask import StrokeMask
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import TileCache, evaluate, shown
 from engine.canvas.fold import fold

@@ -12,9 +12,9 @@ from engine.canvas.evaluate import TileCache
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting.painting import Painting
-from engine.painting.session import Session
-from engine.painting.settling import settled
+from engine.painting.grown import settled
+from engine.session.apply import Painting
+from engine.session.session import Session
 
 FRAME = Rect.at(0, 0, 96, 80)
 PLACES = ((-2, Rect.at(-4, -4, 40, 36)), (0, Rect.at(-16, -16, 144, 120)), (1, Rect.at(20, 20, 128, 96)))

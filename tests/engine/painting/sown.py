@@ -10,17 +10,17 @@ import platformdirs
 import pytest
 from PIL import Image
 
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.canvas.reading import layer_planes
+from engine.files.limits import LIMITS
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting.archive import Snapshot, save
-from engine.painting.limits import LIMITS
-from engine.painting.opening import open_painting
-from engine.painting.painting import Painting
-from engine.painting.session import Session
-from engine.painting.settling import settled
+from engine.painting.grown import settled
+from engine.session.apply import Painting
+from engine.session.session import Session
 
 FRAME = Rect.at(-20, -10, 220, 150)
 LEVELS = (-3, -1, 0, 1, 2)

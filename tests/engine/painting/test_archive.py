@@ -11,23 +11,23 @@ import pytest
 from PIL import Image
 from sown import opened, rewritten
 
+from engine.archive import jobs, opening
+from engine.archive.manifest import FORMAT
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save, shown_level
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
+from engine.files.fault import Cancelled, FileError, WriteError
+from engine.files.stack_xml import parse_stack
+from engine.files.zip_writer import MemberSink
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
-from engine.painting import jobs, opening
-from engine.painting.archive import Snapshot, save, shown_level
-from engine.painting.fault import Cancelled, FileError, WriteError
-from engine.painting.manifest import FORMAT
-from engine.painting.opening import open_painting
-from engine.painting.painting import Painting
 from engine.painting.rendering import strips
-from engine.painting.session import Session
-from engine.painting.stackxml import parse_stack
-from engine.painting.zipwrite import MemberSink
+from engine.session.apply import Painting
+from engine.session.session import Session
 
 FRAME = Rect.at(-40, 10, 300, 200)
 LEVELS = (-7, -3, 0, 1, 4, 60)
@@ -233,8 +233,8 @@ def test_small_frames_keep_their_size_as_thumbnails(tmp_path):
 
 def test_layers_as_others_see_them_make_the_merged_picture(session, members):
     """The tree of stack.xml with its PNGs, composited from 8 bits, is the merged picture within rounding."""
-    from engine.painting.imports import read_raster
-    from engine.painting.zipguard import ZipArchive
+    from engine.archive.imports import read_raster
+    from engine.files.zip_reader import ZipArchive
 
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w") as out:

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from engine.painting.atomic import replacing, sweep
-from engine.painting.fault import FileError, WriteError, shown
+from engine.files.atomic import replacing, sweep
+from engine.files.fault import FileError, WriteError, shown
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -87,7 +87,7 @@ def test_failing_system_calls(tmp_path, monkeypatch, call, number):
 
     def attempt():
         with monkeypatch.context() as patch:
-            patch.setattr(f"engine.painting.atomic.os.{call}", fail)
+            patch.setattr(f"engine.files.atomic.os.{call}", fail)
             with replacing(target) as file:
                 file.write(b"new")
 
@@ -102,7 +102,7 @@ def test_folder_that_cannot_be_synced_is_told(tmp_path, monkeypatch):
     def fail(folder):
         raise OSError(errno.EIO, "Input/output error")
 
-    monkeypatch.setattr("engine.painting.atomic._sync_folder", fail)
+    monkeypatch.setattr("engine.files.atomic._sync_folder", fail)
     with pytest.raises(WriteError, match="may not survive"), replacing(tmp_path / "a") as file:
         file.write(b"new")
 

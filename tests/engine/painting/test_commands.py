@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.brush.checks import frozen
-from engine.brush.record import Brush, Component
+from engine.brush.settings import Brush, Component
+from engine.files.strict_json import FormatError, dumps, loads
 from engine.painting import commands as c
 from engine.painting.points import POINT_COLUMNS, points_array
-from engine.painting.strictjson import FormatError, dumps, loads
 
 names = st.text(
     st.characters(exclude_categories=["Cs", "Cc"], exclude_characters="\ufffe\uffff"), min_size=1, max_size=20

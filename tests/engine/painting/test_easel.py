@@ -8,15 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from immutables import Map
 
-from engine.brush.record import Brush, Component
+from engine.brush.settings import Brush, Component
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
-from engine.painting import requests as q
-from engine.painting import results
-from engine.painting.easel import Easel
-from engine.painting.painting import apply
-from engine.painting.sight import tile_rect
+from engine.session.apply import apply
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.easel import Easel
+from engine.studio.sight import tile_rect
 
 
 class Window:
@@ -295,7 +295,7 @@ LONG = (
 @pytest.fixture
 def half_played(tmp_path, monkeypatch):
     """A window in which a recording plays, in the middle of its only stroke."""
-    monkeypatch.setattr("engine.painting.documents.PIECE", 1e-6)  # one point at a time
+    monkeypatch.setattr("engine.studio.documents.PIECE", 1e-6)  # one point at a time
     (tmp_path / "long.jsonl").write_text(LONG)
     window = Window()
     window.easel.do(q.Open(tmp_path / "long.jsonl", True))

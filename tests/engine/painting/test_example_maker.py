@@ -5,12 +5,12 @@ import pytest
 from PIL import Image
 from plantings import blob, fresh, meadow, pixels, stroke, texture
 
+from engine.files.fault import FileError
+from engine.makers import definitions
 from engine.painting import commands as c
-from engine.painting import definitions
-from engine.painting.examples import BUNDLED, bundled, exemplar_of, key_of, parameters_of
-from engine.painting.fault import FileError
-from engine.painting.painting import Refusal
-from engine.painting.session import Session
+from engine.session.apply import Refusal
+from engine.session.session import Session
+from engine.strokes.example_textures import BUNDLED, bundled, exemplar_of, key_of, parameters_of
 from engine.texture.example.parameters import FIELDS, Parameters
 
 __all__ = ["meadow"]
@@ -34,7 +34,7 @@ def test_every_picture_is_an_example(meadow, tmp_path, mode):
 
 
 def test_an_opaque_picture_is_analysed_as_on_the_command_line(meadow, tmp_path):
-    from engine.painting.exemplars import read_exemplar
+    from engine.strokes.example_files import read_exemplar
 
     Image.fromarray(blob(2)).convert("RGB").save(tmp_path / "x.png")
     own, told = exemplar_of(defined(tmp_path, path="x.png")[0]), read_exemplar(tmp_path / "x.png")

@@ -7,19 +7,19 @@ import pytest
 import tifffile
 from PIL import Image
 
+from engine.archive.export import Picture, export
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import TileCache, evaluate_sparse
 from engine.canvas.layers import LayerError
+from engine.files.fault import Cancelled, WriteError
+from engine.files.images import read_image
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting import commands as c
-from engine.painting.export import Picture, export
-from engine.painting.fault import Cancelled, WriteError
-from engine.painting.images import read_image
-from engine.painting.painting import Painting
 from engine.painting.rendering import bands, reach, strips
-from engine.painting.session import Session
+from engine.session.apply import Painting
+from engine.session.session import Session
 
 FRAME = Rect.at(-20, -10, 500, 300)
 

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine.archive import opening
+from engine.archive.imports import open_image
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
+from engine.files.fault import FileError
+from engine.files.strict_json import loads
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting import opening
-from engine.painting.archive import Snapshot, save
-from engine.painting.fault import FileError
-from engine.painting.imports import open_image
-from engine.painting.opening import open_painting
-from engine.painting.session import Session
-from engine.painting.strictjson import loads
+from engine.session.session import Session
 
 
 @pytest.fixture

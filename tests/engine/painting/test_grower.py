@@ -10,15 +10,15 @@ from hypothesis import strategies as st
 from plantings import FRAME, alike, meadow, pixels, stroke, texture
 from test_easel import Window
 
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.canvas import layers
 from engine.canvas.growth import is_settled
 from engine.painting import commands as c
-from engine.painting import requests as q
-from engine.painting import results
 from engine.painting.recording import Header, Recording
-from engine.painting.replay import replay
-from engine.painting.worker import Worker
+from engine.session.replay import replay
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.worker import Worker
 
 __all__ = ["meadow"]
 
@@ -209,7 +209,7 @@ def test_a_fault_is_told_once_and_painting_goes_on(window, monkeypatch):
         yield
 
     easel = window.easel
-    monkeypatch.setattr("engine.painting.grower.settling", broken)
+    monkeypatch.setattr("engine.studio.grower.settling", broken)
     easel.do(q.Do(stroke(LONG)))
     with pytest.raises(RuntimeError):
         window.work()
@@ -263,7 +263,7 @@ def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, reques
 
 
 def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(window, tmp_path):
-    from engine.painting.opening import open_painting
+    from engine.archive.opening import open_painting
 
     easel = window.easel
     easel.do(q.Do(stroke(LONG)))

@@ -10,17 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from plantings import PLACES, alike, fresh, meadow, pixels, stroke, texture
 
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.canvas import layers
 from engine.canvas.growth import is_settled, previewed, settling
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
-from engine.painting.growing import LiveGrowth, kind_of
-from engine.painting.painting import Refusal
-from engine.painting.replay import replay
-from engine.painting.settling import settled, waiting, with_grown
-from engine.painting.stroke import LiveStroke
+from engine.painting.grown import settled, waiting, with_grown
+from engine.session.apply import Refusal
+from engine.session.replay import replay
+from engine.strokes.example_stroke import LiveGrowth, kind_of
+from engine.strokes.paint_stroke import LiveStroke
 
 __all__ = ["meadow"]
 

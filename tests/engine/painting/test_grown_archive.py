@@ -35,22 +35,22 @@ from sown import (
     stroke,
 )
 
+from engine.archive import plot_files as files
+from engine.archive.export import Picture, export
+from engine.archive.manifest import FORMAT, WITHOUT_EXAMPLES
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
-from engine.painting import growths as files
-from engine.painting import requests as q
-from engine.painting import results
-from engine.painting.archive import Snapshot, save
-from engine.painting.easel import Easel
-from engine.painting.export import Picture, export
-from engine.painting.manifest import FORMAT, WITHOUT_EXAMPLES
-from engine.painting.opening import open_painting
-from engine.painting.session import Session
-from engine.painting.settling import settled
+from engine.painting.grown import settled
+from engine.session.session import Session
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.easel import Easel
 from engine.texture.example import SYNTHESIS
 from engine.texture.example import region as regions
 from engine.texture.example.tiles import NONE
@@ -261,7 +261,7 @@ def test_others_see_what_is_grown(session, saved, members, tmp_path):
 
 
 def stack_entries(members):
-    from engine.painting.stackxml import parse_stack
+    from engine.files.stack_xml import parse_stack
 
     return list(parse_stack(members["stack.xml"], "a").root.layers())
 
@@ -269,7 +269,7 @@ def stack_entries(members):
 def test_a_picture_below_stays_what_it_was(folder, tmp_path):
     """A layer that began as a picture: other programs see it grown over, the picture itself comes back."""
     Image.fromarray(np.full((60, 80, 4), 200, np.uint8)).save(tmp_path / "in.png")
-    from engine.painting.documents import opened as document
+    from engine.studio.documents import opened as document
 
     own = document(tmp_path / "in.png").session
     own = Session(own.painting, TileCache(16 << 20), folder=folder)

@@ -20,12 +20,12 @@ from sown import (
     session,
 )
 
-from engine.painting import growths as files
-from engine.painting import maskpacks, opening
-from engine.painting.archive import Snapshot, save
-from engine.painting.fault import FileError
-from engine.painting.opening import open_painting
-from engine.painting.painting import Painting
+from engine.archive import maskpacks, opening
+from engine.archive import plot_files as files
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
+from engine.files.fault import FileError
+from engine.session.apply import Painting
 from engine.texture.example.tiles import SIDE
 from engine.texture.image import ImageSource
 

@@ -7,6 +7,8 @@ import pytest
 from plantings import FRAME, meadow, stroke, texture  # noqa: F401
 
 from app.cli.info import facts
+from engine.archive import grounds
+from engine.archive.imports import Opened
 from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.composite import composite
@@ -14,14 +16,12 @@ from engine.canvas.evaluate import evaluate
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting import grounds
 from engine.painting.difference import areas
-from engine.painting.history import difference
-from engine.painting.imports import Opened
-from engine.painting.painting import Around, Painting, apply
+from engine.painting.grown import settled
 from engine.painting.rendering import folded, reach, sheets, strips
-from engine.painting.scenery import Scenery
-from engine.painting.settling import settled
+from engine.session.apply import Around, Painting, apply
+from engine.session.history import difference
+from engine.strokes.scenery import Scenery
 
 
 @pytest.fixture(scope="module")

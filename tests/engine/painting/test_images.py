@@ -13,11 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from engine.painting.fault import FileError
-from engine.painting.images import read_image
-from engine.painting.limits import Limits
-from engine.painting.pngstream import write_png
-from engine.painting.tiffstream import write_tiff
+from engine.files.fault import FileError
+from engine.files.images import read_image
+from engine.files.limits import Limits
+from engine.files.png_writer import write_png
+from engine.files.tiff_writer import write_tiff
 
 
 def image(height, width, dtype=np.uint8, channels=4):

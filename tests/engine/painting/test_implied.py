@@ -9,21 +9,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.archive import implied, implied_kernels, opening
+from engine.archive.cascade import Cascade
+from engine.archive.grounds import with_tiles
+from engine.archive.implied import needed, ordered, restored, without
+from engine.archive.opening import open_painting
+from engine.archive.packing import pack, unpack
+from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import expand
-from engine.painting import implied, impliedkernels, opening
-from engine.painting.archive import Snapshot, save
-from engine.painting.cascade import Cascade
 from engine.painting.commands import parse
-from engine.painting.grounds import with_tiles
-from engine.painting.implied import needed, ordered, restored, without
-from engine.painting.opening import open_painting
-from engine.painting.packing import pack, unpack
-from engine.painting.painting import Painting, apply
 from engine.painting.rendering import folded
+from engine.session.apply import Painting, apply
 from engine.texture.rock import Rock
 from engine.texture.table import from_key
 
@@ -167,7 +167,7 @@ def test_the_kernel_is_the_plain_form():
     out = data.copy()
     detail = rng.uniform(-0.1, 0.1, (2, 1, 11, 13)).astype(np.float32)
     detail[1] = 0.0
-    impliedkernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), out)
+    implied_kernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), out)
     below = expand(parents)[:, 1:12, 1:14].astype(np.float64)
     for c in range(3):
         amplitudes = [below[4 + c] + data[4 + c] * unit, below[7 + c]]
@@ -192,9 +192,9 @@ def test_terms_that_made_a_colour_are_found(stride):
     sources, own = np.array([4, 7], np.int64), np.array([4, -1], np.int64)
     data[:3], parents[:3] = 0, 0.0  # what is implied is then the whole residual, but for texture
     wide = data.astype(np.int32)
-    impliedkernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), wide)
+    implied_kernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), wide)
     wide.flags.writeable = False
-    found = impliedkernels.fit(wide, parents, place, sources, own, around, start, detail, stride)
+    found = implied_kernels.fit(wide, parents, place, sources, own, around, start, detail, stride)
     assert np.abs(found - factors).max() < 2e-4
 
 

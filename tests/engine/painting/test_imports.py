@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine.archive.imports import Pasted, clean_name, open_image, pasted
+from engine.archive.opening import LOST, open_painting
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
+from engine.files.fault import FileError
+from engine.files.limits import LIMITS
+from engine.files.png_writer import write_png
+from engine.files.stack_xml import OURS
 from engine.numeric.address import Rect
 from engine.numeric.colour import from_rgba8, to_rgba8, to_rgba16
-from engine.painting.fault import FileError
-from engine.painting.imports import Pasted, clean_name, open_image, pasted
-from engine.painting.limits import LIMITS
-from engine.painting.opening import LOST, open_painting
-from engine.painting.pngstream import write_png
 from engine.painting.rendering import strips
-from engine.painting.stackxml import OURS
 
 
 def image(height, width, seed=0, dtype=np.uint8):
@@ -62,8 +62,8 @@ def test_pasted_pixels_come_back_to_the_bit():
 def test_pasted_in_bands_is_pasted_at_once(monkeypatch):
     pixels = image(400, 64)
     whole = pasted(iter([pixels]), 5, -70)
-    monkeypatch.setattr("engine.painting.imports.PIXELS", 64 * 100)
-    monkeypatch.setattr("engine.painting.grounds.LAID", 64 * 20)
+    monkeypatch.setattr("engine.archive.imports.PIXELS", 64 * 100)
+    monkeypatch.setattr("engine.archive.grounds.LAID", 64 * 20)
     parts = pasted(iter(np.array_split(pixels, 40)), 5, -70)
     assert parts.last.depth > 2
     rect = Rect.at(5, -70, 64, 400)
@@ -192,7 +192,7 @@ def test_claims_are_added_up_before_anything_is_decoded(tmp_path):
 
 
 def test_other_programs_files_save_as_ours(tmp_path):
-    from engine.painting.archive import Snapshot, save
+    from engine.archive.saving import Snapshot, save
 
     path = ora('<layer src="a.png" x="3" y="3"/>', {"a.png": png(image(30, 30))}, tmp_path)
     found = open_painting(path)

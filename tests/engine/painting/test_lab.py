@@ -7,19 +7,19 @@ import pytest
 from immutables import Map
 
 from engine.brush.parts import Component, Surface
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
+from engine.files.fault import FileError
+from engine.files.strict_json import FormatError
 from engine.numeric.address import Rect
 from engine.numeric.spectra import opposite
 from engine.painting import commands as c
-from engine.painting import requests as q
-from engine.painting import results
-from engine.painting.easel import Easel
-from engine.painting.fault import FileError
-from engine.painting.painting import apply
 from engine.painting.recording import Recording
-from engine.painting.replay import replay
-from engine.painting.strictjson import FormatError
 from engine.painting.value import Painting
+from engine.session.apply import apply
+from engine.session.replay import replay
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.easel import Easel
 
 RING = q.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
 WHITE = Brush(radius=5, colour="#ffffff")

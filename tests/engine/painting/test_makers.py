@@ -7,20 +7,20 @@ import pytest
 from immutables import Map
 from PIL import Image
 
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.files.fault import FileError
+from engine.makers.makers import MAKERS
 from engine.numeric.address import Rect
 from engine.numeric.impulse import corners, response, suggested_window
 from engine.numeric.spectra import SPREAD
 from engine.painting import recording as r
-from engine.painting.archive import Snapshot, save
 from engine.painting.commands import parse, to_json
-from engine.painting.fault import FileError
-from engine.painting.makers import MAKERS
-from engine.painting.opening import open_painting
-from engine.painting.painting import Around, Painting, Refusal, apply
-from engine.painting.replay import replay
-from engine.painting.session import Session
+from engine.session.apply import Around, Painting, Refusal, apply
+from engine.session.replay import replay
+from engine.session.session import Session
 
 FRAME = Rect.at(0, 0, 48, 40)
 PLACES = ((-1, Rect.at(0, 0, 24, 20)), (0, FRAME), (3, Rect.at(100, 90, 64, 64)))

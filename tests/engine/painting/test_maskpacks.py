@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from immutables import Map
 from isal import isal_zlib
 
-from engine.painting import maskpacks
-from engine.painting.fault import FileError
+from engine.archive import maskpacks
+from engine.files.fault import FileError
 from engine.texture.example.tiles import SIDE
 
 

@@ -5,16 +5,16 @@ import pytest
 from immutables import Map
 from PIL import Image
 
-from engine.brush.record import from_json, to_json
+from engine.brush.settings import from_json, to_json
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting import requests as q
-from engine.painting import results
-from engine.painting.easel import Easel
-from engine.painting.painting import apply
 from engine.painting.recording import Recording
-from engine.painting.replay import replay
 from engine.painting.value import Painting
+from engine.session.apply import apply
+from engine.session.replay import replay
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.easel import Easel
 
 
 class Desk:

@@ -8,29 +8,29 @@ import pytest
 from immutables import Map
 from PIL import Image
 
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.brush.checks import BrushError
 from engine.brush.ink import resolve
 from engine.brush.parts import Component
 from engine.brush.raster import mixture
-from engine.brush.record import Brush, from_json, to_json
+from engine.brush.settings import Brush, from_json, to_json
 from engine.brush.sway import Hat
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.files.fault import FileError
+from engine.files.strict_json import Fields
+from engine.makers import definitions, heeger_bergen
+from engine.makers.lewis import flattened
+from engine.makers.makers import MAKERS
 from engine.numeric.address import Rect
 from engine.numeric.grid import Q
-from engine.painting import definitions, matches
 from engine.painting import recording as r
-from engine.painting.archive import Snapshot, save
 from engine.painting.capture import Place
 from engine.painting.commands import parse
-from engine.painting.fault import FileError
-from engine.painting.makers import MAKERS
-from engine.painting.opening import open_painting
-from engine.painting.painting import Around, Painting, Refusal, apply
-from engine.painting.replay import replay
-from engine.painting.samples import flattened
-from engine.painting.session import Session
-from engine.painting.strictjson import Fields
+from engine.session.apply import Around, Painting, Refusal, apply
+from engine.session.replay import replay
+from engine.session.session import Session
 from engine.texture.adjusting import Band, adjusted
 from engine.texture.image import ImageSource
 from engine.texture.matching import Shape, analysed, noise, picture
@@ -151,8 +151,8 @@ def test_another_example_under_the_same_path_is_told(folder):
 
 def test_steps_come_one_by_one_and_end_with_the_texture(folder):
     members = Fields({key: v for key, v in DEFINITIONS["series"].items() if key not in ("do", "name", "maker")}, "")
-    plan = matches.read("mix", members, Place(folder, None))
-    made = list(matches.steps(plan))
+    plan = heeger_bergen.read("mix", members, Place(folder, None))
+    made = list(heeger_bergen.steps(plan))
     done = [step.done for step in made]
     assert done == sorted(done)
     assert done[-1] == 1.0
@@ -342,7 +342,7 @@ def test_what_was_recorded_before_alpha_counted_is_as_it_was(folder):
     """Then an example was known by the pixels that it has without its alpha."""
     example = torn(folder)
     without = flattened(example)
-    sha = ImageSource.of("", matches.rgba(without)).sha[:16]
+    sha = ImageSource.of("", heeger_bergen.rgba(without)).sha[:16]
     made = replay(lines({**TORN, "examples": [sha]}, folder=folder)).painting.textures["t"].source
     assert made.opaque
     pattern = analysed(without, Shape("steerable", 3, 4))

@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from engine.archive import packs_of_format_1
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.numeric.address import Rect
-from engine.painting import firstpacks
-from engine.painting.archive import Snapshot, save
-from engine.painting.examples import key_of
-from engine.painting.opening import open_painting
+from engine.strokes.example_textures import key_of
 
 OLD = Path(__file__).parent / "old"
 # Rock under stripes under finer rock; SHA-256 of premultiplied float32 planes of the frame, by level.
@@ -98,6 +98,6 @@ def test_the_first_code_of_tiles(dtype):
         body += b"".join(((zigzag >> s) & 255).astype(np.uint8).tobytes() for s in range(0, bits, 8))
     raw = np.frombuffer(struct.pack("4B", 2, 1, 0, 1) + body, np.uint8)
     out = np.empty(planes.shape, dtype)
-    assert len(raw) == firstpacks.encoded_size(planes.shape, bits)
-    assert firstpacks.decoded(raw, [out]) == np.abs(planes).max()
+    assert len(raw) == packs_of_format_1.encoded_size(planes.shape, bits)
+    assert packs_of_format_1.decoded(raw, [out]) == np.abs(planes).max()
     assert np.array_equal(out, planes)

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.archive import packing
+from engine.archive.implied import TERM_CAP, Implied
+from engine.archive.packing import grouped, pack, unpack
 from engine.canvas.store import Record
+from engine.files.fault import FileError
 from engine.numeric.address import Rect, TileKey
-from engine.painting import packing
-from engine.painting.fault import FileError
-from engine.painting.implied import TERM_CAP, Implied
-from engine.painting.packing import grouped, pack, unpack
 from engine.texture.table import from_key, instance
 
 

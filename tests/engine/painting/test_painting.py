@@ -7,10 +7,10 @@ from PIL import Image
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
+from engine.files.fault import FileError
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
-from engine.painting.fault import FileError
-from engine.painting.painting import STEPS, Around, Painting, Refusal, apply
+from engine.session.apply import STEPS, Around, Painting, Refusal, apply
 
 FRAME = Rect.at(0, 0, 64, 64)
 

@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from engine.painting import pngread, pngstream
-from engine.painting.fault import FileError
-from engine.painting.limits import Limits
-from engine.painting.pngread import PngReader
-from engine.painting.pngstream import PngWriter, write_png
+from engine.files import png_reader, png_writer
+from engine.files.fault import FileError
+from engine.files.limits import Limits
+from engine.files.png_reader import PngReader
+from engine.files.png_writer import PngWriter, write_png
 
 
 def image(height, width, channels, dtype=np.uint8):
@@ -77,7 +77,7 @@ def test_colour_chunks():
     assert b"sRGB" in eight[:60]
     assert b"iCCP" not in eight
     profile = Image.open(io.BytesIO(sixteen)).info["icc_profile"]
-    assert profile == pngstream.srgb_profile()
+    assert profile == png_writer.srgb_profile()
     assert profile[36:40] == b"acsp"
     assert b"sRGB" not in sixteen.split(b"iCCP")[0]
 
@@ -122,7 +122,7 @@ def test_unfilter_is_the_plain_form(count, width, step, seed):
     raw[:, 0] = rng.integers(0, 5, count)
     before = rng.integers(0, 256, width * step).astype(np.uint8)
     expected = plain_unfilter(raw, before, step)
-    assert pngread._unfilter(raw, before, step) == count
+    assert png_reader._unfilter(raw, before, step) == count
     assert np.array_equal(raw[:, 1:], expected)
 
 
@@ -133,7 +133,7 @@ def test_filter_is_undone(count, width, step, seed):
     rows = rng.integers(0, rng.choice([2, 256]), (count, width * step)).astype(np.uint8)
     before = rng.integers(0, 256, width * step).astype(np.uint8)
     out = np.empty((count, width * step + 1), np.uint8)
-    pngstream._filter(rows, before, step, out)
+    png_writer._filter(rows, before, step, out)
     assert np.array_equal(plain_unfilter(out, before, step), rows)
 
 
@@ -143,7 +143,7 @@ def test_filter_is_undone(count, width, step, seed):
 def png(width, height, depth, colour, rows, interlace=0, extra=b""):
     """A PNG put together by hand; `rows` are the filtered bytes."""
     header = struct.pack(">IIBBBBB", width, height, depth, colour, 0, 0, interlace)
-    return pngstream.SIGNATURE + chunk(b"IHDR", header) + extra + chunk(b"IDAT", zlib.compress(rows)) + END
+    return png_writer.SIGNATURE + chunk(b"IHDR", header) + extra + chunk(b"IDAT", zlib.compress(rows)) + END
 
 
 def chunk(kind, data):
@@ -179,7 +179,7 @@ def test_palette_and_transparency():
 def test_interlaced(size, dtype):
     pixels = image(*size, 4, dtype)
     rows = b""
-    for x, y, across, down in pngread.ADAM7:
+    for x, y, across, down in png_reader.ADAM7:
         for row in pixels[y::down, x::across]:
             if len(row):
                 rows += b"\0" + row.astype(row.dtype.newbyteorder(">")).tobytes()
@@ -202,7 +202,7 @@ HEADER = struct.pack(">IIBBBBB", 2, 2, 8, 6, 0, 0, 0)
 
 
 def with_header(*fields):
-    return pngstream.SIGNATURE + chunk(b"IHDR", struct.pack(">IIBBBBB", *fields)) + GOOD[33:]
+    return png_writer.SIGNATURE + chunk(b"IHDR", struct.pack(">IIBBBBB", *fields)) + GOOD[33:]
 
 
 HOSTILE = {
@@ -214,7 +214,7 @@ HOSTILE = {
     "colour type 5": (with_header(2, 2, 8, 5, 0, 0, 0), "colour type 5"),
     "RGB of 4 bits": (with_header(2, 2, 4, 2, 0, 0, 0), "does not exist"),
     "filter method 1": (with_header(2, 2, 8, 6, 0, 1, 0), "filter 1"),
-    "no IHDR": (pngstream.SIGNATURE + GOOD[33:], "expected IHDR"),
+    "no IHDR": (png_writer.SIGNATURE + GOOD[33:], "expected IHDR"),
     "bad IHDR checksum": (GOOD[:29] + b"\0\0\0\0" + GOOD[33:], "IHDR: checksum"),
     "bad IDAT checksum": (GOOD[:-16] + b"\0\0\0\0" + GOOD[-12:], "IDAT: checksum"),
     "no data": (GOOD[:33] + END, "no image data"),
@@ -222,8 +222,8 @@ HOSTILE = {
     "palette of 4 bytes": (png(1, 1, 8, 3, b"\0\0", extra=chunk(b"PLTE", b"1234")), "do not fit"),
     "palette twice": (png(1, 1, 8, 3, b"\0\0", extra=2 * chunk(b"PLTE", b"123")), "twice"),
     "transparency of RGBA": (png(1, 1, 8, 6, b"\0\0", extra=chunk(b"tRNS", b"12")), "do not fit"),
-    "huge palette": (pngstream.SIGNATURE + GOOD[8:33] + struct.pack(">I4s", 2**30, b"PLTE"), "at most"),
-    "huge text": (pngstream.SIGNATURE + GOOD[8:33] + struct.pack(">I4s", 2**30, b"tEXt") + b"x", "ends inside"),
+    "huge palette": (png_writer.SIGNATURE + GOOD[8:33] + struct.pack(">I4s", 2**30, b"PLTE"), "at most"),
+    "huge text": (png_writer.SIGNATURE + GOOD[8:33] + struct.pack(">I4s", 2**30, b"tEXt") + b"x", "ends inside"),
     "unknown critical chunk": (GOOD[:33] + chunk(b"ABCD", b"") + GOOD[33:], "must be understood"),
     "chunk type of digits": (GOOD[:33] + chunk(b"12\n4", b"") + GOOD[33:], "four letters"),
     "filter 7": (png(1, 2, 8, 6, bytes([0, 1, 2, 3, 4, 7, 1, 2, 3, 4])), "row 1: filter 7"),
@@ -269,7 +269,7 @@ def test_a_bomb_costs_no_memory():
 
     header = struct.pack(">IIBBBBB", 20_000, 20_000, 8, 6, 0, 0, 0)
     body = zlib.compress(bytes(80_001 * 200), 9)
-    data = pngstream.SIGNATURE + chunk(b"IHDR", header) + chunk(b"IDAT", body) + END
+    data = png_writer.SIGNATURE + chunk(b"IHDR", header) + chunk(b"IDAT", body) + END
     tracemalloc.start()
     try:
         with pytest.raises(FileError, match="ends in row 200 of 20000"):

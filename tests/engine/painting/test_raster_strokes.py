@@ -7,13 +7,13 @@ import pytest
 
 from engine.brush.checks import BrushError
 from engine.brush.ops import OPS
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
-from engine.painting.painting import Around, Painting, apply
-from engine.painting.stroke import LiveStroke
+from engine.session.apply import Around, Painting, apply
+from engine.strokes.paint_stroke import LiveStroke
 
 FRAME = Rect.at(0, 0, 64, 64)
 ROCK = [{"texture": "rock", "amount": 0.8, "colour": "#e0d0a0", "period": 24}]

@@ -2,10 +2,10 @@
 
 import pytest
 
+from engine.files.fault import FileError
 from engine.numeric.address import Rect
 from engine.painting import recording as r
 from engine.painting.commands import AddLayer, Redo, RemoveLayer, Stroke, Undo, View
-from engine.painting.fault import FileError
 
 HEADER = '{"inkfall": 1, "frame": [0, 0, 64, 48], "seed": 7}'
 STROKE = '{"do": "stroke", "level": 0, "origin": [3, 4], "points": [[0, 0], [9.5, 2, 0.25]], "brush": {"radius": 3}}'

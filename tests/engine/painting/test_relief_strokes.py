@@ -5,16 +5,16 @@ import json
 import numpy as np
 import pytest
 
-from engine.brush.record import from_json
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
+from engine.brush.settings import from_json
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache, evaluate
 from engine.numeric.address import Rect
-from engine.painting.archive import Snapshot, save
 from engine.painting.commands import parse, to_json
-from engine.painting.opening import open_painting
-from engine.painting.painting import Around, Painting, apply
-from engine.painting.session import Session
-from engine.painting.stroke import LiveStroke
+from engine.session.apply import Around, Painting, apply
+from engine.session.session import Session
+from engine.strokes.paint_stroke import LiveStroke
 
 FRAME = Rect.at(0, 0, 200, 160)
 INK = [

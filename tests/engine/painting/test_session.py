@@ -5,22 +5,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.brush.checks import BrushError
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import TileCache, evaluate, evaluate_sparse
+from engine.files.fault import FileError
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
-from engine.painting.archive import Snapshot, save
-from engine.painting.fault import FileError
-from engine.painting.history import STEP_OVERHEAD, History, difference
-from engine.painting.opening import open_painting
-from engine.painting.painting import Painting, Refusal
-from engine.painting.replay import replay
-from engine.painting.session import Session
-from engine.painting.stroke import LiveStroke
+from engine.session.apply import Painting, Refusal
+from engine.session.history import STEP_OVERHEAD, History, difference
+from engine.session.replay import replay
+from engine.session.session import Session
+from engine.strokes.paint_stroke import LiveStroke
 
 FRAME = Rect.at(0, 0, 48, 48)
 PLACES = ((-3, Rect.at(0, 0, 6, 6)), (0, FRAME), (2, Rect.at(40, 40, 64, 64)), (5, Rect.at(700, 700, 48, 48)))

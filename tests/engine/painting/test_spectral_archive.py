@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache, evaluate
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting.archive import Snapshot, save
-from engine.painting.opening import open_painting
-from engine.painting.painting import Painting
-from engine.painting.session import Session
+from engine.session.apply import Painting
+from engine.session.session import Session
 
 
 def stroke(level, *ink, **more):

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from immutables import Map
 from scipy import ndimage
 
-from engine.brush.record import Brush, Component
+from engine.brush.settings import Brush, Component
+from engine.files.strict_json import FormatError
+from engine.makers import spectrum
+from engine.makers.spectrum import Design
 from engine.numeric.spectra import opposite, power
 from engine.painting import commands as c
-from engine.painting import spectrum
-from engine.painting.spectrum import Design
-from engine.painting.strictjson import FormatError
 from engine.texture.table import TextureError
 
 WHITE = Brush(radius=6, colour="#ffffff")

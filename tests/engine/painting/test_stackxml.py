@@ -7,17 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.painting.fault import FileError
-from engine.painting.limits import LIMITS
-from engine.painting.stackxml import (
-    OURS,
-    ImageEntry,
-    LayerEntry,
-    StackEntry,
-    parse_stack,
-    printable,
-    stack_text,
-)
+from engine.files.fault import FileError
+from engine.files.limits import LIMITS
+from engine.files.stack_xml import OURS, ImageEntry, LayerEntry, StackEntry, parse_stack, printable, stack_text
 
 
 def parsed(text, **limits):

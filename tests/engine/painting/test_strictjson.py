@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.painting.strictjson import Fields, FormatError, dumps, loads
+from engine.files.strict_json import Fields, FormatError, dumps, loads
 
 REFUSED = {
     "nan": "NaN",

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.painting import tilecode
-from engine.painting.tilecode import decoded, encoded
+from engine.archive import tilecode
+from engine.archive.tilecode import decoded, encoded
 
 SHAPES = st.tuples(st.integers(1, 8), st.integers(1, 9), st.integers(1, 21))
 

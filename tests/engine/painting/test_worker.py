@@ -6,9 +6,9 @@ import time
 import pytest
 
 from engine.numeric.address import Rect
-from engine.painting import requests as q
-from engine.painting import results
-from engine.painting.worker import Worker
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.worker import Worker
 
 
 class Bench:
@@ -246,14 +246,14 @@ def test_a_swatch_waits_until_turns_are_over(worker):
 
 
 def test_a_swatch_does_not_wait_for_ever(worker, monkeypatch):
-    monkeypatch.setattr("engine.painting.worker.LONGER", 0.05)
+    monkeypatch.setattr("engine.studio.worker.LONGER", 0.05)
     worker.turn(time.monotonic() + 60.0)
     worker.post(q.Swatch("ink", None, (1, 1)))
     until(lambda: len(worker.bench.did) == 1)
 
 
 def test_swatches_that_waited_come_one_by_one(worker, monkeypatch):
-    monkeypatch.setattr("engine.painting.worker.LONGER", 0.1)
+    monkeypatch.setattr("engine.studio.worker.LONGER", 0.1)
     worker.turn(time.monotonic() - 1.0)
     for n in range(20):
         worker.post(q.Swatch(f"{n}", None, (1, 1)))

@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.painting import zipwrite
-from engine.painting.fault import FileError
-from engine.painting.limits import LIMITS
-from engine.painting.zipguard import ZipArchive, safe_name
-from engine.painting.zipwrite import ZipWriter
+from engine.files import zip_writer
+from engine.files.fault import FileError
+from engine.files.limits import LIMITS
+from engine.files.zip_reader import ZipArchive, safe_name
+from engine.files.zip_writer import ZipWriter
 
 
 def plain(members, method=zipfile.ZIP_DEFLATED):
@@ -116,8 +116,8 @@ def test_a_second_member_of_a_name_is_a_programming_error():
 
 def test_beyond_four_gigabytes(monkeypatch):
     """The ZIP64 records, forced at small sizes: the standard library reads them."""
-    monkeypatch.setattr(zipwrite, "FULL32", 200)
-    monkeypatch.setattr(zipwrite, "FULL16", 2)
+    monkeypatch.setattr(zip_writer, "FULL32", 200)
+    monkeypatch.setattr(zip_writer, "FULL16", 2)
     file = io.BytesIO()
     writer = ZipWriter(file)
     for name in ("a", "b", "c"):

@@ -13,7 +13,7 @@ from scipy import ndimage
 
 from engine.numeric.address import Rect
 from engine.numeric.neighbourhood import FULL
-from engine.painting.exemplars import read_exemplar, read_parameters
+from engine.strokes.example_files import read_exemplar, read_parameters
 from engine.texture.example import region as regions
 from engine.texture.example import tiles
 from engine.texture.example.exemplar import PAD, analysed

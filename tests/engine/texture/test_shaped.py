@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.brush.ink import resolve
-from engine.brush.record import from_json
+from engine.brush.settings import from_json
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.detail import parents, subtract_expanded
 from engine.numeric.grid import snapped

@@ -8,7 +8,7 @@ from skimage import data as photographs
 
 from engine.brush.ink import resolve
 from engine.brush.parts import Component
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.detail import parents
 from engine.numeric.grid import snapped

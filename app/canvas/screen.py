@@ -1,0 +1,292 @@
+"""The canvas on the graphics card: tiles come in as bytes, one pass shows them.
+
+The card holds the least recently seen tiles of any level in one texture array.  A place whose tile has not come yet
+shows its nearest ancestor magnified; the tile then fades in over it.  Nothing here computes paint.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import moderngl
+import numpy as np
+
+from app.canvas.view import View
+from engine.numeric.address import Rect
+from engine.studio.requests import SIDE
+from engine.studio.results import Patch
+
+FADE = 0.13  # seconds
+ANCESTORS = 12  # levels up that are searched for something to show
+LIGHT, DARK = 0.955, 0.225  # greys of the paper and of the desk around it
+SQUARE = 16  # side of the paper's squares, pixels of the view's level
+Insets = tuple[float, float, float, float]
+Row = tuple[float, ...]
+# Instance attributes that a program does not use are passed over.
+_SKIPPED = {"cell": "16x", "source": "16x", "span": "4x"}
+
+
+class ScreenTile(NamedTuple):
+    """Screen tile (x, y) covers pixels [256 x, 256 x + 256) x [256 y, 256 y + 256) of its level."""
+
+    level: int
+    x: int
+    y: int
+
+    def ancestor(self, levels: int) -> ScreenTile:
+        return ScreenTile(self.level - levels, self.x >> levels, self.y >> levels)
+
+
+@dataclass(slots=True)
+class _Held:
+    layer: int
+    revision: int
+    born: float
+    opaque: bool = False  # covers the paper everywhere, as far as is known
+    empty: bool = True  # shows nothing, for certain
+
+
+@dataclass(slots=True)
+class Plan:
+    """What the canvas is to show.  Cells of each pass: nine floats each, as canvas.vert reads them; the paper needs
+    only where they lie.  Plans that are equal look alike."""
+
+    view: View
+    frame: Rect | None
+    insets: Insets
+    uploads: int  # of tiles, so far
+    paper: list[Row] = field(default_factory=list)
+    whole: list[Row] = field(default_factory=list)
+    fading: list[Row] = field(default_factory=list)
+    moving: bool = False  # something still fades
+
+
+def cells(view: View, level: int) -> list[ScreenTile]:
+    """The tiles of `level` that the screen meets, row by row."""
+    r = view.visible(level)
+    return [
+        ScreenTile(level, x, y)
+        for y in range(r.y0 // SIDE, (r.y1 - 1) // SIDE + 1)
+        for x in range(r.x0 // SIDE, (r.x1 - 1) // SIDE + 1)
+    ]
+
+
+def near_first(view: View, tiles: list[ScreenTile], x: float, y: float) -> list[ScreenTile]:
+    """Ordered by the distance of their middles to a screen point."""
+
+    def far(tile: ScreenTile) -> float:
+        cx, cy = view.pixel_to_screen(tile.level, tile.x * SIDE + SIDE // 2, tile.y * SIDE + SIDE // 2)
+        return math.hypot(cx - x, cy - y)
+
+    return sorted(tiles, key=far)
+
+
+def shader_source(name: str) -> str:
+    """A file of the `shaders` folder, which lies beside the packages, in a checkout as in an installation."""
+    return (Path(__file__).resolve().parents[2] / "shaders" / name).read_text("utf-8")
+
+
+class _Pass:
+    """One program over many cells: nine floats a cell, in a buffer that grows."""
+
+    def __init__(self, ctx: moderngl.Context, fragment: str, vertex: str = "canvas.vert") -> None:
+        self._ctx = ctx
+        self.program: Any = ctx.program(shader_source(vertex), shader_source(fragment))
+        self._room_for(128)
+
+    def _room_for(self, rows: int) -> None:
+        self._most = rows
+        self._buffer = self._ctx.buffer(reserve=36 * rows)
+        names = [name for name in ("cell", "source", "span") if name in self.program]
+        sizes = {"cell": "4f", "source": "4f", "span": "1f"}
+        layout = " ".join(sizes[n] if n in names else _SKIPPED[n] for n in sizes) + "/i"
+        self._cells = self._ctx.vertex_array(self.program, [(self._buffer, layout, *names)])
+
+    def draw(self, rows: list[Row]) -> None:
+        if not rows:
+            return
+        if len(rows) > self._most:
+            self._room_for(2 * len(rows))
+        self._buffer.orphan()
+        self._buffer.write(np.array(rows, np.float32))
+        self._cells.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(rows))
+
+
+class Screen:
+    """Tiles held on the card, and the passes that draw them.  All calls from the thread that owns the context."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self._paper = _Pass(ctx, "paper.frag", "paper.vert")
+        self._whole = _Pass(ctx, "tile.frag")
+        self._fading = _Pass(ctx, "fade.frag")
+        self._array: Any = None
+        self._held: OrderedDict[ScreenTile, _Held] = OrderedDict()
+        self._free: list[int] = []
+        self._uploads = 0
+
+    def _allocate(self, view: View) -> None:
+        """Room for the visible tiles at the smallest scale, their ancestors and some places visited before."""
+        across = [math.ceil(n / (SIDE * 0.7)) + 2 for n in (view.width, view.height)]
+        most = self.ctx.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]
+        layers = min(most, max(192, 3 * across[0] * across[1]))
+        self._array = self.ctx.texture_array((SIDE, SIDE, layers), 4)
+        self._array.repeat_x = self._array.repeat_y = False
+        self._free = list(range(layers))[::-1]
+
+    def revision(self, tile: ScreenTile) -> int:
+        """The revision of the painting that a tile shows; -1 where it is not held."""
+        held = self._held.get(tile)
+        return held.revision if held else -1
+
+    def upload(self, patch: Patch, view: View, now: float) -> None:
+        """Takes in a part of a tile, or a whole one.
+
+        A part of a tile that is not held is dropped: the whole tile will be asked for.
+        """
+        if self._array is None:
+            self._allocate(view)
+        tile, area = ScreenTile(*patch.tile), patch.area
+        held = self._held.get(tile)
+        whole = area.width == SIDE and area.height == SIDE
+        if held is None:
+            if not whole:
+                return
+            held = self._held[tile] = _Held(self._room(), patch.revision, now)
+        self._array.write(patch.pixels, viewport=(area.x0, area.y0, held.layer, area.width, area.height, 1))
+        self._uploads += 1
+        alpha = patch.pixels[..., 3]
+        held.opaque = bool(alpha.min() == 255) and (whole or held.opaque)
+        held.empty = not alpha.any() and (whole or held.empty)
+        held.revision = max(held.revision, patch.revision)
+        self._held.move_to_end(tile)
+
+    def confirm(self, tile: ScreenTile, revision: int) -> None:
+        """The tile is still what revision `revision` shows."""
+        held = self._held.get(tile)
+        if held is not None:
+            held.revision = max(held.revision, revision)
+
+    def forget(self) -> None:
+        """Drops every tile: another painting is shown."""
+        self._free.extend(h.layer for h in self._held.values())
+        self._held.clear()
+
+    def _room(self) -> int:
+        if not self._free:
+            _, oldest = self._held.popitem(last=False)
+            return oldest.layer
+        return self._free.pop()
+
+    def draw(self, plan: Plan) -> None:
+        """Draws the canvas."""
+        view = plan.view
+        self._set_uniforms(view, plan.frame)
+        self.ctx.viewport = (0, 0, view.width, view.height)
+        self.ctx.scissor = _free(view, plan.insets)
+        self.ctx.disable(moderngl.BLEND)
+        self._paper.draw(plan.paper)
+        if self._array is not None:
+            exact = not view.fraction and not view.angle
+            self._array.filter = (moderngl.NEAREST, moderngl.NEAREST) if exact else (moderngl.LINEAR, moderngl.LINEAR)
+            self._array.use(0)
+            self.ctx.enable(moderngl.BLEND)
+            self.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            self._whole.draw(plan.whole)
+            self._fading.draw(plan.fading)
+        self.ctx.scissor = None
+
+    def _set_uniforms(self, view: View, frame: Rect | None) -> None:
+        a, b, c, d = view.matrix()
+        for one in (self._paper, self._whole, self._fading):
+            one.program["size"], one.program["turn"] = (view.width, view.height), (a, b, c, d)
+        p = self._paper.program
+        levels = (view.level, view.level + 1)
+        phase: list[float] = []
+        for level in levels:
+            x, y = view.centre.pixel(level)
+            fx, fy = view.centre.offset(level, x, y)
+            phase += [(x % (2 * SQUARE) + fx) / SQUARE, (y % (2 * SQUARE) + fy) / SQUARE]
+        p["inverse"], p["frame"] = (a, c, b, d), frame_on_screen(view, frame)
+        p["pitch"] = tuple(1 / (SQUARE * view.scale(level)) for level in levels)
+        p["phase"], p["blend"] = tuple(phase), view.fraction
+        p["light"], p["dark"] = LIGHT, DARK
+
+    def plan(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> Plan:
+        """What to draw, decided before anything is drawn.
+
+        `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
+        """
+        plan = Plan(view, frame, insets, self._uploads)
+        exact = not view.fraction and not view.angle
+        for tile in cells(view, view.shown_level):
+            held = self._touch(tile)
+            up = next((n for n in range(1, ANCESTORS) if tile.ancestor(n) in self._held), 0)
+            weight = 0.0 if held is None else min(1.0, (now - held.born) / FADE) if up else 1.0
+            corner = _corner(view, tile, exact)
+            if held is None or not held.opaque or weight < 1.0:
+                plan.paper.append((*corner, 1.0, -1, -1, 0.0, 0.0, 1.0))
+            if held is not None and held.empty and weight == 1.0:
+                continue
+            if held is not None and weight == 1.0:
+                plan.whole.append((*corner, 1.0, held.layer, -1, 0.0, 0.0, 1.0))
+            elif up:
+                above = self._touch(tile.ancestor(up))
+                assert above is not None
+                layer = held.layer if held else -1
+                plan.fading.append((*corner, weight, layer, above.layer, *_ancestor_part(tile, up)))
+                plan.moving |= held is not None
+            else:
+                self._descendants(plan, view, tile, 2)
+        return plan
+
+    def _touch(self, tile: ScreenTile) -> _Held | None:
+        held = self._held.get(tile)
+        if held is not None:
+            self._held.move_to_end(tile)
+        return held
+
+    def _descendants(self, plan: Plan, view: View, tile: ScreenTile, depth: int) -> None:
+        """Finer tiles, shrunk, for a place left by zooming out."""
+        for n in (0, 1, 2, 3):
+            child = ScreenTile(tile.level + 1, tile.x * 2 + (n & 1), tile.y * 2 + (n >> 1))
+            held = self._held.get(child)
+            if held is not None:
+                plan.whole.append((*_corner(view, child, False), 1.0, held.layer, -1, 0.0, 0.0, 1.0))
+            elif depth > 1:
+                self._descendants(plan, view, child, depth - 1)
+
+
+def _free(view: View, insets: Insets) -> tuple[int, int, int, int]:
+    """The part of the screen that panels leave free, as GL has it: x, y of the lower left corner, width, height."""
+    left, top, right, bottom = (max(0, math.floor(inset)) for inset in insets)
+    return left, bottom, max(0, view.width - left - right), max(0, view.height - top - bottom)
+
+
+def _corner(view: View, tile: ScreenTile, snap: bool) -> tuple[float, float, float]:
+    x, y = view.pixel_to_screen(tile.level, tile.x * SIDE, tile.y * SIDE)
+    if snap:  # at a whole zoom, tile pixels fall on screen pixels
+        x, y = round(x), round(y)
+    return x, y, SIDE * view.scale(tile.level)
+
+
+def _ancestor_part(tile: ScreenTile, up: int) -> tuple[float, float, float]:
+    """Corner and side of a tile within its ancestor `up` levels above, as parts of the ancestor's side."""
+    mask, n = (1 << up) - 1, 1 << up
+    return (tile.x & mask) / n, (tile.y & mask) / n, 1 / n
+
+
+def frame_on_screen(view: View, frame: Rect | None) -> tuple[float, float, float, float]:
+    """The level-0 frame seen from the view's centre: screen pixels before turning; everything when there is none."""
+    if frame is None:
+        return -1e9, -1e9, 1e9, 1e9
+    n = max(view.shown_level, 0)
+    s, out = view.scale(n), []
+    for x, y in ((frame.x0, frame.y0), (frame.x1, frame.y1)):
+        fx, fy = view.centre.offset(n, x << n, y << n)
+        out += [max(-1e9, min(1e9, -fx * s)), max(-1e9, min(1e9, -fy * s))]
+    return out[0], out[1], out[2], out[3]

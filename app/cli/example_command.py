@@ -1,0 +1,150 @@
+"""`inkfall texture example`: the white part of a picture filled with an example texture (Ritter et al. 2006)."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from app.cli.arguments import Parser, seed
+from app.cli.match_command import MOST, PICTURE, whole, write
+from app.cli.outcome import DONE, Refused
+from app.cli.output import checked_output
+from app.cli.progress import Progress
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import numpy as np
+
+    from engine.texture.example.exemplar import Exemplar
+    from engine.texture.example.parameters import Parameters
+
+# Options that stand for a field of the parameter file, and what reads them.
+FIELDS: dict[str, type] = {"kappa": float, "neighbourhood": int, "levels": int, "every": int, "method": str}
+ABOUT = "Fills the white part of a picture with a texture like an example, rim and transparency included"
+PIXELS = 1 << 27  # of a region's picture
+
+
+def run(words: list[str]) -> int:
+    given = _parser().parse_args(words)
+    checked_output(given.out, (".png",))
+    _check_paths(given)
+    parameters = _parameters(given)
+    from engine.strokes.example_files import read_exemplar, read_mask
+
+    region = read_mask(given.region)
+    _check_size(given, region)
+    exemplar = read_exemplar(given.example, given.mask, parameters)
+    pixels = _fill(exemplar, region, given)
+    write(given.out, pixels)
+    _tell(given, exemplar, region, pixels)
+    return DONE
+
+
+def _parser() -> Parser:
+    parser = Parser(prog="inkfall texture example", description=ABOUT, allow_abbrev=False)
+    parser.add_argument("example", metavar="EXAMPLE", help=f"at most 1024 x 1024: {PICTURE}")
+    parser.add_argument("--region", metavar="R.png", required=True, help="its white part is filled")
+    parser.add_argument("--out", metavar="P.png", required=True, help="where the picture goes")
+    parser.add_argument("--mask", metavar="M.png", help="the example's region is white in it (default: alpha > 0)")
+    parser.add_argument("--params", metavar="P.toml", help="parameters of the example; options here go before it")
+    parser.add_argument("--kappa", type=float, metavar="K", help="larger: larger pieces of the example (default 2)")
+    parser.add_argument("--neighbourhood", type=int, metavar="N", help="pixels along it: 3, 5 or 7 (default 7)")
+    parser.add_argument("--levels", type=int, metavar="N", help="of the pyramid (default: by the example's size)")
+    parser.add_argument("--every", type=int, metavar="K", help="search for one in K (default 8)")
+    parser.add_argument("--method", metavar="M", help="correction, or the paper's own, scanline (default correction)")
+    parser.add_argument("--threads", type=whole(1, MOST), metavar="N", help="default: as many as there are cores")
+    parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another texture (default 0)")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    return parser
+
+
+def _check_paths(given: argparse.Namespace) -> None:
+    for path in (given.example, given.region, given.mask, given.params):
+        if path and os.path.exists(given.out) and os.path.exists(path) and os.path.samefile(given.out, path):
+            raise Refused(f"{given.out}: found {path} itself, expected another file")
+
+
+def _parameters(given: argparse.Namespace) -> Parameters:
+    from engine.strokes.example_files import read_parameters
+    from engine.texture.example.parameters import Parameters, changed
+    from engine.texture.field_error import FieldError
+
+    parameters = read_parameters(given.params) if given.params else Parameters()
+    told = {name: getattr(given, name) for name in FIELDS if getattr(given, name) is not None}
+    try:
+        return changed(parameters, told, "--")
+    except FieldError as error:
+        raise Refused(str(error)) from None
+
+
+def _check_size(given: argparse.Namespace, region: np.ndarray) -> None:
+    if region.size > PIXELS:
+        height, width = region.shape
+        raise Refused(f"{given.region}: found {width} x {height} pixels, expected at most {PIXELS} in all")
+
+
+def _fill(exemplar: Exemplar, region: np.ndarray, given: argparse.Namespace) -> np.ndarray:
+    """Pixels of the picture: RGBA (h, w, 4) of the example's type."""
+    from engine.numeric.address import Rect
+    from engine.texture.example import show
+    from engine.texture.example.region import empty, painted, refining
+
+    height, width = region.shape
+    rect = Rect(0, 0, width, height)
+    if exemplar.parameters.method == "scanline":
+        from engine.texture.example.scanline import filled
+
+        return filled(exemplar, region, given.seed)
+    grown = painted(empty(exemplar, given.seed), rect, region)
+    count = len(exemplar.levels)
+    with Progress("growing", 100) as bar, _threads(given.threads) as pool:
+        for step in refining(grown, threads=pool):
+            grown = step.region
+            # Each level has four times the pixels of the one above.
+            bar.part((step.done + 1 / 3) * 0.25**step.level * 0.75 if step.level < count else 0.0)
+    return show.pixels(grown, rect)
+
+
+@contextmanager
+def _threads(count: int | None) -> Iterator[Executor | None]:
+    """None for one."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    count = count or min(os.cpu_count() or 1, MOST)
+    if count == 1:
+        yield None
+        return
+    with ThreadPoolExecutor(count) as pool:
+        try:
+            yield pool
+        except BaseException:
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise
+
+
+def _tell(given: argparse.Namespace, exemplar: Exemplar, region: np.ndarray, pixels: np.ndarray) -> None:
+    height, width = region.shape
+    facts: dict[str, Any] = {
+        "written": given.out,
+        "size": [width, height],
+        "filled": int(region.sum()),
+        "bits": 8 * pixels.dtype.itemsize,
+        "seed": given.seed,
+        **asdict(exemplar.parameters),
+        "levels": len(exemplar.levels),
+        "boundary": exemplar.boundary,
+    }
+    if given.json:
+        print(json.dumps(facts))
+        return
+    if given.levels and given.levels > len(exemplar.levels):
+        print(f"{len(exemplar.levels)} levels: the example has no room for {given.levels}")
+    if not facts["filled"]:
+        print(f"{given.region} has no white part: nothing was filled")
+    print(f"wrote {given.out}: {width} x {height} pixels, {facts['filled']} of them filled, {facts['bits']} bits")

@@ -1,0 +1,171 @@
+"""What lies on the artist's desk: view, brush, colours, tool, and what is known of the painting.
+
+Panels and actions read and change this record; everything that changes pixels goes through `post`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from app.canvas.glide import Glide
+from app.canvas.view import Place, View, fitted
+from app.desk.colours import RGB, to_hex
+from app.desk.example_state import ExampleState
+from app.desk.lab_state import LabState
+from app.desk.match_state import MatchState
+from engine.brush.settings import Brush
+from engine.numeric.address import Rect
+from engine.painting.commands import DefineTexture
+from engine.studio.requests import Request, Save
+from engine.studio.results import CurveRow, Found, Growing, Note, Scene, Writing
+
+HISTORY = 24  # colours remembered
+SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
+MESSAGE_SECONDS = 6.0
+
+
+@dataclass(slots=True)
+class Pointer:
+    """Where the pointer is, and what it is over."""
+
+    x: float = 0.0
+    y: float = 0.0
+    over_canvas: bool = False
+    pen: bool = False
+
+
+@dataclass(slots=True)
+class Desk:
+    """The window's own state.  Lengths on the screen are framebuffer pixels."""
+
+    view: View
+    post: Callable[[Request], None]
+    scale: float = 1.0
+    tool: str = "brush"
+    brush: Brush = field(default_factory=Brush)
+    preset: str = ""
+    needs: tuple[DefineTexture, ...] = ()  # textures that the brush came with
+    provided: set[Any] = field(default_factory=set)  # those that were posted, with the painting that they are for
+    paper_stays: bool = False  # the brushes that are taken next are used on the paper of this one
+    erasing: bool = False
+    colour: RGB = (0.11, 0.16, 0.24)
+    other_colour: RGB = (1.0, 1.0, 1.0)
+    colours: list[RGB] = field(default_factory=list)
+    stabiliser: float = 0.3  # 0..1: how much the path of a stroke is smoothed
+    blends: tuple[tuple[str, str, str], ...] = ()  # name, title, hint; from the engine
+    kinds: tuple[Any, ...] = ()  # rows of engine.texture.table
+    ops: tuple[Any, ...] = ()  # rows of engine.brush.ops
+    curves: tuple[CurveRow, ...] = ()  # that shape textures
+    edges: tuple[CurveRow, ...] = ()  # that shape the rim of a stroke
+    presets: tuple[Any, ...] = ()  # app.presets.Preset
+    papers: tuple[Any, ...] = ()  # app.presets.Paper
+    scene: Scene | None = None
+    ready: bool = False
+    painting: bool = False
+    panels: bool = True
+    insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
+    pointer: Pointer = field(default_factory=Pointer)
+    glide: Glide = field(default_factory=Glide)
+    message: tuple[str, bool, float] = ("", False, 0.0)
+    pending: int = 0
+    writing: Writing = field(default_factory=Writing)
+    export_level: int = 0
+    behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
+    asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
+    then: Callable[[Desk], None] | None = None  # goes on once unsaved changes are dealt with
+    quit: bool = False
+    after_save: Callable[[Desk], None] | None = None
+    awaited: str = ""  # a texture that was asked for: it joins the ink when the painting has it
+    strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
+    lab: LabState = field(default_factory=LabState)
+    found: Found | None = None  # by the analysis
+    match: MatchState = field(default_factory=MatchState)
+    examples: ExampleState = field(default_factory=ExampleState)
+    preparing: float | None = None  # since when the engine gets ready for painting with examples, if it does
+    growing: Growing | None = None  # what is painted with examples and not yet as it will stay
+    grows: float = 0.0  # since when
+    sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
+    pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
+
+    @property
+    def frame(self) -> Rect:
+        return self.scene.frame if self.scene else Rect(0, 0, 1024, 768)
+
+    @property
+    def modified(self) -> bool:
+        return self.scene is not None and self.scene.modified
+
+    @property
+    def path(self) -> Path | None:
+        return self.scene.path if self.scene else None
+
+    def say(self, text: str, bad: bool = False) -> None:
+        """Shows a line in the status line for some seconds."""
+        self.message = text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
+
+    def told(self, note: Note) -> None:
+        self.say(note.text, note.bad)
+        if note.bad:
+            self.after_save = None
+
+    def ask(self, name: str) -> None:
+        """Opens a dialog by its name."""
+        self.asked = name
+
+    def guard(self, then: Callable[[Desk], None]) -> None:
+        """Does `then`, after asking about unsaved changes if there are any, or may be when all is carried out."""
+        if self.modified or self.behind():
+            self.then, self.asked = then, "unsaved"
+        else:
+            then(self)
+
+    def save(self) -> None:
+        """Saves where the painting came from; asks where, the first time."""
+        if self.path is not None and self.path.suffix.lower() == ".ora":
+            self.post(Save(self.path))
+        else:
+            self.asked = "save as"
+
+    def free_area(self) -> tuple[float, float, float, float]:
+        """The part of the screen that no panel covers."""
+        left, top, right, bottom = self.insets
+        return left, top, self.view.width - right, self.view.height - bottom
+
+    def middle(self) -> tuple[float, float]:
+        x0, y0, x1, y1 = self.free_area()
+        return (x0 + x1) / 2, (y0 + y1) / 2
+
+    def fit(self) -> None:
+        """Shows the whole frame."""
+        self.glide.stop()
+        self.view = fitted(self.frame, self.free_area(), self.view.width, self.view.height)
+
+    def look_at(self, place: Place, zoom: float, seconds: float = 0.0) -> None:
+        """Brings a place into the middle at a real zoom level, in some seconds."""
+        level = int(zoom // 1)
+        there = replace(self.view, level=level, fraction=zoom - level).held(place, *self.middle())
+        self.view = self.glide.fly(self.view, there, seconds)
+
+    def resize_brush(self, factor: float) -> None:
+        radius = max(SMALLEST, min(LARGEST, self.brush.radius * factor))
+        self.brush = replace(self.brush, radius=round(radius, 2))
+
+    def use_colour(self) -> None:
+        """Remembers the colour: it was painted with."""
+        if self.colour in self.colours:
+            self.colours.remove(self.colour)
+        self.colours.insert(0, self.colour)
+        del self.colours[HISTORY:]
+
+    def stroke_brush(self, eraser: bool) -> tuple[int, Brush]:
+        """The level of a stroke begun now, and the brush with its radius in pixels of that level."""
+        level = self.view.shown_level
+        erase = self.erasing or eraser
+        mode = "erase" if erase and self.brush.mode != "smooth" else self.brush.mode
+        radius = self.brush.radius / self.view.scale(level)
+        brush = replace(self.brush, radius=radius, colour=to_hex(self.colour), mode=mode)
+        return level, self.examples.erasing(brush) if mode == "erase" else brush

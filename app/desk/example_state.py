@@ -1,0 +1,333 @@
+"""Examples to paint with: those that come along, the artist's own, and what the panel knows of them.
+
+An example is a picture, NAME.png, the region of it that is grown, NAME.mask.png, and NAME.toml, which tells how
+(Ritter et al. 2006, section 3).
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import platformdirs
+from immutables import Map
+
+from app.desk.region_mask import Mask
+from engine.brush.settings import Brush
+from engine.makers.definitions import defined_by
+from engine.painting.commands import DefineTexture
+from engine.studio.requests import Request, Swatch
+from engine.texture.example.parameters import Parameters, changed, read_toml
+from engine.texture.field_error import FieldError
+
+OWN = "Own"  # the group of the artist's own
+HERE = "In this painting"  # the group of those that only the painting has
+ALL = ""  # the group of every example
+_RANK = {OWN: 0, HERE: 1, "Watercolour": 2, "Paper": 3}  # others follow, by name
+MASK, PICTURE, PARAMETERS = ".mask.png", ".png", ".toml"
+PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+SIZES = (-2, -1, 0, 1, 2)  # octaves by which a texture is larger than the canvas pixels seen when it was chosen
+REACH = 8  # levels from a stroke's to that of the example's pixels
+TOO_FINE = 4  # levels that a stroke may be coarser: each makes four times the pixels
+DEPTHS = (-99, 99)
+NOWHERE = Path()  # the files of those that only the painting has
+SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
+NAME_CAP = 40  # characters
+TABS = ("palette", "region", "settings")
+SAMPLE = "example sample"  # what the picture of a stroke is called
+KIND = "example"  # of textures
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """An example.  `revision`: another number when the artist's own region is another one; `here`: the parameters of a
+    texture that only the painting has, which has no files; `given`: what its file says it is called."""
+
+    name: str
+    group: str
+    picture: Path
+    mask: Path | None
+    parameters: Parameters
+    own: bool
+    revision: int = 0
+    here: Mapping[str, Any] | None = None
+    given: str = ""
+
+    @property
+    def ident(self) -> str:
+        if self.here is not None:
+            return f"here {self.name}"
+        return f"{'own' if self.own else 'bundled'} {self.name}"
+
+    @property
+    def title(self) -> str:
+        """What it is called: `wash-indigo` is a wash, indigo."""
+        if self.here is not None or self.given:
+            return self.given or self.name
+        text = self.name.replace("-", " ").replace("_", " ").strip() or self.name
+        return text[:1].upper() + text[1:]
+
+
+def bundled_folder() -> Path:
+    """The examples that come with the program; the folder lies beside the packages."""
+    return Path(__file__).resolve().parents[2] / "palettes" / "examples"
+
+
+def own_folder() -> Path:
+    """Where the artist's own are kept."""
+    return platformdirs.user_data_path("inkfall") / "examples"
+
+
+def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
+    """The examples of a folder by group and name, and a line for each file of parameters that is none."""
+    found, faults = [], []
+    pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith(MASK)) if folder.is_dir() else ()
+    for path in sorted(pictures):
+        names, parameters, fault = _told(path.with_suffix(PARAMETERS))
+        faults += [f"{path.stem}{PARAMETERS}: {fault}"] if fault else []
+        mask = path.with_name(path.stem + MASK)
+        there = mask if mask.is_file() else None
+        revision = _stamp(there) if own else 0
+        group, title = names.get("group", "Other"), names.get("title", "")
+        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, revision, given=title))
+    return arranged(found), faults
+
+
+def arranged(entries: Iterable[Entry]) -> list[Entry]:
+    """By group, in the order in which these are listed, and by name."""
+    return sorted(entries, key=lambda e: (_RANK.get(e.group, len(_RANK)), e.group, (e.given or e.name).lower()))
+
+
+def label(entry: Entry, entries: Iterable[Entry]) -> str:
+    """An example's title without a first word that several of its group share: a wash among washes."""
+    first, _, rest = entry.title.partition(" ")
+    same = sum(other.group == entry.group and other.title.partition(" ")[0] == first for other in entries)
+    return rest[:1].upper() + rest[1:] if rest and same > 2 and entry.group not in (OWN, HERE) else entry.title
+
+
+def _stamp(path: Path | None) -> int:
+    return 0 if path is None else path.stat().st_mtime_ns
+
+
+def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
+    """The names (`group`, `title`) and the parameters in a file, and what is wrong with it."""
+    if not path.is_file():
+        return {}, Parameters(), ""
+    try:
+        data = path.read_bytes()
+        parameters = read_toml(data)
+        told = tomllib.loads(data.decode())
+        return {name: told[name] for name in ("group", "title") if name in told}, parameters, ""
+    except (OSError, FieldError) as error:
+        return {}, Parameters(), str(error)
+
+
+def within_reach(brush: Brush, level: int) -> bool:
+    """Whether a stroke at a level may have the size that a brush gives its texture."""
+    return brush.example_level is None or -REACH <= brush.example_level - level <= TOO_FINE
+
+
+@dataclass(slots=True)
+class ExampleState:
+    """`chosen`: the entry that is painted with or looked at, by its ident; `size`: one of SIZES; `base`: the level that
+    was shown when it was chosen; `eraser`: the depth that the eraser takes away, None for everything; `drafts`: by
+    ident, parameters that are being tried; `used`: those that are painted with; `masks`: regions that are being
+    painted; `spot`: where the region is on the screen, corner and pixels of the screen per pixel of it."""
+
+    entries: tuple[Entry, ...] = ()
+    chosen: str = ""
+    group: str = ALL
+    tab: str = "palette"
+    size: int = 0
+    base: int = 0
+    depth: int = 0
+    radius: float = 36.0  # of the brush when it begins to paint with examples, pixels of the screen
+    eraser: int | None = None
+    swapping: bool = False
+    prepared: bool = False  # whether the engine was asked to get ready
+    drafts: dict[str, Map[str, Any]] = field(default_factory=dict)
+    used: dict[str, Map[str, Any]] = field(default_factory=dict)
+    masks: dict[str, Mask] = field(default_factory=dict)
+    spot: tuple[float, float, float] | None = None
+    sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
+    sampling: str = ""  # the entry whose picture of a stroke was asked for last
+    seen: str = ""  # and the one whose picture is there
+    _hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
+    _asked: Any = None
+    _since: float = 0.0
+    _sent: float = 0.0
+
+    @property
+    def entry(self) -> Entry | None:
+        return next((entry for entry in self.entries if entry.ident == self.chosen), None)
+
+    @property
+    def mask(self) -> Mask | None:
+        """The region that is being painted."""
+        return self.masks.get(self.chosen)
+
+    def groups(self) -> list[str]:
+        return list(dict.fromkeys(entry.group for entry in self.entries))
+
+    def listed(self) -> list[Entry]:
+        return [entry for entry in self.entries if self.group in (ALL, entry.group)]
+
+    # --- the region --------------------------------------------------------------------------------------------------
+
+    def over(self, x: float, y: float) -> bool:
+        """Whether a point of the screen is on the region."""
+        if self.spot is None or self.mask is None or self.tab != "region":
+            return False
+        u, v = self.place(x, y)
+        height, width = self.mask.inside.shape
+        return 0.0 <= u < width and 0.0 <= v < height
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """A point of the screen in pixels of the example."""
+        left, top, scale = self.spot if self.spot is not None else (0.0, 0.0, 1.0)
+        return (x - left) / scale, (y - top) / scale
+
+    # --- parameters --------------------------------------------------------------------------------------------------
+
+    def draft(self, entry: Entry) -> Parameters:
+        """The parameters that the settings show."""
+        return changed(entry.parameters, self.drafts.get(entry.ident, self.used.get(entry.ident, Map())))
+
+    def set(self, entry: Entry, name: str, value: Any) -> None:
+        """Another value of one of them."""
+        now = asdict(replace(self.draft(entry), **{name: value}))
+        own = asdict(entry.parameters)
+        self.drafts[entry.ident] = Map({key: told for key, told in now.items() if told != own[key]})
+
+    def reset(self, entry: Entry) -> None:
+        """As the example's file has them."""
+        self.drafts[entry.ident] = Map()
+
+    def tried(self, entry: Entry) -> bool:
+        """Whether the settings differ from what is painted with."""
+        used = self.used.get(entry.ident, Map())
+        return self.drafts.get(entry.ident, used) != used
+
+    def needs(self, entry: Entry, draft: bool = False) -> tuple[str, tuple[DefineTexture, ...]]:
+        """The name of its texture, and the definition that it needs if not only the painting has it."""
+        if entry.here is not None:
+            return entry.name, ()
+        command = self.command(entry, draft)
+        return command.name, (command,)
+
+    def command(self, entry: Entry, draft: bool = False) -> DefineTexture:
+        """The definition of its texture, as it is painted with or as the settings are."""
+        usual = self.used.get(entry.ident, Map())
+        told = self.drafts.get(entry.ident, usual) if draft else usual
+        return definition(entry, told)
+
+    # --- the brush ---------------------------------------------------------------------------------------------------
+
+    def levels(self) -> dict[str, int]:
+        """The members of a brush that tell how large the texture is."""
+        return {"example_level": self.base - max(self.size, 0), "example_detail": max(-self.size, 0)}
+
+    def erasing(self, brush: Brush) -> Brush:
+        """A brush that erases, of everything or of one depth alone."""
+        return replace(brush, depth=None if self.eraser is None else float(self.eraser), example_level=None)
+
+    def at_home(self, brush: Brush) -> Brush:
+        """The brush as it paints a small picture at level 0."""
+        if brush.mode != "example":
+            return brush
+        return replace(brush, example_level=-max(self.size, 0))
+
+    def ask(self, post: Callable[[Request], None], now: float) -> None:
+        """Posts the sample stroke that the panel shows, no faster than it can be seen."""
+        entry = self.entry
+        drafted = self.tab == "settings"
+        wanted = None if entry is None else (*self.needs(entry, drafted), self.sampled, self.size, entry.here)
+        if wanted != self._asked:
+            self._asked, self._since = wanted, self._since or max(now, self._sent + SETTLE)
+        if self._since and now >= self._since:
+            self._since, self._sent = 0.0, now
+            if wanted is not None and min(self.sampled) > 0:
+                self.sampling = self.chosen
+                post(sample(*wanted[:4]))
+
+    def ask_thumbnails(self, post: Callable[[Request], None], side: int) -> None:
+        """Posts the pictures of those that only the painting has: a stroke each, pixels of the framebuffer square."""
+        for entry in self.entries:
+            if entry.here is not None and self._hung.get(entry.ident) != (entry.here, side):
+                self._hung[entry.ident] = entry.here, side
+                brush = Brush(radius=side / 5, mode="example", example=entry.name, hardness=1.0, example_detail=1)
+                post(Swatch(f"example {entry.ident}", brush, (side, side), soon=True))
+
+
+def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
+    """The command that makes an example's texture; `told`: parameters other than its own.
+
+    All are told, or a texture of the painting that has others would be taken for this one.
+    """
+    given: dict[str, Any] = {**asdict(entry.parameters), **told}
+    if not entry.own:
+        return DefineTexture(entry.title, KIND, Map(given | {"bundled": entry.name}))
+    given["path"] = str(entry.picture)
+    if entry.mask is not None:
+        given |= {"mask": str(entry.mask), "mask_sha": mask_sha(entry.mask, entry.revision)}
+    return DefineTexture(entry.title, KIND, Map(given))
+
+
+def here(definitions: Iterable[tuple[str, str, Mapping[str, Any]]], state: ExampleState) -> list[Entry]:
+    """Those of a painting's textures (name, kind, parameters) that are examples and none that the palette has."""
+    found = []
+    for name, kind, told in definitions:
+        if kind == KIND and not any(_is(entry, told, state) for entry in state.entries if entry.here is None):
+            found.append(Entry(name, HERE, NOWHERE, None, Parameters(), False, 0, told))
+    return found
+
+
+def _is(entry: Entry, told: Mapping[str, Any], state: ExampleState) -> bool:
+    """Whether a texture of a painting is an example of the palette, as it came or as it is painted with."""
+    if told.get("path" if entry.own else "bundled") != (str(entry.picture) if entry.own else entry.name):
+        return False
+    return any(defined_by(one, KIND, told) for one in (definition(entry, Map()), state.command(entry)))
+
+
+def sample(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], octaves: int = 0) -> Swatch:
+    """A broad stroke with an example, which is so many octaves larger than it is."""
+    radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
+    brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
+    brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
+    return Swatch(SAMPLE, brush, size, textures=needs, soon=True)
+
+
+def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:
+    """What is typed as another name of the artist's own example, tidied, with a number if another of them has it; empty
+    if nothing is left of it."""
+    plain = " ".join("".join(c if c.isprintable() else " " for c in text).split())[:NAME_CAP].strip()
+    taken = {other.title.lower() for other in entries if other.own and other.ident != entry.ident}
+    name, number = plain, 1
+    while plain and name.lower() in taken:
+        number += 1
+        name = f"{plain} {number}"
+    return name
+
+
+def in_painting(entry: Entry, definitions: Iterable[tuple[str, str, Mapping[str, Any]]]) -> list[str]:
+    """The names of a painting's textures (name, kind, parameters) that are made of the artist's own example."""
+    return [name for name, kind, told in definitions if kind == KIND and told.get("path") == str(entry.picture)]
+
+
+_SHAS: dict[tuple[Path, int], str] = {}
+
+
+def mask_sha(path: Path, revision: int) -> str:
+    """What a definition calls the region that a file holds now: with another region it defines another texture."""
+    if (path, revision) not in _SHAS:
+        from engine.strokes.example_files import read_mask  # here: the engine is loaded by now
+        from engine.texture.image import ImageSource
+
+        inside = read_mask(path)
+        planes = np.repeat(inside[None].astype(np.float32), 4, axis=0)
+        _SHAS[path, revision] = ImageSource.of(path.stem, planes).sha
+    return _SHAS[path, revision]

@@ -1,0 +1,182 @@
+"""Brush presets and papers: files of palettes/brushes, palettes/grains and the user's own folder, one JSON object each
+(feature A5)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from engine.brush import parts, settings
+from engine.brush.parts import Surface
+from engine.brush.settings import Brush
+from engine.files.atomic import replacing
+from engine.makers import definitions
+from engine.painting.commands import DefineTexture
+
+BYTES_CAP = 1 << 20
+NAME_CAP = 40  # characters
+OWN = "Own"  # the group of brushes that name none
+_GROUP_RANK = {"Basic": 0, OWN: 2}  # others lie between, by name
+
+
+@dataclass(frozen=True, slots=True)
+class Preset:
+    """A brush under a name; presets of one `group` are listed together.  `textures`: definitions that it needs."""
+
+    name: str
+    brush: Brush
+    path: Path | None = None
+    group: str = OWN
+    textures: tuple[DefineTexture, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A surface to paint on, under a name: what a brush's grain becomes when it is chosen."""
+
+    name: str
+    grain: Surface
+    textures: tuple[DefineTexture, ...]
+
+
+DEFAULT = Preset("Round", Brush(radius=12.0))
+
+
+def bundled_folder() -> Path:
+    """The presets that come with the program; the folder lies beside the packages."""
+    return Path(__file__).resolve().parents[2] / "palettes" / "brushes"
+
+
+def papers_folder() -> Path:
+    """The papers that come with the program."""
+    return bundled_folder().with_name("grains")
+
+
+def own_folder() -> Path:
+    """Where the artist's own presets are kept."""
+    return platformdirs.user_config_path("inkfall") / "brushes"
+
+
+def load(folder: Path) -> tuple[list[Preset], list[str]]:
+    """The presets of a folder by file name, and a line for each file that is none."""
+    presets, faults = _all(folder, _read)
+    presets.sort(key=lambda p: (_GROUP_RANK.get(p.group, 1), p.group, _order(p)))
+    return presets, faults
+
+
+def load_papers(folder: Path) -> tuple[list[Paper], list[str]]:
+    """The papers of a folder by file name, and a line for each file that is none."""
+    return _all(folder, _read_paper)
+
+
+def _all(folder: Path, read: Callable[[Path], Any]) -> tuple[list[Any], list[str]]:
+    found, faults = [], []
+    for path in sorted(folder.glob("*.json")) if folder.is_dir() else []:
+        try:
+            found.append(read(path))
+        except (OSError, ValueError) as error:
+            faults.append(f"{path.name}: {error}")
+    return found, faults
+
+
+def _order(preset: Preset) -> tuple[bool, str]:
+    """Brushes that paint first, then by name."""
+    return preset.brush.mode != "paint", preset.name
+
+
+def _object(path: Path, what: str) -> dict[str, Any]:
+    """The JSON object of a file.  ValueError says what was found and expected."""
+    if path.stat().st_size > BYTES_CAP:
+        raise ValueError(f"found {path.stat().st_size} bytes, expected {what} of at most {BYTES_CAP}")
+    data = json.loads(path.read_text("utf-8"))
+    if not isinstance(data, dict):
+        raise ValueError(f"found no object, expected {what}")
+    return data
+
+
+def _read_paper(path: Path) -> Paper:
+    data = _object(path, "a paper")
+    textures = definitions.read(data.get("textures", []), "textures", path.parent)
+    return Paper(str(data.get("name") or path.stem), parts.surface(data.get("grain"), "grain"), textures)
+
+
+def _read(path: Path) -> Preset:
+    data = _object(path, "a brush")
+    name = data.pop("name", None) or path.stem.split("-", 1)[-1].replace("-", " ").replace("_", " ").capitalize()
+    group = str(data.pop("group", OWN))
+    textures = definitions.read(data.pop("textures", []), "textures", path.parent)
+    brush = settings.from_json(data.pop("brush", data))
+    return Preset(str(name), brush, path, group, textures)
+
+
+def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, list[Preset]]]:
+    """Presets by group, in their order: those of a group (all: ""), or those of any group that have each of `words` in
+    their names or their group's."""
+    out: dict[str, list[Preset]] = {}
+    wanted = words.casefold().split()
+    for preset in presets:
+        told = f"{preset.name} {preset.group}".casefold()
+        if all(word in told for word in wanted) if wanted else group in ("", preset.group):
+            out.setdefault(preset.group, []).append(preset)
+    return list(out.items())
+
+
+def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
+    """The preset that `words` mean: those whose name begins so come first, then those with all of it in their name."""
+    wanted = " ".join(words.casefold().split())
+    listed = [preset for _, members in found(presets, "", words) for preset in members]
+    names = [(preset.name.casefold(), preset) for preset in listed]
+    ranked = sorted(names, key=lambda row: (not row[0].startswith(wanted), wanted not in row[0]))
+    return ranked[0][1] if wanted and ranked else None
+
+
+def free_name(name: str, presets: Iterable[Preset]) -> str:
+    """The name itself, or with a number, so that no bundled preset has it; one of the artist's own is replaced."""
+    name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"
+    taken = {p.name.lower() for p in presets if p.path is None or p.path.parent == bundled_folder()}
+    wanted, number = name, 1
+    while wanted.lower() in taken:
+        number += 1
+        wanted = f"{name} {number}"
+    return wanted
+
+
+def save(preset: Preset, folder: Path) -> Path:
+    """Writes a preset as a file of the user's folder, in place of the one of that name."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = _own_path(preset.name, folder)
+    told: dict[str, Any] = {"name": preset.name, "brush": settings.to_json(preset.brush)}
+    if preset.textures:
+        told["textures"] = definitions.to_json(preset.textures)
+    text = json.dumps(told, indent=1, ensure_ascii=False)
+    with replacing(path) as file:
+        file.write((text + "\n").encode("utf-8"))
+    return path
+
+
+def delete(preset: Preset) -> None:
+    """Takes the file of one of the artist's own away."""
+    if preset.path is not None:
+        preset.path.unlink(missing_ok=True)
+
+
+def _own_path(name: str, folder: Path) -> Path:
+    """The file of a name: another one where a brush of another name has it, such as "a b" and "a-b"."""
+    stem = "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"
+    path, number = folder / f"{stem}.json", 1
+    while path.exists() and _name_in(path) != name:
+        number += 1
+        path = folder / f"{stem}-{number}.json"
+    return path
+
+
+def _name_in(path: Path) -> str | None:
+    try:
+        return _read(path).name
+    except (OSError, ValueError):
+        return None

@@ -1,0 +1,80 @@
+"""Thumbnails of examples, made on a thread of their own: each is cut out by its region and lies on paper."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+
+import numpy as np
+
+from app.desk import own_example_files
+from app.desk.example_state import Entry
+from engine.studio.results import Picture
+
+PAPER = (214, 209, 200)  # sRGB
+MARGIN = 0.06  # of a thumbnail's side
+
+
+def ident(entry: Entry) -> str:
+    """What its picture is called."""
+    return f"example {entry.ident}"
+
+
+class Shelf:
+    """`wake` is called from the thread when a picture is ready."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._wanted: deque[tuple[Entry, int]] = deque()
+        self._ready: deque[Picture] = deque()
+        self._known: dict[str, tuple[int, int]] = {}
+        self._thread: threading.Thread | None = None
+
+    def ask(self, entries: tuple[Entry, ...], side: int) -> None:
+        """Has thumbnails made of those with files that have none, or none of that size, or another region by now."""
+        for entry in (entry for entry in entries if entry.here is None):
+            state = entry.revision, side
+            if self._known.get(entry.ident) != state:
+                self._known[entry.ident] = state
+                self._wanted.append((entry, side))
+        if self._wanted and (self._thread is None or not self._thread.is_alive()):
+            self._thread = threading.Thread(target=self._work, name="inkfall thumbnails", daemon=True)
+            self._thread.start()
+
+    def take(self) -> list[Picture]:
+        """What is ready."""
+        found = []
+        while self._ready:
+            found.append(self._ready.popleft())
+        return found
+
+    def _work(self) -> None:
+        while self._wanted:
+            entry, side = self._wanted.popleft()
+            with suppress(*own_example_files.FAULTS):  # a picture that cannot be read has no thumbnail
+                self._ready.append(Picture(ident(entry), thumbnail(entry, side)))
+                self._wake()
+
+
+def thumbnail(entry: Entry, side: int) -> np.ndarray:
+    """An example's region on paper, uint8 RGBA (side, side, 4), opaque."""
+    from PIL import Image  # here: it takes its time to load
+
+    mask = own_example_files.opened(entry)
+    pixels, inside = mask.pixels, mask.inside
+    alpha = (pixels[..., 3:] * inside[..., None]).astype(np.uint32)
+    flat = ((pixels[..., :3] * alpha + np.array(PAPER, np.uint32) * (255 - alpha) + 127) // 255).astype(np.uint8)
+    rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))
+    if rows.size:
+        flat = flat[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    room = side * (1 - 2 * MARGIN)
+    scale = min(room / flat.shape[1], room / flat.shape[0])
+    size = max(1, round(flat.shape[1] * scale)), max(1, round(flat.shape[0] * scale))
+    small = np.asarray(Image.fromarray(flat).resize(size, Image.Resampling.LANCZOS))
+    out = np.empty((side, side, 4), np.uint8)
+    out[...] = (*PAPER, 255)
+    top, left = (side - size[1]) // 2, (side - size[0]) // 2
+    out[top : top + size[1], left : left + size[0], :3] = small
+    return out

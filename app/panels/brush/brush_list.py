@@ -1,0 +1,196 @@
+"""The brushes to choose from: a picture of a stroke each, by group, found by a word, or all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk import example_use, palette, presets
+from app.desk.desk import Desk
+from app.desk.presets import Preset
+from app.panels.controls import widgets as w
+from engine.studio.requests import Swatch
+
+THUMB = (104, 44)  # of a thumbnail, points
+ACROSS = 2  # in the panel
+ACROSS_ALL = 8  # of all at once, at most
+LABELS = 94  # width of the names of groups beside all of them, points
+EVERY = ""  # the group of all
+
+
+class BrushList:
+    """Remembers the group that is listed and the word that is looked for."""
+
+    def __init__(self) -> None:
+        self._group, self._find = EVERY, ""
+        self._seen = ""  # the brush chosen when the list was last drawn
+        self._asked: set[str] = set()  # brushes whose pictures were asked for when they came into sight
+        self._reveal = 0  # frames in which the list still scrolls to it: how long a list is, is known a frame late
+
+    def draw(self, desk: Desk, below: float) -> None:
+        """`below`: the height that what follows needs."""
+        self._bar(desk)
+        gap, em = 5 * desk.scale, imgui.get_font_size()
+        found = presets.found(desk.presets, self._group, self._find)
+        wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
+        tall = _tall(desk, wide)
+        room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
+        everything = _height(presets.found(desk.presets, EVERY, ""), tall + gap, em + gap)
+        imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.6 * tall))))  # the same for every group
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
+        for group, members in found:
+            imgui.text_disabled(group)
+            for i, preset in enumerate(members):
+                if i % ACROSS:
+                    imgui.same_line()
+                if self._preset(desk, preset, wide):
+                    self._seen = desk.preset
+                if self._reveal and preset.name == desk.preset:
+                    imgui.set_scroll_here_y(0.5)
+        if not found:
+            imgui.text_disabled("No brush is called so")
+        imgui.pop_style_var()
+        imgui.end_child()
+        self._reveal = 2 if desk.preset != self._seen else max(0, self._reveal - 1)
+        self._seen = desk.preset
+
+    def _bar(self, desk: Desk) -> None:
+        """The group that is listed, a word to look for, and all at once."""
+        gap, side = 3 * desk.scale, imgui.get_frame_height()
+        room = imgui.get_content_region_avail().x - 2 * gap - side
+        groups = [(EVERY, f"All {len(desk.presets)}")]
+        groups += [(group, group) for group, _ in presets.found(desk.presets, EVERY, "")]
+        picked = w.choice("group", self._group, groups, "Which brushes are listed", 0.56 * room)
+        if picked is not None:
+            self._group, self._find = picked, ""
+        imgui.same_line(0, gap)
+        imgui.set_next_item_width(0.44 * room)
+        flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.escape_clears_all
+        entered, self._find = imgui.input_text_with_hint("##find", "Find", self._find, flags)
+        w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the nearest")
+        nearest = presets.nearest(desk.presets, self._find) if entered else None
+        if nearest is not None:
+            take(desk, nearest)
+            self._find = ""
+        imgui.same_line(0, gap)
+        if w.icon_button("all brushes", icons.GRID, "All brushes at once", size=side):
+            imgui.open_popup("all brushes")
+        self._all(desk)
+
+    def _all(self, desk: Desk) -> None:
+        """Every brush, a line for each group, beside the panel."""
+        gap, em = 5 * desk.scale, imgui.get_font_size()
+        left = imgui.get_window_pos().x + imgui.get_window_width() + gap
+        room, high = desk.view.width - left - 6 * gap, desk.view.height - imgui.get_window_pos().y - 3 * gap
+        labels, wide = LABELS * desk.scale, THUMB[0] * desk.scale
+        across = max(1, min(ACROSS_ALL, int((room - labels) / (wide + gap))))
+        imgui.set_next_window_pos(ImVec2(left, imgui.get_window_pos().y + gap))
+        imgui.set_next_window_size_constraints(ImVec2(0, 0), ImVec2(room + 5 * gap, high))
+        if not imgui.begin_popup("all brushes"):
+            return
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
+        for group, members in presets.found(desk.presets, EVERY, ""):
+            top = imgui.get_cursor_pos().y
+            imgui.set_cursor_pos_y(top + (_tall(desk, wide) - em) / 2)
+            imgui.text_disabled(group)
+            imgui.set_cursor_pos_y(top)
+            for i, preset in enumerate(members):
+                if i % across:
+                    imgui.same_line()
+                else:
+                    imgui.set_cursor_pos_x(imgui.get_style().window_padding.x + labels)
+                if self._preset(desk, preset, wide):
+                    imgui.close_current_popup()
+        imgui.pop_style_var()
+        imgui.end_popup()
+
+    def _preset(self, desk: Desk, preset: Preset, wide: float) -> bool:
+        """One brush; whether it was taken."""
+        corner, tall = imgui.get_cursor_screen_pos(), _tall(desk, wide)
+        taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
+        if taken:
+            take(desk, preset)
+        if not imgui.is_item_visible():  # most are scrolled away
+            return taken
+        if not ready_at_start(preset) and preset.name not in self._asked:
+            self._asked.add(preset.name)
+            ask_picture(desk, preset)
+        hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
+        own = preset.path is not None and preset.path.parent == presets.own_folder()
+        w.tooltip(f"{preset.name}\nShift keeps the present size" + ("\nRight click to delete it" if own else ""))
+        if own:
+            _deletes(desk, preset)
+        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
+        grey = theme.ACCENT_SOFT if chosen else (0.21,) * 3 if hovered else (0.19,) * 3
+        painter.add_rect_filled(corner, end, theme.packed(grey), 4 * desk.scale)
+        picture = desk.pictures.get(f"preset {preset.name}")
+        bottom, inset = corner.y + wide * THUMB[1] / THUMB[0], 2 * desk.scale
+        if picture is not None:
+            inner = ImVec2(corner.x + inset, corner.y + inset), ImVec2(end.x - inset, bottom)
+            zero, one, white = ImVec2(0, 0), ImVec2(1, 1), theme.packed((1.0, 1.0, 1.0))
+            painter.add_image_rounded(picture, *inner, zero, one, white, 3 * desk.scale)
+        _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
+        return taken
+
+
+def ready_at_start(preset: Preset) -> bool:
+    """Whether its picture is painted before it is in sight: an example would have to be analysed, and be held."""
+    return preset.brush.mode != "example"
+
+
+def ask_picture(desk: Desk, preset: Preset) -> None:
+    """Has a stroke of it painted."""
+    size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
+    desk.post(Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
+
+
+def take(desk: Desk, preset: Preset) -> None:
+    """Paints with a brush from now on, in its own colours where they belong together; Shift keeps the size."""
+    radius = desk.brush.radius
+    palette.take(desk, preset)
+    example_use.adopt(desk)
+    if preset.brush.ink:
+        desk.colour = preset.brush.rgb
+    desk.tool, desk.erasing = "brush", False
+    if imgui.get_io().key_shift:
+        desk.brush = replace(desk.brush, radius=radius)
+
+
+def _deletes(desk: Desk, preset: Preset) -> None:
+    """The menu of a brush of the artist's own."""
+    if not imgui.begin_popup_context_item(f"own {preset.name}"):
+        return
+    if imgui.selectable(f"Delete “{preset.name}”", False)[0]:
+        try:
+            presets.delete(preset)
+        except OSError as error:
+            desk.say(f"The brush was not deleted: {error}", bad=True)
+        else:
+            desk.presets = tuple(one for one in desk.presets if one is not preset)
+            desk.say(f"Deleted the brush “{preset.name}”")
+    imgui.end_popup()
+
+
+def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:
+    """A brush's name below its picture; a long one a little smaller."""
+    painter, size = imgui.get_window_draw_list(), imgui.get_font_size()
+    inset = 0.35 * size
+    wide = imgui.calc_text_size(name).x
+    fits = max(0.8, min(1.0, (end.x - corner.x - 1.2 * inset) / max(wide, 1.0)))
+    at = ImVec2(corner.x + (inset if fits == 1.0 else 0.6 * inset), corner.y + size * (1 - fits) / 2)
+    painter.push_clip_rect(corner, end, True)
+    painter.add_text(imgui.get_font(), size * fits, at, theme.packed(grey), name)
+    painter.pop_clip_rect()
+
+
+def _tall(desk: Desk, wide: float) -> float:
+    """The height of a brush `wide` across: its picture and its name."""
+    return wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 4 * desk.scale
+
+
+def _height(listed: Sequence[tuple[str, Sequence[Preset]]], row: float, heading: float) -> float:
+    """Of a list, `row` for each line of brushes and `heading` for each group."""
+    return sum(-(-len(members) // ACROSS) * row + heading for _, members in listed)

@@ -1,0 +1,188 @@
+"""The brush panel: tools, presets painted by the brushes themselves, and the settings of the one chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+
+from app import actions, icons, theme
+from app.desk import example_use
+from app.desk.desk import LARGEST, SMALLEST, Desk
+from app.desk.knots import at
+from app.panels.brush import example_section
+from app.panels.brush.brush_list import BrushList
+from app.panels.brush.operations import Operations
+from app.panels.brush.save_brush import SaveBrush
+from app.panels.brush.texturing import Texturing
+from app.panels.controls import widgets as w
+from app.panels.controls.curve_editor import CurveEditor
+from app.tools import TOOLS
+from engine.brush.settings import SETTINGS
+from engine.studio.results import CurveRow
+
+_MODES = (
+    ("paint", "Paint", "Lays paint over what is there"),
+    ("erase", "Erase", "Takes paint away, at all depths"),
+    ("smooth", "Smooth", "Softens the paint and takes away the detail that zooming would show"),
+    ("raster", "Change", "Changes the paint that is there: darker, another hue, blurred, copied…"),
+    ("example", "Grow", "Grows a texture like an example where you paint, rim and all"),
+)
+_PRESSURES: dict[str, Any] = {
+    "pressure": "pressure",
+    "soft": ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0)),
+    "firm": ((0.0, 0.0), (0.6, 0.25), (1.0, 1.0)),
+}
+_PRESSURE_ROWS = (
+    CurveRow("even", "Even", "The same whatever the pressure", (1.0, 1.0)),
+    CurveRow("pressure", "Pressure", "In proportion to the pressure", (0.0, 1.0)),
+    CurveRow(
+        "soft", "Soft pen", "Light touches count for more", tuple(at(_PRESSURES["soft"], i / 20) for i in range(21))
+    ),
+    CurveRow(
+        "firm", "Firm pen", "Light touches count for less", tuple(at(_PRESSURES["firm"], i / 20) for i in range(21))
+    ),
+)
+_UNFELT = ("opacity", "flow")  # by what is grown
+PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
+
+
+class BrushPanel:
+    """Draws the left column."""
+
+    def __init__(self) -> None:
+        self._texturing, self._curves = Texturing(), CurveEditor()
+        self._operations, self._saving, self._list = Operations(), SaveBrush(), BrushList()
+        self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
+
+    def draw(self, desk: Desk) -> None:
+        self._tools(desk)
+        shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
+        self._saving.draw(desk)
+        if shown:
+            self._list.draw(desk, self._below)
+        top = imgui.get_cursor_pos().y
+        unfolded = 0.0
+        if w.section("Brush settings"):
+            self._preview(desk)
+            self._modes(desk)
+            special = _height_of(lambda: self._special(desk))
+            unfolded += special if desk.brush.mode == "raster" else 0.0
+            self._settings(desk)
+        unfolded += self._texturing.draw(desk)
+        if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
+            unfolded += _height_of(lambda: self._dynamics(desk))
+        self._below = imgui.get_cursor_pos().y - top - unfolded
+
+    def _special(self, desk: Desk) -> None:
+        """What only this mode has."""
+        if desk.erasing or desk.brush.mode == "erase":
+            example_section.draw_eraser(desk)
+        elif desk.brush.mode == "raster":
+            self._operations.draw(desk)
+        elif desk.brush.mode == "example":
+            example_section.draw(desk)
+
+    def _preview(self, desk: Desk) -> None:
+        """A stroke of the brush as it is set now."""
+        width, height = imgui.get_content_region_avail().x, PREVIEW[1] * desk.scale
+        corner = imgui.get_cursor_screen_pos()
+        imgui.dummy(ImVec2(width, height))
+        w.tooltip("A stroke of this brush")
+        end, painter = ImVec2(corner.x + width, corner.y + height), imgui.get_window_draw_list()
+        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 4 * desk.scale)
+        picture = desk.pictures.get("brush")
+        if picture is not None:
+            white = theme.packed((1.0, 1.0, 1.0))
+            painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, 4 * desk.scale)
+
+    def _tools(self, desk: Desk) -> None:
+        side = imgui.get_font_size() * 2.1
+        names: list[tuple[str, str, bool]] = [
+            ("brush", icons.BRUSH, desk.tool == "brush" and not desk.erasing),
+            ("eraser", icons.ERASER, desk.tool == "brush" and desk.erasing),
+        ]
+        names += [(name, TOOLS[name].icon, desk.tool == name) for name in ("pick", "pan", "zoom", "turn")]
+        gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
+        for i, (name, icon, on) in enumerate(names):
+            if i:
+                imgui.same_line(0, gap)
+            if w.icon_button(name, icon, actions.tip(name), on=on, size=side):
+                actions.perform(desk, actions.ACTIONS[name])
+
+    def _modes(self, desk: Desk) -> None:
+        """Buttons side by side, each as wide as its word asks for."""
+        gap = 3 * desk.scale
+        words = [imgui.calc_text_size(label).x for _, label, _ in _MODES]
+        spare = (imgui.get_content_region_avail().x - sum(words) - gap * (len(_MODES) - 1)) / len(_MODES)
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, 4) * desk.scale)
+        for i, (mode, label, hint) in enumerate(_MODES):
+            if i:
+                imgui.same_line(0, gap)
+            on = desk.brush.mode == mode
+            imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
+            if w.text_button(label, hint, width=words[i] + spare):
+                desk.tool, desk.erasing = "brush", False
+                if mode == "example" and desk.brush.example is None:
+                    example_use.take(desk)
+                else:
+                    desk.brush = replace(desk.brush, mode=mode)
+            imgui.pop_style_color()
+        imgui.pop_style_var()
+
+    def _settings(self, desk: Desk) -> None:
+        for name, row in SETTINGS.items():
+            if desk.brush.mode == "example" and not desk.erasing and name in _UNFELT:
+                continue
+            lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
+            form = "%.1f px" if row.unit == "px" else "%.2f"
+            hint = f"{row.tooltip}  ([ and ])" if name == "radius" else row.tooltip
+            shown, form, lo, hi = _percent(getattr(desk.brush, name), form, lo, hi, row.unit)
+            changed, value = w.slider(row.label, shown, (lo, hi), hint, form=form, curved=row.logarithmic)
+            if changed:
+                value = value / 100 if form.endswith("%%") else value
+                setting: dict[str, Any] = {name: row.clamped(round(value, 4))}
+                desk.brush = replace(desk.brush, **setting)
+
+        hint = "How much the stroke lags behind the pen to steady the hand"
+        changed, value = w.slider("Stabiliser", desk.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")
+        if changed:
+            desk.stabiliser = round(value / 100, 3)
+
+    def _dynamics(self, desk: Desk) -> None:
+        for name, row in SETTINGS.items():
+            if not row.dynamic:
+                continue
+            curve = desk.brush.dynamics.get(name)
+            hint = f"How the pen's pressure changes the {row.label.lower()}: left a light touch, right a firm one"
+            changed, drawn = self._curves.row(row.label, _shown(curve), _PRESSURE_ROWS, hint)
+            if changed:
+                desk.brush = replace(desk.brush, dynamics=_with(desk.brush.dynamics, name, drawn))
+
+
+def _height_of(draw: Callable[[], None]) -> float:
+    """Draws something; how high it is."""
+    top = imgui.get_cursor_pos().y
+    draw()
+    return imgui.get_cursor_pos().y - top
+
+
+def _shown(curve: Any) -> Any:
+    """A curve of pressure as the editor knows it: by its name if it is one of PRESSURE."""
+    return next((name for name, knots in _PRESSURES.items() if curve is not None and knots == curve), curve)
+
+
+def _with(dynamics: Any, name: str, curve: Any) -> Any:
+    """The dynamics with another curve for a setting, none if that is None."""
+    if curve is None:
+        return dynamics.delete(name) if name in dynamics else dynamics
+    return dynamics.set(name, _PRESSURES.get(curve, curve) if isinstance(curve, str) else curve)
+
+
+def _percent(value: float, form: str, lo: float, hi: float, unit: str) -> tuple[float, str, float, float]:
+    """Parts of one as per cent, which people read more easily."""
+    if unit == "" and (lo, hi) == (0.0, 1.0):
+        return value * 100, "%.0f%%", 0.0, 100.0
+    return value, form, lo, hi

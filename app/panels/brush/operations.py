@@ -1,0 +1,248 @@
+"""Raster operations in the brush panel: which one, its parameters, or a formula of the artist's own."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+from immutables import Map
+
+from app import icons, theme
+from app.desk import ramps
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from app.panels.controls.ramp_editor import RampEditor
+from engine.numeric.formula import FORMULA_CAP, FUNCTIONS, NAMES, FormulaError, parse
+
+BESIDE = (64, 0)  # pixels: what a clone of the layer itself begins with; without, it changes nothing
+OFFSETS = (-512.0, 512.0)  # that the sliders offer
+REST = 0.4  # seconds without typing before a formula is taken: each is compiled
+ECHO = 13  # characters of a formula shown on each side of its mistake
+GROUPS = (
+    ("With the colour", ("toward", "multiply", "screen", "overlay", "dodge", "burn", "add", "subtract", "difference")),
+    ("Tones", ("lighten", "darken", "gamma", "contrast", "invert", "posterise")),
+    ("Hues", ("saturate", "hue", "gradient")),
+    ("Forms", ("smooth", "sharpen", "displace", "predict")),
+    ("Other", ("clone", "erase")),
+)
+FORMULAS = (
+    ("Towards the colour", "colour - pic"),
+    ("Towards its opposite", "1 - 2 * pic"),
+    ("Two tones", "step(0.5, luma) - pic"),
+    ("Glow in the light", "luma ** 2 * colour"),
+    ("Ripples", "0.2 * sin(tau * (x + y) / 24)"),
+    ("Film grain", "0.4 * (noise(x, y) - 0.5)"),
+    ("Deeper with pressure", "-pic * pressure"),
+)
+
+
+class Operations:
+    """Remembers the formula as it is typed, which may not be one yet."""
+
+    def __init__(self) -> None:
+        self._ramp = RampEditor()
+        self._text = ""
+        self._known = ""  # the brush's formula when `_text` was last the same
+        self._typed = 0.0  # when it was last changed
+        self._fault: FormulaError | None = None
+
+    def draw(self, desk: Desk) -> None:
+        op = desk.brush.op
+        own = not isinstance(op, str) and "formula" in op
+        name = "formula" if own else op if isinstance(op, str) else str(op["name"])
+        chosen = self._chooser(desk, name)
+        if chosen and chosen != name:
+            started = _started(desk, chosen)
+            if started is None:
+                desk.say("Cloning copies a layer: paint on one first", bad=True)
+            else:
+                desk.brush = replace(desk.brush, op=started)
+            return
+        if own:
+            self._formula(desk, str(op["formula"]))  # type: ignore[index]
+            return
+        row = next((row for row in desk.ops if row.name == name), None)
+        given: Map[str, Any] = Map() if isinstance(op, str) else op
+        changed = given
+        for parameter in row.parameters if row else ():
+            changed = self._parameter(desk, changed, parameter)
+        if changed != given:
+            desk.brush = replace(desk.brush, op=changed.set("name", name))
+
+    def _chooser(self, desk: Desk, name: str) -> str | None:
+        rows = {row.name: row for row in desk.ops}
+        label = "Formula" if name == "formula" else rows[name].label if name in rows else name
+        imgui.set_next_item_width(-1)
+        if not imgui.begin_combo("##op", label, imgui.ComboFlags_.height_largest):
+            w.tooltip(_told(rows[name]) if name in rows else "What a stroke does to the colours that are there")
+            return None
+        picked = None
+        listed = {op for _, ops in GROUPS for op in ops}
+        rest = ("More", tuple(op for op in rows if op not in listed))
+        for title, ops in (*GROUPS, rest):
+            if any(op in rows for op in ops):
+                imgui.text_disabled(title)
+            for op in ops:
+                if op in rows and imgui.selectable(f"   {rows[op].label}##{op}", op == name)[0]:
+                    picked = op
+                if op in rows:
+                    w.tooltip(_told(rows[op]))
+        imgui.separator()
+        if imgui.selectable("Formula…", name == "formula")[0]:
+            picked = "formula"
+        w.tooltip("Write yourself what is added to each channel")
+        imgui.end_combo()
+        return picked
+
+    def _parameter(self, desk: Desk, given: Map[str, Any], row: Any) -> Map[str, Any]:
+        value = given.get(row.name, row.default)
+        new = CONTROLS[row.kind](self, desk, row, value)
+        return given if new == value else given.set(row.name, new)
+
+    def _number(self, desk: Desk, row: Any, value: Any) -> Any:
+        form = {"px": "%.1f px", "degrees": "%.0f°"}.get(row.unit, "%.2f")
+        changed, new = w.slider(row.label, float(value), row.slider, row.tooltip, form=form, curved=row.logarithmic)
+        return min(max(round(new, 3), row.lo), row.hi) if changed else value
+
+    def _choice(self, desk: Desk, row: Any, value: Any) -> Any:
+        options = [(one, f"{row.label} {one}") for one in row.choices]
+        return w.choice(row.name, value, options, row.tooltip, -1) or value
+
+    def _layer(self, desk: Desk, row: Any, value: Any) -> Any:
+        options = [(name, f"From {name}") for name in _layers(desk)]
+        if value not in dict(options):
+            options.append((value, f"From {value} (not here)"))
+        return w.choice(row.name, value, options, row.tooltip, -1) or value
+
+    def _offset(self, desk: Desk, row: Any, value: Any) -> Any:
+        parts = list(value)
+        for i, axis in enumerate(("right", "down")):
+            shown = (f"{row.label} {axis}", float(parts[i]), OFFSETS, row.tooltip)
+            changed, new = w.slider(*shown, form="%.0f px")
+            if changed:
+                parts[i] = round(new)
+        return tuple(parts)
+
+    def _stops(self, desk: Desk, row: Any, value: Any) -> Any:
+        stops = ramps.read(value)
+        new = self._ramp.draw(stops, row.tooltip)
+        return value if new == stops else new
+
+    def _formula(self, desk: Desk, formula: str) -> None:
+        """The field, what is wrong with it, and some formulas to begin with; the brush keeps the last good one."""
+        if formula != self._known:
+            self._text = self._known = formula
+            self._fault = None
+        side = imgui.get_frame_height()
+        imgui.set_next_item_width(imgui.get_content_region_avail().x - side - imgui.get_style().item_spacing.x)
+        changed, self._text = imgui.input_text("##formula", self._text)
+        left = imgui.is_item_deactivated()
+        if not imgui.is_item_active():  # it would cover what is said about a mistake
+            w.tooltip(_VOCABULARY)
+        imgui.same_line()
+        if w.icon_button("more formulas", icons.MORE, "Formulas to begin with"):
+            imgui.open_popup("formulas")
+        if imgui.begin_popup("formulas"):
+            for title, text in FORMULAS:
+                if imgui.selectable(f"{title}##{text}", False)[0]:
+                    self._text, changed, left = text, True, True
+                w.tooltip(text)
+            imgui.end_popup()
+        now = time.monotonic()
+        if changed:
+            self._text = self._text[:FORMULA_CAP]
+            self._fault, self._typed = fault(self._text), now
+        if self._fault is None and self._text != self._known and (left or now - self._typed > REST):
+            self._known = self._text
+            desk.brush = replace(desk.brush, op=Map({"formula": self._text}))
+        if self._fault is not None:
+            _mistake(self._text, self._fault)
+
+
+CONTROLS: dict[str, Callable[[Operations, Desk, Any, Any], Any]] = {
+    "number": Operations._number,
+    "choice": Operations._choice,
+    "layer": Operations._layer,
+    "offset": Operations._offset,
+    "ramp": Operations._stops,
+}
+_VOCABULARY = (
+    "f of pic + d tex f: what is added to each channel, from\n"
+    + "\n".join(f"{name}: {meaning}" for name, meaning in NAMES.items())
+    + "\n\nwith + - * / % **, comparisons, a if b else c, and\n"
+    + ", ".join(FUNCTIONS)
+)
+
+
+def fault(formula: str) -> FormulaError | None:
+    """What is wrong with a formula, if anything is."""
+    try:
+        parse(formula)
+    except FormulaError as error:
+        return error
+    return None
+
+
+def around(formula: str, column: int) -> tuple[str, str, str]:
+    """A piece of a formula: before, at and behind the column (from 1) of a mistake; an end is shown as a blank."""
+    i = min(max(column - 1, 0), len(formula))
+    before, behind = formula[max(0, i - ECHO) : i], formula[i + 1 : i + 1 + ECHO]
+    before = ("…" if i > ECHO else "") + before
+    return before, formula[i : i + 1] or " ", behind + ("…" if i + 1 + ECHO < len(formula) else "")
+
+
+def _mistake(formula: str, error: FormulaError) -> None:
+    """The place of the mistake in its surroundings, and what was expected there."""
+    before, there, behind = around(formula, error.column)
+    corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
+    x = corner.x
+    warn, quiet, height = theme.packed(theme.WARN), theme.packed((0.7,) * 3), imgui.get_text_line_height()
+    for text, colour in ((before, quiet), (there, warn), (behind, quiet)):
+        width = max(imgui.calc_text_size(text).x, 4.0)
+        painter.add_text(ImVec2(x, corner.y), colour, text)
+        if colour == warn:
+            painter.add_rect_filled(ImVec2(x, corner.y + height), ImVec2(x + width, corner.y + height + 2), warn)
+        x += width
+    imgui.dummy(ImVec2(1, height + 2))
+    wanted = f"Column {error.column}: found {error.found}, expected {error.expected.partition(':')[0]}"
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.vec(theme.WARN), wanted)
+    imgui.pop_text_wrap_pos()
+    w.tooltip(f"Found {error.found}, expected {error.expected}")
+
+
+def _told(row: Any) -> str:
+    """A row's hint, with what it does to the other levels."""
+    return f"{row.tooltip}\n\n{row.finer}\n{row.coarser}"
+
+
+def _layers(desk: Desk) -> list[str]:
+    return [row.name for row in desk.scene.layers if not row.group] if desk.scene else []
+
+
+def copied(layers: Sequence[str], active: str | None) -> str:
+    """The layer that a clone begins to copy from, of all from the top: the one below, or else above, or the same."""
+    if active not in layers:
+        return layers[0]
+    i = layers.index(active)
+    return layers[i + 1] if i + 1 < len(layers) else layers[max(0, i - 1)]
+
+
+def _started(desk: Desk, name: str) -> Any:
+    """The op as it begins: its name, with what has to be given; None if there is nothing to give."""
+    if name == "formula":
+        return Map({"formula": FORMULAS[0][1]})
+    row = next(row for row in desk.ops if row.name == name)
+    given: dict[str, Any] = {}
+    for parameter in row.parameters:
+        if parameter.default is None and parameter.kind == "layer":
+            layers, active = _layers(desk), desk.scene.active if desk.scene else None
+            if not layers:
+                return None
+            given[parameter.name] = source = copied(layers, active)
+            if source == active:
+                given["offset"] = BESIDE
+    return Map({"name": name} | given) if given else name

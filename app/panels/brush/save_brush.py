@@ -1,0 +1,69 @@
+"""Keeping a brush: a button that asks for a name and writes a preset of the artist's own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from app import icons
+from app.desk import palette, presets
+from app.desk.colours import to_hex
+from app.desk.desk import Desk
+from app.desk.presets import Preset
+from app.panels.brush.brush_list import ask_picture
+from app.panels.controls import widgets as w
+
+
+class SaveBrush:
+    """Remembers the name as it is typed."""
+
+    def __init__(self) -> None:
+        self._name = ""
+
+    def draw(self, desk: Desk) -> None:
+        """The button, on the right end of the header just drawn, and what it opens."""
+        side = imgui.get_text_line_height() * 1.25
+        right = imgui.get_content_region_avail().x
+        imgui.same_line(0, 0)
+        imgui.set_cursor_pos_x(imgui.get_style().window_padding.x + right - side)
+        if w.icon_button("save brush", icons.DISK, "Save this brush under a name", size=side):
+            self._name = presets.free_name(desk.preset or "My brush", desk.presets)
+            imgui.open_popup("save brush")
+        if not imgui.begin_popup("save brush"):
+            return
+        em = imgui.get_font_size()
+        imgui.text_disabled("Save this brush")
+        if imgui.is_window_appearing():
+            imgui.set_keyboard_focus_here()
+        imgui.set_next_item_width(em * 14)
+        entered, self._name = imgui.input_text("##name", self._name, imgui.InputTextFlags_.enter_returns_true)
+        w.tooltip("Its name among your own brushes")
+        name = presets.free_name(self._name, desk.presets)
+        if any(p.name == name and p.group == presets.OWN for p in desk.presets):
+            imgui.text_disabled("Replaces your brush of this name")
+        elif name != " ".join(self._name.split()):
+            imgui.text_disabled(f"Saved as “{name}”")
+        if w.text_button("Save", "Write it into the folder of your brushes", width=em * 6) or entered:
+            _save(desk, name)
+            imgui.close_current_popup()
+        imgui.same_line()
+        if w.text_button("Cancel", "Go back", width=em * 6):
+            imgui.close_current_popup()
+        imgui.end_popup()
+
+
+def _save(desk: Desk, name: str) -> None:
+    textures, stay = palette.belonging(desk)
+    preset = Preset(name, replace(desk.brush, colour=to_hex(desk.colour)), textures=textures)
+    try:
+        path = presets.save(preset, presets.own_folder())
+    except OSError as error:
+        desk.say(f"The brush was not saved: {error}", bad=True)
+        return
+    preset = replace(preset, path=path)
+    others = tuple(p for p in desk.presets if (p.name, p.group) != (name, presets.OWN))
+    desk.presets, desk.preset = (*others, preset), name
+    ask_picture(desk, preset)
+    without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""
+    desk.say(f"Saved the brush “{name}”{without}", bad=bool(stay))

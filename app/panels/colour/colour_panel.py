@@ -1,0 +1,115 @@
+"""The colour panel: wheel, OkLCH sliders, the two colours, and those painted with before."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk.colours import MOST_CHROMA, RGB, from_hex, from_oklch, to_hex, to_oklch
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+
+_STOPS = 18
+_HISTORY_ACROSS = 12
+
+
+class ColourPanel:
+    """Keeps the hue and chroma that a grey would lose."""
+
+    def __init__(self) -> None:
+        self._rgb: RGB = (-1.0, 0.0, 0.0)
+        self._lch: RGB = (0.0, 0.0, 0.0)
+        self._text = ""
+
+    def draw(self, desk: Desk) -> None:
+        if not w.section("Colour"):
+            return
+        self._wheel(desk)
+        self._sliders(desk)
+        self._pair(desk)
+        self._history(desk)
+
+    def _wheel(self, desk: Desk) -> None:
+        room = imgui.get_content_region_avail().x
+        side = min(room, imgui.get_font_size() * 12.0)
+        imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + (room - side) / 2)
+        imgui.set_next_item_width(side)
+        changed, value = imgui.color_picker3("##wheel", list(desk.colour), w.PICKER_FLAGS)
+        if changed:
+            desk.colour = (value[0], value[1], value[2])
+
+    def _sliders(self, desk: Desk) -> None:
+        if desk.colour != self._rgb:
+            new = to_oklch(desk.colour)
+            keep = new[1] < 0.004  # a grey has no hue of its own
+            self._rgb, self._lch = desk.colour, (new[0], new[1], self._lch[2] if keep else new[2])
+        light, chroma, hue = self._lch
+        rows = (
+            ("Lightness", light, "How light the colour looks (OkLCH)"),
+            ("Chroma", chroma / MOST_CHROMA, "How colourful it is; past what the screen shows it stops"),
+            ("Hue", hue / 360, "Its place on the wheel, at the same lightness"),
+        )
+        parts = [light, chroma / MOST_CHROMA, hue / 360]
+        for i, (name, value, hint) in enumerate(rows):
+            stops = _stops(i, round(light, 3), round(chroma, 3), round(hue, 1))
+            changed, new_value = w.gradient_slider(name, max(0.0, min(1.0, value)), stops, f"{name}: {hint}")
+            if changed:
+                parts[i] = new_value
+                self._lch = parts[0], parts[1] * MOST_CHROMA, parts[2] * 360
+                desk.colour = self._rgb = from_oklch(*self._lch)
+
+    def _pair(self, desk: Desk) -> None:
+        height = imgui.get_frame_height()
+        wide = imgui.get_content_region_avail().x
+        w.swatch("now", desk.colour, "The colour you paint with", (wide * 0.26, height))
+        imgui.same_line()
+        if w.swatch("other", desk.other_colour, "The other colour; click to swap (X)", (wide * 0.16, height)):
+            desk.colour, desk.other_colour = desk.other_colour, desk.colour
+        imgui.same_line()
+        if w.icon_button("swap", icons.SWAP, "Swap the two colours (X)"):
+            desk.colour, desk.other_colour = desk.other_colour, desk.colour
+        imgui.same_line()
+        imgui.set_next_item_width(-1)
+        _, self._text = imgui.input_text("##hex", self._text, imgui.InputTextFlags_.chars_no_blank)
+        if imgui.is_item_deactivated_after_edit():
+            try:
+                desk.colour = from_hex("#" + self._text.lstrip("#").lower())
+            except ValueError:
+                desk.say(f"“{self._text}” is no colour: write six hexadecimal digits", bad=True)
+        elif not imgui.is_item_active():
+            self._text = to_hex(desk.colour)
+        w.tooltip("The colour as #rrggbb")
+
+    def _history(self, desk: Desk) -> None:
+        gap = 3 * desk.scale
+        side = (imgui.get_content_region_avail().x - gap * (_HISTORY_ACROSS - 1)) / _HISTORY_ACROSS
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
+        imgui.push_style_var(imgui.StyleVar_.frame_rounding, 2.0)
+        for i in range(_HISTORY_ACROSS):
+            if i:
+                imgui.same_line()
+            if i < len(desk.colours):
+                if w.swatch(f"past{i}", desk.colours[i], "Painted with before", (side, side)):
+                    desk.colour = desk.colours[i]
+            else:
+                corner = imgui.get_cursor_screen_pos()
+                imgui.dummy(ImVec2(side, side))
+                end = ImVec2(corner.x + side, corner.y + side)
+                imgui.get_window_draw_list().add_rect_filled(corner, end, theme.packed((0.14,) * 3), 2.0)
+        imgui.pop_style_var(2)
+
+
+@lru_cache(maxsize=12)
+def _stops(axis: int, light: float, chroma: float, hue: float) -> tuple[RGB, ...]:
+    """The colours along one slider."""
+    out = []
+    for i in range(_STOPS + 1):
+        t = i / _STOPS
+        lch = [light, chroma, hue]
+        lch[axis] = t * (1.0, MOST_CHROMA, 360.0)[axis]
+        if axis == 2:
+            lch[0], lch[1] = max(0.45, min(0.85, light)), max(chroma, 0.10)
+        out.append(from_oklch(*lch))
+    return tuple(out)

@@ -1,0 +1,167 @@
+"""The ink mixer: textures stirred into the brush's colour, with a picture of what comes out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk import pictured
+from app.desk.colours import to_hex
+from app.desk.desk import Desk
+from app.panels.controls import texture_choice, texture_rows
+from app.panels.controls import widgets as w
+from app.panels.controls.curve_editor import CurveEditor
+from engine.brush.settings import COMPONENTS_CAP, Component
+
+DEEPER = 4  # levels: how far the second half of the picture is zoomed in
+SWATCH_HEIGHT = 56
+_COLOURS = {"white": "#ffffff", "rock": "#7a6f63", "stripes": "#20242c", "sawtooth": "#f0e2c0", "squares": "#f2f2f2"}
+
+
+class InkPanel:
+    """Ink is the brush's colour plus textures, each with an amount and a colour of its own."""
+
+    def __init__(self) -> None:
+        self._curves = CurveEditor()
+
+    def draw(self, desk: Desk) -> None:
+        if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):
+            return
+        self._picture(desk)
+        self._welcome(desk)
+        removed = None
+        for i, component in enumerate(desk.brush.ink):
+            imgui.push_id(i)
+            changed, keep = self._component(desk, component)
+            imgui.pop_id()
+            if not keep:
+                removed = i
+            elif changed is not component:
+                desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:i], changed, *desk.brush.ink[i + 1 :]))
+        if removed is not None:
+            desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:removed], *desk.brush.ink[removed + 1 :]))
+        if desk.brush.ink:
+            hint = "A curve that all these textures go through: harder, softer, turned round"
+            reshaped, curve = self._curves.row("Shaping of all", desk.brush.shaping, desk.curves, hint)
+            if reshaped:
+                desk.brush = replace(desk.brush, shaping=curve)
+        self._extent(desk)
+        self._adder(desk)
+
+    def _picture(self, desk: Desk) -> None:
+        """The ink as painted, and beside it 16 times nearer."""
+        width = imgui.get_content_region_avail().x
+        height = SWATCH_HEIGHT * desk.scale
+        corner = imgui.get_cursor_screen_pos()
+        imgui.dummy(ImVec2(width, height))
+        w.tooltip(f"The ink as painted, and {1 << DEEPER} times nearer")
+        painter = imgui.get_window_draw_list()
+        for i, name in enumerate(("ink", "ink near")):
+            left = corner.x + i * (width / 2 + desk.scale)
+            end = ImVec2(left + width / 2 - desk.scale, corner.y + height)
+            painter.add_rect_filled(ImVec2(left, corner.y), end, theme.packed(theme.FIELD), 4 * desk.scale)
+            if name in desk.pictures:
+                painter.add_image_rounded(
+                    desk.pictures[name],
+                    ImVec2(left, corner.y),
+                    end,
+                    ImVec2(0, 0),
+                    ImVec2(1, 1),
+                    -1 & 0xFFFFFFFF,
+                    4 * desk.scale,
+                )
+
+    def _component(self, desk: Desk, component: Component) -> tuple[Component, bool]:
+        """Draws one row; (the component as it is now, whether it stays)."""
+        side, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
+        if w.swatch("colour", component.rgb, "The colour this texture leads to", (side, side)):
+            imgui.open_popup("tint")
+        rgb = w.colour_popup("tint", component.rgb)
+        if rgb is not None:
+            component = replace(component, colour=to_hex(rgb))
+        imgui.same_line()
+        name = texture_rows.label(desk, component.texture)
+        room = imgui.get_content_region_avail().x - 2 * side - 2 * gap
+        imgui.push_style_var(imgui.StyleVar_.cell_padding, ImVec2(0, 0))
+        imgui.begin_child("amount", ImVec2(room, side))
+        changed, amount = w.slider(name, component.amount * 100, (0.0, 100.0), "How much of it", form="%.0f%%")
+        imgui.end_child()
+        imgui.pop_style_var()
+        if changed:
+            component = replace(component, amount=round(amount / 100, 4))
+        imgui.same_line()
+        if w.icon_button("more", icons.SLIDERS, "Its own settings"):
+            imgui.open_popup("settings")
+        component = self._parameters(desk, component)
+        imgui.same_line()
+        return component, not w.icon_button("drop", icons.CLOSE, "Take it out of the ink")
+
+    def _parameters(self, desk: Desk, component: Component) -> Component:
+        imgui.set_next_window_size(ImVec2(imgui.get_font_size() * 17, 0))
+        if not imgui.begin_popup("settings"):
+            return component
+        imgui.text_disabled(texture_rows.label(desk, component.texture))
+        parameters = texture_rows.sliders(desk, component.texture, component.parameters)
+        if parameters != component.parameters:
+            component = replace(component, parameters=parameters)
+        if texture_rows.kind_of(desk, component.texture) == "series":
+            component = _pressing(component)
+        hint = "A curve that this texture's values go through: harder, softer, turned round"
+        changed, curve = self._curves.row("Shaping", component.shaping, desk.curves, hint)
+        if changed:
+            component = replace(component, shaping=curve)
+        imgui.end_popup()
+        return component
+
+    def _extent(self, desk: Desk) -> None:
+        """Scattered textures can keep their marks whole at the stroke's rim."""
+        if desk.brush.extent or any(texture_rows.kind_of(desk, part.texture) == "sparse" for part in desk.brush.ink):
+            changed, on = imgui.checkbox("Whole marks at the rim", desk.brush.extent)
+            w.tooltip("The rim of a stroke takes the shape of the texture's marks: none is cut")
+            if changed:
+                desk.brush = replace(desk.brush, extent=on)
+
+    def _adder(self, desk: Desk) -> None:
+        full = len(desk.brush.ink) >= COMPONENTS_CAP
+        if w.text_button(
+            f"{icons.ADD}  Add texture",
+            "Stir a texture into the paint",
+            enabled=bool(desk.kinds) and not full,
+            width=-1,
+        ):
+            imgui.open_popup("add texture")
+        texture_choice.limit(desk)
+        if not imgui.begin_popup("add texture"):
+            return
+        if imgui.selectable("Picture from a file…", False)[0]:
+            desk.ask("texture picture")
+        w.tooltip("Paint with a PNG, JPEG or TIFF; it repeats, and shows its own detail as you zoom in")
+        if imgui.selectable("What is in view", False)[0]:
+            pictured.from_view(desk)
+        w.tooltip("Paint with what the canvas shows now, finer detail included")
+        imgui.separator()
+        name = texture_choice.listed(desk)
+        if name:
+            part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
+            desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
+        imgui.end_popup()
+
+    def _welcome(self, desk: Desk) -> None:
+        """A picture that was asked for is a texture now: it joins the ink."""
+        if not desk.awaited or desk.scene is None or desk.awaited not in desk.scene.textures:
+            return
+        part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
+        if len(desk.brush.ink) < COMPONENTS_CAP:
+            desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
+
+
+def _pressing(component: Component) -> Component:
+    """A box to tick: a series of textures whose weight follows the pen."""
+    pressed = isinstance(component.parameters.get("weight"), str | tuple)
+    hint = "The harder the pen is pressed, the more of the second example it paints"
+    changed, on = w.tick("Pen pressure sets the weight", pressed, hint)
+    if not changed:
+        return component
+    return replace(component, parameters=component.parameters.set("weight", "pressure" if on else 0.5))

@@ -1,0 +1,142 @@
+"""What the panels share about textures: which there are, what they are called, sliders for their parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+from typing import Any
+
+from immutables import Map
+
+from app import icons
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from engine.brush.checks import is_number
+from engine.makers import definitions
+from engine.painting.commands import DefineTexture
+
+_SLIDER_MOST = {"period": 512.0, "angle": 180.0}
+_WORDS = {"period": "Size", "mean": "Brightness", "spread": "Contrast", "quantise": "Steps"}  # for artists
+_WHOLE_CURVE = ("period", "density")  # sliders that are finer where they are small
+
+
+def names(desk: Desk) -> list[tuple[str, str]]:
+    """Names and hints: those built in, those that the painting defines, those that the bundled brushes bring."""
+    return [row for _, rows in groups(desk) for row in rows]
+
+
+def groups(desk: Desk) -> list[tuple[str, list[tuple[str, str]]]]:
+    """The same by where they come from, under a title each; a name that several have means the first's."""
+    here = desk.scene.textures if desk.scene else ()
+    sources = (
+        ("Of this painting", [(name, "A texture of this painting") for name in here]),
+        ("Built in", [(row.name, row.tooltip) for row in desk.kinds if not row.pictured]),
+        ("Of the brushes", [(name, "The painting gets it when you paint with it") for name in _bringable(desk)]),
+    )
+    seen: set[str] = set()
+    found = []
+    for title, rows in sources:
+        rows = [row for row in rows if row[0] not in seen]
+        seen |= {name for name, _ in rows}
+        if rows:
+            found.append((title, rows))
+    return found
+
+
+def bring(desk: Desk, name: str) -> None:
+    """Has the painting get a texture of the brushes that it lacks, as soon as it is painted with."""
+    if all(other.name != name for other in desk.needs):
+        desk.needs = (*desk.needs, *brought(desk, name))
+
+
+def _bringable(desk: Desk) -> dict[str, DefineTexture]:
+    """By name, what the brush came with and what presets and papers come with; the first of a name counts."""
+    found: dict[str, DefineTexture] = {}
+    bundled = (one for source in (*desk.presets, *desk.papers) for one in source.textures)
+    for command in (*desk.needs, *bundled):
+        found.setdefault(command.name, command)
+    return found
+
+
+def label(desk: Desk, texture: str) -> str:
+    return texture.capitalize() if any(row.name == texture for row in desk.kinds) else texture
+
+
+def meant(desk: Desk, name: str) -> Hashable:
+    """What a name means now: another value when it means another texture."""
+    if desk.scene and name in desk.scene.textures:
+        given = next((parameters for known, _, parameters in desk.scene.definitions if known == name), None)
+        lab = desk.lab.scene
+        return desk.scene.serial, given, lab.version if lab is not None and lab.using == name else 0
+    return _bringable(desk).get(name, name)
+
+
+def brought(desk: Desk, name: str) -> tuple[DefineTexture, ...]:
+    """The definition of a texture that the painting lacks and the brushes have."""
+    command = _bringable(desk).get(name)
+    here = desk.scene is not None and name in desk.scene.textures
+    return () if command is None or here else (command,)
+
+
+def rows(desk: Desk, texture: str) -> tuple[Any, ...]:
+    """The parameters of a texture, from the table of its kind."""
+    kind = kind_of(desk, texture)
+    return next((tuple(row.parameters) for row in desk.kinds if row.name == kind), ())
+
+
+def kind_of(desk: Desk, texture: str) -> str:
+    """The kind of a texture: of the painting, of those still to come into it, or built in."""
+    defined = dict(desk.scene.texture_kinds) if desk.scene else {}
+    if texture in defined:
+        return defined[texture]
+    command = _bringable(desk).get(texture)
+    return texture if command is None else definitions.kind_of(command)
+
+
+def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any]:
+    """A slider for each parameter and a button for another seed; the parameters as they are now."""
+    found, usual = rows(desk, texture), own(desk, texture)
+    for row in found:
+        still = row.name != "weight" or is_number(parameters.get("weight", 0.0))
+        if row.name not in ("seed", "stages") and still:
+            parameters = _slider(parameters, row, usual.get(row.name, row.default))
+    seeded = any(row.name == "seed" for row in found)
+    if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
+        parameters = parameters.set("seed", (int(parameters.get("seed", 0) or 0) * 31 + 17) % 99991)
+    return parameters
+
+
+def own(desk: Desk, texture: str) -> Mapping[str, Any]:
+    """The parameters that a texture was defined with, with which a brush paints that says nothing; the period is the
+    width of its picture where the definition says nothing either."""
+    width, given = 0, None
+    if desk.scene:
+        width = dict(desk.scene.texture_widths).get(texture, 0)
+        given = next((parameters for name, _, parameters in desk.scene.definitions if name == texture), None)
+    command = _bringable(desk).get(texture)
+    if given is None and command is not None:
+        given, size = command.arguments, command.arguments.get("size")
+        width = size[0] if isinstance(size, tuple) and size else 0
+    return {**({"period": width} if width else {}), **(given or {})}
+
+
+def _slider(parameters: Map[str, Any], row: Any, usual: Any) -> Map[str, Any]:
+    value = parameters.get(row.name, usual)
+    value = float(value if is_number(value) else row.default)  # files may say anything; the engine refuses it
+    lo, hi = float(row.lo), min(float(row.hi), _SLIDER_MOST.get(row.name, float(row.hi)))
+    form = (
+        "%.0f°"
+        if row.unit in ("degrees", "°")
+        else "%.1f px"
+        if row.name == "period"
+        else "%.0f"
+        if row.whole
+        else "%.2f"
+    )
+    curved = row.name in _WHOLE_CURVE
+    changed, value = w.slider(
+        _WORDS.get(row.name, row.name.capitalize()), value, (lo, hi), row.tooltip, form=form, curved=curved
+    )
+    if not changed:
+        return parameters
+    value = min(max(round(value, 0 if row.whole else 3), float(row.lo)), float(row.hi))
+    return parameters.set(row.name, int(value) if row.whole else value)

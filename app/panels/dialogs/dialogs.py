@@ -1,0 +1,205 @@
+"""The windows that ask: a new painting, files, unsaved changes; the list of keys, about."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.actions import ACTIONS, MENUS
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from app.panels.dialogs import file_browser
+from engine.numeric.address import Rect
+from engine.studio.requests import New
+
+MOST_SIDE = 1 << 20
+EXPORT_LEVELS = (-4, 8)
+_SIZES = (("Screen", 1280, 800), ("Square", 1024, 1024), ("Wide", 1920, 1080), ("A4, 150 dpi", 1240, 1754))
+
+
+class Dialog(Protocol):
+    title: str
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws the contents; False when it is done."""
+        ...
+
+
+class Dialogs:
+    """Shows the dialog that was asked for, in the middle of the screen, above everything; one at a time."""
+
+    def __init__(self) -> None:
+        self._open: Dialog | None = None
+
+    @property
+    def open(self) -> bool:
+        return self._open is not None
+
+    def draw(self, desk: Desk) -> None:
+        if desk.asked and self._open is None:
+            self._open, desk.asked = DIALOGS[desk.asked](desk), ""
+            imgui.open_popup("###dialog")
+        dialog = self._open
+        if dialog is None:
+            return
+        middle = ImVec2(desk.view.width / 2, desk.view.height / 2)
+        imgui.set_next_window_pos(middle, imgui.Cond_.always, ImVec2(0.5, 0.5))
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
+        flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
+        if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
+            given_up = imgui.is_key_pressed(imgui.Key.escape)
+            if given_up:
+                desk.after_save = None
+            if given_up or not dialog.draw(desk):
+                imgui.close_current_popup()
+                self._open = None
+            imgui.end_popup()
+        else:
+            self._open = None
+        imgui.pop_style_var()
+
+
+class NewPainting:
+    title = "New painting"
+
+    def __init__(self) -> None:
+        self._width, self._height = 1280, 800
+
+    def draw(self, desk: Desk) -> bool:
+        em = imgui.get_font_size()
+        for i, (name, width, height) in enumerate(_SIZES):
+            if i % 2:
+                imgui.same_line()
+            if w.text_button(f"{name}\n{width} × {height}##{name}", "Use this size", width=em * 10):
+                self._width, self._height = width, height
+        imgui.spacing()
+        imgui.set_next_item_width(em * 8)
+        _, self._width = imgui.input_int("Width", self._width, 0)
+        w.tooltip("Of the frame, in pixels of level 0; you can paint outside it and inside every pixel")
+        imgui.same_line()
+        imgui.set_next_item_width(em * 8)
+        _, self._height = imgui.input_int("Height", self._height, 0)
+        w.tooltip("Of the frame, in pixels of level 0")
+        good = 1 <= self._width <= MOST_SIDE and 1 <= self._height <= MOST_SIDE
+        imgui.spacing()
+        if w.default_button("Start", "Start the new painting", enabled=good, width=em * 8):
+            desk.post(New(Rect(0, 0, self._width, self._height)))
+            return False
+        imgui.same_line()
+        return not w.text_button("Cancel", "Go back", width=em * 8)
+
+
+class ExportDepth:
+    """How deep the exported picture goes; then where it goes."""
+
+    title = "Export picture"
+
+    def draw(self, desk: Desk) -> bool:
+        em = imgui.get_font_size()
+        imgui.text_unformatted("Each level deeper doubles the picture, with new detail.")
+        imgui.set_next_item_width(em * 20)
+        flags = imgui.SliderFlags_.always_clamp
+        _, desk.export_level = imgui.slider_int("Level", desk.export_level, *EXPORT_LEVELS, flags=flags)
+        w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
+        size = desk.frame.zoomed(desk.export_level)
+        imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
+        imgui.spacing()
+        chosen = w.default_button("Choose file…", "Choose where to write it", width=em * 8)
+        if chosen:
+            desk.ask("export to")
+        imgui.same_line()
+        return not (w.text_button("Cancel", "Go back", width=em * 7) or chosen)
+
+
+class Unsaved:
+    """Asks what is to become of changes before something replaces the painting."""
+
+    title = "Unsaved changes"
+
+    def draw(self, desk: Desk) -> bool:
+        then, going = desk.then, False
+        if then is not None and not desk.modified and not desk.behind():  # nothing was changed, or it is saved by now
+            then(desk)
+            return False
+        name, writing = desk.path.name if desk.path else "This painting", desk.writing
+        grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
+        told = f"is still being saved{grown}." if writing.saving else "has changes that are not saved."
+        imgui.text_unformatted(f"{name} {told}")
+        imgui.spacing()
+        em = imgui.get_font_size()
+        if writing.saving:
+            if w.default_button("Wait", "Go on as soon as it is saved", width=em * 7) and then is not None:
+                desk.after_save, going = (lambda d: d.guard(then)), True
+        elif w.default_button("Save", "Save, then go on", width=em * 7):
+            desk.after_save, going = then, True
+            desk.save()
+        imgui.same_line()
+        if w.text_button("Don’t save", "Go on; the changes are lost", width=em * 7):
+            going = True
+            if then is not None:
+                then(desk)
+        imgui.same_line()
+        return not (w.text_button("Cancel", "Go back to the painting", width=em * 7) or going)
+
+
+class Keys:
+    title = "Keys"
+
+    def draw(self, desk: Desk) -> bool:
+        rows = [
+            ("Wheel", "Zoom about the pointer"),
+            ("Space + drag, middle button", "Pan"),
+            ("Shift + Space + drag", "Turn the view"),
+            ("Ctrl + Space + drag", "Zoom"),
+            ("Ctrl + click, right button", "Pick a colour"),
+        ]
+        rows += [(", ".join(a.keys), a.title) for menu in MENUS for a in ACTIONS.values() if a.menu == menu and a.keys]
+        half = -(-len(rows) // 2)
+        em = imgui.get_font_size()
+        if imgui.begin_table("keys", 4, 0, ImVec2(em * 42, 0)):
+            for i in range(half):
+                imgui.table_next_row()
+                for keys, title in rows[i : i + half + 1 : half]:
+                    imgui.table_next_column()
+                    imgui.text_colored(theme.vec(theme.ACCENT), keys)
+                    imgui.table_next_column()
+                    imgui.text_unformatted(title)
+            imgui.end_table()
+        imgui.spacing()
+        return not w.default_button("Close", "Close the list", width=em * 7)
+
+
+class About:
+    title = "About Inkfall"
+
+    def draw(self, desk: Desk) -> bool:
+        em = imgui.get_font_size()
+        imgui.push_text_wrap_pos(em * 28)
+        imgui.text_unformatted(
+            "Inkfall is a paint program without a bottom: paint is a bandpass pyramid, and textured ink keeps showing "
+            "new detail as you zoom in.\n\nAfter “Live Paint: Painting with Procedural Multiscale Textures” "
+            "(Perlin & Velho, 1995). MIT licence."
+        )
+        imgui.pop_text_wrap_pos()
+        imgui.spacing()
+        return not w.default_button("Close", "Close", width=em * 7)
+
+
+DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
+    "new": lambda desk: NewPainting(),
+    "open": file_browser.opening,
+    "save as": file_browser.saving,
+    "export": lambda desk: ExportDepth(),
+    "export to": file_browser.exporting,
+    "texture picture": file_browser.choosing_texture,
+    "lab picture": file_browser.choosing_spectrum,
+    "match picture 0": file_browser.choosing_example(0),
+    "match picture 1": file_browser.choosing_example(1),
+    "example picture": file_browser.choosing_own,
+    "unsaved": lambda desk: Unsaved(),
+    "keys": lambda desk: Keys(),
+    "about": lambda desk: About(),
+}

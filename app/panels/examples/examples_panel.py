@@ -1,0 +1,207 @@
+"""The examples: thumbnails to choose from, the region of the one chosen, and how it is grown (Ritter et al. 2006)."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk import example_state, example_use, thumbnails
+from app.desk.desk import Desk
+from app.desk.example_state import Entry
+from app.panels.controls import widgets as w
+from app.panels.controls.widgets import Col
+from app.panels.examples.example_region import RegionPanel
+from app.panels.examples.growth_settings import GrowthSettings
+from app.panels.examples.own_examples import OwnExamples
+
+TILE, LARGE = 68.0, 104.0  # side of a thumbnail, points: at least, and where there is room
+NAME = 0.82  # of the font's size
+SIDE = 250.0  # width of what is told of the one chosen, points
+_STILL = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
+_TABS = (
+    ("palette", "Palette", "All examples: click one to paint with it"),
+    ("region", "Region", "Paint which part of the picture is grown"),
+    ("settings", "Settings", "How it is grown: pieces, rim, seams"),
+)
+
+
+class ExamplesPanel:
+    """Draws the strip."""
+
+    def __init__(self) -> None:
+        self._region, self._settings, self._own = RegionPanel(), GrowthSettings(), OwnExamples()
+
+    def draw(self, desk: Desk) -> None:
+        state = desk.examples
+        state.spot = None
+        if state.tab == "region" and state.mask is None and _has_files(state.entry):
+            example_use.edit(desk)
+        if not _has_files(state.entry) or (state.tab == "region" and state.mask is None):
+            state.tab = "palette"
+        if state.tab == "region":
+            self._region.draw(desk)
+        elif state.tab == "settings":
+            self._settings.draw(desk)
+        else:
+            self._palette(desk)
+
+    def bar(self, desk: Desk) -> None:
+        """The three sides of the panel, in the strip's title line."""
+        state, scale = desk.examples, desk.scale
+        wide = 220 * scale
+        imgui.same_line(imgui.get_window_width() - wide - imgui.get_frame_height() - 28 * scale)
+        imgui.begin_disabled(not _has_files(state.entry))
+        imgui.begin_child("tabs", ImVec2(wide, imgui.get_frame_height()))
+        state.tab = w.segments("tab", state.tab, _TABS, wide) or state.tab
+        imgui.end_child()
+        imgui.end_disabled()
+
+    # --- the palette -------------------------------------------------------------------------------------------------
+
+    def _palette(self, desk: Desk) -> None:
+        gap = imgui.get_style().item_spacing.x
+        left = imgui.get_content_region_avail().x - SIDE * desk.scale - gap
+        imgui.begin_child("all examples", ImVec2(left, 0), 0, _STILL)
+        self._filters(desk)
+        imgui.begin_child("thumbnails", ImVec2(0, 0))
+        self._thumbnails(desk)
+        imgui.end_child()
+        imgui.end_child()
+        imgui.same_line()
+        imgui.begin_child("chosen", ImVec2(0, 0), 0, _STILL)
+        self._chosen(desk)
+        imgui.end_child()
+        self._own.draw(desk)
+
+    def _filters(self, desk: Desk) -> None:
+        """Which group is listed; a button to add one."""
+        state, side, gap = desk.examples, imgui.get_frame_height(), 3 * desk.scale
+        groups = [(example_state.ALL, f"All {len(state.entries)}"), *((group, group) for group in state.groups())]
+        picked = w.choice("group", state.group, groups, "Which examples are listed", 150 * desk.scale)
+        if picked is not None:
+            state.group = picked
+        imgui.same_line(0, gap)
+        if w.icon_button("add", icons.ADD, "Add a picture of your own, or drop one on the window", size=side):
+            desk.ask("example picture")
+
+    def _thumbnails(self, desk: Desk) -> None:
+        listed, gap = desk.examples.listed(), 6 * desk.scale
+        room, tall = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size, _below(desk)
+        wide = tile(len(desk.examples.entries), (room, imgui.get_content_region_avail().y), gap, tall, desk.scale)
+        across = max(1, int((room + gap) / (wide + gap)))
+        gap = (room - across * wide) / (across - 1) if across > 1 else gap
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, 4 * desk.scale))
+        for i, entry in enumerate(listed):
+            if i % across:
+                imgui.same_line()
+            self._thumbnail(desk, entry, wide)
+        imgui.pop_style_var()
+        if not listed:
+            imgui.text_disabled("No examples here yet: drop a picture on the window")
+
+    def _thumbnail(self, desk: Desk, entry: Entry, wide: float) -> None:
+        corner, tall = imgui.get_cursor_screen_pos(), wide + _below(desk)
+        if imgui.invisible_button(entry.ident, ImVec2(wide, tall)):
+            example_use.choose(desk, entry)
+        chosen, hovered = desk.examples.chosen == entry.ident, imgui.is_item_hovered()
+        own = "\nDouble click to rename it, right click for more" if entry.own else ""
+        w.tooltip(f"{entry.title}\n{entry.group}: click to paint with it{own}")
+        if entry.own:
+            self._own.menu(desk, entry)
+        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + wide)
+        rounding, white = 5 * desk.scale, theme.packed((1.0, 1.0, 1.0))
+        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), rounding)
+        picture = desk.pictures.get(thumbnails.ident(entry))
+        if picture is not None:
+            painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, rounding)
+        if chosen or hovered:
+            colour = theme.packed(theme.ACCENT if chosen else (0.6,) * 3)
+            painter.add_rect(corner, end, colour, rounding, thickness=(2.5 if chosen else 1.5) * desk.scale)
+        grey = theme.TEXT if chosen else (0.72,) * 3
+        _named(
+            example_state.label(entry, desk.examples.entries), ImVec2(corner.x, end.y + 1.5 * desk.scale), wide, grey
+        )
+
+    # --- the one chosen ----------------------------------------------------------------------------------------------
+
+    def _chosen(self, desk: Desk) -> None:
+        state, entry = desk.examples, desk.examples.entry
+        room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
+        line, top = imgui.get_frame_height_with_spacing(), imgui.get_cursor_pos_y()
+        imgui.align_text_to_frame_padding()
+        imgui.text_unformatted(_short(entry, room.x - 2 * imgui.get_frame_height()) if entry else "Choose an example")
+        if entry is not None and entry.own:
+            self._own.buttons(desk, entry)
+        imgui.set_cursor_pos_y(top + line)  # with buttons and without
+        tall = room.y - 2 * line
+        state.sampled = max(1, round(room.x)), max(1, round(tall))
+        shown = desk.pictures.get(example_state.SAMPLE) if entry else None
+        corner = w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on one to try it")
+        if shown is not None and state.seen != state.chosen:  # it is of another one yet
+            end = ImVec2(corner.x + room.x, corner.y + tall)
+            veil = theme.packed(theme.FIELD, 0.75)
+            imgui.get_window_draw_list().add_rect_filled(corner, end, veil, imgui.get_style().frame_rounding)
+        if shown is None and entry is not None and desk.preparing is not None:
+            _in_middle("Getting ready…", corner, (room.x, tall))
+        wide = (room.x - gap.x) / 2
+        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
+        painting = entry is not None and desk.brush.mode == "example" and not desk.erasing and desk.tool == "brush"
+        text = f"{icons.BRUSH} Painting" if painting else f"{icons.BRUSH} Paint"
+        if w.text_button(f"{text}###paint", "Paint with this example", enabled=entry is not None, width=wide):
+            example_use.take(desk)
+        imgui.pop_style_color()
+        imgui.same_line()
+        hint = "Then click on a painted texture: it becomes like this one"
+        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if state.swapping else theme.RAISED))
+        if w.text_button(f"{icons.SWAP} Swap", hint, enabled=entry is not None, width=wide):
+            state.swapping = not state.swapping
+        imgui.pop_style_color()
+
+
+def _has_files(entry: Entry | None) -> bool:
+    """Whether it has a region and settings that may be changed: only the palette's own have."""
+    return entry is not None and entry.here is None
+
+
+def _below(desk: Desk) -> float:
+    """The height of a name under a thumbnail."""
+    return imgui.get_font_size() * NAME + 4 * desk.scale
+
+
+def tile(count: int, room: tuple[float, float], gap: float, name: float, scale: float) -> float:
+    """The side of thumbnails: as large as lets all be seen at once, between two bounds."""
+    side = int(LARGE * scale)
+    while side > TILE * scale:
+        across = max(1, int((room[0] + gap) / (side + gap)))
+        if -(-count // across) * (side + name + gap) <= room[1]:
+            break
+        side -= 1
+    return float(max(side, round(TILE * scale)))
+
+
+def _short(entry: Entry, wide: float) -> str:
+    """The name of one, as much of it as there is room for beside two buttons if it is the artist's own."""
+    return _fitting(entry.title, wide) if entry.own else entry.title
+
+
+def _fitting(name: str, wide: float) -> str:
+    """A name no wider than that; a long one ends with dots."""
+    while len(name) > 1 and imgui.calc_text_size(name).x > wide:
+        name = name.removesuffix("…")[:-1].rstrip() + "…"
+    return name
+
+
+def _in_middle(text: str, corner: ImVec2, size: tuple[float, float]) -> None:
+    """A word where a picture is to come."""
+    half = imgui.calc_text_size(text) / 2
+    at = ImVec2(corner.x + size[0] / 2 - half.x, corner.y + size[1] / 2 - half.y)
+    imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), text)
+
+
+def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:
+    """A name below its picture, in the middle."""
+    size = imgui.get_font_size() * NAME
+    scale = size / imgui.get_font_size()
+    name = _fitting(name, (wide + 2) / scale)
+    left = at.x + max(0.0, (wide - imgui.calc_text_size(name).x * scale) / 2)
+    imgui.get_window_draw_list().add_text(imgui.get_font(), size, ImVec2(left, at.y), theme.packed(grey), name)

@@ -1,0 +1,1 @@
+"""The texture lab and the analysis."""

@@ -1,0 +1,206 @@
+"""The layer panel: a list like a stack of sheets, the top-most first."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import actions, icons, theme
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from engine.painting import commands as c
+from engine.studio.requests import Do
+from engine.studio.results import LayerRow
+
+_PAYLOAD = "layer"
+
+
+class LayersPanel:
+    """Remembers which name is being edited and which groups are folded."""
+
+    def __init__(self) -> None:
+        self._editing: str | None = None
+        self._text = ""
+        self._focus = False
+        self._folded: set[str] = set()
+        self._opacity: tuple[str, float] | None = None
+
+    def draw(self, desk: Desk) -> None:
+        if not w.section("Layers"):
+            return
+        rows = desk.scene.layers if desk.scene else ()
+        active = next((r for r in rows if desk.scene and r.name == desk.scene.active), None)
+        imgui.begin_disabled(not desk.ready)
+        self._settings(desk, active)
+        self._list(desk, rows)
+        self._buttons(desk)
+        imgui.end_disabled()
+
+    def _settings(self, desk: Desk, row: LayerRow | None) -> None:
+        imgui.begin_disabled(row is None)
+        side = imgui.get_frame_height()
+        width = imgui.get_content_region_avail().x - 2 * (side + imgui.get_style().item_spacing.x)
+        options = [(name, title) for name, title, _ in desk.blends]
+        blend = w.choice(
+            "blend", row.blend if row else "src-over", options, "How the layer mixes with those below", width
+        )
+        if row and blend:
+            desk.post(Do(c.SetLayer(row.name, blend=blend)))
+        imgui.same_line()
+        locked, alpha = bool(row and row.locked), bool(row and row.alpha_locked)
+        if (
+            w.icon_button("alpha", icons.ALPHA_LOCK, "Keep transparency: paint only where there is paint", on=alpha)
+            and row
+        ):
+            desk.post(Do(c.SetLayer(row.name, alpha_locked=not alpha)))
+        imgui.same_line()
+        if (
+            w.icon_button("lock", icons.LOCK if locked else icons.UNLOCK, "Lock the layer against painting", on=locked)
+            and row
+        ):
+            desk.post(Do(c.SetLayer(row.name, locked=not locked)))
+        self._opacity_slider(desk, row)
+        imgui.end_disabled()
+
+    def _opacity_slider(self, desk: Desk, row: LayerRow | None) -> None:
+        """Posts one command when the slider is let go, so that it is one step to undo."""
+        value = row.opacity if row else 1.0
+        if self._opacity and row and self._opacity[0] == row.name:
+            value = self._opacity[1]
+        changed, percent = w.slider(
+            "Opacity##layer", value * 100, (0.0, 100.0), "How opaque the layer is", form="%.0f%%"
+        )
+        if changed and row:
+            self._opacity = row.name, percent / 100
+        if self._opacity and not imgui.is_item_active():
+            name, wanted = self._opacity
+            self._opacity = None
+            desk.post(Do(c.SetLayer(name, opacity=round(wanted, 4))))
+
+    def _list(self, desk: Desk, rows: tuple[LayerRow, ...]) -> None:
+        line = imgui.get_frame_height() + 3 * desk.scale
+        room = imgui.get_content_region_avail().y - imgui.get_frame_height_with_spacing() - 2 * desk.scale
+        height = max(room, 3.3 * line)
+        imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(4 * desk.scale, 3 * desk.scale))
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(3 * desk.scale, 3 * desk.scale))
+        imgui.begin_child("list", ImVec2(0, height), imgui.ChildFlags_.always_use_window_padding)
+        hidden_below: int | None = None
+        for row in rows:
+            if hidden_below is not None and row.depth > hidden_below:
+                continue
+            hidden_below = row.depth if row.group and row.name in self._folded else None
+            imgui.push_id(row.name)
+            self._row(desk, row)
+            imgui.pop_id()
+        if not rows:
+            imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET))
+            imgui.text_wrapped(" No layer yet: the first stroke makes one.")
+            imgui.pop_style_color()
+        imgui.end_child()
+        imgui.pop_style_var(2)
+        imgui.pop_style_color()
+
+    def _row(self, desk: Desk, row: LayerRow) -> None:
+        side = imgui.get_frame_height()
+        eye = icons.EYE if row.visible else icons.EYE_OFF
+        if w.icon_button("eye", eye, "Show or hide", enabled=True):
+            desk.post(Do(c.SetLayer(row.name, visible=not row.visible)))
+        imgui.same_line()
+        imgui.dummy(ImVec2(row.depth * side * 0.55, 0))
+        imgui.same_line(0, 0)
+        if row.group:
+            folded = row.name in self._folded
+            if w.icon_button("fold", icons.GROUP if folded else icons.GROUP_OPEN, "Fold or unfold the group"):
+                self._folded ^= {row.name}
+            imgui.same_line(0, 2 * desk.scale)
+        if self._editing == row.name:
+            self._name_field(desk, row)
+        else:
+            self._name(desk, row)
+
+    def _name(self, desk: Desk, row: LayerRow) -> None:
+        active = desk.scene is not None and desk.scene.active == row.name
+        signs = (f" {icons.LOCK}" if row.locked else "") + (f" {icons.ALPHA_LOCK}" if row.alpha_locked else "")
+        quiet = theme.TEXT if row.visible else theme.QUIET
+        imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))
+        imgui.push_style_var(imgui.StyleVar_.selectable_text_align, ImVec2(0.0, 0.5))
+        flags = imgui.SelectableFlags_.allow_double_click
+        if imgui.selectable(f"{row.name}{signs}###name", active, flags, ImVec2(0, imgui.get_frame_height()))[0]:
+            if imgui.is_mouse_double_clicked(0):
+                self._editing, self._text, self._focus = row.name, row.name, True
+            elif not active:
+                desk.post(Do(c.SelectLayer(row.name)))
+        imgui.pop_style_var()
+        imgui.pop_style_color()
+        self._drag(desk, row)
+        about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
+        blend = next((title for name, title, _ in desk.blends if name == row.blend), row.blend)
+        w.tooltip(f"{about}{blend}\nDrag to reorder, double-click to rename")
+
+    def _name_field(self, desk: Desk, row: LayerRow) -> None:
+        imgui.set_next_item_width(-1)
+        if self._focus:
+            imgui.set_keyboard_focus_here()
+            self._focus = False
+        done, self._text = imgui.input_text(
+            "##rename", self._text, imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
+        )
+        if imgui.is_item_deactivated():
+            name = self._text.strip()
+            if (done or imgui.is_item_deactivated_after_edit()) and name and name != row.name:
+                desk.post(Do(c.RenameLayer(row.name, name)))
+            self._editing = None
+
+    def _drag(self, desk: Desk, row: LayerRow) -> None:
+        if imgui.begin_drag_drop_source():
+            names = [r.name for r in desk.scene.layers] if desk.scene else []
+            imgui.set_drag_drop_payload_py_id(_PAYLOAD, names.index(row.name))
+            imgui.text_unformatted(row.name)
+            imgui.end_drag_drop_source()
+        if imgui.begin_drag_drop_target():
+            top, bottom = imgui.get_item_rect_min().y, imgui.get_item_rect_max().y
+            where = (imgui.get_io().mouse_pos.y - top) / max(1.0, bottom - top)
+            payload = imgui.accept_drag_drop_payload_py_id(_PAYLOAD)
+            if payload is not None and desk.scene:
+                command = dropped(desk.scene.layers, desk.scene.layers[int(payload.data_id)], row, where)
+                if command:
+                    desk.post(Do(command))
+            imgui.end_drag_drop_target()
+
+    def _buttons(self, desk: Desk) -> None:
+        names = (
+            ("add_layer", icons.ADD),
+            ("add_group", icons.GROUP),
+            ("duplicate", icons.COPY),
+            ("raise", icons.UP),
+            ("lower", icons.DOWN),
+            ("remove", icons.DELETE),
+        )
+        for i, (name, icon) in enumerate(names):
+            if i:
+                imgui.same_line()
+            action = actions.ACTIONS[name]
+            if w.icon_button(name, icon, actions.tip(name), enabled=action.when(desk)):
+                actions.perform(desk, action)
+
+
+def dropped(rows: tuple[LayerRow, ...], moved: LayerRow, onto: LayerRow, where: float) -> c.MoveLayer | None:
+    """The command for a row let go over another, `where` 0 (its top) to 1; None where it cannot go."""
+    if moved.name == onto.name or _within(rows, onto, moved):
+        return None
+    if onto.group and 0.25 < where < 0.75:
+        inside = [r for r in rows if r.parent == onto.name and r.name != moved.name]
+        return c.MoveLayer(moved.name, len(inside), onto.name)
+    position = onto.position - (1 if moved.parent == onto.parent and moved.position < onto.position else 0)
+    return c.MoveLayer(moved.name, position + (1 if where < 0.5 else 0), onto.parent)
+
+
+def _within(rows: tuple[LayerRow, ...], row: LayerRow, group: LayerRow) -> bool:
+    """Whether a row lies somewhere inside a group."""
+    parents = {r.name: r.parent for r in rows}
+    parent = row.parent
+    while parent is not None:
+        if parent == group.name:
+            return True
+        parent = parents.get(parent)
+    return False

@@ -1,0 +1,1 @@
+"""Paintings in files: saving, opening, packs of tiles, import and export."""

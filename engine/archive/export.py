@@ -1,0 +1,89 @@
+"""Any rectangle of a painting at any level as a PNG or TIFF of 8 or 16 bits, in bounded memory (features A8, A12)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import BinaryIO
+
+import numpy as np
+
+from engine.canvas import layers
+from engine.files.atomic import replacing
+from engine.files.fault import WriteError
+from engine.files.png_writer import PngWriter
+from engine.files.tiff_writer import write_tiff
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8, to_rgba16
+from engine.painting.grown import settled_root
+from engine.painting.rendering import folded, strips
+from engine.painting.value import Painting
+
+SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """What to export: `rect` of `level` (None: the frame, seen at that level), of all layers or the one named."""
+
+    painting: Painting
+    level: int = 0
+    rect: Rect | None = None
+    layer: str | None = None
+    depth: int = 8
+
+    @property
+    def area(self) -> Rect:
+        return self.painting.frame.zoomed(self.level) if self.rect is None else self.rect
+
+
+Write = Callable[[BinaryIO, tuple[int, int], int, Iterator[np.ndarray]], None]
+
+
+def _png(file: BinaryIO, size: tuple[int, int], depth: int, rows: Iterator[np.ndarray]) -> None:
+    writer = PngWriter(file, *size, channels=4, depth=depth)
+    for strip in rows:
+        writer.rows(strip)
+    writer.close()
+
+
+FORMATS: dict[str, Write] = {".png": _png, ".tif": write_tiff, ".tiff": write_tiff}
+
+
+def export(
+    path: str | os.PathLike[str],
+    picture: Picture,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> None:
+    """Writes the picture; the ending of `path` decides the format.  The place holds the old file or the whole new one.
+
+    `progress` gets the part done, 0..1.  WriteError on failure, LayerError for an unknown layer, Cancelled if
+    `cancelled()` becomes true.
+    """
+    write = FORMATS.get(PurePath(path).suffix.lower())
+    if write is None:
+        raise WriteError(path, f"found the ending {PurePath(path).suffix!r}, expected one of {', '.join(FORMATS)}")
+    if picture.depth not in (8, 16):
+        raise WriteError(path, f"found {picture.depth} bits, expected 8 or 16")
+    area = picture.area
+    if area.empty or max(area.width, area.height) > SIDE:
+        raise WriteError(path, f"found a picture of {area.width} x {area.height}, expected 1 to {SIDE} each way")
+    root = picture.painting.root
+    if picture.layer is not None:
+        root = layers.alone(layers.find(root, picture.layer))
+    root = folded(settled_root(root))
+    to_pixels = to_rgba8 if picture.depth == 8 else to_rgba16
+
+    def rows() -> Iterator[np.ndarray]:
+        done = 0
+        for strip in strips(root, picture.level, area, cancelled):
+            yield to_pixels(strip)
+            done += strip.shape[1]
+            if progress is not None:
+                progress(done / area.height)
+
+    with replacing(path) as file:
+        write(file, (area.width, area.height), picture.depth, rows())

@@ -1,0 +1,123 @@
+"""Grounds: layers that began as a picture, kept in files as that picture and what was painted since."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from immutables import Map
+
+from engine.canvas.ground import laid, unchanged
+from engine.canvas.layers import Layer
+from engine.canvas.store import Level, Pyramid, Record
+from engine.files.limits import Limits
+from engine.files.png_reader import PngReader
+from engine.files.png_writer import write_png
+from engine.files.strict_json import Fields, FormatError
+from engine.numeric.address import Rect, TileKey
+from engine.numeric.colour import from_rgba8, from_rgba16
+from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
+
+LAID = 1 << 26  # pixels of a picture up to which it is laid down at once and kept
+
+
+@dataclass(frozen=True)
+class GroundEntry:
+    """Where a layer's ground is in a file: the member with its pixels, the place of its corner on level 0, and the
+    tiles of it that are no longer stored."""
+
+    member: str
+    at: tuple[int, int]
+    gone: tuple[TileKey, ...] = ()
+
+
+def lay(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> Pyramid:
+    """A layer that begins with a picture, uint8 or uint16 RGBA (h, w, 4), at (x, y) of level 0; `png`: the same
+    picture as a PNG, where it is at hand."""
+    rect = Rect.at(x, y, pixels.shape[1], pixels.shape[0])
+    planes = from_rgba16 if pixels.dtype == np.uint16 else from_rgba8
+    if png is None:
+        file = io.BytesIO()
+        write_png(file, pixels)
+        png = file.getvalue()
+    return laid(lambda part: planes(pixels[part.slices(rect)]), rect, png)
+
+
+def whole(layer: Layer, frame: Rect) -> bool:
+    """Whether a layer is its ground and nothing else, all of it within `frame`: then its picture shows it fully."""
+    ground = layer.pyramid.ground
+    if ground is None or layer.growth or layer.pyramid.levels is not ground.levels:
+        return False
+    return ground.rect.intersect(frame) == ground.rect
+
+
+def painted_since(pyramid: Pyramid) -> list[tuple[TileKey, Record]]:
+    """The records that a layer's ground does not account for: all of them where there is none."""
+    return [(key, record) for key, record in pyramid.all_records() if not unchanged(pyramid, key, record)]
+
+
+def entry(pyramid: Pyramid, member: str) -> GroundEntry | None:
+    """How a file names a layer's ground; None if it has none."""
+    if pyramid.ground is None:
+        return None
+    gone = tuple(
+        TileKey(level, *place)
+        for level, tiles in sorted(pyramid.ground.levels.items())
+        if tiles is not pyramid.levels.get(level)
+        for place in sorted(tiles)
+        if place not in pyramid.levels.get(level, {})
+    )
+    return GroundEntry(member, (pyramid.ground.rect.x0, pyramid.ground.rect.y0), gone)
+
+
+def restored(found: GroundEntry, png: bytes, where: str, limits: Limits) -> Pyramid:
+    """The ground laid down again from its PNG, without the tiles that are gone.  FileError if that is none."""
+    pixels = PngReader(io.BytesIO(png), where, limits).read()
+    pyramid = lay(pixels, *found.at, png)
+    levels = pyramid.levels
+    for key in found.gone:
+        tiles = levels.get(key.level)
+        if tiles is not None and (key.x, key.y) in tiles:
+            smaller = tiles.delete((key.x, key.y))
+            levels = levels.set(key.level, smaller) if len(smaller) else levels.delete(key.level)
+    return replace(pyramid, levels=levels)
+
+
+def with_tiles(ground: Pyramid, levels: dict[int, dict[tuple[int, int], Record]]) -> Pyramid:
+    """A ground, or nothing, with what was painted since in its place."""
+    stored = ground.levels
+    for level, tiles in levels.items():
+        held: Level = stored.get(level, Map())
+        editable = held.mutate()
+        for place, record in tiles.items():
+            editable.set(place, record if record.depth == ground.depth else replace(record, depth=ground.depth))
+        stored = stored.set(level, editable.finish())
+    return replace(ground, levels=stored)
+
+
+# ---- in the manifest ----
+
+
+def to_json(found: GroundEntry) -> dict[str, Any]:
+    return {"member": found.member, "at": list(found.at), "gone": [list(key) for key in found.gone]}
+
+
+def parse(value: Any, where: str) -> GroundEntry:
+    """FormatError names the member that is wrong."""
+    members = Fields(value, where)
+    x, y = members.integers("at", 2, limit=PLACE_LIMIT)
+    gone = members.take("gone", expected="a list")
+    if not isinstance(gone, list):
+        raise members.fault("gone", "a list")
+    return GroundEntry(members.text("member"), (x, y), tuple(_keys(gone, where)))
+
+
+def _keys(gone: list, where: str) -> Iterable[TileKey]:
+    for key in gone:
+        sound = isinstance(key, list) and len(key) == 3 and all(type(v) is int for v in key)
+        if not sound or abs(key[0]) > LEVEL_LIMIT + 256 or max(abs(key[1]), abs(key[2])) > PLACE_LIMIT:
+            raise FormatError(f"{where}.gone", "another form", "[level, x, y] each")
+        yield TileKey(*key)

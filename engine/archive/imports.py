@@ -1,0 +1,298 @@
+"""Pictures and other programs' OpenRaster files as paintings: each picture becomes one layer's pixels at level 0."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+from pathlib import PurePath
+from typing import Any
+
+import numpy as np
+from immutables import Map
+
+from engine.archive import grounds
+from engine.archive.plot_files import Mark
+from engine.brush.stamp import Stamp
+from engine.canvas import layers
+from engine.canvas.commit import commit
+from engine.canvas.layers import Group, Layer, LayerError, Node
+from engine.canvas.store import Pyramid
+from engine.files.fault import FileError, shown
+from engine.files.images import read_image
+from engine.files.limits import LIMITS, Limits, memory_cap
+from engine.files.png_reader import PngReader
+from engine.files.png_writer import SIGNATURE
+from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, parse_stack
+from engine.files.zip_reader import ZipArchive
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.blend import BLENDS
+from engine.numeric.colour import from_rgba8, from_rgba16
+from engine.painting.recording import Recording
+from engine.painting.rendering import Stop, check
+from engine.painting.value import Painting
+from engine.texture.image import ImageSource
+from engine.texture.planes import Planes
+
+STACK = "stack.xml"
+NOTES = 20
+PIXELS = 1 << 24  # of a band of rows that is laid down at once
+# Names that programs give to modes of ours.
+ALIASES = {"svg:add": "plus", "krita:pass": "src-over"}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Opened:
+    """What came out of a file.
+
+    `native`: whether it is a whole painting of ours, to be saved in the same place; else a copy, to be named anew.
+    `notes`: what was lost or replaced, a line each.  `recording`: the commands that led to it, if the file has them.
+    `pictures`: those that its textures and inks use, by their sha, so that the recording can be replayed without the
+    files they came from.  `marks`: of what was painted with examples, which is to be grown again.
+    """
+
+    painting: Painting
+    notes: tuple[str, ...] = ()
+    native: bool = False
+    recording: Recording | None = None
+    pictures: Map[str, ImageSource] = field(default_factory=Map)
+    marks: tuple[Mark, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Pasted:
+    """An edit that puts pixels in place of what was there: A = 0 and B = the pixels, inside `rect`."""
+
+    pixels: np.ndarray  # uint8 or uint16 RGBA (h, w, 4)
+    rect: Rect
+    level: int = 0
+    spares_alpha: bool = False
+
+    @property
+    def tiles(self) -> Sequence[TileKey]:
+        return [key for key in self.rect.tiles(self.level) if self._part(key)[3].any()]
+
+    def _part(self, key: TileKey) -> np.ndarray:
+        rows, columns = key.rect.intersect(self.rect).slices(self.rect)
+        return self.pixels[rows, columns].transpose(2, 0, 1)
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp:
+        rows, columns = key.rect.intersect(self.rect).slices(key.rect)
+        keep = np.ones((TILE, TILE), np.float32)
+        keep[rows, columns] = 0
+        add = np.zeros((4, TILE, TILE), np.float32)
+        part = self._part(key).transpose(1, 2, 0)
+        add[:, rows, columns] = from_rgba16(part) if part.dtype == np.uint16 else from_rgba8(part)
+        return Stamp(keep, add)
+
+
+def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) -> Pyramid:
+    """A pyramid of the rows that `bands` give, uint8 or uint16 RGBA (n, w, 4), from (x, y) of level 0 on.
+
+    They are laid down at once and remembered as the layer's ground, if they are not too many.
+    """
+    held: list[np.ndarray] = []
+    count = 0
+    for band in bands:
+        check(cancelled)
+        held.append(band)
+        count += band.shape[0] * band.shape[1]
+        if count > grounds.LAID:
+            return _committed(chain(held, bands), x, y, cancelled)
+    return grounds.lay(held[0] if len(held) == 1 else np.concatenate(held), x, y) if held else Pyramid()
+
+
+def _committed(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop) -> Pyramid:
+    """The same, part by part."""
+    pyramid = Pyramid()
+    for rows in _regrouped(bands, y):
+        check(cancelled)
+        pyramid = commit(pyramid, Pasted(rows, Rect.at(x, y, rows.shape[1], len(rows))))
+        y += len(rows)
+    return pyramid
+
+
+def _regrouped(bands: Iterator[np.ndarray], y: int) -> Iterator[np.ndarray]:
+    """The same rows in larger groups that end where rows of tiles do."""
+    held: list[np.ndarray] = []
+    count = 0
+    for band in bands:
+        held.append(band)
+        count += len(band)
+        if count * band.shape[1] >= PIXELS:
+            whole = held[0] if len(held) == 1 else np.concatenate(held)
+            end = (y + count) // TILE * TILE - y
+            if end > 0:
+                yield whole[:end]
+                held, count, y = [whole[end:]], count - end, y + end
+    if count:
+        yield held[0] if len(held) == 1 else np.concatenate(held)
+
+
+# ---- a picture ----
+
+
+def open_image(path: str | os.PathLike[str], limits: Limits = LIMITS, cancelled: Stop = None) -> Opened:
+    """A PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
+    streamed = _png_rows(path, limits, cancelled)
+    if streamed is None:
+        pixels, meta = read_image(path, limits=limits)
+        size = (pixels.shape[1], pixels.shape[0])
+        pyramid, notes = pasted(iter([pixels]), 0, 0, cancelled), meta.notes
+    else:
+        pyramid, size, notes = streamed
+    layer = Layer(1, clean_name(PurePath(path).stem, "Picture"), pyramid=pyramid)
+    root = layers.insert(layers.EMPTY, layer)
+    return Opened(Painting(Rect(0, 0, *size), 0, root, layer.name), notes)
+
+
+def _png_rows(
+    path: str | os.PathLike[str], limits: Limits, cancelled: Stop
+) -> tuple[Pyramid, tuple[int, int], tuple[str, ...]] | None:
+    """The pyramid of a PNG, read strip by strip, its size and notes; None if it is none, or cannot be opened."""
+    if not os.path.isfile(path):
+        return None
+    try:
+        with open(path, "rb") as file:
+            if file.read(len(SIGNATURE)) != SIGNATURE:
+                return None
+            file.seek(0)
+            reader = PngReader(file, os.fspath(path), limits)
+            header = reader.header
+            return pasted(reader.strips(), 0, 0, cancelled), (header.width, header.height), header.notes
+    except OSError:
+        return None
+
+
+# ---- OpenRaster of other programs ----
+
+
+def read_raster(
+    archive: ZipArchive,
+    limits: Limits = LIMITS,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Stop = None,
+) -> Opened:
+    """The layers of an OpenRaster file as its pictures show them.  FileError if it is none, or damaged."""
+    image = parse_stack(archive.read(STACK, limits.xml), archive.name, limits)
+    return _Import(archive, image, limits, progress, cancelled).run()
+
+
+class _Import:
+    """Builds the tree of one file."""
+
+    def __init__(self, archive: ZipArchive, image: ImageEntry, limits: Limits, progress, cancelled: Stop) -> None:
+        self._archive = archive
+        self._image = image
+        self._limits = limits
+        self._progress = progress
+        self._cancelled = cancelled
+        self._notes = list(image.notes)
+        self._names: set[str] = set()
+        self._id = 0
+        self._selected: str | None = None
+        self._pixels = 0
+        self._done = 0
+        self._bytes = 0
+
+    def run(self) -> Opened:
+        self._total()
+        try:
+            children = tuple(self._node(child) for child in reversed(self._image.root.children))
+            root = layers.checked(replace(layers.EMPTY, children=children))
+        except LayerError as error:
+            raise FileError(self._archive.name, f"stack.xml: {error}") from error
+        frame = Rect(0, 0, self._image.width, self._image.height)
+        top = next((layer.name for layer in reversed(list(layers.layers(root)))), None)
+        return Opened(Painting(frame, 0, root, self._selected or top), self._told())
+
+    def _told(self) -> tuple[str, ...]:
+        """The notes, of which nobody reads more than some."""
+        more = len(self._notes) - NOTES
+        return tuple(self._notes[:NOTES]) + ((f"and {more} more like these",) if more > 0 else ())
+
+    def _total(self) -> None:
+        """Adds up what all layers claim, before any is decoded; those that show a picture again count by themselves."""
+        again = 0
+        seen: set[str] = set()
+        for entry in self._image.root.layers():
+            if self._usable(entry):
+                header = self._reader(entry).header
+                self._pixels += header.width * header.height
+                again += header.width * header.height if entry.src in seen else 0
+                seen.add(entry.src)
+        for what, found, most in (
+            ("all layers together have", self._pixels, self._limits.total_pixels),
+            ("layers that show one picture again have", again, self._limits.pixels),
+        ):
+            if found > most:
+                raise FileError(self._archive.name, f"{what} {found} pixels; expected at most {most}")
+
+    def _usable(self, entry: LayerEntry) -> bool:
+        return entry.src in self._archive and entry.src.lower().endswith(".png")
+
+    def _reader(self, entry: LayerEntry) -> PngReader:
+        where = f"{self._archive.name}: member {shown(entry.src)}"
+        return PngReader(self._archive.open(entry.src), where, self._limits)  # type: ignore[arg-type]
+
+    def _node(self, entry: StackEntry | LayerEntry) -> Node:
+        self._id += 1
+        number = self._id
+        fallback = f"{'Group' if isinstance(entry, StackEntry) else 'Layer'} {number}"
+        common: dict[str, Any] = {
+            "id": number,
+            "name": self._name(entry.name, fallback),
+            "opacity": entry.opacity,
+            "visible": entry.visible,
+            "blend": self._blend(entry),
+            "locked": entry.locked,
+        }
+        if isinstance(entry, StackEntry):
+            children = tuple(self._node(child) for child in reversed(entry.children))
+            return Group(**common, isolated=entry.isolated, children=children)
+        layer = Layer(**common, pyramid=self._paint(entry))
+        if entry.selected:
+            self._selected = layer.name
+        return layer
+
+    def _paint(self, entry: LayerEntry) -> Pyramid:
+        check(self._cancelled)
+        if not self._usable(entry):
+            self._notes.append(f"layer {shown(entry.name, 30)}: no PNG {shown(entry.src)}; left empty")
+            return Pyramid()
+        reader = self._reader(entry)
+        for note in reader.header.notes:
+            self._notes.append(f"layer {shown(entry.name, 30)}: {note}")
+        pyramid = pasted(reader.strips(), entry.x, entry.y, self._cancelled)
+        self._bytes += pyramid.nbytes
+        if self._bytes > memory_cap():
+            raise FileError(
+                self._archive.name, f"its layers take over {self._bytes >> 20} MB, all that this machine has"
+            )
+        self._done += reader.header.width * reader.header.height
+        if self._progress is not None:
+            self._progress(self._done / max(1, self._pixels))
+        return pyramid
+
+    def _blend(self, entry: StackEntry | LayerEntry) -> str:
+        name = ALIASES.get(entry.op, entry.op.removeprefix("svg:"))
+        if name in BLENDS:
+            return name
+        self._notes.append(f"layer {shown(entry.name, 30)}: mode {shown(entry.op)} is not known; shown as normal")
+        return "src-over"
+
+    def _name(self, name: str, fallback: str) -> str:
+        stem = clean_name(name, fallback)
+        unique, count = stem, 1
+        while unique in self._names:
+            count += 1
+            unique = f"{stem[: layers.MAX_NAME - 12]} {count}"
+        self._names.add(unique)
+        return unique
+
+
+def clean_name(name: str, fallback: str) -> str:
+    """A layer's name made of what a file says: printable, without blanks around it, not too long."""
+    kept = "".join(c if c.isprintable() else " " for c in name)[: layers.MAX_NAME].strip()
+    return kept or fallback

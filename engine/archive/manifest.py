@@ -1,0 +1,287 @@
+"""inkfall/manifest.json: what a painting's file holds, in words, and how its tree is told.
+
+All numbers in our members are little-endian, pixel values whole multiples of 2^-16, premultiplied and sRGB-encoded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from immutables import Map
+
+from engine.archive import grounds, plot_files
+from engine.archive.grounds import GroundEntry
+from engine.archive.implied import TEXTURES
+from engine.archive.plot_files import ExampleEntry, PlotEntry
+from engine.brush.checks import frozen, thawed
+from engine.canvas import layers
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.store import Pyramid
+from engine.files.strict_json import Fields, FormatError
+from engine.numeric.address import TILE, Rect
+from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
+from engine.painting.recording import SIDE_LIMIT
+from engine.painting.textures import Texture
+from engine.painting.value import Painting
+from engine.texture.example import SYNTHESIS
+from engine.texture.image import ImageSource
+from engine.texture.table import TextureError
+
+FORMAT = 3  # 2: nothing of examples; 1: no tile without the colour that its ink implies, no `texture`
+WITHOUT_EXAMPLES = 2  # what a painting is written as that has none, so that older programs open all of it
+MANIFEST = "inkfall/manifest.json"
+RECORDING = "inkfall/recording.jsonl"
+_CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
+
+
+@dataclass(frozen=True)
+class Pack:
+    """A member with packed tiles: how many, and their bytes when unpacked."""
+
+    member: str
+    tiles: int
+    plain: int
+
+
+@dataclass(frozen=True)
+class PictureEntry:
+    """A picture that inks or textures refer to."""
+
+    name: str
+    sha: str
+    size: tuple[int, int]
+    packs: tuple[Pack, ...]
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """The parsed manifest.  `root` has layers without paint; `packs`: where their paint is, by the layer's id;
+    `plots`: what was painted there with `examples`; `members`: (size, SHA-256) of all members but the manifest."""
+
+    frame: Rect
+    seed: int
+    active: str | None
+    root: Group
+    packs: Mapping[int, tuple[Pack, ...]]
+    grounds: Mapping[int, GroundEntry]  # of the layers that began with a picture
+    plots: Mapping[int, tuple[PlotEntry, ...]]
+    textures: Mapping[str, tuple[str, Map, str | None, str | None]]  # kind, parameters, sha of picture and mask
+    examples: Mapping[str, ExampleEntry] = field(default_factory=dict)
+    pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
+    members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
+    texture: int = TEXTURES  # the revision of textures' pixels by which colour was left out
+    synthesis: int = SYNTHESIS  # and of what examples grow into
+
+    def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
+        """The named textures; FormatError if one cannot be made."""
+        made = {}
+        for name, (kind, parameters, *shas) in self.textures.items():
+            if any(sha is not None and sha not in pictures for sha in shas):
+                raise FormatError(f"textures.{name}", "no picture", "one of those in the file")
+            source, mask = (None if sha is None else ImageSource(name, sha, pictures[sha].data) for sha in shas)
+            made[name] = Texture(kind, parameters, source, mask)
+            plot_files.check_texture(f"textures.{name}", made[name])
+            try:
+                made[name].instance({}, 0, 0)
+            except TextureError as error:
+                raise FormatError(f"textures.{name}.{error.place}", error.found, error.expected) from None
+        return Map(made)
+
+    def grown_bytes(self) -> int:
+        """What all that was painted with examples takes in memory, about; FormatError if an example cannot be."""
+        sizes = {sha: entry.size for sha, entry in self.pictures.items()}
+        return plot_files.cost(self.examples, (plot for plots in self.plots.values() for plot in plots), sizes)
+
+
+# ---- writing ----
+
+
+def manifest_json(
+    painting: Painting,
+    packs: Mapping[int, list[Pack]],
+    laid: Mapping[int, GroundEntry],
+    plots: Mapping[int, list[PlotEntry]],
+    pictures: list[PictureEntry],
+    members: Mapping[str, tuple[int, str]],
+) -> dict[str, Any]:
+    """The JSON of a painting's manifest."""
+    frame = painting.frame
+    examples = plot_files.entries(painting.root)
+    return {
+        "inkfall": format_of(painting),
+        "texture": TEXTURES,
+        **_CONSTANTS,
+        "frame": [frame.x0, frame.y0, frame.width, frame.height],
+        "seed": painting.seed,
+        "active": painting.active,
+        "layers": [_node_json(node, packs, laid, plots) for node in painting.root.children],
+        "textures": {
+            name: {
+                "kind": t.kind,
+                "parameters": thawed(t.parameters),
+                **({"picture": t.source.sha} if t.source is not None else {}),
+                **({"mask": t.mask.sha} if t.mask is not None else {}),
+            }
+            for name, t in sorted(painting.textures.items())
+        },
+        **({"synthesis": SYNTHESIS, "examples": plot_files.examples_json(examples)} if examples else {}),
+        "pictures": {
+            p.sha: {"name": p.name, "size": list(p.size), "packs": [_pack_json(k) for k in p.packs]} for p in pictures
+        },
+        "members": {name: list(entry) for name, entry in members.items()},
+    }
+
+
+def format_of(painting: Painting) -> int:
+    """The format that tells all of a painting."""
+    grown = any(layer.growth for layer in layers.layers(painting.root))
+    return FORMAT if grown or any(t.kind == plot_files.KIND for t in painting.textures.values()) else WITHOUT_EXAMPLES
+
+
+def _pack_json(pack: Pack) -> list[Any]:
+    return [pack.member, pack.tiles, pack.plain]
+
+
+def _node_json(
+    node: Node,
+    packs: Mapping[int, list[Pack]],
+    laid: Mapping[int, GroundEntry],
+    plots: Mapping[int, list[PlotEntry]],
+) -> dict[str, Any]:
+    common = {
+        "id": node.id,
+        "name": node.name,
+        "opacity": node.opacity,
+        "visible": node.visible,
+        "blend": node.blend,
+        "locked": node.locked,
+    }
+    if isinstance(node, Layer):
+        stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
+        ground = {"ground": grounds.to_json(laid[node.id])} if node.id in laid else {}
+        grown = {"plots": [plot_files.plot_json(plot) for plot in plots[node.id]]} if plots.get(node.id) else {}
+        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored, **ground, **grown}
+    children = [_node_json(child, packs, laid, plots) for child in node.children]
+    return {"kind": "group", **common, "isolated": node.isolated, "children": children}
+
+
+# ---- reading ----
+
+
+def parse_manifest(value: Any) -> Manifest:
+    """The manifest that a JSON value tells.  FormatError names the member; LayerError if the tree cannot be."""
+    members = Fields(value, "manifest")
+    version = members.integer("inkfall", lo=1, hi=1 << 30)
+    if version > FORMAT:
+        raise FormatError("manifest.inkfall", f"{version} (a newer Inkfall wrote this)", f"version {FORMAT}")
+    for name, expected in _CONSTANTS.items():
+        if members.take(name, expected="a value") != expected:
+            raise members.fault(name, repr(expected))
+    x, y, width, height = members.integers("frame", 4, limit=PLACE_LIMIT)
+    if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
+        raise members.fault("frame", "a width and height from 1 to 2^40")
+    held = _Held()
+    nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
+    root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
+    active = members.take("active", None)
+    if active is not None and not (isinstance(active, str) and layers.has(root, active)):
+        raise members.fault("active", "the name of a layer")
+    return Manifest(
+        Rect.at(x, y, width, height),
+        members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
+        active,
+        root,
+        held.packs,
+        held.grounds,
+        held.plots,
+        {name: _texture(v, f"textures.{name}") for name, v in _object(members, "textures").items()},
+        plot_files.parse_examples(_object(members, "examples")) if "examples" in members else {},
+        {sha: _picture(sha, v) for sha, v in _object(members, "pictures").items()},
+        {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
+        TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
+        members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
+    )
+
+
+@dataclass(frozen=True)
+class _Held:
+    """What layers hold, by their ids."""
+
+    packs: dict[int, tuple[Pack, ...]] = field(default_factory=dict)
+    grounds: dict[int, GroundEntry] = field(default_factory=dict)
+    plots: dict[int, tuple[PlotEntry, ...]] = field(default_factory=dict)
+
+
+def _list(members: Fields, name: str) -> list:
+    value = members.take(name, expected="a list")
+    if not isinstance(value, list):
+        raise members.fault(name, "a list")
+    return value
+
+
+def _object(members: Fields, name: str) -> dict[str, Any]:
+    value = members.take(name, expected="an object")
+    if not isinstance(value, dict):
+        raise members.fault(name, "an object")
+    return value
+
+
+def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
+    members = Fields(value, where)
+    kind = members.take("kind", expected='"layer" or "group"')
+    if kind not in ("layer", "group") or depth > layers.MAX_DEPTH + 1:
+        raise members.fault("kind", f'"layer" or "group", at most {layers.MAX_DEPTH} deep')
+    common: dict[str, Any] = {
+        "id": members.integer("id", lo=1, hi=1 << 62),
+        "name": members.text("name"),
+        "opacity": members.number("opacity", lo=0.0, hi=1.0),
+        "visible": members.flag("visible"),
+        "blend": members.text("blend"),
+        "locked": members.flag("locked"),
+    }
+    if kind == "layer":
+        held.packs[common["id"]] = _packs(members)
+        ground = members.take("ground", None)
+        if ground is not None:
+            held.grounds[common["id"]] = grounds.parse(ground, f"{where}.ground")
+        plots = _list(members, "plots") if "plots" in members else []
+        if plots:
+            held.plots[common["id"]] = tuple(
+                plot_files.parse_plot(v, f"{where}.plots[{i}]") for i, v in enumerate(plots)
+            )
+        return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=Pyramid())
+    inside = _list(members, "children")
+    children = tuple(_node(v, f"{where}.children[{i}]", held, depth + 1) for i, v in enumerate(inside))
+    return Group(**common, isolated=members.flag("isolated"), children=children)
+
+
+def _packs(members: Fields) -> tuple[Pack, ...]:
+    out = []
+    for entry in _list(members, "packs"):
+        sound = isinstance(entry, list) and len(entry) == 3 and isinstance(entry[0], str)
+        if not (sound and all(type(v) is int and 0 <= v < 1 << 62 for v in entry[1:])):
+            raise members.fault("packs", "[member, tiles, bytes] each")
+        out.append(Pack(*entry))
+    return tuple(out)
+
+
+def _texture(value: Any, where: str) -> tuple[str, Map, str | None, str | None]:
+    members = Fields(value, where)
+    parameters = _object(members, "parameters")
+    return members.text("kind"), frozen(parameters), members.text("picture", None), members.text("mask", None)
+
+
+def _picture(sha: str, value: Any) -> PictureEntry:
+    members = Fields(value, f"pictures.{sha[:12]}")
+    width, height = members.integers("size", 2, limit=1 << 20)
+    if width < 1 or height < 1 or width * height > 1 << 28:
+        raise members.fault("size", "a width and height from 1 on, at most 2^28 pixels")
+    return PictureEntry(members.text("name"), sha, (width, height), _packs(members))
+
+
+def _member(value: Any, where: str) -> tuple[int, str]:
+    if not (isinstance(value, list) and len(value) == 2 and type(value[0]) is int and isinstance(value[1], str)):
+        raise FormatError(where, "another form", "[size, SHA-256]")
+    return value[0], value[1]

@@ -1,0 +1,118 @@
+"""Many tiles of a mask in one member: how the pixels that were painted with an example lie in a file.
+
+Such a pack is little-endian: 8 bytes of magic, the length of the head (uint32), the head, and one zlib stream.  The
+head is a JSON list of runs of tiles that lie side by side, [row, column of the first, count], rows and columns in
+hexadecimal of any length, row by row; the stream has 512 bytes for each tile, a bit a pixel, the leftmost the highest.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from immutables import Map
+from isal import isal_zlib
+
+from engine.archive.packfault import PackFault, need
+from engine.files.fault import FileError
+from engine.files.inflate import DeflateError, Inflated
+from engine.files.strict_json import FormatError, dumps, loads
+from engine.painting.commands import PLACE_LIMIT
+from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
+
+MAGIC = b"inkmask\x01"
+TILES = 1 << 14  # in a pack
+PLAIN = SIDE * SIDE // 8  # bytes of a tile in the stream
+HEAD_CAP = 24 << 20  # bytes of the head
+DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of a row or column, with its sign
+LEVEL = 1
+_ADDRESS = re.compile("-?[0-9a-f]+")
+_FULL = np.ones((1, SIDE, SIDE), np.uint8)  # most tiles are: they are one array
+_FULL.flags.writeable = False
+
+
+def grouped(masks: Tiles) -> Iterator[list[Key]]:
+    """The tiles of a mask, row by row, as many at a time as go into a pack."""
+    keys = sorted(masks)
+    for start in range(0, len(keys), TILES):
+        yield keys[start : start + TILES]
+
+
+def pack(masks: Mapping[Key, np.ndarray], keys: Sequence[Key]) -> bytes:
+    """The pack of some tiles, in their order: the same tiles give the same bytes."""
+    runs: list[list[Any]] = []
+    for (row, column), before in zip(keys, [None, *keys], strict=False):
+        if before == (row, column - 1):
+            runs[-1][2] += 1
+        else:
+            runs.append([f"{row:x}", f"{column:x}", 1])
+    bits = np.packbits(np.concatenate([masks[key] for key in keys]) > 0, axis=-1)
+    head = dumps(runs).encode()
+    return b"".join([MAGIC, struct.pack("<I", len(head)), head, isal_zlib.compress(bits.tobytes(), LEVEL)])
+
+
+def unpack(data: bytes, name: str, count: int) -> Tiles:
+    """The tiles of a pack, `count` as is known from elsewhere; FileError if it is none, before memory is taken for it:
+    `name` is the file's and the member's."""
+    try:
+        return _unpacked(data, count)
+    except (FormatError, DeflateError, PackFault) as error:
+        raise FileError(name, str(error)) from error
+
+
+def _unpacked(data: bytes, count: int) -> Tiles:
+    need(data[:8] == MAGIC and len(data) >= 12, "start of a pack of masks", data[:8])
+    (length,) = struct.unpack_from("<I", data, 8)
+    need(12 + length <= len(data), "length of the head", length)
+    need(0 < count <= TILES, "number of tiles", count)
+    keys = _keys(loads(data[12 : 12 + length], cap=HEAD_CAP), count)
+    raw = np.empty(count * PLAIN, np.uint8)
+    stream = Inflated(iter([data[12 + length :]]))
+    filled = stream.readinto(raw.data)
+    need(filled == raw.size and stream.finish(), "bytes of the tiles", filled)
+    bits = raw.reshape(count, PLAIN)
+    need(bool(bits.any(axis=1).all()), "a tile", "no pixel")
+    found = NONE.mutate()
+    for key, own in zip(keys, bits, strict=True):
+        found[key] = _mask(own)
+    return found.finish()
+
+
+def _keys(runs: Any, count: int) -> list[Key]:
+    """The tiles of some runs, `count` of them."""
+    need(isinstance(runs, list), "head", runs)
+    keys: list[Key] = []
+    for run in runs:
+        sound = isinstance(run, list) and len(run) == 3 and type(run[2]) is int
+        need(sound and 0 < run[2] <= count - len(keys), "run of tiles", run)
+        row, column = _address(run[0]), _address(run[1])
+        need(not keys or (row, column) > keys[-1], "order of the tiles", run)
+        keys += [(row, column + n) for n in range(run[2])]
+    need(len(keys) == count, "number of tiles", len(keys))
+    return keys
+
+
+def _address(text: Any) -> int:
+    sound = isinstance(text, str) and len(text) <= DIGITS_CAP and _ADDRESS.fullmatch(text) is not None
+    need(sound, "place of a tile", text)
+    return int(text, 16)
+
+
+def _mask(bits: np.ndarray) -> np.ndarray:
+    if (bits == 255).all():
+        return _FULL
+    mask = np.unpackbits(bits).reshape(1, SIDE, SIDE)
+    mask.flags.writeable = False
+    return mask
+
+
+def joined(parts: Sequence[Tiles], name: str) -> Tiles:
+    """The tiles of several packs, which follow one another; FileError if they do not."""
+    for one, other in pairwise(parts):
+        if max(one) >= min(other):
+            raise FileError(name, "packs of masks: found tiles out of order, expected each once, row by row")
+    return Map({key: mask for part in parts for key, mask in part.items()})

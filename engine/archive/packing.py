@@ -1,0 +1,233 @@
+"""Many tiles in one member: how the residuals of a pyramid lie in a file.
+
+A pack is little-endian: 8 bytes of magic, the length of the head (uint32), the head, and the blocks.  The head is one
+JSON object: `inks`, the keys of all instances in the pack; `tiles`, one list each of
+[level, x, y, x0, y0, x1, y1, bits, [indices of inks]], addresses in hexadecimal of any length, and where ink implies
+the tile's colour (engine/archive/implied.py) three entries more, [indices of those inks], [terms], CRC-32; `blocks`,
+one list each of [number of tiles, plain bytes, stored bytes].  A block is a zlib stream of a run of tiles
+(engine/archive/tilecode.py).
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from isal import isal_zlib
+
+from engine.archive import packs_of_format_1, tilecode
+from engine.archive.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
+from engine.archive.packfault import PackFault, need
+from engine.canvas.store import Record
+from engine.files.fault import FileError
+from engine.files.inflate import DeflateError, Inflated
+from engine.files.strict_json import FormatError, dumps, loads
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
+from engine.texture.planes import COLOURS
+from engine.texture.record import Instance
+
+MAGIC = b"inkfall\x02"
+TILES = 256  # in a pack
+BYTES = 32 << 20  # of all tiles of a pack, about
+BLOCK = 1 << 22  # of all tiles of a block, about
+HEAD_CAP = 24 << 20  # bytes of the head
+BLOCK_CAP = 256 << 20  # what a block may claim: one tile of a thousand inks fits
+LEVEL_CAP = LEVEL_LIMIT + 256  # a stroke changes some levels coarser than its own
+DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
+RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
+KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
+LEVEL = 1
+_ADDRESS = re.compile("-?[0-9a-f]+")
+
+
+# ---- writing ----
+
+
+def grouped(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
+    """The tiles in runs of a pack's size."""
+    return _runs(tiles, BYTES, TILES)
+
+
+def _runs(tiles: Sequence, most: int, count: int) -> Iterator[Sequence]:
+    """Runs of at most `count` tiles whose data take no more than `most` bytes, if they are several."""
+    start, size = 0, 0
+    for stop, (_, record, *_) in enumerate(tiles):
+        if stop > start and (stop - start >= count or size + record.data.nbytes > most):
+            yield tiles[start:stop]
+            start, size = stop, 0
+        size += record.data.nbytes
+    if tiles:
+        yield tiles[start:]
+
+
+def pack(tiles: Sequence[Coded]) -> bytes:
+    """The pack of some tiles: the same tiles in the same order give the same bytes."""
+    inks: dict[Instance, int] = {}
+    lines, blocks, bodies = [], [], []
+
+    def indices(found: Sequence[Instance]) -> list[int]:
+        return [inks.setdefault(ink, len(inks)) for ink in found]
+
+    for key, record, implied in tiles:
+        bits = 8 * record.data.itemsize
+        line = [key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, bits, indices(record.inks)]
+        more = [] if implied is None else [indices(implied.inks), list(implied.terms), implied.crc]
+        lines.append([*line, *more])
+    for run in _runs(tiles, BLOCK, TILES):
+        plain = tilecode.encoded([record.data for _, record, _ in run])
+        bodies.append(isal_zlib.compress(plain, LEVEL))
+        blocks.append([len(run), len(plain), len(bodies[-1])])
+    head = dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode()
+    return b"".join([MAGIC, struct.pack("<I", len(head)), head, *bodies])
+
+
+# ---- reading ----
+
+
+@dataclass(frozen=True, slots=True)
+class _Format:
+    """How blocks of tiles are read: `decoded` as `tilecode.decoded`; the plain bytes of a tile (planes, h, w) of 16 or
+    32 bits as the manifest counts them; whether those of a block are just that many."""
+
+    decoded: Callable[[np.ndarray, Sequence[np.ndarray]], int]
+    size: Callable[[tuple[int, int, int], int], int]
+    exact: bool
+
+
+def _data_size(shape: tuple[int, int, int], bits: int) -> int:
+    return shape[0] * shape[1] * shape[2] * bits // 8
+
+
+_FORMATS = {
+    packs_of_format_1.MAGIC: _Format(packs_of_format_1.decoded, packs_of_format_1.encoded_size, exact=True),
+    MAGIC: _Format(tilecode.decoded, _data_size, exact=False),
+}
+
+
+def unpack(
+    data: bytes, name: str, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None = None
+) -> list[Coded]:
+    """The tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
+
+    `announced`: the numbers of tiles and of bytes there must be.  FileError if anything is not as it should be, before
+    memory is taken for it; `name` is the file's and the member's.
+    """
+    try:
+        return _unpack(data, ink_of, announced)
+    except (FormatError, PackFault, ValueError) as error:
+        raise FileError(name, str(error)) from error
+
+
+@dataclass(frozen=True, slots=True)
+class _Head:
+    """What the head of a pack tells of one tile; `shape` is that of its data."""
+
+    key: TileKey
+    rect: Rect
+    shape: tuple[int, int, int]
+    bits: int
+    inks: tuple[Instance, ...]
+    implied: Implied | None
+
+
+def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None) -> list[Coded]:
+    need(data[:8] in _FORMATS and len(data) >= 12, "start of a pack of tiles", data[:8])
+    form = _FORMATS[data[:8]]
+    (length,) = struct.unpack_from("<I", data, 8)
+    start = 12 + length
+    need(start <= len(data), "length of the head", length)
+    head = loads(data[12:start], cap=HEAD_CAP)
+    lists = isinstance(head, dict) and all(isinstance(head.get(k), list) for k in ("inks", "tiles", "blocks"))
+    need(lists, "head", "")
+    inks = [ink_of(key) for key in head["inks"]]
+    heads = [_tile_head(line, inks) for line in head["tiles"]]
+    found = len(heads), sum(form.size(h.shape, h.bits) for h in heads)
+    need(announced is None or found == announced, "tiles and bytes of a pack", found)
+    tiles: list[Coded] = []
+    for block in head["blocks"]:
+        whole = isinstance(block, list) and len(block) == 3 and all(type(v) is int and v >= 0 for v in block)
+        need(whole, "block", block)
+        count, plain, stored = block
+        run = heads[len(tiles) : len(tiles) + count]
+        need(len(run) == count and plain <= _most(run, form) <= BLOCK_CAP, "block", block)
+        need(not form.exact or plain == _most(run, form), "block", block)
+        need(start + stored <= len(data), "stored bytes of a block", stored)
+        tiles.extend(_block(memoryview(data)[start : start + stored], plain, run, form))
+        start += stored
+    need(start == len(data) and len(tiles) == len(heads), "end of a pack", (start, len(tiles)))
+    return tiles
+
+
+def _most(run: Sequence[_Head], form: _Format) -> int:
+    """Plain bytes that a block of these tiles can have: where rows have widths, also one byte for each."""
+    size = sum(form.size(h.shape, h.bits) for h in run)
+    return size if form.exact else size + sum(tilecode.code_size(h.shape) for h in run)
+
+
+def _tile_head(line: Any, inks: list[Instance]) -> _Head:
+    need(isinstance(line, list) and len(line) in (9, 12), "tile", line)
+    level, x, y, *corners, bits, indices = line[:9]
+    need(type(level) is int and abs(level) <= LEVEL_CAP, "level of a tile", level)
+    key = TileKey(level, _address(x), _address(y))
+    need(_whole(corners, 0, TILE), "rectangle of a tile", corners)
+    rect = Rect(*corners)
+    need(not rect.empty, "rectangle of a tile", corners)
+    need(type(bits) is int and bits in KINDS, "bits of a tile", bits)
+    there = _chosen(indices, inks)
+    implied = _implied(line[9:], level, inks) if len(line) == 12 else None
+    return _Head(key, rect, (COLOURS + 3 * len(there), rect.height, rect.width), bits, there, implied)
+
+
+def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
+    sound = isinstance(indices, list) and _whole(indices, 0, len(inks) - 1)
+    need(sound and len(set(indices)) == len(indices), "inks of a tile", indices)
+    return tuple([inks[i] for i in indices])
+
+
+def _whole(values: list[Any], low: int, high: int) -> bool:
+    """Whether all are integers within the range: a loop, since a head has thousands of such lists."""
+    for value in values:  # noqa: SIM110
+        if type(value) is not int or not low <= value <= high:
+            return False
+    return True
+
+
+def _implied(entries: list[Any], level: int, inks: list[Instance]) -> Implied:
+    indices, terms, crc = entries
+    chosen = _chosen(indices, inks)
+    need(0 < len(chosen) <= MOST and all(ink.base - level <= ABOVE for ink in chosen), "inks that imply", indices)
+    sound = isinstance(terms, list) and len(terms) == 3 * (1 + 2 * len(chosen))
+    need(sound and _whole(terms, -TERM_CAP, TERM_CAP), "terms of a tile", terms)
+    need(type(crc) is int and 0 <= crc < 1 << 32, "CRC of a tile", crc)
+    return Implied(chosen, tuple(terms), crc)
+
+
+def _address(text: Any) -> int:
+    sound = isinstance(text, str) and len(text) <= DIGITS_CAP and _ADDRESS.fullmatch(text) is not None
+    need(sound, "address of a tile", text)
+    return int(text, 16)
+
+
+def _block(stored: memoryview, plain: int, run: Sequence[_Head], form: _Format) -> Iterator[Coded]:
+    raw = np.empty(plain, np.uint8)
+    stream = Inflated(iter([bytes(stored)]))
+    try:
+        filled = stream.readinto(raw.data)
+        complete = filled == plain and stream.finish()
+    except DeflateError as error:
+        raise PackFault(f"block: damaged ({error})") from error
+    need(complete, "bytes in a block", filled)
+    tiles = [np.empty(head.shape, KINDS[head.bits]) for head in run]
+    largest = form.decoded(raw, tiles)
+    need(largest >= 0, "rows of a block", "others than its tiles have")
+    need(largest < 2 * RESIDUAL_CAP, "largest residual of a block", largest)
+    for head, data in zip(run, tiles, strict=True):
+        seen = data.view()  # what is implied is still to be put into `data`
+        seen.flags.writeable = False
+        data.flags.writeable = head.implied is not None
+        yield head.key, Record(head.rect, seen, head.inks, 0), head.implied

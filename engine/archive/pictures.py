@@ -1,0 +1,87 @@
+"""The pictures that inks and textures refer to, as members of a painting's file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from engine.archive import plot_files
+from engine.archive.implied import Tile
+from engine.archive.packing import RESIDUAL_CAP
+from engine.canvas import layers
+from engine.canvas.store import Record
+from engine.files.fault import FileError
+from engine.numeric.address import Rect, TileKey
+from engine.numeric.grid import Q
+from engine.painting.value import Painting
+from engine.texture.image import ImageSource
+from engine.texture.record import Instance
+
+
+def sources(painting: Painting) -> dict[str, ImageSource]:
+    """All pictures that a painting needs, by their sha, in the order of it.
+
+    One that has several names goes by what inks call it, else textures, else plots; among those by the first name.
+    """
+    grown: list[ImageSource] = []
+    inks: set[Instance] = set()
+    for layer in layers.layers(painting.root):
+        for plot in layer.growth:
+            about = plot_files.origin(plot)
+            grown += [replace(source, name=plot.name) for source in (about.source, about.mask) if source is not None]
+        for _, record in layer.pyramid.all_records():
+            inks.update(record.inks)
+    named = [source for texture in painting.textures.values() for source in (texture.source, texture.mask)]
+    found = _collected(grown) | _collected(named) | _collected(getattr(ink, "source", None) for ink in inks)
+    return dict(sorted(found.items()))
+
+
+def _collected(sources: Iterable[Any]) -> dict[str, ImageSource]:
+    found: dict[str, ImageSource] = {}
+    for source in sources:
+        if isinstance(source, ImageSource) and source.data is not None:
+            held = found.get(source.sha)
+            if held is None or source.name < held.name:
+                found[source.sha] = source
+    return found
+
+
+def tiles(source: ImageSource) -> list[Tile]:
+    """A picture on the grid, cut into tiles of whole numbers; ValueError if it does not lie on the grid."""
+    assert source.data is not None
+    steps = np.rint(source.data / np.float32(Q))
+    if not (np.array_equal(steps * np.float32(Q), source.data) and np.abs(steps).max() <= RESIDUAL_CAP):
+        raise ValueError(f"picture {source.name!r}: values off the grid of 2^-16")
+    return [
+        (key, Record(Rect(0, 0, place.width, place.height), _cut(steps, place), (), 0))
+        for key, place in _places(source.width, source.height)
+    ]
+
+
+def _places(width: int, height: int) -> Iterator[tuple[TileKey, Rect]]:
+    whole = Rect(0, 0, width, height)
+    for key in whole.tiles(0):
+        yield key, key.rect.intersect(whole)
+
+
+def _cut(steps: np.ndarray, place: Rect) -> np.ndarray:
+    return np.ascontiguousarray(steps[:, place.y0 : place.y1, place.x0 : place.x1], np.int32)
+
+
+def assembled(name: str, sha: str, size: tuple[int, int], parts: list[Tile], where: str) -> ImageSource:
+    """The picture of `size` (width, height) again; FileError if its tiles do not cover exactly that."""
+    width, height = size
+    data = np.empty((4, height, width), np.float32)
+    left = dict(_places(width, height))
+    for key, record in parts:
+        place = left.pop(key, None)
+        if place is None or record.data.shape != (4, place.height, place.width):
+            raise FileError(where, f"picture {sha[:12]}: a tile at {key.x}, {key.y} does not fit {width} x {height}")
+        data[:, place.y0 : place.y1, place.x0 : place.x1] = record.data * np.float32(Q)
+    if left:
+        raise FileError(where, f"picture {sha[:12]}: {len(left)} tiles are missing")
+    # Its members' checksums were compared; the name is kept whatever the pixels hash to.
+    return ImageSource(name, sha, data)

@@ -1,0 +1,315 @@
+"""What was painted with examples, in a painting's file: plots as the pixels that they take, and the examples.
+
+Nothing that is grown is stored: the final sources follow from pixels, example and seed (engine/texture/example/region).
+Each example is stored once, as pictures of the file and its parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from immutables import Map
+from isal import isal_zlib
+
+from engine.archive import maskpacks
+from engine.brush.settings import DEEPEST
+from engine.canvas import layers
+from engine.canvas.growth import Growth, Plot
+from engine.canvas.layers import Group
+from engine.files.fault import FileError, shown
+from engine.files.strict_json import Fields, FormatError
+from engine.numeric.halving import halved_region
+from engine.painting.commands import LEVEL_LIMIT, SEED_LIMIT
+from engine.painting.textures import Texture
+from engine.strokes.example_stroke import FURTHEST
+from engine.strokes.example_textures import KIND, Origin, exemplar_of, key_of, parameters_of
+from engine.texture.example import region as regions
+from engine.texture.example.exemplar import SIDE as EXAMPLE_SIDE
+from engine.texture.example.exemplar import Exemplar
+from engine.texture.example.parameters import FIELDS, Parameters, changed
+from engine.texture.example.region import Region
+from engine.texture.example.tiles import NONE, SIDE, Tiles
+from engine.texture.field_error import FieldError
+from engine.texture.image import ImageSource
+
+GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels, about
+ANALYSED = 1 << 7  # and of a pixel of an example
+EXAMPLES_CAP = 1000
+DETAIL_CAP = 4
+OTHERWISE = "some of what was painted with examples is not quite what it was when it was saved: it was grown again"
+
+
+@dataclass(frozen=True)
+class ExampleEntry:
+    """What an example is made of: `picture`, and `mask` if it has one, by their sha."""
+
+    picture: str
+    mask: str | None
+    parameters: Parameters
+    detail: int
+
+
+@dataclass(frozen=True)
+class PlotEntry:
+    """A plot in a file: `example`, by its name there; `masks`: members with their numbers of tiles; `crc`: of its
+    pixels as they were grown."""
+
+    depth: float
+    level: int
+    name: str
+    seed: int
+    example: str
+    masks: tuple[tuple[str, int], ...]
+    crc: int
+
+
+# ---- writing ----
+
+
+def origin(plot: Plot) -> Origin:
+    """What a plot's example was read from."""
+    found = plot.region.exemplar.origin
+    if not isinstance(found, Origin):
+        raise ValueError(f"plot {plot.name!r}: its example is of no texture")
+    return found
+
+
+def example_entry(plot: Plot) -> ExampleEntry:
+    found = origin(plot)
+    mask = None if found.mask is None else found.mask.sha
+    return ExampleEntry(found.source.sha, mask, plot.region.exemplar.parameters, found.detail)
+
+
+def stored(plot: Plot, stem: str) -> tuple[PlotEntry, dict[str, Callable[[], bytes]]]:
+    """How the manifest tells a plot, which is settled, and the members that hold it, with what makes their bytes; their
+    names begin with `stem`."""
+    masks, members = plot.region.masks[0], []
+    makes: dict[str, Callable[[], bytes]] = {}
+    for number, keys in enumerate(maskpacks.grouped(masks)):
+        members.append((f"{stem}-{number}.masks", len(keys)))
+        makes[members[-1][0]] = partial(maskpacks.pack, masks, keys)
+    about = plot.depth, plot.level, plot.name, plot.region.seed, plot.key
+    return PlotEntry(*about, tuple(members), crc(plot)), makes
+
+
+def crc(plot: Plot) -> int:
+    """CRC-32 of the plot's pixels at its own level, row by row of tiles: little-endian, as they are shown."""
+    found = 0
+    for _, tile in sorted(plot.shown[0].items()) if plot.shown else ():
+        found = isal_zlib.crc32(np.ascontiguousarray(tile, "<f4").data.cast("B"), found)
+    return found
+
+
+def entries(root: Group) -> dict[str, ExampleEntry]:
+    """The examples of all plots, each once, by their keys in order."""
+    found = {plot.key: plot for layer in layers.layers(root) for plot in layer.growth}
+    return {key: example_entry(plot) for key, plot in sorted(found.items())}
+
+
+def plot_json(entry: PlotEntry) -> dict[str, Any]:
+    own = {field.name: getattr(entry, field.name) for field in fields(entry)}
+    return {**own, "masks": [list(member) for member in entry.masks]}
+
+
+def examples_json(examples: Mapping[str, ExampleEntry]) -> dict[str, Any]:
+    return {key: _example_json(entry) for key, entry in examples.items()}
+
+
+def _example_json(entry: ExampleEntry) -> dict[str, Any]:
+    own = entry.parameters
+    told = {name: getattr(own, name) for name in FIELDS}
+    mask = {} if entry.mask is None else {"mask": entry.mask}
+    return {"picture": entry.picture, **mask, "detail": entry.detail, "parameters": told}
+
+
+# ---- reading ----
+
+
+def parse_plot(value: Any, where: str) -> PlotEntry:
+    """FormatError names the member that is wrong."""
+    members = Fields(value, where)
+    masks = members.take("masks", expected="a list")
+    sound = isinstance(masks, list) and masks and all(isinstance(m, list) and len(m) == 2 for m in masks)
+    if not (sound and all(isinstance(name, str) and type(count) is int and count > 0 for name, count in masks)):
+        raise members.fault("masks", "[member, tiles] each, one at least")
+    furthest = LEVEL_LIMIT + FURTHEST
+    return PlotEntry(
+        members.number("depth", lo=-DEEPEST, hi=DEEPEST),
+        members.integer("level", lo=-furthest, hi=furthest),
+        members.text("name"),
+        members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
+        members.text("example"),
+        tuple((name, count) for name, count in masks),
+        members.integer("crc", lo=0, hi=(1 << 32) - 1),
+    )
+
+
+def parse_example(value: Any, where: str) -> ExampleEntry:
+    """FormatError names the member that is wrong."""
+    members = Fields(value, where)
+    told = members.take("parameters", expected="an object")
+    if not isinstance(told, dict):
+        raise members.fault("parameters", "an object")
+    try:
+        parameters = changed(Parameters(), told, f"{where}.parameters.")
+    except FieldError as error:
+        raise FormatError(error.place, error.found, error.expected) from None
+    detail = members.integer("detail", lo=0, hi=DETAIL_CAP)
+    return ExampleEntry(members.text("picture"), members.text("mask", None), parameters, detail)
+
+
+def _called(name: str) -> str:
+    """The beginning of an example's name in a file, as a place in messages."""
+    return ascii(name[:12])[1:-1]
+
+
+def parse_examples(told: Mapping[str, Any]) -> dict[str, ExampleEntry]:
+    if len(told) > EXAMPLES_CAP:
+        raise FormatError("manifest.examples", f"{len(told)}", f"at most {EXAMPLES_CAP}")
+    return {name: parse_example(value, f"examples.{_called(name)}") for name, value in told.items()}
+
+
+def _check_sizes(where: str, size: tuple[int, int], masked: tuple[int, int] | None) -> None:
+    """FormatError unless an example of that (width, height), and its mask if it has one, can be painted with."""
+    if max(size) > EXAMPLE_SIDE:
+        raise FormatError(
+            f"{where}.picture", "{} x {} pixels".format(*size), f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}"
+        )
+    if masked is not None and masked != size:
+        raise FormatError(f"{where}.mask", "{} x {} pixels".format(*masked), "{} x {} as the picture".format(*size))
+
+
+def check_texture(where: str, texture: Texture) -> None:
+    """FormatError unless a texture that may be an example is one that can be painted with."""
+    if texture.kind != KIND:
+        return
+    if texture.source is None:
+        raise FormatError(where, "no picture", "one of those in the file")
+    mask = None if texture.mask is None else (texture.mask.width, texture.mask.height)
+    _check_sizes(where, (texture.source.width, texture.source.height), mask)
+    try:
+        parameters_of(texture)
+    except FieldError as error:
+        raise FormatError(f"{where}.parameters.{error.place}", error.found, error.expected) from None
+
+
+def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes: Mapping[str, tuple[int, int]]) -> int:
+    """Bytes of memory that the plots of a file take when they are grown, about; `sizes`: of its pictures."""
+    whole = GROWN * sum(count for plot in plots for _, count in plot.masks)
+    for name, entry in examples.items():
+        for sha in (entry.picture, entry.mask):
+            if sha is not None and sha not in sizes:
+                raise FormatError(f"examples.{_called(name)}", f"picture {shown(sha, 12)}", "one of those in the file")
+        masked = None if entry.mask is None else sizes[entry.mask]
+        _check_sizes(f"examples.{_called(name)}", sizes[entry.picture], masked)
+        width, height = sizes[entry.picture]
+        whole += ANALYSED * width * height
+    return whole
+
+
+@dataclass(frozen=True)
+class Nursery:
+    """The examples of a file, by their names there, ready to grow in plots: each with its key."""
+
+    examples: Mapping[str, tuple[str, Exemplar]]
+
+    @classmethod
+    def of(
+        cls, entries: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], pictures: Mapping[str, ImageSource]
+    ) -> Nursery:
+        """Those that plots are of; FormatError if there is nothing to learn from one."""
+        found: dict[str, tuple[str, Exemplar]] = {}
+        for plot in plots:
+            if plot.example in found:
+                continue
+            if plot.example not in entries:
+                raise FormatError(f"plot {shown(plot.name)}.example", shown(plot.example), "one of those in the file")
+            entry = entries[plot.example]
+            texture = _texture(entry, plot.name, pictures)
+            try:
+                found[plot.example] = key_of(texture, entry.detail), exemplar_of(texture, entry.detail)
+            except FieldError as error:
+                raise FormatError(f"examples.{_called(plot.example)}", error.found, error.expected) from None
+        return cls(found)
+
+    def plots(
+        self, entries: Sequence[PlotEntry], masks: Callable[[str, int], Tiles], where: str
+    ) -> tuple[Growth, list[Mark]]:
+        """The plots of a layer, nothing of them grown yet, and the marks by which to tell later whether they grew as
+        before; `masks` reads so many tiles of a member.  FileError if two take the same place."""
+        plots, marks = [], []
+        for entry in entries:
+            key, exemplar = self.examples[entry.example]
+            tiles = maskpacks.joined([masks(*member) for member in entry.masks], where)
+            plots.append(Plot(entry.depth, entry.level, entry.name, key, region_of(exemplar, entry.seed, tiles)))
+            marks.append(Mark(tiles, entry.crc))
+        plots.sort(key=lambda plot: plot.order)
+        for one, other in pairwise(plots):
+            if one.order == other.order:
+                raise FileError(
+                    where, f"plot {shown(one.name)}: found two of an example, level and depth, expected one"
+                )
+        _check_apart(plots, where)
+        return tuple(plots), marks
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mark:
+    """The CRC that the pixels of a plot had when it was saved; `masks`: its own, as they were opened."""
+
+    masks: Tiles
+    crc: int
+
+
+def otherwise(marks: Sequence[Mark], root: Group) -> bool:
+    """Whether a plot that was grown again, and not painted on since, looks otherwise than when it was saved."""
+    plots = [plot for layer in layers.layers(root) for plot in layer.growth if plot.settled]
+    return any(mark.masks is plot.region.masks[0] and mark.crc != crc(plot) for mark in marks for plot in plots)
+
+
+def _texture(entry: ExampleEntry, name: str, pictures: Mapping[str, ImageSource]) -> Texture:
+    """The example as a texture that was painted with under some name."""
+    mask = None if entry.mask is None else replace(pictures[entry.mask], name=name)
+    told = Map({field: getattr(entry.parameters, field) for field in FIELDS})
+    return Texture(KIND, told, replace(pictures[entry.picture], name=name), mask)
+
+
+def _check_apart(plots: Sequence[Plot], where: str) -> None:
+    """Of a depth and level, no two plots have a pixel in common."""
+    taken: dict[tuple[float, int], dict[tuple[int, int], np.ndarray]] = {}
+    for plot in plots:
+        held = taken.setdefault((plot.depth, plot.level), {})
+        for key, mask in plot.region.masks[0].items():
+            before = held.get(key)
+            if before is not None and (before & mask).any():
+                raise FileError(where, f"plot {shown(plot.name)}: found pixels of another plot of its depth in it")
+            held[key] = mask if before is None else before | mask
+
+
+def region_of(exemplar: Exemplar, seed: int, masks: Tiles) -> Region:
+    """The region of some pixels, as if they had been painted; nothing is refined."""
+    found = [masks]
+    for _ in exemplar.levels[1:]:
+        found.append(_coarser(found[-1]))
+    return replace(regions.empty(exemplar, seed), masks=tuple(found))
+
+
+def _coarser(fine: Tiles) -> Tiles:
+    """A pixel is taken if any of its four finer ones is."""
+    found = NONE.mutate()
+    wide = np.empty((2 * SIDE, 2 * SIDE), np.uint8)
+    for row, column in sorted({(y >> 1, x >> 1) for y, x in fine}):
+        wide[:] = 0
+        for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            part = fine.get((2 * row + y, 2 * column + x))
+            if part is not None:
+                wide[y * SIDE : (y + 1) * SIDE, x * SIDE : (x + 1) * SIDE] = part[0]
+        tile = halved_region(wide)[None]
+        tile.flags.writeable = False
+        found[row, column] = tile
+    return found.finish()

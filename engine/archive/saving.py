@@ -1,0 +1,355 @@
+"""Saving a painting as OpenRaster: pictures for every program, and beside them all that makes it refine on zoom.
+
+Layout: mimetype (first, stored), data/L*.png (each layer's part of the frame), mergedimage.png,
+Thumbnails/thumbnail.png, stack.xml, then under inkfall/ the tiles in packs, pictures, recording and manifest.  The
+same painting gives the same bytes.  A save takes a frozen snapshot, so it can run on any thread.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import tempfile
+from collections import deque
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+
+from engine.archive import grounds, pictures, plot_files
+from engine.archive.cascade import Cascade
+from engine.archive.grounds import GroundEntry
+from engine.archive.implied import needed, ordered
+from engine.archive.jobs import Job, pack_jobs
+from engine.archive.manifest import MANIFEST, RECORDING, Pack, PictureEntry, format_of, manifest_json
+from engine.archive.plot_files import PlotEntry
+from engine.canvas import layers
+from engine.canvas.layers import Group, Layer, Node, isolation
+from engine.files.atomic import replacing
+from engine.files.fault import FileError, WriteError
+from engine.files.limits import LIMITS
+from engine.files.png_reader import PngReader
+from engine.files.png_writer import PngWriter
+from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, stack_text
+from engine.files.strict_json import dumps
+from engine.files.zip_reader import ZipArchive
+from engine.files.zip_writer import ZipWriter
+from engine.numeric import blend
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8
+from engine.numeric.shrink import box_reduce, fitted
+from engine.painting.grown import settled_root
+from engine.painting.recording import Recording
+from engine.painting.rendering import Stop, check, folded, reach, sheets, strips
+from engine.painting.value import Painting
+
+MIMETYPE = b"image/openraster"
+SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
+THUMBNAIL = 256
+MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
+IN_MEMORY = 256 << 20  # bytes of all pictures that are kept in memory before they go into the file
+WORKERS = 2
+WAITING = 4  # finished jobs that may wait for their turn
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Snapshot:
+    """What a save writes: the painting, and the recording that led to it if that is known."""
+
+    painting: Painting
+    recording: Recording | None = None
+
+
+Product = bytes | IO[bytes]
+
+
+def save(
+    path: str | os.PathLike[str],
+    snapshot: Snapshot,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Stop = None,
+) -> None:
+    """Writes the painting.  The place holds the old file or the whole new one, which was read back and checked.
+
+    `progress` gets the part done, 0..1, on the calling thread; `cancelled` is asked from several.  WriteError if it
+    cannot be done, Cancelled if it was asked for; either way nothing has changed.
+    """
+    try:
+        painting = replace(snapshot.painting, root=folded(settled_root(snapshot.painting.root)))
+        plan = Plan(painting, snapshot.recording, cancelled)
+        with replacing(path, verify=lambda part: _verify(part, path, plan)) as file:
+            writer = ZipWriter(file)
+            writer.add("mimetype", MIMETYPE)
+            with closing(_made(plan, cancelled)) as made:
+                for number, (job, product) in enumerate(made):
+                    _add(writer, job.name, product, job.deflate)
+                    if progress is not None:
+                        progress((number + 1) / (len(plan.names) + 1))
+            plan.finish(writer)
+            writer.close()
+    except MemoryError as error:
+        raise WriteError(path, "not enough memory to save it") from error
+    if progress is not None:
+        progress(1.0)
+
+
+def _made(plan: Plan, cancelled: Stop) -> Generator[tuple[Job, Product], None, None]:
+    """The members, each with its bytes: those of our own as they are made, a few ahead, then all pictures.
+
+    The pictures are one long piece of work, so it is begun first.
+    """
+    waiting: deque[tuple[Job, Future]] = deque()
+    shown: Future | None = None
+    try:
+        with ThreadPoolExecutor(WORKERS, "save") as pool:
+            shown = pool.submit(plan.pictures)
+            try:
+                for job in plan.jobs:
+                    waiting.append((job, pool.submit(job.make)))
+                    if len(waiting) >= WAITING:
+                        yield _next(waiting, cancelled)
+                while waiting:
+                    yield _next(waiting, cancelled)
+                yield from shown.result()
+            finally:
+                for _, future in waiting:
+                    future.cancel()
+    finally:
+        if shown is not None and not shown.cancelled() and shown.exception() is None:
+            for _, product in shown.result():
+                product.close()
+
+
+def _next(waiting: deque, cancelled: Stop) -> tuple[Job, Product]:
+    check(cancelled)
+    job, future = waiting.popleft()
+    return job, future.result()
+
+
+def _add(writer: ZipWriter, name: str, product: Product, deflate: bool) -> None:
+    if isinstance(product, bytes):
+        writer.add(name, product, deflate)
+        return
+    size = product.seek(0, os.SEEK_END)
+    product.seek(0)
+    with writer.stored(name, size) as sink:
+        while piece := product.read(1 << 20):
+            sink.write(piece)
+    product.close()
+
+
+def _verify(part: Path, path: str | os.PathLike[str], plan: Plan) -> None:
+    """Reads the finished file back as a stranger would."""
+    try:
+        with open(part, "rb") as file:
+            archive = ZipArchive(file, os.fspath(path))
+            archive.check()
+            if set(archive.members) != {"mimetype", "stack.xml", MANIFEST, *plan.names}:
+                raise WriteError(path, "the file written lacks members")
+            for name in plan.names:
+                if name.endswith(".png"):
+                    PngReader(archive.open(name), name)  # type: ignore[arg-type]
+    except FileError as error:
+        raise WriteError(path, f"the file written cannot be read back ({error.message})") from error
+
+
+class Plan:
+    """All members of a painting's file, and where each layer's paint goes."""
+
+    def __init__(self, painting: Painting, recording: Recording | None, cancelled: Stop) -> None:
+        self._painting = painting
+        self._cancelled = cancelled
+        self._level = shown_level(painting.frame)
+        self._frame = painting.frame.zoomed(self._level)
+        self._packs: dict[int, list[Pack]] = {}
+        self._places: dict[int, Rect] = {}
+        self._pictures: list[PictureEntry] = []
+        self._grounds: dict[int, GroundEntry] = {}
+        self._plots: dict[int, list[PlotEntry]] = {}
+        for layer in layers.layers(painting.root):
+            self._places[layer.id] = self._place(layer)
+        laid = [job for layer in layers.layers(painting.root) for job in self._ground_jobs(layer)]
+        stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
+        grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
+        seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
+        told = [] if recording is None else [Job(RECORDING, lambda: _told(recording), deflate=True)]
+        self.jobs = [*laid, *stored, *grown, *seen, *told]
+        self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
+        self.names = [*(job.name for job in self.jobs), *self._shown]
+
+    # ---- pictures for other programs ----
+
+    def _is_ground(self, layer: Layer) -> bool:
+        """Whether the picture that a layer began with is its picture still."""
+        return self._level == 0 and grounds.whole(layer, self._frame)
+
+    def _place(self, layer: Layer) -> Rect:
+        if self._is_ground(layer):
+            assert layer.pyramid.ground is not None
+            return layer.pyramid.ground.rect
+        place = reach(layer, self._level, self._frame)
+        return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
+
+    def pictures(self) -> list[tuple[Job, IO[bytes]]]:
+        """The PNGs of all layers, of them together, and the thumbnail."""
+        root, level, places = self._painting.root, self._level, self._places
+        files: dict[str, _Png] = {}
+        try:
+            for layer in layers.layers(root):
+                if not self._is_ground(layer):
+                    files[_png_name(layer)] = _Png(places[layer.id], len(self._shown))
+            files[MERGED] = _Png(self._frame, len(self._shown), small=True)
+            for known, merged in sheets(root, level, self._frame, places, self._cancelled):
+                for layer in layers.layers(root):
+                    if layer.id in known and _png_name(layer) in files:
+                        files[_png_name(layer)].rows(known[layer.id])
+                files[MERGED].rows(merged)
+            files[THUMB] = self._thumbnail()
+            drawn = [(Job(name, bytes), png.finished()) for name, png in files.items()]
+            return [*self._grounds_shown(), *drawn]
+        except BaseException:
+            for png in files.values():
+                png.file.close()
+            raise
+
+    def _grounds_shown(self) -> list[tuple[Job, IO[bytes]]]:
+        """The pictures of layers that nobody has painted on: those they began with."""
+        shown: list[tuple[Job, IO[bytes]]] = []
+        for layer in layers.layers(self._painting.root):
+            if self._is_ground(layer) and layer.pyramid.ground is not None:
+                shown.append((Job(_png_name(layer), bytes), io.BytesIO(layer.pyramid.ground.pixels)))
+        return shown
+
+    def _thumbnail(self) -> _Png:
+        """At most 256 x 256: the level that is just large enough, reduced by exact area means."""
+        size = fitted(self._frame.width, self._frame.height, THUMBNAIL)
+        level, frame = self._level, self._frame
+        while (
+            min(frame.width // 2 - size[0], frame.height // 2 - size[1]) >= 0 and max(frame.width, frame.height) > 1024
+        ):
+            level -= 1
+            frame = self._painting.frame.zoomed(level)
+        read = strips(self._painting.root, level, frame, self._cancelled)
+        planes = np.concatenate([planes.copy() for planes in read], axis=1)
+        png = _Png(Rect(0, 0, *size), 1)
+        png.rows(box_reduce(planes, *size))
+        return png
+
+    def _entry(self, node: Node) -> StackEntry | LayerEntry:
+        if isinstance(node, Group):
+            return StackEntry(
+                tuple(self._entry(child) for child in reversed(node.children)),
+                node.name,
+                node.opacity,
+                node.visible,
+                blend.BLENDS[node.blend].op,
+                isolation(node) == "isolate",
+                node.locked,
+                {"id": str(node.id)},
+            )
+        place = self._places[node.id]
+        return LayerEntry(
+            f"data/L{node.id}.png",
+            node.name,
+            place.x0 - self._frame.x0,
+            place.y0 - self._frame.y0,
+            node.opacity,
+            node.visible,
+            blend.BLENDS[node.blend].op,
+            node.locked,
+            node.name == self._painting.active,
+            {"id": str(node.id)},
+        )
+
+    # ---- our own members ----
+
+    def _ground_jobs(self, layer: Layer) -> Iterator[Job]:
+        ground = layer.pyramid.ground
+        if ground is None:
+            return
+        shared = self._is_ground(layer)
+        name = _png_name(layer) if shared else f"inkfall/layers/{layer.id}/ground.png"
+        found = grounds.entry(layer.pyramid, name)
+        assert found is not None
+        self._grounds[layer.id] = found
+        if not shared:
+            yield Job(name, lambda: ground.pixels)
+
+    def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
+        tiles = ordered(grounds.painted_since(layer.pyramid))
+        self._packs[layer.id] = []
+        yield from pack_jobs(
+            f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], Cascade(layer.pyramid, needed(tiles))
+        )
+
+    def _growth_jobs(self, layer: Layer) -> Iterator[Job]:
+        self._plots[layer.id] = []
+        for number, plot in enumerate(layer.growth):
+            entry, makes = plot_files.stored(plot, f"inkfall/layers/{layer.id}/plot{number}")
+            self._plots[layer.id].append(entry)
+            yield from (Job(name, make) for name, make in makes.items())
+
+    def _picture_jobs(self, source) -> Iterator[Job]:
+        packs: list[Pack] = []
+        yield from pack_jobs(f"inkfall/pictures/{source.sha}", pictures.tiles(source), packs)
+        self._pictures.append(PictureEntry(source.name, source.sha, (source.width, source.height), tuple(packs)))
+
+    def finish(self, writer: ZipWriter) -> None:
+        """Adds stack.xml and the manifest, which tell of all that went before."""
+        root = self._entry(self._painting.root)
+        assert isinstance(root, StackEntry)
+        root = _with_sums(root, {name: entry.sha256 for name, entry in writer.written.items()})
+        attributes = {"format": str(format_of(self._painting)), "manifest": MANIFEST}
+        text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
+        writer.add("stack.xml", text, deflate=True)
+        members = {name: (entry.size, entry.sha256) for name, entry in writer.written.items()}
+        told = manifest_json(self._painting, self._packs, self._grounds, self._plots, self._pictures, members)
+        writer.add(MANIFEST, dumps(told).encode(), deflate=True)
+
+
+def _with_sums(stack: StackEntry, sums: dict[str, str]) -> StackEntry:
+    """The tree with the SHA-256 of each layer's picture: shows later whether another program changed it."""
+    children = tuple(
+        _with_sums(child, sums)
+        if isinstance(child, StackEntry)
+        else replace(child, ours={**child.ours, "sha256": sums[child.src]})
+        for child in stack.children
+    )
+    return replace(stack, children=children)
+
+
+def shown_level(frame: Rect) -> int:
+    """0, or the finest coarser level at which the frame is a picture that other programs open."""
+    level = 0
+    while True:
+        seen = frame.zoomed(level)
+        if max(seen.width, seen.height) <= SIDE and seen.area <= LIMITS.pixels:
+            return level
+        level -= 1
+
+
+class _Png:
+    """An 8-bit PNG on its way into the file, in memory while it is small; `count` of them share that memory."""
+
+    def __init__(self, place: Rect, count: int, small: bool = False) -> None:
+        self.file: IO[bytes] = tempfile.SpooledTemporaryFile(max(1 << 16, IN_MEMORY // count))  # noqa: SIM115
+        self._writer = PngWriter(self.file, place.width, place.height, small=small)  # type: ignore[arg-type]
+
+    def rows(self, planes: np.ndarray) -> None:
+        self._writer.rows(to_rgba8(planes))
+
+    def finished(self) -> IO[bytes]:
+        self._writer.close()
+        return self.file
+
+
+def _png_name(layer: Layer) -> str:
+    return f"data/L{layer.id}.png"
+
+
+def _told(recording: Recording) -> bytes:
+    return b"".join(line.encode() + b"\n" for line in recording.lines())

@@ -1,0 +1,137 @@
+"""Pictures from files: PNG, JPEG and TIFF, known by their first bytes and never by their name."""
+
+from __future__ import annotations
+
+import io
+import os
+import threading
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import BinaryIO
+
+import numpy as np
+
+from engine.files.fault import FileError, shown
+from engine.files.limits import LIMITS, Limits
+from engine.files.png_reader import FOREIGN_PROFILE, PngReader
+from engine.files.png_writer import SIGNATURE
+from engine.files.tiff_reader import read_layout, read_tiff
+
+# EXIF 2.3, tag 0x0112: how an array (height, width, ...) is turned upright.
+UPRIGHT: dict[int, Callable[[np.ndarray], np.ndarray]] = {
+    2: lambda a: a[:, ::-1],
+    3: lambda a: a[::-1, ::-1],
+    4: lambda a: a[::-1],
+    5: lambda a: a.swapaxes(0, 1),
+    6: lambda a: a.swapaxes(0, 1)[:, ::-1],
+    7: lambda a: a[::-1, ::-1].swapaxes(0, 1),
+    8: lambda a: a.swapaxes(0, 1)[::-1],
+}
+_warnings = threading.Lock()  # the list of warning filters belongs to the whole process
+
+
+@dataclass(frozen=True)
+class Meta:
+    """What is told of a picture besides its pixels."""
+
+    kind: str  # "png", "jpeg", "tiff"
+    notes: tuple[str, ...] = ()  # what was not kept, in words
+
+
+def read_image(
+    source: str | os.PathLike[str] | bytes, name: str | None = None, limits: Limits = LIMITS
+) -> tuple[np.ndarray, Meta]:
+    """A picture as uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied, upright; and what is known of it.
+
+    `name` stands in messages for a source that is bytes.  FileError, one line, on any fault.
+    """
+    if isinstance(source, bytes):
+        return _read(io.BytesIO(source), name or "picture", limits)
+    path = os.fspath(source)
+    try:
+        if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+            raise FileError(name or path, "not a regular file")  # and no pipe is waited for
+        with open(path, "rb") as file:
+            return _read(file, name or path, limits)
+    except (OSError, ValueError) as error:
+        raise FileError(name or path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
+
+
+def _read(file: BinaryIO, name: str, limits: Limits) -> tuple[np.ndarray, Meta]:
+    start = file.read(8)
+    file.seek(0)
+    try:
+        if start == SIGNATURE:
+            reader = PngReader(file, name, limits)
+            return reader.read(), Meta("png", reader.header.notes)
+        if start[:3] == b"\xff\xd8\xff":
+            return _by_pillow(file, name, "JPEG", limits)
+        if start[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
+            return _tiff(file, name, limits)
+    except MemoryError as error:
+        raise FileError(name, "not enough memory for its pixels") from error
+    raise FileError(name, f"starts with {shown(start)}; expected a PNG, JPEG or TIFF")
+
+
+def _tiff(file: BinaryIO, name: str, limits: Limits) -> tuple[np.ndarray, Meta]:
+    layout = read_layout(file, name, limits)
+    if not layout.ours:
+        if max(layout.bits) > 16 or set(layout.tags.get("SampleFormat", (1,))) != {1}:
+            raise FileError(name, f"samples of {max(layout.bits)} bits, not whole numbers of 8 or 16")
+        file.seek(0)
+        pixels, meta = _by_pillow(file, name, "TIFF", limits)
+        lost = ("its 16 bits were reduced to 8",) if max(layout.bits) > 8 and pixels.itemsize == 1 else ()
+        return pixels, Meta("tiff", (*meta.notes, *lost))
+    pixels = read_tiff(file, layout)
+    notes = _about_profile(bytes(layout.tags.get("ICCProfile", ())))
+    return _upright(pixels, layout.one("Orientation", 1)), Meta("tiff", notes)
+
+
+def _upright(pixels: np.ndarray, orientation: int) -> np.ndarray:
+    turn = UPRIGHT.get(orientation)
+    return pixels if turn is None else np.ascontiguousarray(turn(pixels))
+
+
+def _by_pillow(file: BinaryIO, name: str, form: str, limits: Limits) -> tuple[np.ndarray, Meta]:
+    """Pillow's decoder for one named format only; whatever it raises comes out as FileError."""
+    from PIL import Image, ImageOps
+
+    try:
+        with _warnings, warnings.catch_warnings():
+            # Its warnings are about sizes, checked below, and about tags that are not used.
+            warnings.simplefilter("ignore")
+            with Image.open(file, formats=[form]) as picture:
+                _check(picture.size, name, limits)
+                if picture.mode in ("F", "I"):
+                    raise FileError(name, f"pixels of kind {picture.mode}; expected 8 or 16 bits")
+                profile = picture.info.get("icc_profile")
+                upright = ImageOps.exif_transpose(picture)
+                if upright.mode.startswith("I;16"):
+                    return _grey16(np.asarray(upright)), Meta(form.lower())
+                pixels = np.array(upright.convert("RGBA"))
+    except (FileError, MemoryError):
+        raise
+    except Exception as error:  # a decoder of hostile bytes may raise anything
+        raise FileError(name, f"damaged {form}: {error or type(error).__name__}") from error
+    return pixels, Meta(form.lower(), _about_profile(profile or b""))
+
+
+def _about_profile(profile: bytes) -> tuple[str, ...]:
+    """What to say of an ICC profile: nothing if it calls itself sRGB, in ASCII or UTF-16."""
+    return () if not profile or b"sRGB" in profile.replace(b"\0", b"") else (FOREIGN_PROFILE,)
+
+
+def _check(size: tuple[int, int], name: str, limits: Limits) -> None:
+    width, height = size
+    if max(size) > limits.side or width * height > limits.pixels:
+        raise FileError(
+            name, f"{width} x {height} pixels; expected at most {limits.side} each way, {limits.pixels} in all"
+        )
+
+
+def _grey16(grey: np.ndarray) -> np.ndarray:
+    rgba = np.empty((*grey.shape, 4), np.uint16)
+    rgba[:, :, :3] = grey[:, :, None]
+    rgba[:, :, 3] = 65535
+    return rgba

@@ -1,0 +1,1 @@
+"""Definitions of textures, and the makers that turn them into textures."""

@@ -1,0 +1,193 @@
+"""Definitions of textures that travel with a brush: read, compared with those of a painting, given other names.
+
+Light on purpose: the window imports it before the engine is loaded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from immutables import Map
+
+from engine.brush import settings
+from engine.brush.settings import Brush
+from engine.files.strict_json import FormatError, described
+from engine.painting import commands
+from engine.painting.commands import DefineTexture, parse
+
+FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out, and the kind of texture that does it
+USUAL = {"spectrum": "tile", "sparse": "sparse", "impulse": "sparse"}  # what makers do where nothing is said
+MATCHED = ("match", "mix")  # makers that match noise to examples
+COUNT_CAP = 16  # of one brush
+_REFERRING = ("texture", "density", "grain", "tip", "example")  # members of a brush that may hold a texture's name
+
+Known = Mapping[str, tuple[str, Mapping[str, Any]]]  # textures of a painting: name -> kind, parameters
+
+
+def read(value: Any, place: str, folder: Path | None = None) -> tuple[DefineTexture, ...]:
+    """The definitions of a list [{"name": ..., "maker": ..., ...}, ...]; paths in them start from `folder`.
+
+    FormatError names the member.
+    """
+    if not isinstance(value, list) or len(value) > COUNT_CAP:
+        raise FormatError(place, described(value), f"a list of at most {COUNT_CAP} textures")
+    found: list[DefineTexture] = []
+    for i, member in enumerate(value):
+        given = {"do": "texture", **_grounded(member, folder)} if isinstance(member, dict) else member
+        command = parse(given, f"{place}[{i}]")
+        if not isinstance(command, DefineTexture) or any(command.name == other.name for other in found):
+            raise FormatError(f"{place}[{i}]", described(member), "a texture with a name of its own")
+        found.append(command)
+    return tuple(found)
+
+
+def to_json(textures: Iterable[DefineTexture]) -> list[dict[str, Any]]:
+    """The list that `read` takes."""
+    return [{name: value for name, value in commands.to_json(command).items() if name != "do"} for command in textures]
+
+
+def _grounded(value: Any, folder: Path | None) -> Any:
+    """The same with the paths of pictures made absolute."""
+    if isinstance(value, list):
+        return [_grounded(part, folder) for part in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        name: str(folder.absolute() / part) if folder and _is_path(name, part) else _grounded(part, folder)
+        for name, part in value.items()
+    }
+
+
+def kind_of(command: DefineTexture) -> str:
+    """The kind of texture that a command defines, as far as its own members tell."""
+    if command.maker in MATCHED:
+        stages = command.arguments.get("stages", 1)
+        return "series" if isinstance(stages, int) and stages > 1 else "matched"
+    usual = USUAL.get(command.maker)
+    return command.maker if usual is None else FIELDS.get(command.arguments.get("field", usual), "")
+
+
+def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any]) -> bool:
+    """Whether a texture of a painting is what this command would make: all that is told is as told."""
+    told = {name: value for name, value in command.arguments.items() if name != "sha"}
+    silent = _NAMING - set(told)
+    return (
+        kind == kind_of(command)
+        and all(parameters.get(name, _MISSING) == value for name, value in told.items())
+        and not any(name in parameters for name in silent)
+    )
+
+
+# A maker adds what it found out itself, never a member of those by which pictures are named.
+_NAMING = frozenset(
+    (
+        *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
+        *("bundled", "mask", "mask_strokes", "params"),
+    )
+)
+_MISSING = object()
+
+
+def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTexture | None:
+    """The definition of a painting's texture for use elsewhere; None if it needs the painting, or a picture whose place
+    is not known."""
+    if not _reachable(parameters):
+        return None
+    maker = kind
+    if kind in FIELDS.values():
+        maker = "impulse" if "window" in parameters else "spectrum" if "field" in parameters else kind
+    elif kind in ("matched", "series"):
+        maker = "mix" if "pattern" in parameters else "match"
+    given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "examples")}
+    found = DefineTexture(name, maker, Map(given))
+    return found if kind_of(found) == kind else None
+
+
+def _reachable(value: Any) -> bool:
+    """Whether all pictures that are named have absolute paths."""
+    if isinstance(value, tuple):
+        return all(map(_reachable, value))
+    if not isinstance(value, Mapping):
+        return True
+    paths = [part for key, part in value.items() if _is_path(key, part)]
+    return "rect" not in value and all(Path(path).is_absolute() for path in paths) and _reachable(tuple(value.values()))
+
+
+def _is_path(key: str, value: Any) -> bool:
+    named = key in ("path", "pattern", "start", "mask", "params") or (key == "phase" and "." in str(value))
+    return isinstance(value, str) and named
+
+
+def fitted(
+    brush: Brush, needs: Sequence[DefineTexture], known: Known, taken: Iterable[str] = ()
+) -> tuple[Brush, tuple[DefineTexture, ...], tuple[DefineTexture, ...]]:
+    """A brush for a painting whose textures are `known`: (the brush, the definitions that it needs, those of them that
+    the painting lacks).
+
+    A texture is defined anew only if the painting has none like it; under a free name, neither known nor `taken`, if
+    another texture has its name.
+    """
+    names: dict[str, str] = {}
+    needed, lacking = [], []
+    for command in needs:
+        same = [name for name, (kind, parameters) in known.items() if defined_by(command, kind, parameters)]
+        if same:
+            name = command.name if command.name in same else same[0]
+        else:
+            name = _free(command.name, {*known, *taken, *names.values()})
+            lacking.append(replace(command, name=name))
+        names[command.name] = name
+        needed.append(replace(command, name=name))
+    return renamed(brush, names), tuple(needed), tuple(lacking)
+
+
+def _free(name: str, taken: set[str]) -> str:
+    wanted, number = name, 1
+    while wanted in taken:
+        number += 1
+        wanted = f"{name} {number}"
+    return wanted
+
+
+def used(brush: Brush, needs: Iterable[DefineTexture]) -> tuple[DefineTexture, ...]:
+    """Those of some definitions that the brush refers to."""
+    names: set[str] = set()
+    _collect(settings.to_json(brush), names)
+    return tuple(command for command in needs if command.name in names)
+
+
+def refers(brush: Brush, name: str) -> bool:
+    """Whether the brush refers to a texture."""
+    names: set[str] = set()
+    _collect(settings.to_json(brush), names)
+    return name in names
+
+
+def _collect(value: Any, names: set[str]) -> None:
+    if isinstance(value, list):
+        for part in value:
+            _collect(part, names)
+    elif isinstance(value, dict):
+        names.update(part for key, part in value.items() if key in _REFERRING and isinstance(part, str))
+        _collect([part for part in value.values() if isinstance(part, list | dict)], names)
+
+
+def renamed(brush: Brush, names: Mapping[str, str]) -> Brush:
+    """The brush with other names for the textures it refers to."""
+    if all(old == new for old, new in names.items()):
+        return brush
+    return settings.from_json(_renamed(settings.to_json(brush), names))
+
+
+def _renamed(value: Any, names: Mapping[str, str]) -> Any:
+    if isinstance(value, list):
+        return [_renamed(part, names) for part in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        key: names.get(part, part) if key in _REFERRING and isinstance(part, str) else _renamed(part, names)
+        for key, part in value.items()
+    }

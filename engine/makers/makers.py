@@ -1,0 +1,124 @@
+"""The makers of textures: a procedural one with its parameters, a picture, a piece of the canvas, Lewis' three,
+Heeger's and Bergen's two, and examples to be grown.
+
+The command line, a recording and the window define textures by the same command, so they get the same texture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from engine.brush.checks import thawed
+from engine.canvas.layers import Group
+from engine.files.fault import FileError
+from engine.files.strict_json import Fields, FormatError
+from engine.makers import heeger_bergen, lewis
+from engine.makers.definitions import FIELDS, USUAL, kind_of
+from engine.painting.capture import Place, captured, read_picture
+from engine.painting.commands import DefineTexture
+from engine.painting.textures import Around, Texture
+from engine.strokes import example_textures
+from engine.texture.image import ImageSource
+from engine.texture.table import KINDS
+
+LATER = ("solid",)
+
+NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
+
+
+def define(command: DefineTexture, root: Group, around: Around) -> Texture:
+    """The texture that a command defines over a painting with the layers `root`.
+
+    FormatError, FieldError or LayerError name what is wrong with it, FileError the picture that cannot be read.
+    """
+    make = MAKERS.get(command.maker)
+    if make is None:
+        note = " (it comes in a later release)" if command.maker in LATER else ""
+        raise FormatError("maker", f"{command.maker!a}{note}", f"one of {', '.join(MAKERS)}")
+    texture = make(command, root, around)
+    texture.instance({}, 0, 0)  # its parameters are checked where it is defined, not where it is used
+    return texture
+
+
+def _procedural(command: DefineTexture, root: Group, around: Around) -> Texture:
+    return Texture(command.maker, command.arguments)
+
+
+def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
+    members = Fields(command.arguments, "")
+    path, source = members.text("path", cap=4096), _known(command, members, around)
+    if source is None:
+        source = _the_same(members, ImageSource.of(command.name, read_picture(path, around.folder)))
+    return Texture("image", command.arguments, source)
+
+
+def _canvas(command: DefineTexture, root: Group, around: Around) -> Texture:
+    planes = captured(Fields(thawed(command.arguments), ""), root)
+    given = command.arguments
+    parameters = given if "period" in given else given.set("period", given["rect"][3])
+    return Texture("canvas", parameters, ImageSource.of(command.name, planes))
+
+
+def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Around) -> Texture:
+    """A texture of a sample that `make` makes, tiled or scattered."""
+    members = Fields(thawed(command.arguments), "")
+    field = members.take("field", USUAL[command.maker])
+    if field not in FIELDS:
+        raise members.fault("field", f"one of {', '.join(FIELDS)}")
+    parameters, source = command.arguments, _known(command, members, around)
+    if source is None:
+        sample = make(members, Place(around.folder, root, around.pictures))
+        parameters = sample.found.update(parameters)
+        rgba = sample.rgba
+        if field == "tile" and rgba.shape[2] < NARROWEST:
+            rgba = np.tile(rgba, (1, 1, -(-NARROWEST // rgba.shape[2])))
+        source = _the_same(members, ImageSource.of(command.name, rgba))
+    return Texture(kind_of(command), parameters, source)
+
+
+def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
+    """A texture, or a series of them, matched to examples.  The sha of the result is no condition: machines may differ
+    in the last bits of a transform; those of the examples are."""
+    members = Fields(thawed(command.arguments), "")
+    parameters, source = command.arguments, _known(command, members, around)
+    if source is None:
+        sample = heeger_bergen.of_examples(command.maker, members, Place(around.folder, root, around.pictures))
+        parameters = sample.found.update(parameters)
+        source = ImageSource.of(command.name, sample.rgba)
+    return Texture(kind_of(command), parameters, source)
+
+
+def _example(command: DefineTexture, root: Group, around: Around) -> Texture:
+    return example_textures.of_definition(command, around)
+
+
+def _known(command: DefineTexture, members: Fields, around: Around) -> ImageSource | None:
+    """The picture of a definition that was carried out before."""
+    sha = members.text("sha", None, cap=64)
+    return replace(around.pictures[sha], name=command.name) if sha is not None and sha in around.pictures else None
+
+
+def _the_same(members: Fields, source: ImageSource) -> ImageSource:
+    """FileError if a file holds other pixels than it did when the definition was recorded."""
+    sha = members.text("sha", None, cap=64)
+    if "path" in members and sha is not None and sha != source.sha:
+        raise FileError(members.text("path", cap=4096), "its pixels are not those that were there when it was recorded")
+    return source
+
+
+Maker = Callable[[DefineTexture, Group, Around], Texture]
+MAKERS: dict[str, Maker] = {
+    **{name: _procedural for name, row in KINDS.items() if not row.pictured},
+    "image": _image,
+    "canvas": _canvas,
+    "spectrum": partial(_sampled, lewis.of_spectrum),
+    "sparse": partial(_sampled, lewis.of_picture),
+    "impulse": partial(_sampled, lewis.of_photograph),
+    "match": _matched,
+    "mix": _matched,
+    "example": _example,
+}

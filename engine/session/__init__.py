@@ -1,0 +1,1 @@
+"""A painting over time: commands applied, history, replay."""

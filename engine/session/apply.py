@@ -1,0 +1,126 @@
+"""What each command makes of a painting.
+
+A painting never changes: `apply` gives the next one, which shares all that is untouched with the one before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from engine.canvas import layers
+from engine.canvas.layers import Group, Layer, LayerError
+from engine.files.strict_json import FormatError
+from engine.makers.makers import define
+from engine.painting import commands as c
+from engine.painting.textures import Around
+from engine.painting.value import Painting, Refusal, with_node
+from engine.strokes.example_stroke import kind_of, swapped
+from engine.texture.field_error import FieldError
+
+__all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
+
+NOWHERE = Around()
+_CAUSES = (LayerError, FieldError, FormatError)
+
+
+def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> Painting:
+    """The painting after a command.  `undo`, `redo` and `view` change nothing here: they belong to the session.
+
+    Refusal if the command cannot be done; FileError if a file that it names cannot be read.
+    """
+    change = _CHANGES.get(type(command))
+    if change is None:
+        return painting
+    try:
+        return change(painting, command, around)
+    except _CAUSES as error:
+        raise Refusal(str(error)) from None
+
+
+def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
+    live = kind_of(command.brush)(
+        painting, command.level, command.origin, command.brush, around.cache, command.layer, command.seed
+    )
+    live.lay(command.points)
+    return live.commit()
+
+
+def _swap(painting: Painting, command: c.Swap, around: Around) -> Painting:
+    return swapped(painting, command)
+
+
+def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
+    make = Layer if command.kind == "layer" else Group
+    node = make(layers.next_id(painting.root), command.name)
+    return with_node(painting, node, command.group, command.to)
+
+
+def _select(painting: Painting, command: c.SelectLayer, around: Around) -> Painting:
+    return replace(painting, active=layers.find(painting.root, command.name).name)
+
+
+def _remove(painting: Painting, command: c.RemoveLayer, around: Around) -> Painting:
+    group, position = layers.place(painting.root, command.name)
+    root = layers.remove(painting.root, command.name)
+    active = painting.active
+    if active is not None and not layers.has(root, active):
+        active = _neighbour(root, group, position)
+    return replace(painting, root=root, active=active)
+
+
+def _neighbour(root: Group, group: str | None, position: int) -> str | None:
+    """The layer to go on with when the one at a position was removed: the one below, above, else the topmost."""
+    holder = root if group is None else layers.find(root, group)
+    assert isinstance(holder, Group)
+    siblings = [*holder.children[position - 1 : position], *holder.children[position : position + 1]]
+    near = [node.name for node in siblings if isinstance(node, Layer)]
+    return next(iter(near), None) or next((node.name for node in reversed(list(layers.layers(root)))), None)
+
+
+def _rename(painting: Painting, command: c.RenameLayer, around: Around) -> Painting:
+    root = layers.rename(painting.root, command.name, command.to)
+    active = command.to if painting.active == command.name else painting.active
+    return replace(painting, root=root, active=active)
+
+
+def _duplicate(painting: Painting, command: c.DuplicateLayer, around: Around) -> Painting:
+    root = layers.duplicate(painting.root, command.name, command.to)
+    copied = isinstance(layers.find(root, command.to), Layer)
+    return replace(painting, root=root, active=command.to if copied else painting.active)
+
+
+def _move(painting: Painting, command: c.MoveLayer, around: Around) -> Painting:
+    group = command.group
+    if isinstance(group, c.Same):
+        group = layers.place(painting.root, command.name)[0]
+    return replace(painting, root=layers.move(painting.root, command.name, group, command.to))
+
+
+def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
+    changes: Mapping[str, Any] = command.changes
+    if "blend" in changes:
+        changes = {**changes, "blend": changes["blend"].removeprefix("svg:")}
+    return replace(painting, root=layers.set_fields(painting.root, command.name, **changes))
+
+
+def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:
+    texture = define(command, painting.root, around)
+    return replace(painting, textures=painting.textures.set(command.name, texture))
+
+
+_CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
+    c.Stroke: _stroke,
+    c.AddLayer: _add,
+    c.SelectLayer: _select,
+    c.RemoveLayer: _remove,
+    c.RenameLayer: _rename,
+    c.DuplicateLayer: _duplicate,
+    c.MoveLayer: _move,
+    c.SetLayer: _set,
+    c.DefineTexture: _texture,
+    c.Swap: _swap,
+}
+# The commands that undo takes back.  Selecting is no step, nor is defining a texture: strokes keep the one they had.
+STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.DefineTexture}

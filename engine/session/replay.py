@@ -1,0 +1,45 @@
+"""Replaying a recording: the same commands through the same session, so the same pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from engine.canvas.evaluate import TileCache
+from engine.files.fault import FileError
+from engine.painting.recording import Recording, undo_reach
+from engine.session.apply import STEPS, Painting, Refusal
+from engine.session.history import History
+from engine.session.session import HISTORY_BYTES, Session
+
+
+def opened(
+    recording: Recording, cache: TileCache | None = None, seed: int | None = None, history_bytes: int = HISTORY_BYTES
+) -> Session:
+    """A session as the recording's header describes it, nothing done yet.
+
+    However few `history_bytes` are, undo remembers as many steps as the recording takes back.
+    """
+    header = recording.header
+    painting = Painting(header.frame, header.seed if seed is None else seed)
+    history = History(history_bytes, undo_reach(recording.commands, STEPS))
+    return Session(painting, cache, folder=recording.folder, history=history, extra=header.extra)
+
+
+def replay(
+    recording: Recording,
+    cache: TileCache | None = None,
+    seed: int | None = None,
+    tell: Callable[[int], object] = lambda done: None,
+) -> Session:
+    """The session after all commands.  `seed`: in place of the header's; `tell` hears how many are done.
+
+    FileError names the line of a command that cannot be done.
+    """
+    session = opened(recording, cache, seed, history_bytes=0)
+    for i, command in enumerate(recording.commands):
+        try:
+            session.do(command)
+        except (Refusal, FileError) as error:
+            raise recording.fault(i, str(error)) from None
+        tell(i + 1)
+    return session

@@ -1,0 +1,145 @@
+"""A session: the painting now, its past and future, and the recording of all that was done.
+
+Replaying the recording gives the same pixels: what could not be done is not in it, and an undo is in it with the
+number of steps that were there to undo.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from immutables import Map
+
+from engine.canvas import layers
+from engine.canvas.evaluate import TileCache
+from engine.painting import commands as c
+from engine.painting.recording import Header, Recording
+from engine.painting.textures import Around, recorded
+from engine.painting.value import Painting
+from engine.session.apply import STEPS, apply
+from engine.session.history import History
+from engine.strokes.example_stroke import Live, kind_of
+from engine.texture.image import ImageSource
+
+HISTORY_BYTES = 1 << 30
+SMALLEST_CACHE = 64 << 20
+
+
+class Session:
+    """One painting being worked on.  Not for several threads at once; the paintings it hands out are.
+
+    `state`: another object as soon as the painting is another one; the same while it is only refined;
+    `log`: commands that led to `painting`, if they are known; `lent`: a picture that the next definition may name by
+    its sha; `folder`: what paths in commands are relative to;
+    `extra`: members of the recording's header that this version does not know.
+    """
+
+    def __init__(
+        self,
+        painting: Painting | None = None,
+        cache: TileCache | None = None,
+        log: Iterable[c.Command] = (),
+        folder: Path | None = None,
+        history: History | None = None,
+        extra: Map | None = None,
+    ) -> None:
+        self.painting = painting if painting is not None else Painting()
+        self.state: object = object()
+        self.cache = cache if cache is not None else TileCache(cache_budget())
+        self.folder = folder
+        self.log: list[c.Command] = list(log)
+        self.lent: ImageSource | None = None
+        self._history = history if history is not None else History(HISTORY_BYTES)
+        self._extra = extra if extra is not None else Map()
+
+    @property
+    def can_undo(self) -> bool:
+        return self._history.undo_count > 0
+
+    @property
+    def can_redo(self) -> bool:
+        return self._history.redo_count > 0
+
+    @property
+    def history(self) -> History:
+        return self._history
+
+    def do(self, command: c.Command) -> Painting:
+        """Carries out any command; the painting after it.  Refusal or FileError: nothing has changed, nothing is
+        recorded."""
+        if isinstance(command, c.Undo | c.Redo):
+            return self._travel(command)
+        after = apply(self.painting, command, self.around())
+        if isinstance(command, c.DefineTexture):
+            command = recorded(command, after.textures[command.name])
+        return self._done(command, after)
+
+    def begin(
+        self, level: int, origin: tuple[int, int], brush, layer: str | None = None, seed: int | None = None
+    ) -> Live:
+        """A stroke whose points are still to come; hand it to `finish`."""
+        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed)
+
+    def finish(self, live: Live) -> Painting:
+        """The stroke done: the same as its command, without doing the work twice.  One without a point is nothing."""
+        if live.empty:
+            return self.painting
+        if live.before is not self.painting:  # something else was done in between
+            return self.do(live.to_command())
+        return self._done(live.to_command(), live.commit())
+
+    def recording(self) -> Recording:
+        """All that was done, as a recording that gives this painting."""
+        header = Header(self.painting.frame, self.painting.seed, self._extra)
+        return Recording(header, tuple(self.log), folder=self.folder)
+
+    def around(self) -> Around:
+        """Pictures of textures are known by their sha, wherever their files are now."""
+        textures = self.painting.textures.values()
+        sources = (self.lent, *(t.source for t in textures), *(t.mask for t in textures))
+        return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
+
+    def _done(self, command: c.Command, after: Painting) -> Painting:
+        if type(command) in STEPS:
+            self._history.push(self.painting, after)
+        last = self.log[-1] if self.log else None
+        if isinstance(command, c.DefineTexture) and isinstance(last, c.DefineTexture) and last.name == command.name:
+            self.log.pop()  # nothing was done with that one
+        self.log.append(command)
+        if after is not self.painting:
+            self.painting, self.state = after, object()
+        return after
+
+    def amend(self, painting: Painting) -> None:
+        """The same painting, with what is painted with examples further refined: no step, and nothing to record."""
+        self.painting = painting
+        self._history.amend(painting.root)
+
+    def _travel(self, command: c.Undo | c.Redo) -> Painting:
+        undoing = isinstance(command, c.Undo)
+        there = self._history.undo_count if undoing else self._history.redo_count
+        count = min(command.count, there)
+        if not count:
+            return self.painting
+        step = self._history.undo if undoing else self._history.redo
+        for _ in range(count):
+            found = step()
+        # What is no step stays as it is: the textures defined, and the active layer if it is still there.
+        active = self.painting.active
+        if active is None or not layers.has(found.root, active):
+            active = found.active
+        self.painting, self.state = replace(found, textures=self.painting.textures, active=active), object()
+        self.log.append(replace(command, count=count))
+        return self.painting
+
+
+def cache_budget() -> int:
+    """Bytes for evaluated tiles: a quarter of the machine's memory."""
+    try:
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (ValueError, OSError, AttributeError):
+        memory = 4 << 30
+    return max(memory // 4, SMALLEST_CACHE)

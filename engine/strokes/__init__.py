@@ -1,0 +1,1 @@
+"""Strokes while they are drawn, of every mode."""

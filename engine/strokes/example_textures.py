@@ -1,0 +1,195 @@
+"""Example textures as definitions tell them: a picture, the region of it that is grown, and parameters.
+
+A definition names files, or one of the examples that come with the program.  What it found in them is recorded with it,
+so that a painting keeps its examples although files change.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from engine.brush.checks import BrushError, thawed
+from engine.brush.footprint import Footprint
+from engine.files.fault import FileError
+from engine.files.strict_json import Fields, FormatError, described
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba16
+from engine.painting import commands as c
+from engine.painting.capture import read_picture
+from engine.painting.textures import Around, Texture
+from engine.strokes.example_files import kept, read_mask, read_parameters
+from engine.texture.example.exemplar import SIDE, Exemplar, shrunk
+from engine.texture.example.parameters import FIELDS, Parameters, changed
+from engine.texture.field_error import FieldError
+from engine.texture.image import ImageSource
+
+KIND = "example"
+BUNDLED = Path(__file__).resolve().parents[2] / "palettes" / "examples"
+STROKES_CAP = 4096
+_ENDINGS = {"path": ".png", "mask": ".mask.png", "params": ".toml"}
+_HELD = 12  # analyses kept in memory
+_WHITE = 0.5
+_CHANGED = "is not what was there when it was recorded"
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """What an exemplar was made of, besides its parameters: its texture's picture and mask, and the detail left out."""
+
+    source: ImageSource
+    mask: ImageSource | None
+    detail: int
+
+
+def of_definition(command: c.DefineTexture, around: Around) -> Texture:
+    """The texture that a command of the maker "example" defines.
+
+    `path` of a picture or `bundled`, the name of one that comes along; `mask`, a picture that is light where the region
+    is (else it is where the picture is not transparent), and `mask_strokes`, painted on it; `params`, a TOML file, and
+    any of its fields.  FormatError, FieldError or BrushError name the member, FileError the file.
+    """
+    members = Fields(thawed(command.arguments), "")
+    paths = _paths(members, around.folder)
+    source = _picture(command.name, members, paths["path"], around)
+    found = _parameters(members, paths["params"])
+    mask = _mask(command.name, members, paths["mask"], source, around)
+    if mask is not None:
+        found["mask_sha"] = mask.sha
+    given = {name: value for name, value in command.arguments.items() if name not in ("sha", "mask_sha")}
+    texture = Texture(KIND, command.arguments.update(found).update(given), source, mask)
+    exemplar_of(texture)  # what is wrong with it is told where it is defined
+    return texture
+
+
+def _paths(members: Fields, folder: Path | None) -> dict[str, Path | None]:
+    """The files that a definition names, absolute or from the current folder."""
+    found: dict[str, Path | None] = {"path": None, "mask": None, "params": None}
+    if "bundled" in members:
+        if "path" in members:
+            raise members.fault("bundled", "either path or bundled")
+        name = members.text("bundled")
+        if name not in bundled():
+            raise members.fault("bundled", f"one of {', '.join(bundled())}")
+        found = {
+            "path": BUNDLED / f"{name}.png",
+            "mask": BUNDLED / f"{name}.mask.png",
+            "params": BUNDLED / f"{name}.toml",
+        }
+        found = {what: place if place is not None and place.exists() else None for what, place in found.items()}
+    for what in found:
+        if what in members:
+            path = Path(members.text(what, cap=4096))
+            found[what] = path if folder is None else folder / path
+    return found
+
+
+@lru_cache(maxsize=1)
+def bundled() -> tuple[str, ...]:
+    """The names of the examples that come along."""
+    return tuple(sorted(path.stem for path in BUNDLED.glob("*.png") if not path.name.endswith(".mask.png")))
+
+
+def _picture(name: str, members: Fields, path: Path | None, around: Around) -> ImageSource:
+    sha = members.text("sha", None, cap=64)
+    if sha is not None and sha in around.pictures:
+        return replace(around.pictures[sha], name=name)
+    if path is None:
+        raise FormatError("path", "nothing", "path, a picture, or bundled, the name of an example")
+    source = ImageSource.of(name, read_picture(str(path), None))
+    if sha is not None and sha != source.sha:
+        raise FileError(path, _CHANGED)
+    return source
+
+
+def _parameters(members: Fields, path: Path | None) -> dict[str, Any]:
+    """Those of a file, all of which are recorded; none where the definition itself tells all."""
+    if path is None or all(name in members for name in FIELDS):
+        return {}
+    _regular(path)
+    return asdict(read_parameters(path))
+
+
+def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, around: Around) -> ImageSource | None:
+    """The region as a picture, white inside; None where it goes by the picture's alpha."""
+    sha = members.text("mask_sha", None, cap=64)
+    if sha is not None and sha in around.pictures:
+        return replace(around.pictures[sha], name=name)
+    strokes = members.take("mask_strokes", [])
+    if not isinstance(strokes, list) or len(strokes) > STROKES_CAP:
+        raise members.fault("mask_strokes", f"a list of at most {STROKES_CAP} strokes")
+    if path is None and not strokes:
+        return None
+    if path is not None:
+        _regular(path)
+        inside = read_mask(path)
+    else:
+        assert source.data is not None
+        inside = source.data[3] > 0.0
+    for i, stroke in enumerate(strokes):
+        inside = _with_stroke(inside, stroke, f"mask_strokes[{i}]")
+    found = ImageSource.of(name, np.repeat(inside[None].astype(np.float32), 4, axis=0))
+    if sha is not None and sha != found.sha:
+        raise FileError(path or name, _CHANGED)
+    return found
+
+
+def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
+    """The region with what a stroke takes, or without it if the stroke erases."""
+    if not isinstance(value, Mapping):
+        raise FormatError(where, described(value), "a stroke")
+    stroke = c.parse({"do": "stroke", **value}, where)
+    assert isinstance(stroke, c.Stroke)
+    out, whole = inside.copy(), Rect(0, 0, inside.shape[1], inside.shape[0])
+    for rect, taken in Footprint(stroke.brush, stroke.origin).lay(stroke.points):
+        part = rect.intersect(whole)
+        if not part.empty:
+            out[part.slices(whole)][taken[part.slices(rect)]] = stroke.brush.mode != "erase"
+    return out
+
+
+def _regular(path: Path) -> None:
+    if not os.path.isfile(path):  # also so that no pipe or device is opened
+        raise FileError(path, "found no file there")
+
+
+def parameters_of(texture: Texture) -> Parameters:
+    return changed(Parameters(), {name: texture.parameters[name] for name in FIELDS if name in texture.parameters})
+
+
+def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:
+    """What is painted with a texture of this kind, whose finest `detail` levels are kept for zooming in.
+
+    FieldError where there is nothing to learn from.
+    """
+    if texture.kind != KIND or texture.source is None or texture.source.data is None:
+        raise BrushError("brush.example", f"a texture of the kind {texture.kind}", "one of the maker example")
+    return _analysed(texture.source, texture.mask, parameters_of(texture), detail)
+
+
+def key_of(texture: Texture, detail: int = 0) -> str:
+    """Tells whether two exemplars are the same: by what they are made of."""
+    assert texture.source is not None
+    mask = "" if texture.mask is None else texture.mask.sha
+    about = (texture.source.sha, mask, asdict(parameters_of(texture)), detail)
+    return hashlib.sha256(repr(about).encode()).hexdigest()
+
+
+@lru_cache(maxsize=_HELD)
+def _analysed(source: ImageSource, mask: ImageSource | None, parameters: Parameters, detail: int) -> Exemplar:
+    assert source.data is not None
+    origin = Origin(source, mask, detail)
+    if detail:
+        return replace(shrunk(_analysed(source, mask, parameters, 0), detail), origin=origin)
+    _, height, width = source.data.shape
+    if max(height, width) > SIDE:
+        raise FieldError("example", f"{width} x {height} pixels", f"at most {SIDE} x {SIDE}")
+    inside = None if mask is None or mask.data is None else mask.data[3] > _WHITE
+    return replace(kept(to_rgba16(source.data), inside, parameters), origin=origin)

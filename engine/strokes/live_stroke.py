@@ -1,0 +1,104 @@
+"""What all strokes in progress share: what they began on, and their points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from immutables import Map
+
+from engine.brush import kinds
+from engine.brush.settings import Brush
+from engine.canvas.evaluate import TileCache
+from engine.canvas.layers import Group
+from engine.numeric.address import Rect
+from engine.numeric.prediction import Predictor
+from engine.painting.commands import Stroke
+from engine.painting.points import fitted
+from engine.painting.value import Painting, Refusal, layer_for
+
+POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
+
+
+class Drawn:
+    """A stroke that still grows, on the painting as it was when the pen touched down.
+
+    `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
+    points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
+    `own`: the seed of its random numbers, the painting's where its command (`seed`) has none.
+    BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
+    """
+
+    def __init__(
+        self,
+        painting: Painting,
+        level: int,
+        origin: tuple[int, int],
+        brush: Brush,
+        cache: TileCache | None = None,
+        layer: str | None = None,
+        seed: int | None = None,
+    ) -> None:
+        kinds.check(brush)
+        self.base, self.layer = layer_for(painting, layer)
+        self.before, self.cache = painting, cache
+        self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
+        self.own = painting.seed if seed is None else seed
+        self.dropped = 0
+        self.extra: Map = Map()
+        self._named = layer
+        self._points: list[np.ndarray] = []
+        self._count = 0
+        self._begin()
+
+    def _begin(self) -> None:
+        """What a kind of stroke needs besides."""
+        raise NotImplementedError
+
+    @property
+    def predictor(self) -> Predictor | None:
+        """The filter by which it continues what is painted, once that is fitted."""
+        return None
+
+    @property
+    def full(self) -> bool:
+        """Whether the stroke has as many points as one command can hold: end it and begin another."""
+        return self._count >= POINTS_CAP
+
+    @property
+    def empty(self) -> bool:
+        return self._count == 0
+
+    def add(self, points: np.ndarray) -> Rect:
+        """More of what the pen told: float64 (n, 2..6) as POINT_COLUMNS, in pixels of the level from the origin.
+
+        Points that are no points are dropped and counted, the others brought within their bounds; those of a recording
+        are taken as they are.
+        Returns the pixels of the level whose preview may have changed.
+        """
+        table, dropped = fitted(np.atleast_2d(np.asarray(points, np.float64)))
+        self.dropped += dropped
+        return self.lay(table)
+
+    def lay(self, points: np.ndarray) -> Rect:
+        """As `add`, for points float64 (n, 6) that are known to be good.
+
+        BrushError if they make the stroke too large: it is as it was before.
+        """
+        raise NotImplementedError
+
+    def _keep(self, points: np.ndarray) -> None:
+        self._points.append(points)
+        self._count += len(points)
+
+    def rebase(self, painting: Painting, base: Group) -> None:
+        """The painting below, further refined: with and without the layer that the stroke made."""
+        self.before, self.base = painting, replace(self.base, root=base)
+
+    def to_command(self) -> Stroke:
+        """The command that does the same; Refusal if there is no point."""
+        if self.empty:
+            raise Refusal("stroke: found no point, expected one at least")
+        points = np.concatenate(self._points)
+        points.flags.writeable = False
+        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra)

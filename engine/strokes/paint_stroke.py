@@ -1,0 +1,144 @@
+"""The stroke in progress: pen points in, the edit of the layer out.  Its preview is what its commit will be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from engine.brush import kinds, raster, relief, tip
+from engine.brush.checks import BrushError
+from engine.brush.dabs import Stroker
+from engine.brush.footprint import Footprint
+from engine.brush.ink import resolve
+from engine.brush.mask import StrokeMask
+from engine.brush.stamp import Edit
+from engine.canvas import commit, evaluate, layers
+from engine.canvas import growth as growths
+from engine.canvas.flatten import flattened
+from engine.canvas.layers import Group
+from engine.canvas.painted import tile_bounds
+from engine.numeric.address import Rect
+from engine.numeric.prediction import Predictor
+from engine.painting.grown import threads
+from engine.painting.value import Painting
+from engine.strokes.bed import Bed, Meeting
+from engine.strokes.live_stroke import Drawn
+from engine.strokes.scenery import Scenery
+from engine.texture.planes import Planes
+
+
+class LiveStroke(Drawn):
+    """A stroke that edits what is there.
+
+    `bed`: what is painted with examples on the layer, if the stroke erases it; `flattened`: whether it was made paint
+    because the stroke goes over it.
+    """
+
+    def _begin(self) -> None:
+        brush, level, own, textures = self.brush, self.level, self.own, self.before.textures
+        if kinds.MODES[brush.mode].edit is None:
+            raise BrushError("brush.mode", f'"{brush.mode}"', "a mode that edits what is there")
+        self._stroker = Stroker(brush)
+        self._tip = tip.resolve(brush, textures, level, own)
+        self._mask = StrokeMask(level, self.origin, tip=self._tip)
+        inks = {"paint": resolve, "raster": raster.mixture}
+        self._ink = inks[brush.mode](brush, textures, level, own) if brush.mode in inks else None
+        looking = brush.mode == "raster" or (self._ink is not None and bool(self._ink.swayed))
+        self._scenery = Scenery(brush, self.base.root, level, self.origin, own, self.cache) if looking else None
+        self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
+        self._edit: Edit | None = None
+        self.flattened, self.bed = False, self._new_bed()
+        self._meeting = Meeting(level, self.origin, brush.radius)
+
+    def _new_bed(self) -> Bed | None:
+        if self.brush.mode != "erase" or not self.layer.growth or self.layer.alpha_locked:
+            return None
+        level = self.level
+        within = growths.bounds(self.layer.growth, level)
+        begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within)
+        return Bed(self.layer.growth, level, begin, lambda growth, rect, mask: growths.cut(growth, level, rect, mask))
+
+    def lay(self, points: np.ndarray) -> Rect:
+        if not len(points):
+            return Rect(0, 0, 0, 0)
+        try:
+            dabs = self._stroker.walk(points)
+            dirty = tile_bounds(self._mask.paint(dabs))
+            dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
+            if self._scenery is not None:
+                dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
+            if self.bed is not None:
+                self.bed.lay(points)
+        except BrushError:
+            self._again()
+            raise
+        self._keep(points)
+        self._edit = None
+        if self.brush.mode != "erase" and self.layer.growth:
+            self._flatten(dabs)
+        return dirty
+
+    def _flatten(self, dabs: np.ndarray) -> None:
+        """Makes paint of what is painted with examples on the layer, if the stroke meets any of it."""
+        spread = max(self._relief.reach, self._relief.spread)
+        if self._meeting.any(self.layer.growth, dabs, spread):
+            self.flattened = True
+            with threads() as pool:
+                self.layer = flattened(self.layer, self.cache, pool)
+            root = layers.with_pyramid(self.base.root, self.layer.name, self.layer.pyramid)
+            self.base = replace(self.base, root=layers.with_growth(root, self.layer.name, ()))
+
+    def _again(self) -> None:
+        """Lays the points that were kept, and nothing else."""
+        self._stroker = Stroker(self.brush)
+        self._mask = StrokeMask(self.level, self.origin, tip=self._tip)
+        self._edit = None
+        for points in self._points:
+            self._mask.paint(self._stroker.walk(points))
+
+    @property
+    def predictor(self) -> Predictor | None:
+        return None if self._scenery is None else self._scenery.predictor
+
+    @property
+    def rect(self) -> Rect:
+        """A rectangle of pixels of the level outside which nothing changes."""
+        rect = self._mask.rect
+        rect = rect if rect.empty else rect.grown(self._relief.spread)
+        return rect if self.bed is None else rect.union(self.bed.rect)
+
+    @property
+    def root(self) -> Group:
+        """The layers as they are to be seen, but for the stroke's own paint."""
+        return self.base.root if self.bed is None else self.bed.over(self.base.root, self.layer.name)
+
+    @property
+    def edit(self) -> Edit:
+        """The edit of the layer that the points so far make."""
+        if self._edit is None:
+            scene = None if self._scenery is None else self._scenery.scene
+            self._edit = kinds.edit(
+                self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read, self._relief, scene
+            )
+        return self._edit
+
+    def _read(self, rect: Rect) -> Planes:
+        return evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache)
+
+    def preview(self, rect: Rect) -> Planes:
+        """The layer's paint in `rect` at the stroke's level, as it will be."""
+        return commit.preview(self.layer.pyramid, self.edit, rect, self.cache)
+
+    def commit(self) -> Painting:
+        """The painting with the stroke on its layer."""
+        if self.empty:
+            return self.before
+        root, name = self.base.root, self.layer.name
+        pyramid = commit.commit(self.layer.pyramid, self.edit, self.cache)
+        if pyramid is not self.layer.pyramid:
+            root = layers.with_pyramid(root, name, pyramid)
+        if self.bed is not None and self.bed.growth is not self.layer.growth:
+            root = layers.with_growth(root, name, self.bed.growth)
+        return self.base if root is self.base.root else replace(self.base, root=root)

@@ -1,0 +1,231 @@
+"""What the window asks of the background worker: frozen requests.  What comes back is in `results`.
+
+Light on purpose: importing it loads neither numba nor scipy, so a window can be on the screen before the engine is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from immutables import Map
+
+from engine.numeric.address import Rect
+
+if TYPE_CHECKING:
+    from engine.brush.settings import Brush
+    from engine.painting.commands import Command, DefineTexture
+
+NOTHING: Map[str, Any] = Map()
+SIDE = 256  # pixels along a side of a screen tile
+
+
+@dataclass(frozen=True, slots=True)
+class New:
+    """A new painting with a frame in level-0 pixels."""
+
+    frame: Rect
+    seed: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """A painting, a picture or a recording from a file; `live`: the recording is seen as it grows."""
+
+    path: Path
+    live: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Save:
+    """The painting as it is now, as .ora."""
+
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """The frame at `level` (or the rectangle `area` of that level), as .png or .tif."""
+
+    path: Path
+    level: int = 0
+    area: Rect | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Do:
+    """A command, carried out in the order of posting."""
+
+    command: Command
+
+
+@dataclass(frozen=True, slots=True)
+class Begin:
+    """The pen touches down.  `radius` of the brush is in pixels of `level`; points come relative to `origin`."""
+
+    level: int
+    origin: tuple[int, int]
+    brush: Brush
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """More of the stroke: float64 (n, 6) x, y, pressure, tilt_x, tilt_y, t."""
+
+    points: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Finish:
+    """The pen lifts: the stroke is committed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Abandon:
+    """The stroke in progress is dropped as if it had not been."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """The screen tiles wanted, most urgent first: (level, x, y, revision already held or -1).  The newest counts."""
+
+    tiles: tuple[tuple[int, int, int, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Swatch:
+    """A small picture painted with a brush, `size` (width, height) pixels; `zoom` levels nearer than painted.
+    `textures`: definitions that the brush brings along; `soon`: before those that are not."""
+
+    ident: str
+    brush: Brush
+    size: tuple[int, int]
+    kind: str = "stroke"
+    zoom: int = 0
+    textures: tuple[DefineTexture, ...] = ()
+    soon: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """The colour of a pixel."""
+
+    level: int
+    x: int
+    y: int
+
+
+@dataclass(frozen=True, slots=True)
+class LabSet:
+    """What the texture lab makes of the spectrum that is painted in it (`spectrum.Design`), and what of it is shown.
+
+    `sheet`: "amplitude" or "phase"; `field`: the members of the texture command besides the design's own.
+    """
+
+    size: tuple[int, int] = (256, 256)
+    shapes: tuple[Map[str, Any], ...] = ()
+    phase: str = "random"
+    seed: int = 0
+    part: str = "real"
+    forward: bool = False
+    field: Map[str, Any] = NOTHING
+    sheet: str = "amplitude"
+
+
+@dataclass(frozen=True, slots=True)
+class LabBegin:
+    """A stroke in the lab, on its sheet: `radius` of the brush and the points in pixels of the spectrum."""
+
+    brush: Brush
+
+
+@dataclass(frozen=True, slots=True)
+class LabPoints:
+    """More of it, as Points."""
+
+    points: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class LabEnd:
+    """The pen lifts; `kept` unless the stroke is to be dropped."""
+
+    kept: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class LabStep:
+    """Takes back strokes of the lab (`count` < 0), does them again (> 0), or takes all away (0)."""
+
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class LabRest:
+    """The lab has come to rest: a texture in use follows it; shows a stroke of `brush` with its texture in the ink,
+    pictures `size` (width, height) large."""
+
+    brush: Brush
+    size: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class LabUse:
+    """Defines the lab's texture under a name; from now on it follows the lab, until another name is used or none."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Analyse:
+    """Asks what the painting is made of, over a rectangle of a level.  The newest counts; None stops."""
+
+    level: int = 0
+    area: Rect | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MatchSet:
+    """What the matching panel is to show: the members of a texture command of `maker`, "match" or "mix"; None where
+    there is no example yet.  The newest counts."""
+
+    maker: str = "match"
+    arguments: Map[str, Any] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MatchUse:
+    """Defines the texture of such a command under a name, as soon as it is made."""
+
+    name: str
+    maker: str
+    arguments: Map[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class GetReady:
+    """Examples are going to be painted with: what that needs is loaded, or compiled, meanwhile."""
+
+
+LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
+Request = (
+    New
+    | Open
+    | Save
+    | Export
+    | Do
+    | Begin
+    | Points
+    | Finish
+    | Abandon
+    | Look
+    | Swatch
+    | Pick
+    | LabRequest
+    | Analyse
+    | MatchSet
+    | MatchUse
+    | GetReady
+)

@@ -1,0 +1,94 @@
+"""What the window has in sight: the tiles it wants, and which of its copies have become old."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from engine.numeric.address import Rect
+from engine.painting.difference import Areas
+from engine.studio import requests as q
+
+Key = tuple[int, int, int]
+STEPS_KEPT = 64  # changes remembered: a tile older than all of them is made anew
+
+
+class Sight:
+    """The tiles on the screen by urgency, and the changes since they were made.
+
+    `revision` counts the changes; a tile that the window holds is as good as the revision it was made at.
+    """
+
+    def __init__(self) -> None:
+        self.revision = 0
+        self.open: deque[Key] = deque()  # tiles to look at
+        self._wanted: dict[Key, int] = {}  # tile: revision that the window holds, -1 for none; in order of urgency
+        self._changes: deque[tuple[int, Areas]] = deque(maxlen=STEPS_KEPT)
+
+    def look(self, request: q.Look) -> None:
+        """Takes over what is wanted on the screen."""
+        self._wanted = {(level, x, y): held for level, x, y, held in request.tiles}
+        self.open = deque(self._wanted)
+
+    def changed(self, where: Areas) -> None:
+        """The picture changed in the areas that `where` gives for a level: all tiles are looked at again."""
+        self.grew(where, False)
+        self.open = deque(self._wanted)
+
+    def grew(self, where: Areas, more: bool) -> None:
+        """A stroke in progress changed the picture; `more`: `where` holds what the change before told as well."""
+        if more:
+            self._changes.pop()
+        self.revision += 1
+        self._changes.append((self.revision, where))
+
+    def forget(self) -> None:
+        """Another painting is to be seen: no change of the old one matters."""
+        self._changes.clear()
+
+    def meeting(self, level: int, area: Rect) -> list[Key]:
+        """The tiles of a level that the window holds and an area meets."""
+        return [k for k, held in self._wanted.items() if k[0] == level and held >= 0 and area.meets(tile_rect(k))]
+
+    @property
+    def near(self) -> tuple[int, Rect] | None:
+        """The most urgent tile's level, and what is in sight of it."""
+        if not self._wanted:
+            return None
+        level, area = next(iter(self._wanted))[0], Rect(0, 0, 0, 0)
+        for key in self._wanted:
+            area = area.union(tile_rect(key)) if key[0] == level else area
+        return level, area
+
+    def old_part(self, key: Key) -> Rect | None:
+        """What of a tile is to be sent anew: empty if the window's copy is good, None if there is nothing to tell."""
+        held = self._wanted.get(key)
+        if held is None or held == self.revision:
+            return None
+        whole = tile_rect(key)
+        part = Rect(0, 0, 0, 0)
+        for area in [whole] if held < 0 else self._old_parts(key[0], whole, held):
+            part = part.union(area)
+        return part
+
+    def sent(self, key: Key) -> None:
+        """The window's copy of a tile is good now."""
+        self._wanted[key] = self.revision
+
+    def _old_parts(self, level: int, whole: Rect, held: int) -> list[Rect]:
+        """The parts of a rectangle that changed after revision `held`."""
+        if not self._changes or self._changes[0][0] > held + 1:
+            return [whole]
+        out = []
+        for revision, where in self._changes:
+            if revision <= held:
+                continue
+            changed = where(level)
+            if changed is None:
+                return [whole]
+            out += [r for r in (area.intersect(whole) for area in changed) if not r.empty]
+        return out
+
+
+def tile_rect(key: Key) -> Rect:
+    _, x, y = key
+    return Rect.at(x * q.SIDE, y * q.SIDE, q.SIDE, q.SIDE)

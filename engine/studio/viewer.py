@@ -1,0 +1,132 @@
+"""The tiles that the window wants: which are old is found by comparing paintings, and they are made and sent."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import numpy as np
+
+from engine.canvas.composite import composite
+from engine.canvas.layers import Layer
+from engine.canvas.reading import covered, layer_planes
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_premul8
+from engine.painting.difference import Areas
+from engine.session.session import Session
+from engine.strokes.example_stroke import Live
+from engine.strokes.paint_stroke import LiveStroke
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.sight import Key, Sight, tile_rect
+
+_NOTHING = Rect(0, 0, 0, 0)
+
+
+class Host(Protocol):
+    """What the viewer needs of the easel."""
+
+    session: Session
+    send: Callable[[results.Result], None]
+    live: Live | None
+
+
+class Viewer:
+    """Tiles are functions of the painting and the stroke in progress.  All calls come from the engine's thread."""
+
+    def __init__(self, host: Host) -> None:
+        self.host = host
+        self.sight = Sight()
+        self._fresh = _NOTHING  # pixels of the live stroke's level not sent yet
+        self._level = 0
+        self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick}
+
+    @property
+    def fresh(self) -> bool:
+        """Whether there is paint of the stroke in progress that the window has not seen."""
+        return not self._fresh.empty
+
+    @property
+    def pending(self) -> int:
+        """Tiles to look at."""
+        return len(self.sight.open) + self.fresh
+
+    def grew(self, level: int, area: Rect) -> None:
+        """The stroke in progress laid paint on `area` of its level."""
+        more = self.fresh  # one change for all points between two pictures
+        self._level, self._fresh = level, self._fresh.union(area)
+        fresh = self._fresh
+        self.sight.grew(lambda n: [fresh] if n == level else [], more)
+
+    def changed(self, where: Areas) -> None:
+        """The picture changed in the areas that `where` gives for a level; whatever was fresh is among them."""
+        self._fresh = _NOTHING
+        self.sight.changed(where)
+
+    def unsee(self, live: Live) -> None:
+        """The preview of a stroke that came to nothing goes from the screen."""
+        whole = live.flattened or live.bed is not None  # seen at other levels too
+        self.changed(lambda level: None if whole else [live.rect] if level == live.level else [])
+
+    def forget(self) -> None:
+        """Another painting is to be seen."""
+        self._fresh = _NOTHING
+        self.sight.forget()
+
+    def send_fresh(self) -> None:
+        """The part of the wanted tiles that the stroke in progress changed."""
+        area, self._fresh = self._fresh, _NOTHING
+        for key in self.sight.meeting(self._level, area):
+            self._bring_up_to_date(key)
+
+    def send_tile(self) -> None:
+        """The most urgent of the tiles to look at."""
+        self._bring_up_to_date(self.sight.open.popleft())
+
+    def _bring_up_to_date(self, key: Key) -> None:
+        """Sends a wanted tile anew, or the part of it that changed since the window's copy, or that it is good."""
+        part = self.sight.old_part(key)
+        if part is None:
+            return
+        revision = self.sight.revision
+        if part.empty:
+            self.sight.sent(key)
+            self.host.send(results.Same((key,), revision))
+            return
+        tile = tile_rect(key)
+        pixels = results.frozen(to_premul8(self.picture(key[0], part)))
+        self.sight.sent(key)
+        inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
+        self.host.send(results.Patch(key, inner, pixels, revision))
+
+    def picture(self, level: int, whole: Rect) -> np.ndarray:
+        """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
+        live = self.host.live
+        root = live.root if live is not None else self.host.session.painting.root
+        known: dict[int, np.ndarray | None] = {}
+
+        def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+            if layer.id not in known:  # once for all blocks: they share most of what lies above them
+                known[layer.id] = self._read(layer, level, whole)
+            planes = known[layer.id]
+            return None if planes is None else planes[:, *rect.slices(whole)]
+
+        return composite(root, level, whole, read)
+
+    def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        live = self.host.live
+        if (
+            isinstance(live, LiveStroke)
+            and not live.empty
+            and layer.name == live.layer.name
+            and level == live.level
+            and rect.meets(live.rect)
+        ):
+            return covered(live.preview(rect).rgba, layer.growth, level, rect)
+        return layer_planes(layer, level, rect, self.host.session.cache)
+
+    def _pick(self, request: q.Pick) -> None:
+        pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]
+        alpha = float(pixel[3])
+        r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
+        self.host.send(results.Picked((r, g, b), alpha))

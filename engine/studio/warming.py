@@ -1,0 +1,90 @@
+"""Getting ready for painting with examples: its kernels are loaded, or compiled where the program is new, which takes
+longer than anybody holds a pen still; so that is done on a thread of its own, before the first stroke.
+
+Everything runs once on a small painting that nobody sees.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+from immutables import Map
+
+from engine.brush.settings import Brush
+from engine.canvas.composite import composite
+from engine.canvas.growth import settling
+from engine.canvas.reading import layer_planes
+from engine.numeric.address import Rect
+from engine.painting.textures import Texture
+from engine.painting.value import Painting
+from engine.strokes.example_stroke import kind_of
+from engine.strokes.example_textures import KIND
+from engine.studio import requests as q
+from engine.studio import results
+from engine.texture.example.parameters import Parameters
+from engine.texture.image import ImageSource
+
+_SIDE = 96  # pixels along the example: enough for several levels
+_FAR = 150.0  # pixels that the stroke is long
+
+
+class Warming:
+    """The engine's side of `GetReady`.  `send` is called from a thread of its own."""
+
+    def __init__(self, send: Callable[[results.Result], None]) -> None:
+        self._send = send
+        self._thread: threading.Thread | None = None
+        self.handlers: dict[type, Callable[[Any], None]] = {q.GetReady: self._begin}
+
+    def _begin(self, request: q.GetReady) -> None:
+        if self._thread is None:  # once
+            self._thread = threading.Thread(target=self._run, name="inkfall warming", daemon=True)
+            self._thread.start()
+
+    def _run(self) -> None:
+        try:
+            paint()
+        except Exception as error:  # painting will say it again
+            self._send(results.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
+        finally:
+            self._send(results.GotReady())
+
+
+def paint() -> None:
+    """Paints with an example, looks at it from all sides, and takes some away."""
+    painting = Painting(seed=1, textures=Map({"a": _texture()}))
+    grows = Brush(radius=28.0, mode="example", example="a", hardness=1.0, example_detail=1)
+    takes = replace(grows, mode="erase", depth=0.0, radius=6.0)
+    for brush, x in ((grows, 0), (grows, 400), (takes, 0)):  # also where no coordinate changes its sign
+        painting = _drawn(painting, brush, (x, x))
+
+
+def _drawn(painting: Painting, brush: Brush, origin: tuple[int, int]) -> Painting:
+    live = kind_of(brush)(painting, 0, origin, brush)
+    assert live.bed is not None
+    points = np.zeros((2, 6))
+    points[:, 0], points[:, 2] = (0.0, _FAR), 1.0
+    for row in points:
+        live.add(row[None])
+        live.bed.follow()
+    with ThreadPoolExecutor(1) as pool:
+        for growth in settling(live.bed.growth, (0, Rect.at(0, 0, 64, 64)), pool):
+            live.bed.follow(growth)
+    done = live.commit()
+    for level in (-1, 0, 1, 2):
+        composite(done.root, level, Rect.at(-32, -32, 64, 64), layer_planes)
+    return done
+
+
+def _texture() -> Texture:
+    random = np.random.default_rng(1)
+    y, x = np.mgrid[:_SIDE, :_SIDE] - (_SIDE - 1) / 2.0
+    depth = _SIDE * 0.46 - np.hypot(x, y)
+    alpha = np.clip(0.4 + depth / 8.0, 0.0, 1.0) * (depth > 0)
+    planes = np.concatenate([random.random((3, _SIDE, _SIDE)) * alpha, alpha[None]]).astype(np.float32)
+    return Texture(KIND, Map(asdict(Parameters())), ImageSource.of("a", planes))

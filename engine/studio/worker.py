@@ -1,0 +1,205 @@
+"""The background worker: one thread on which the engine lives.
+
+The window posts frozen requests and drains read-only results; it never waits.  Commands and strokes are carried out in
+the order of posting; between them the thread works off the newest view request, tile by tile, most urgent first,
+so that anything newer is seen after at most one tile; in turns with the window where that wants the processor, too.
+"""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Protocol
+
+from engine.studio.requests import Look, Request, Swatch
+from engine.studio.results import Note, Pending, Result
+
+
+class Bench(Protocol):
+    """What the thread works at: an `Easel`, or a stand-in for tests."""
+
+    def do(self, request: Request) -> None:
+        """Carries out a request that changes something; sends its results."""
+        ...
+
+    def look(self, request: Look) -> None:
+        """Takes over what is wanted on the screen."""
+        ...
+
+    def step(self) -> bool:
+        """The most urgent piece of open work; False when there is none."""
+        ...
+
+    @property
+    def pending(self) -> int:
+        """Pieces of open work."""
+        ...
+
+    @property
+    def due(self) -> float | None:
+        """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
+        ...
+
+    def play(self) -> None: ...
+
+    def close(self) -> None: ...
+
+
+PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
+PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
+Maker = Callable[[Callable[[Result], None]], Bench]
+
+
+def _easel(send: Callable[[Result], None]) -> Bench:
+    from engine.studio.easel import Easel  # here, on the thread: it loads numba
+
+    return Easel(send)
+
+
+class Worker:
+    """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread."""
+
+    def __init__(self, wake: Callable[[], None], make: Maker = _easel) -> None:
+        self._wake, self._make = wake, make
+        self._posted: deque[Request] = deque()
+        self._look: Look | None = None
+        self._swatches: dict[str, Swatch] = {}
+        self._swatched = 0.0  # when tiles last let one pass
+        self._turn: float | None = None  # when it ends; None: it does not
+        self._worked = 0.0  # when a piece of work was last begun that waits for its turn
+        self._asked = 0.0  # when the first of the swatches was
+        self._results: deque[Result] = deque()
+        self._signal = threading.Condition()
+        self._closing = False
+        self._doing = False  # a command
+        self._told = -1
+        self._thread = threading.Thread(target=self._run, name="inkfall engine", daemon=True)
+        self._thread.start()
+
+    def post(self, request: Request) -> None:
+        """Leaves a request; returns at once."""
+        with self._signal:
+            if isinstance(request, Look):
+                self._look = request
+            elif isinstance(request, Swatch):
+                self._asked = self._asked if self._swatches else time.monotonic()
+                self._swatches[request.ident] = request
+            else:
+                self._posted.append(request)
+            self._signal.notify()
+
+    def turn(self, end: float | None) -> None:
+        """Open work, and what plays, is begun until `end`, by the monotonic clock, then after the next call; None: at
+        any time.  Swatches, which take longer, wait until then.  For a window that wants the processor now and then: no
+        piece waits longer than `PATIENCE`, and no swatch than `LONGER`.  Commands are not held up; what they have to
+        show is not later than it would be, if the turn begins as a frame ends."""
+        if end == self._turn:
+            return
+        with self._signal:
+            self._turn = end
+            self._signal.notify()
+
+    @property
+    def ready(self) -> bool:
+        """Whether results lie ready."""
+        return bool(self._results)
+
+    def results(self) -> list[Result]:
+        """What came since the last call, in order."""
+        out: list[Result] = []
+        while self._results:
+            out.append(self._results.popleft())
+        return out
+
+    @property
+    def behind(self) -> bool:
+        """Whether commands are still to be carried out, or their results to be taken."""
+        with self._signal:
+            return bool(self._posted) or self._doing or bool(self._results)
+
+    def close(self, timeout: float | None = 10.0) -> None:
+        """Ends the thread after what was posted before is done and files are written; waits so many seconds for it,
+        at most."""
+        with self._signal:
+            self._closing = True
+            self._signal.notify()
+        self._thread.join(timeout)
+
+    def _send(self, result: Result) -> None:
+        self._results.append(result)
+        self._wake()
+
+    def _next(self, bench: Bench) -> Callable[[], None] | None:
+        """The next piece of work: commands first, then the newest look, then its tiles, which let a swatch pass now and
+        then, then swatches; None to end."""
+        with self._signal:
+            while True:
+                self._doing = bool(self._posted)
+                if self._posted:
+                    request = self._posted.popleft()
+                    return lambda: bench.do(request)
+                if self._closing:
+                    return None
+                if self._look is not None:
+                    look, self._look = self._look, None
+                    return lambda: bench.look(look)
+                now = time.monotonic()
+                open_in, swatch_in, play_in = self._waits(bench, now)
+                if bench.pending and open_in <= 0.0 and not (swatch_in <= 0.0 and now - self._swatched > PASSING):
+                    self._worked = now
+                    return lambda: (bench.step(), None)[1]
+                if swatch_in <= 0.0:
+                    self._swatched = self._worked = self._asked = now
+                    swatch = self._swatches.pop(self._foremost())
+                    return lambda: bench.do(swatch)
+                if play_in <= 0.0:
+                    self._worked = now
+                    return bench.play
+                rest = min(open_in, swatch_in, play_in)
+                self._signal.wait(None if rest == math.inf else rest)
+
+    def _waits(self, bench: Bench, now: float) -> tuple[float, float, float]:
+        """Seconds until open work, a swatch, and what plays, may be begun; endless where there is none."""
+        turn = swatch_in = 0.0
+        if self._turn is not None:
+            if now >= self._turn:
+                turn = max(0.0, self._worked + PATIENCE - now)
+            swatch_in = max(0.0, self._asked + LONGER - now)
+        open_in = turn if bench.pending else math.inf
+        play_in = math.inf if bench.due is None else max(turn, bench.due - now)
+        return open_in, swatch_in if self._swatches else math.inf, play_in
+
+    def _foremost(self) -> str:
+        """The swatch that is painted next: of those that are wanted soon, or of all, the one that waits longest."""
+        soon = (ident for ident, swatch in self._swatches.items() if swatch.soon)
+        return next(soon, None) or next(iter(self._swatches))
+
+    def _run(self) -> None:
+        try:
+            bench = self._make(self._send)
+        except Exception as error:
+            self._send(Note(f"The paint engine did not load: {error}", bad=True))
+            return
+        while (work := self._next(bench)) is not None:
+            try:
+                work()
+            except Exception as error:  # the painting is a value: whatever failed left it as it was
+                self._send(Note(_line(error), bad=True))
+            self._tell(bench)
+        bench.close()
+
+    def _tell(self, bench: Bench) -> None:
+        """Sends how much waits, when that has changed and the work is done or long."""
+        pending = bench.pending
+        if pending != self._told and (pending == 0 or pending % 8 == 0):
+            self._told = pending
+            self._send(Pending(pending))
+
+
+def _line(error: Exception) -> str:
+    """An error as one line for people."""
+    text = str(error).strip().splitlines()
+    return text[0] if text else type(error).__name__
