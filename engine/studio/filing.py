@@ -13,10 +13,11 @@ from engine.session.session import Session
 from engine.strokes.example_stroke import Live
 from engine.studio import documents, results
 from engine.studio import requests as q
+from engine.studio.playing import PIECE, Playing, Stage
 from engine.studio.writers import Writers
 
 
-class Host(documents.Stage, Protocol):
+class Host(Stage, Protocol):
     """What filing needs of the easel."""
 
     session: Session
@@ -36,7 +37,7 @@ class Filing:
         self.serial = 0
         self.due: float | None = None
         self._saved: object = host.session.state  # as the file has it; None for none
-        self._script: documents.Playing | None = None
+        self._script: Playing | None = None
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._known = True  # whether the session's log leads from nothing to the painting
         self._writers = Writers(host.send)
@@ -81,7 +82,7 @@ class Filing:
         """The next piece of a recording that plays."""
         assert self._script is not None
         if self.host.live is not None and not self._script.drawing:  # a hand draws: its stroke comes first
-            self.due = time.monotonic() + documents.PIECE
+            self.due = time.monotonic() + PIECE
             return
         self.due = self._script.advance(self.host)
         if self.due is None:
