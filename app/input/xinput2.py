@@ -197,7 +197,7 @@ def decoded(event: DeviceEvent, device: Device | None) -> PenEvent | None:
     return PenEvent(word, event.event_x, event.event_y, time=event.time / 1000.0, **fields)  # type: ignore[arg-type]
 
 
-def mask_of(*kinds: int) -> ct.Array:
+def mask_of(*kinds: int) -> ct.Array[ct.c_ubyte]:
     """The bit mask that XISelectEvents takes."""
     mask = (ct.c_ubyte * 4)()
     for kind in kinds:

@@ -115,7 +115,7 @@ def parse(value: Any, where: str) -> GroundEntry:
     return GroundEntry(members.text("member"), (x, y), tuple(_keys(gone, where)))
 
 
-def _keys(gone: list, where: str) -> Iterable[TileKey]:
+def _keys(gone: list[Any], where: str) -> Iterable[TileKey]:
     for key in gone:
         sound = isinstance(key, list) and len(key) == 3 and all(type(v) is int for v in key)
         if not sound or abs(key[0]) > LEVEL_LIMIT + 256 or max(abs(key[1]), abs(key[2])) > PLACE_LIMIT:

@@ -17,10 +17,11 @@ a file was saved, colour follows it as it is now; each tile carries the CRC-32 o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
+from typing import Any
 
 import numpy as np
 from isal import isal_zlib
@@ -84,7 +85,7 @@ def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
     return out
 
 
-def needed(tiles: Sequence) -> dict[int, Rect]:
+def needed(tiles: Sequence[Tile] | Sequence[Coded]) -> dict[int, Rect]:
     """By level, the even rectangle around all tiles of it."""
     found: dict[int, Rect] = {}
     for key, record, *_ in tiles:
@@ -102,7 +103,7 @@ def _square_without(values: Cascade, group: list[Tile]) -> Iterator[Coded]:
         yield _tile_without(tile, there, seen)
 
 
-def _bounds(group: Sequence) -> Rect:
+def _bounds(group: Sequence[Tile] | Sequence[Coded]) -> Rect:
     return needed(group)[group[0][0].level]
 
 
@@ -134,7 +135,7 @@ class _Tile:
         others = [ink for ink in found if 0 <= ink.base - self.key.level <= ABOVE]
         return () if len(adding) > MOST else tuple([*adding, *others][:MOST])
 
-    def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> tuple:
+    def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> tuple[np.ndarray, ...]:
         """What the kernels need of the tile for these inks."""
         sources, own = (
             np.array([COLOURS + 3 * there.index(ink) if ink in there else -1 for ink in inks], np.int64)
@@ -213,7 +214,7 @@ def _stacked(found: Sequence[np.ndarray], at: Rect) -> np.ndarray:
     )
 
 
-def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable = map) -> int:
+def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[Any]] = map) -> int:
     """Puts the colour back into those of `tiles` from which it was taken, all of them in their places in `pyramid`.
 
     Their records hold views of arrays that are written to here for the last time.  `run` maps a function over a list,

@@ -25,6 +25,7 @@ from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.recording import SIDE_LIMIT
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
+from engine.strokes.example_textures import KIND
 from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
 from engine.texture.table import TextureError
@@ -67,7 +68,9 @@ class Manifest:
     packs: Mapping[int, tuple[Pack, ...]]
     grounds: Mapping[int, GroundEntry]  # of the layers that began with a picture
     plots: Mapping[int, tuple[PlotEntry, ...]]
-    textures: Mapping[str, tuple[str, Map, str | None, str | None]]  # kind, parameters, sha of picture and mask
+    textures: Mapping[
+        str, tuple[str, Map[str, Any], str | None, str | None]
+    ]  # kind, parameters, sha of picture and mask
     examples: Mapping[str, ExampleEntry] = field(default_factory=dict)
     pictures: Mapping[str, PictureEntry] = field(default_factory=dict)
     members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
@@ -137,7 +140,7 @@ def manifest_json(
 def format_of(painting: Painting) -> int:
     """The format that tells all of a painting."""
     grown = any(layer.growth for layer in layers.layers(painting.root))
-    return FORMAT if grown or any(t.kind == plot_files.KIND for t in painting.textures.values()) else WITHOUT_EXAMPLES
+    return FORMAT if grown or any(t.kind == KIND for t in painting.textures.values()) else WITHOUT_EXAMPLES
 
 
 def _pack_json(pack: Pack) -> list[Any]:
@@ -214,7 +217,7 @@ class _Held:
     plots: dict[int, tuple[PlotEntry, ...]] = field(default_factory=dict)
 
 
-def _list(members: Fields, name: str) -> list:
+def _list(members: Fields, name: str) -> list[Any]:
     value = members.take(name, expected="a list")
     if not isinstance(value, list):
         raise members.fault(name, "a list")
@@ -267,7 +270,7 @@ def _packs(members: Fields) -> tuple[Pack, ...]:
     return tuple(out)
 
 
-def _texture(value: Any, where: str) -> tuple[str, Map, str | None, str | None]:
+def _texture(value: Any, where: str) -> tuple[str, Map[str, Any], str | None, str | None]:
     members = Fields(value, where)
     parameters = _object(members, "parameters")
     return members.text("kind"), frozen(parameters), members.text("picture", None), members.text("mask", None)

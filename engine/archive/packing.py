@@ -14,7 +14,7 @@ import re
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from isal import isal_zlib
@@ -40,6 +40,7 @@ BLOCK_CAP = 256 << 20  # what a block may claim: one tile of a thousand inks fit
 LEVEL_CAP = LEVEL_LIMIT + 256  # a stroke changes some levels coarser than its own
 DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
 RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
+T = TypeVar("T", bound=tuple[Any, ...])
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 LEVEL = 1
 _ADDRESS = re.compile("-?[0-9a-f]+")
@@ -53,7 +54,7 @@ def grouped(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
     return _runs(tiles, BYTES, TILES)
 
 
-def _runs(tiles: Sequence, most: int, count: int) -> Iterator[Sequence]:
+def _runs(tiles: Sequence[T], most: int, count: int) -> Iterator[Sequence[T]]:
     """Runs of at most `count` tiles whose data take no more than `most` bytes, if they are several."""
     start, size = 0, 0
     for stop, (_, record, *_) in enumerate(tiles):

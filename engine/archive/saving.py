@@ -102,8 +102,8 @@ def _made(plan: Plan, cancelled: Stop) -> Generator[tuple[Job, Product], None, N
 
     The pictures are one long piece of work, so it is begun first.
     """
-    waiting: deque[tuple[Job, Future]] = deque()
-    shown: Future | None = None
+    waiting: deque[tuple[Job, Future[Product]]] = deque()
+    shown: Future[list[tuple[Job, IO[bytes]]]] | None = None
     try:
         with ThreadPoolExecutor(WORKERS, "save") as pool:
             shown = pool.submit(plan.pictures)
@@ -124,7 +124,7 @@ def _made(plan: Plan, cancelled: Stop) -> Generator[tuple[Job, Product], None, N
                 product.close()
 
 
-def _next(waiting: deque, cancelled: Stop) -> tuple[Job, Product]:
+def _next(waiting: deque[tuple[Job, Future[Product]]], cancelled: Stop) -> tuple[Job, Product]:
     check(cancelled)
     job, future = waiting.popleft()
     return job, future.result()

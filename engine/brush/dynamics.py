@@ -41,7 +41,8 @@ def knots_of(curve: Curve | None) -> tuple[tuple[float, float], ...]:
 def evaluate(curve: Curve | None, pressure: np.ndarray) -> np.ndarray:
     """The factor that a curve gives at each pressure: float64, of the shape of `pressure`."""
     inputs, outputs = np.array(knots_of(curve), np.float64).T
-    return np.interp(pressure, inputs, outputs)
+    out: np.ndarray = np.interp(pressure, inputs, outputs)
+    return out
 
 
 def response(brush: Brush) -> Response:

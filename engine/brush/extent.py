@@ -36,7 +36,7 @@ class Extent:
     impulse: sparse.Impulse
     noise: sparse.Noise
     opacity: float
-    _done: dict[TileKey, tuple[tuple, np.ndarray]] = field(default_factory=dict, repr=False)
+    _done: dict[TileKey, tuple[tuple[object, ...], np.ndarray]] = field(default_factory=dict, repr=False)
 
     @property
     def reach(self) -> int:

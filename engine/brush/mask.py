@@ -155,4 +155,5 @@ class StrokeMask:
         return True
 
     def _wiped(self, discs: np.ndarray, which: np.ndarray, inside: np.ndarray) -> bool:
-        return kernels.wiped(discs, which, inside, self._ceiling)
+        out: bool = kernels.wiped(discs, which, inside, self._ceiling)
+        return out

@@ -202,7 +202,8 @@ def flag(value: Any, place: str) -> bool:
 
 
 def _others(value: Mapping[str, Any], *own: str) -> Map[str, Any]:
-    return checks.frozen({k: v for k, v in value.items() if k not in own})
+    out: Map[str, Any] = checks.frozen({k: v for k, v in value.items() if k not in own})
+    return out
 
 
 def _given(name: str, value: Any) -> dict[str, Any]:

@@ -75,7 +75,8 @@ class Heights:
         values = grey(self.made, self.made.base, rect.zoomed(above))[None]
         for _ in range(above):
             values = reduce(values)
-        return values[0]
+        out: np.ndarray = values[0]
+        return out
 
     @cached_property
     def _mean(self) -> float:

@@ -94,7 +94,8 @@ class Rim:
         """How far the paint's colour turns to the rim's: float32 (128, 128); `amount` at it, 0 from half a width on:
         pigment that gathers leaves a line, not a shade."""
         t = np.maximum(np.float32(1.0) - np.float32(2.0) * depths, np.float32(0.0))
-        return np.float32(self.amount) * t * t * (np.float32(3.0) - np.float32(2.0) * t)
+        out: np.ndarray = np.float32(self.amount) * t * t * (np.float32(3.0) - np.float32(2.0) * t)
+        return out
 
 
 @njit(cache=True, nogil=True)

@@ -158,7 +158,8 @@ def to_json(brush: Brush) -> dict[str, Any]:
         if part.name == "extra" or (part.name in _RARE and value == _RARE[part.name]):
             continue
         data[part.name] = parts.WRITERS.get(part.name, checks.thawed)(value)
-    return data | checks.thawed(brush.extra)
+    out: dict[str, Any] = data | checks.thawed(brush.extra)
+    return out
 
 
 _RARE: dict[str, Any] = {

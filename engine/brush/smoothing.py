@@ -99,4 +99,5 @@ def _pieces(controls: np.ndarray, tolerance: float) -> np.ndarray:
     curve = start[which] - (2.0 * t) * away + (t * t) * bend[which]
     ends = np.cumsum(parts) - 1
     curve[ends] = end
-    return curve
+    out: np.ndarray = curve
+    return out

@@ -33,7 +33,8 @@ class Hat:
         """0..1, float32, of pressures 0..1."""
         inputs, outputs = np.array(self.curve, np.float64).T
         weight = np.interp(pressure, inputs, outputs) * (self.stages - 1)
-        return np.maximum(1.0 - np.abs(weight - self.stage), 0.0).astype(np.float32)
+        out: np.ndarray = np.maximum(1.0 - np.abs(weight - self.stage), 0.0).astype(np.float32)
+        return out
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -42,7 +42,8 @@ def turning(degrees: float) -> np.ndarray:
     grey = np.tile(np.array(tones.LUMA), (3, 1))
     turn = np.eye(3) * math.cos(angle) + math.sin(angle) * cross + (1.0 - math.cos(angle)) / 3.0
     chroma = np.eye(3) - grey
-    return chroma @ turn @ chroma + grey
+    out: np.ndarray = chroma @ turn @ chroma + grey
+    return out
 
 
 @lru_cache(32)

@@ -15,9 +15,9 @@ from engine.numeric.address import Rect
 from engine.numeric.grid import snap
 from engine.numeric.pyramid import expand_into
 from engine.texture.example import show, tiles
-from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
+from engine.texture.example.region_window import OUTSIDE
 from engine.texture.example.tiles import Tiles
 
 HALO = 3  # pixels around the ancestors of a rectangle: what all finer levels of it can read

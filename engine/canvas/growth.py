@@ -24,9 +24,9 @@ from engine.canvas.shown import Shown
 from engine.numeric.address import Rect
 from engine.texture.example import region as regions
 from engine.texture.example import tiles
-from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.region import Region
+from engine.texture.example.region_window import OUTSIDE
 from engine.texture.example.tiles import NONE, Tiles
 
 _NOWHERE = Rect(0, 0, 0, 0)

@@ -6,7 +6,7 @@ Touched are the pixels that changed, and the children of every parent that chang
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from enum import Enum
 
 import numpy as np
 
@@ -22,7 +22,15 @@ from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 
 NewRecords = dict[TileKey, Record | None]
-_SAME: Any = object()
+
+
+class _Same(Enum):
+    """Stands for the record that a tile has: None says that it is to have none."""
+
+    SAME = "same"
+
+
+_SAME = _Same.SAME
 
 
 class Parents:
@@ -40,7 +48,10 @@ class Parents:
     def spread(self, rect: Rect, touched: np.ndarray) -> bool:
         """Mark the children of changed pixels in `touched`, uint8 over the even `rect`; whether any is marked now."""
         corner = rect.parents()
-        return kernels.spread(self.changed, corner.y0 - self.before.rect.y0, corner.x0 - self.before.rect.x0, touched)
+        out: bool = kernels.spread(
+            self.changed, corner.y0 - self.before.rect.y0, corner.x0 - self.before.rect.x0, touched
+        )
+        return out
 
 
 def store_painted(
@@ -113,15 +124,23 @@ def _pasted(around: Surroundings, front: Front | None) -> Planes:
 
 
 def _write(
-    pyramid: Pyramid, key: TileKey, part: Rect, value: Planes | None, touched, parents: Parents, records: NewRecords
+    pyramid: Pyramid,
+    key: TileKey,
+    part: Rect,
+    value: Planes | None,
+    touched: np.ndarray,
+    parents: Parents,
+    records: NewRecords,
 ) -> None:
     shown = value if value is not None else Planes.empty(part.height, part.width)
     record = _record(pyramid, key, part, shown, touched, parents)
-    if record is not _SAME:
+    if not isinstance(record, _Same):
         records[key] = record
 
 
-def _record(pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents) -> Record | None:
+def _record(
+    pyramid: Pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents
+) -> Record | _Same | None:
     """The new record of a tile whose values of `part` became `value`; `_SAME` if the one it has still holds."""
     stored = pyramid.levels.get(key.level)
     old = stored.get((key.x, key.y)) if stored is not None else None
@@ -145,7 +164,9 @@ def _record(pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarra
     return compact(Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y), data, inks, pyramid.depth + 1)
 
 
-def _first_record(pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents):
+def _first_record(
+    pyramid: Pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents
+) -> Record | _Same | None:
     """As `_record` where none was, and where no ink adds texture: nothing has to be made but the residual itself."""
     corner, above = part.parents(), parents.before.rect
     planes = plane_map(parents.after.inks, value.inks)

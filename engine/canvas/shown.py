@@ -19,8 +19,8 @@ from engine.numeric.address import Rect
 from engine.numeric.grid import snap
 from engine.numeric.pyramid import reduce
 from engine.texture.example import show, tiles
-from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.region import Region
+from engine.texture.example.region_window import OUTSIDE
 from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
 
 Shown = tuple[Tiles, ...]  # float32 (4, SIDE, SIDE) tiles, from the region's own level to coarser ones
@@ -42,7 +42,8 @@ def followed(shown: Shown, drawn: Region | None, region: Region, threads: Execut
         try:
             next(steps)
         except StopIteration as end:
-            return end.value
+            out: Shown = end.value
+            return out
 
 
 def following(
@@ -189,7 +190,9 @@ def _bounds_of(mask, names):
     return (y0, y1, x0, x1) if y1 else (0, 0, 0, 0)
 
 
-def _lay(held: dict[Key, np.ndarray], key: Key, old: np.ndarray | None, place: tuple, new: np.ndarray) -> None:
+def _lay(
+    held: dict[Key, np.ndarray], key: Key, old: np.ndarray | None, place: tuple[slice, ...], new: np.ndarray
+) -> None:
     """Lays `new` on the part `place` of the tile `old`, and holds it if that changes it."""
     if not new.any() if old is None else np.array_equal(old[:, *place], new):
         return

@@ -13,7 +13,7 @@ class FileError(Exception):
         self.message = " ".join(message.split())
         super().__init__(f"{self.path}: {self.message}")
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.path, self.message)
 
 

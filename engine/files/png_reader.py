@@ -258,7 +258,8 @@ def to_rgba(samples: np.ndarray, header: Header) -> np.ndarray:
     if header.colour == 6:
         return samples
     if header.colour == 3:
-        return _palette(header)[samples[:, :, 0]]
+        out: np.ndarray = _palette(header)[samples[:, :, 0]]
+        return out
     rgba = np.empty((*samples.shape[:2], 4), header.dtype)
     full = (1 << header.depth) - 1
     scale = 255 // full if header.depth < 8 else 1

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 from xml.etree.ElementTree import ParseError
 from xml.sax.saxutils import quoteattr
 
@@ -199,7 +200,7 @@ class _Builder:
             return 1.0
         return min(max(value, 0.0), 1.0)
 
-    def _common(self, attributes: Mapping[str, str]) -> dict:
+    def _common(self, attributes: Mapping[str, str]) -> dict[str, Any]:
         visibility = attributes.get("visibility", "visible").strip()
         if visibility not in ("visible", "hidden"):
             self._note(attributes, f"visibility {shown(visibility)} taken as visible")
@@ -212,7 +213,7 @@ class _Builder:
             "ours": _ours(attributes),
         }
 
-    def _stack(self, attributes: Mapping[str, str], children: tuple) -> StackEntry:
+    def _stack(self, attributes: Mapping[str, str], children: tuple[LayerEntry | StackEntry, ...]) -> StackEntry:
         common = self._common(attributes)
         # Without the attribute, or with `auto`, a group that does nothing itself lets its layers through.
         alone = attributes.get("isolation", "auto").strip() == "isolate"

@@ -199,9 +199,10 @@ class Fields:
             raise self.fault(name, expected)
         return tuple(value)
 
-    def rest(self) -> Map:
+    def rest(self) -> Map[str, Any]:
         """The members that were not read, frozen: kept, so that what a newer version wrote survives."""
-        return frozen({name: value for name, value in self._members.items() if name not in self._asked})
+        out: Map[str, Any] = frozen({name: value for name, value in self._members.items() if name not in self._asked})
+        return out
 
 
 def is_integer(value: Any) -> bool:

@@ -98,7 +98,7 @@ class ZipArchive:
             raise FileError(self.name, f"directory of {size} bytes at {offset}; expected it to end at {at}")
         return count, size, offset
 
-    def _end_record_64(self, at: int, fields: tuple) -> tuple[int, ...]:
+    def _end_record_64(self, at: int, fields: tuple[int, ...]) -> tuple[int, ...]:
         if at < END64_PLACE.size + END64.size:
             return (*fields[1:7], at)  # no room for one: the numbers mean themselves
         mark, disk, place, disks = END64_PLACE.unpack(self._at(at - END64_PLACE.size, END64_PLACE.size, "ZIP64 mark"))
@@ -129,7 +129,7 @@ class ZipArchive:
             raise FileError(self.name, f"{size - place} bytes in the directory belong to no member")
         return members
 
-    def _member(self, fields: tuple, rest: bytes) -> Member:
+    def _member(self, fields: tuple[int, ...], rest: bytes) -> Member:
         flags, method, crc, stored, size = fields[3], fields[4], fields[7], fields[8], fields[9]
         raw_name, extra = rest[: fields[10]], rest[fields[10] : fields[10] + fields[11]]
         name = self._checked_name(raw_name, flags)

@@ -117,7 +117,8 @@ def _phases(members: Fields, place: Place, size: tuple[int, int]) -> np.ndarray:
         raise FormatError(
             "phase", f"a picture of {given.shape[2]} x {given.shape[1]}", f"{size[1]} x {size[0]}, as the amplitudes"
         )
-    return given[:3].mean(axis=0, keepdims=True) + np.float32(0.5) * (1.0 - given[3:])
+    out: np.ndarray = given[:3].mean(axis=0, keepdims=True) + np.float32(0.5) * (1.0 - given[3:])
+    return out
 
 
 def _check_size(members: Fields, given: np.ndarray) -> None:
@@ -135,7 +136,8 @@ def _fitted(response: np.ndarray, means: np.ndarray) -> np.ndarray:
         if np.ptp(plane) > 1e-6
         for above in (True, False)
     ]
-    return response * np.float32(max(min(room, default=0.5), 1e-3)) + means
+    out: np.ndarray = response * np.float32(max(min(room, default=0.5), 1e-3)) + means
+    return out
 
 
 def _pictured(planes: np.ndarray) -> np.ndarray:

@@ -95,7 +95,7 @@ def usual_phase(forward: bool) -> str:
     return "zero" if forward else "random"
 
 
-def _list(members: Fields, name: str, cap: int) -> list:
+def _list(members: Fields, name: str, cap: int) -> list[Any]:
     value = members.take(name, [])
     if not isinstance(value, list) or len(value) > cap:
         raise members.fault(name, f"a list of at most {cap}")
@@ -106,20 +106,22 @@ def _one_of(members: Fields, name: str, rows: tuple[str, ...], usual: str) -> st
     value = members.take(name, usual)
     if value not in rows:
         raise members.fault(name, f"one of {', '.join(rows)}")
-    return value
+    out: str = value
+    return out
 
 
 def _shape(value: Any, where: str) -> dict[str, Any]:
     members = Fields(value, where)
+    shape: dict[str, Any] = value
     name = members.take("shape", expected="a shape's name")
     if name in PICTURED:
         members.number("strength", 1.0, lo=0.0, hi=1.0)
-        return value
+        return shape
     if name not in shapes.SHAPES:
         raise members.fault("shape", f"one of {', '.join((*shapes.SHAPES, *PICTURED))}")
     for quantity in shapes.SHAPES[name].parameters:
         members.number(quantity.name, quantity.default, lo=quantity.lo, hi=quantity.hi)
-    return value
+    return shape
 
 
 def _stroke(value: Any, where: str) -> c.Stroke:
@@ -230,7 +232,8 @@ def _planes(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
         rgba = resampled(rgba, (rows, columns), np.arange(rows), np.arange(columns))
     covered = max(float(rgba[3].mean()), 1e-6)
     rgb = rgba[:3] + (1.0 - rgba[3:]) * (rgba[:3].mean(axis=(1, 2), keepdims=True) / np.float32(covered))
-    return rgb[:1] if np.array_equal(rgb[0], rgb[1]) and np.array_equal(rgb[0], rgb[2]) else rgb
+    out: np.ndarray = rgb[:1] if np.array_equal(rgb[0], rgb[1]) and np.array_equal(rgb[0], rgb[2]) else rgb
+    return out
 
 
 def _starts(length: int, window: int) -> list[int]:

@@ -65,7 +65,8 @@ class Analysis:
     @cached_property
     def all_pole(self) -> np.ndarray:
         """The spectrum of that filter, as `power`."""
-        return self.predictor.spectrum(*self.grey.shape)[0]
+        out: np.ndarray = self.predictor.spectrum(*self.grey.shape)[0]
+        return out
 
     @cached_property
     def radial(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -109,7 +110,8 @@ def power_spectrum(grey: np.ndarray) -> np.ndarray:
     values = grey.astype(np.float64)
     values -= (values * window).sum() / max(window.sum(), 1e-12)
     found = np.fft.fftshift(np.abs(np.fft.fft2(values * window)) ** 2)
-    return found / max((window**2).sum(), 1e-12)
+    out: np.ndarray = found / max((window**2).sum(), 1e-12)
+    return out
 
 
 def autocorrelation(grey: np.ndarray) -> np.ndarray:
@@ -128,4 +130,5 @@ def autocorrelation(grey: np.ndarray) -> np.ndarray:
     dy = np.arange(height) - height // 2
     dx = np.arange(width) - width // 2
     overlap = (height - np.abs(dy))[:, None] * (width - np.abs(dx))[None]
-    return sums[dy][:, dx] / overlap / variance
+    out: np.ndarray = sums[dy][:, dx] / overlap / variance
+    return out

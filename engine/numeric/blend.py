@@ -126,7 +126,8 @@ def _separable(mix: Callable) -> Kernel:
                 backdrop[c, i] = _clamp(over + opacity * (mix(b, ba, s, sa) - ba * s), alpha)
             backdrop[3, i] = alpha
 
-    return kernel
+    out: Kernel = kernel
+    return out
 
 
 # --- non-separable blend modes: M for three channels, x = backdrop, y = source ---------------------------------------
@@ -200,7 +201,8 @@ def _inseparable(mix: Callable) -> Kernel:
             backdrop[2, i] = _clamp(opacity * y2 + keep * x2 + opacity * (m2 - ba * y2), alpha)
             backdrop[3, i] = alpha
 
-    return kernel
+    out: Kernel = kernel
+    return out
 
 
 # --- Porter-Duff operators: the shares (Fa, Fb) of source and backdrop -----------------------------------------------
@@ -250,7 +252,8 @@ def _porter_duff(shares: Callable) -> Kernel:
                 backdrop[c, i] = _least(fa * s + fb * backdrop[c, i], ONE)
             backdrop[3, i] = _least(fa * (opacity * sa) + fb * ba, ONE)
 
-    return kernel
+    out: Kernel = kernel
+    return out
 
 
 # --- the table -------------------------------------------------------------------------------------------------------

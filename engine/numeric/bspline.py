@@ -31,7 +31,8 @@ def prefilter(side: int) -> np.ndarray:
 
 def response(frequency: np.ndarray) -> np.ndarray:
     """What the spline has, along one axis, of a wave of so many periods a voxel: float64."""
-    return np.sinc(frequency) ** 4 * 3.0 / (2.0 + np.cos(2.0 * np.pi * frequency))
+    out: np.ndarray = np.sinc(frequency) ** 4 * 3.0 / (2.0 + np.cos(2.0 * np.pi * frequency))
+    return out
 
 
 def blur(pictures: np.ndarray) -> np.ndarray:
@@ -45,7 +46,8 @@ def blur(pictures: np.ndarray) -> np.ndarray:
     left = (response(lengths * np.cos(slants)) * response(lengths * np.sin(slants))).mean(axis=1)
     waves = dctn(np.asarray(pictures, np.float32), axes=(-2, -1))
     waves *= np.interp(length, lengths[:, 0], left).astype(np.float32)
-    return idctn(waves, axes=(-2, -1))
+    out: np.ndarray = idctn(waves, axes=(-2, -1))
+    return out
 
 
 def cut(coefficients: np.ndarray, plane: Plane, size: int) -> np.ndarray:

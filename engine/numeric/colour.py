@@ -103,7 +103,8 @@ def fitted_srgb_from_oklch(lch: np.ndarray) -> np.ndarray:
         inside = displayable(srgb_from_oklch(np.stack([lch[..., 0], middle, lch[..., 2]], axis=-1)), slack)
         low, high = np.where(inside, middle, low), np.where(inside, high, middle)
     lch[..., 1] = np.where(fits, lch[..., 1], low)
-    return np.clip(srgb_from_oklch(lch), 0, 1)
+    out: np.ndarray = np.clip(srgb_from_oklch(lch), 0, 1)
+    return out
 
 
 # --- planes and pixels -----------------------------------------------------------------------------------------------

@@ -29,7 +29,8 @@ class ColourAxes:
 
     @property
     def count(self) -> int:
-        return self.axes.shape[1]
+        out: int = self.axes.shape[1]
+        return out
 
     def planes(self, colours: np.ndarray) -> np.ndarray:
         """Colours (C, ...) along the axes: float32 (R, ...), of the example with mean 0 and covariance 1."""
@@ -120,7 +121,8 @@ def _padded(given: ColourAxes, wide: int, deep: int) -> tuple[np.ndarray, np.nda
 def _brightness(vectors: np.ndarray) -> np.ndarray:
     """Which side of an axis is the brighter one; where neither is, the redder, the greener."""
     slightly = 1.0 + 1e-6 * np.arange(len(vectors), 0, -1)
-    return (vectors * slightly[:, None]).sum(axis=0)
+    out: np.ndarray = (vectors * slightly[:, None]).sum(axis=0)
+    return out
 
 
 def combined(matrix: np.ndarray, planes: np.ndarray, offset: np.ndarray) -> np.ndarray:

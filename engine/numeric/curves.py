@@ -28,12 +28,14 @@ class Curve:
 
 def _smooth(t: np.ndarray) -> np.ndarray:
     t = np.clip(t, 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
+    out: np.ndarray = t * t * (3.0 - 2.0 * t)
+    return out
 
 
 def _wet(t: np.ndarray) -> np.ndarray:
     """Up within a tenth of the width, down to a third, and a little up again where the wash has settled."""
-    return np.interp(t, (0.0, 0.06, 0.22, 0.5, 1.0), (0.85, 1.0, 0.6, 0.4, 0.46))
+    out: np.ndarray = np.interp(t, (0.0, 0.06, 0.22, 0.5, 1.0), (0.85, 1.0, 0.6, 0.4, 0.46))
+    return out
 
 
 def _double(t: np.ndarray) -> np.ndarray:

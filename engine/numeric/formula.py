@@ -64,7 +64,7 @@ class FormulaError(ValueError):
         self.column, self.found, self.expected = column, found, expected
         super().__init__(f"formula, column {column}: found {found}, expected {expected}")
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.column, self.found, self.expected)
 
 

@@ -161,7 +161,8 @@ def kernel(tree: Tree) -> Callable[..., None]:
     """
     scope = dict(_SCOPE)
     exec(compile(source(tree), "<formula>", "exec"), scope)  # text printed here from a checked tree
-    return njit(_SIGNATURE, nogil=True, error_model="numpy")(scope["kernel"])
+    out: Callable[..., None] = njit(_SIGNATURE, nogil=True, error_model="numpy")(scope["kernel"])
+    return out
 
 
 _FUNCTIONS = (

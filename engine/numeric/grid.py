@@ -28,5 +28,6 @@ def snapped(values: np.ndarray) -> np.ndarray:
         out = np.clip(values, -LIMIT, LIMIT)
         out += SNAP
         out -= SNAP
-        return out
+        result: np.ndarray = out
+        return result
     return np.clip(np.rint(np.asarray(values, np.float64) / Q) * Q, -LIMIT, LIMIT).astype(np.float32)

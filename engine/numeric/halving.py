@@ -10,7 +10,8 @@ _KERNEL = (1.0, 3.0, 3.0, 1.0)  # binomial, centred on the four pixels that beco
 def halved_region(mask: np.ndarray) -> np.ndarray:
     """A pixel belongs to the region if any of its four finer ones does: bool (h, w) -> ((h + 1) // 2, (w + 1) // 2)."""
     even = np.pad(mask, [(0, n & 1) for n in mask.shape]) if any(n & 1 for n in mask.shape) else mask
-    return even[::2, ::2] | even[1::2, ::2] | even[::2, 1::2] | even[1::2, 1::2]
+    out: np.ndarray = even[::2, ::2] | even[1::2, ::2] | even[::2, 1::2] | even[1::2, 1::2]
+    return out
 
 
 def halved(colours: np.ndarray, mask: np.ndarray) -> np.ndarray:
@@ -22,7 +23,8 @@ def halved(colours: np.ndarray, mask: np.ndarray) -> np.ndarray:
     both = np.concatenate([colours * weight, weight], axis=-1)
     for axis in (0, 1):
         both = _halved_along(both, axis)
-    return both[..., :-1] / np.maximum(both[..., -1:], np.float32(1e-6))
+    out: np.ndarray = both[..., :-1] / np.maximum(both[..., -1:], np.float32(1e-6))
+    return out
 
 
 def _halved_along(values: np.ndarray, axis: int) -> np.ndarray:

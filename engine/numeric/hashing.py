@@ -71,7 +71,8 @@ def hash_plane(key: int, x0: int, y0: int, width: int, height: int) -> np.ndarra
 
 def uniform(key: int, count: int) -> np.ndarray:
     """Numbers evenly in [0, 1): float64 (count,)."""
-    return (hash_plane(key, 0, 0, count, 1)[0] >> np.uint64(11)) * 2.0**-53
+    out: np.ndarray = (hash_plane(key, 0, 0, count, 1)[0] >> np.uint64(11)) * 2.0**-53
+    return out
 
 
 def _run(origin: int, high: int, size: int) -> tuple[int, int]:

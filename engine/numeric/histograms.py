@@ -30,7 +30,8 @@ def quantiles(ordered: np.ndarray, count: int) -> np.ndarray:
     if count == ordered.size:
         return ordered
     places = np.linspace(0.0, ordered.size - 1.0, count) if count > 1 else np.array([(ordered.size - 1) / 2.0])
-    return np.interp(places, np.arange(ordered.size), ordered).astype(np.float32)
+    out: np.ndarray = np.interp(places, np.arange(ordered.size), ordered).astype(np.float32)
+    return out
 
 
 def blended(a: np.ndarray, b: np.ndarray, weight: float) -> np.ndarray:
@@ -180,7 +181,10 @@ def _keys(values: np.ndarray) -> np.ndarray:
 
 def _values(keys: np.ndarray) -> np.ndarray:
     positive = keys >> np.uint32(31)
-    return (keys ^ ((positive.view(np.int32) - np.int32(1)).view(np.uint32) | np.uint32(0x80000000))).view(np.float32)
+    out: np.ndarray = (keys ^ ((positive.view(np.int32) - np.int32(1)).view(np.uint32) | np.uint32(0x80000000))).view(
+        np.float32
+    )
+    return out
 
 
 @njit(cache=True, nogil=True)

@@ -34,7 +34,8 @@ def suggested_window(planes: np.ndarray) -> int:
     count = np.bincount(distance[inside])
     near = np.bincount(distance[inside], weights=found[inside]) / np.maximum(count, 1)
     reach = int(np.flatnonzero(near > _ENOUGH).max(initial=1)) + 1
-    return max(1, min(max(8 * reach, SMALLEST), USUAL, *planes.shape[1:]))
+    out: int = max(1, min(max(8 * reach, SMALLEST), USUAL, *planes.shape[1:]))
+    return out
 
 
 def response(planes: np.ndarray, window: int, average: int, phase: str = "window", seed: int = 0) -> np.ndarray:
@@ -88,10 +89,12 @@ def _tapered(n: int) -> np.ndarray:
     """A window (n,) that is flat in the middle and ends in halves of a cosine (Tukey's)."""
     at = np.minimum((np.arange(n) + 0.5) / (n * _TAPER), 1.0)
     half = 0.5 - 0.5 * np.cos(np.pi * at)
-    return np.minimum(half, half[::-1])
+    out: np.ndarray = np.minimum(half, half[::-1])
+    return out
 
 
 def _levelled(piece: np.ndarray, taper: np.ndarray) -> np.ndarray:
     """A piece (c, h, w) under the taper, its mean under it taken off."""
     means = (piece * taper).sum(axis=(1, 2), keepdims=True) / max(float(taper.sum()), 1e-9)
-    return (piece - means) * taper
+    out: np.ndarray = (piece - means) * taper
+    return out

@@ -81,7 +81,8 @@ def _beyond(places: np.ndarray, n: int, edges: Edges) -> np.ndarray:
     if edges == "circular":
         return places % n
     turned = places % max(2 * n - 2, 1)
-    return np.minimum(turned, np.maximum(2 * n - 2 - turned, 0))
+    out: np.ndarray = np.minimum(turned, np.maximum(2 * n - 2 - turned, 0))
+    return out
 
 
 def _about(values: np.ndarray, axis: int) -> np.ndarray:

@@ -59,7 +59,8 @@ class Predictor:
     @property
     def residual(self) -> np.ndarray:
         """The deviation of the errors of prediction over the sample, float64 (c,)."""
-        return np.sqrt((self.mixing**2).sum(axis=1))
+        out: np.ndarray = np.sqrt((self.mixing**2).sum(axis=1))
+        return out
 
     def spectrum(self, height: int, width: int) -> np.ndarray:
         """The power spectrum that the filter makes of white noise: float64 (c, height, width), zero frequency at
@@ -239,7 +240,8 @@ def _least_squares(plane: np.ndarray, reach: int, offsets: np.ndarray) -> np.nda
     if not n or normal[0, 0] <= 1e-12:
         return np.zeros(n)
     inner = normal[1:, 1:] + np.eye(n) * (_RIDGE * normal[0, 0])
-    return _solved(_cholesky(inner), np.ascontiguousarray(normal[1:, 0]))
+    out: np.ndarray = _solved(_cholesky(inner), np.ascontiguousarray(normal[1:, 0]))
+    return out
 
 
 def _stabilised(fitted: Predictor) -> Predictor:

@@ -53,4 +53,5 @@ def _summed(data: np.ndarray, source: np.ndarray, weights: np.ndarray, axis: int
     out = np.take(data, source[0], axis) * weights[0].reshape(shape)
     for index, weight in zip(source[1:], weights[1:], strict=True):
         out += np.take(data, index, axis) * weight.reshape(shape)
-    return out
+    result: np.ndarray = out
+    return result

@@ -68,7 +68,8 @@ def _wedge(size: tuple[int, int], given: Numbers) -> np.ndarray:
     inside = 1.0 / (1.0 + np.exp(np.clip((np.abs(f - given["from"]) - (f - given["from"])) / soft, 0.0, 60.0)))
     beyond = np.maximum(f - given["to"], 0.0)
     fall = np.power(np.maximum(f, _step(size)) / _step(size), -given["slope"])
-    return 2.0 * inside * _bell(off, given["spread"]) * _bell(beyond, 2.0 * soft) * fall
+    out: np.ndarray = 2.0 * inside * _bell(off, given["spread"]) * _bell(beyond, 2.0 * soft) * fall
+    return out
 
 
 def _points(size: tuple[int, int], given: Numbers) -> np.ndarray:
@@ -108,7 +109,8 @@ def _noise(size: tuple[int, int], given: Numbers) -> np.ndarray:
     low = max(given["from"], _step(size))
     fall = np.power(np.maximum(f, low) / low, -given["b"])
     below = _bell(np.maximum(given["from"] - f, 0.0), 0.5 * max(given["from"], _step(size)))
-    return fall * below * _bell(np.maximum(f - given["to"], 0.0), 2.0 * _step(size))
+    out: np.ndarray = fall * below * _bell(np.maximum(f - given["to"], 0.0), 2.0 * _step(size))
+    return out
 
 
 _STRENGTH = Quantity("strength", 1.0, 0.0, 1.0, "", "How strongly the shape is laid into the spectrum")

@@ -55,7 +55,8 @@ class Sheaves:
         grid = np.zeros(self._grid, np.complex64)
         _spread(spectrum.reshape(-1)[rod.places] * rod.weights, rod.along, grid)
         samples = ifftn(grid, norm="forward", overwrite_x=True)[self._samples].real
-        return samples * (self._mend * np.float32(1.0 / self.side**3))
+        out: np.ndarray = samples * (self._mend * np.float32(1.0 / self.side**3))
+        return out
 
     def given(self, rod: Rod, planes: np.ndarray) -> np.ndarray:
         """What each voxel has to do with the samples of `planes`, the transpose of that: half of a spectrum at the
@@ -76,7 +77,8 @@ def _transform(count: int) -> np.ndarray:
     places = np.linspace(-_WIDTH / 2.0, _WIDTH / 2.0, 2001)
     values = np.array([_kernel(x) for x in places])
     waves = np.cos(np.pi / count * places * (np.arange(count) - count // 2)[:, None])
-    return np.trapezoid(values * waves, places, axis=1)
+    out: np.ndarray = np.trapezoid(values * waves, places, axis=1)
+    return out
 
 
 @njit(cache=True, nogil=True)

@@ -67,7 +67,8 @@ def _pooled(planes: np.ndarray, p: int, at: tuple[int, int]) -> np.ndarray:
     rows, columns = (-(-(size + p - 1) // p) for size in (height, width))
     laid = np.zeros((channels, rows * p, columns * p))
     laid[:, at[0] : at[0] + height, at[1] : at[1] + width] = planes
-    return laid.reshape(channels, rows, p, columns, p).mean((2, 4)).astype(np.float32)
+    out: np.ndarray = laid.reshape(channels, rows, p, columns, p).mean((2, 4)).astype(np.float32)
+    return out
 
 
 @dataclass(frozen=True, slots=True)

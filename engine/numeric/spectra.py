@@ -42,7 +42,8 @@ def radial_window(height: int, width: int | None = None, sigma: float = WINDOW) 
     squared = y[:, None] ** 2 + x[None] ** 2
     rim = np.exp(-0.125 / sigma**2)
     window = (np.exp(-0.5 * squared / sigma**2) - rim) / (1.0 - rim)
-    return np.maximum(window, 0.0).astype(np.float32)
+    out: np.ndarray = np.maximum(window, 0.0).astype(np.float32)
+    return out
 
 
 def opposite(spectrum: np.ndarray) -> np.ndarray:
@@ -53,7 +54,8 @@ def opposite(spectrum: np.ndarray) -> np.ndarray:
 
 def symmetric(amplitude: np.ndarray) -> np.ndarray:
     """Both halves of a spectrum of which either was painted: the larger of F(u, v) and F(-u, -v)."""
-    return np.maximum(amplitude, opposite(amplitude))
+    out: np.ndarray = np.maximum(amplitude, opposite(amplitude))
+    return out
 
 
 @lru_cache(maxsize=2)
@@ -103,7 +105,8 @@ def forward(image: np.ndarray) -> np.ndarray:
 def _log(sample: np.ndarray) -> np.ndarray:
     magnitude = np.abs(sample)
     least = 1e-3 * float(magnitude.mean())
-    return np.log(magnitude + np.float32(least if least > 0.0 else 1.0))
+    out: np.ndarray = np.log(magnitude + np.float32(least if least > 0.0 else 1.0))
+    return out
 
 
 # What a texture takes of a complex sample: name -> complex64 (..., h, w) to float32.
@@ -137,7 +140,8 @@ def normalised(values: np.ndarray) -> np.ndarray:
         return np.zeros_like(out)
     out /= np.float32(size)  # so that no square leaves the range of float32
     spread = float(np.sqrt(np.square(out).mean(dtype=np.float64)))
-    return out * np.float32(SPREAD / spread)
+    result: np.ndarray = out * np.float32(SPREAD / spread)
+    return result
 
 
 def texture_of(amplitude: np.ndarray, phase: Phase = None, part: str = "real", forward: bool = False) -> np.ndarray:
@@ -165,7 +169,8 @@ def image_spectrum(image: np.ndarray, window: bool = True) -> np.ndarray:
         values = (values - (values * weights).sum(axis=_AXES, keepdims=True) / np.float32(total)) * weights
     else:
         values = values - values.mean(axis=_AXES, keepdims=True)
-    return np.abs(forward(values))
+    out: np.ndarray = np.abs(forward(values))
+    return out
 
 
 def power(image: np.ndarray) -> np.ndarray:
@@ -174,7 +179,8 @@ def power(image: np.ndarray) -> np.ndarray:
     values = np.asarray(image, np.float64)
     values = values - values.mean(axis=_AXES, keepdims=True)
     found = np.fft.fftshift(np.fft.fft2(values, axes=_AXES), axes=_AXES)
-    return np.square(np.abs(found)) / (values.shape[-2] * values.shape[-1])
+    out: np.ndarray = np.square(np.abs(found)) / (values.shape[-2] * values.shape[-1])
+    return out
 
 
 def radial_mean(spectrum: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

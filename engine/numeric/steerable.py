@@ -144,14 +144,16 @@ def spectrum(images: np.ndarray) -> np.ndarray:
     """Half of the spectrum of real pictures (..., h, w): complex64 (..., h, w//2 + 1)."""
     from scipy.fft import rfft2
 
-    return rfft2(np.asarray(images, np.float32), axes=_AXES)
+    out: np.ndarray = rfft2(np.asarray(images, np.float32), axes=_AXES)
+    return out
 
 
 def image(half: np.ndarray, size: tuple[int, int], spent: bool = False) -> np.ndarray:
     """The pictures (..., *size) of half a spectrum: float32.  `spent`: the spectrum may be written over."""
     from scipy.fft import irfft2
 
-    return irfft2(half, s=size, axes=_AXES, overwrite_x=spent)
+    out: np.ndarray = irfft2(half, s=size, axes=_AXES, overwrite_x=spent)
+    return out
 
 
 def band(half: np.ndarray, made: Filters, place: Place) -> np.ndarray:
@@ -219,7 +221,8 @@ def finished(steps: Generator[float, None, np.ndarray]) -> np.ndarray:
         try:
             next(steps)
         except StopIteration as stop:
-            return stop.value
+            out: np.ndarray = stop.value
+            return out
 
 
 def _mapped(work: Callable[[Place], np.ndarray], items: list[Place], threads: Executor | None) -> Iterator[np.ndarray]:

@@ -24,7 +24,7 @@ LEVEL_LIMIT = 4096  # a level beyond this has more digits than a painting needs
 PLACE_LIMIT = 1 << 8192  # origins: 2^40 level-0 pixels at the finest level have fewer bits
 SEED_LIMIT = (1 << 63) - 1
 COUNT_LIMIT = 1_000_000_000
-_NOTHING: Map = Map()
+_NOTHING: Map[str, Any] = Map()
 
 
 class Same(Enum):
@@ -46,7 +46,7 @@ class Stroke:
     brush: Brush
     layer: str | None = None
     seed: int | None = None
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Stroke):
@@ -68,7 +68,7 @@ class AddLayer:
     kind: str = "layer"
     group: str | Same | None = Same.SAME
     to: int | None = None
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,20 +76,20 @@ class SelectLayer:
     """The layer that strokes without a layer go to."""
 
     name: str
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
 class RemoveLayer:
     name: str
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
 class RenameLayer:
     name: str
     to: str
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ class DuplicateLayer:
 
     name: str
     to: str
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +108,7 @@ class MoveLayer:
     name: str
     to: int
     group: str | Same | None = Same.SAME
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +122,7 @@ class SetLayer:
     locked: bool | None = None
     alpha_locked: bool | None = None
     isolated: bool | None = None
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
     @property
     def changes(self) -> dict[str, Any]:
@@ -133,13 +133,13 @@ class SetLayer:
 @dataclass(frozen=True, slots=True)
 class Undo:
     count: int = 1
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
 class Redo:
     count: int = 1
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +149,7 @@ class View:
     level: float = 0.0
     origin: tuple[float, float] = (0.0, 0.0)
     size: tuple[float, float] = (0.0, 0.0)
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +158,7 @@ class DefineTexture:
 
     name: str
     maker: str
-    arguments: Map = field(default_factory=Map)
+    arguments: Map[str, Any] = field(default_factory=Map)
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,7 +172,7 @@ class Swap:
     layer: str | None = None
     depth: float | None = None
     detail: int = 0
-    extra: Map = _NOTHING
+    extra: Map[str, Any] = _NOTHING
 
 
 LayerCommand = AddLayer | SelectLayer | RemoveLayer | RenameLayer | DuplicateLayer | MoveLayer | SetLayer
@@ -259,7 +259,8 @@ def _new_place(members: Fields) -> dict[str, Any]:
 
 
 def _opacity(members: Fields, name: str) -> float:
-    return members.number(name, lo=0.0, hi=1.0)
+    out: float = members.number(name, lo=0.0, hi=1.0)
+    return out
 
 
 _SETTABLE: tuple[tuple[str, Callable[[Fields, str], Any]], ...] = (
@@ -297,7 +298,8 @@ def _read_layer(members: Fields) -> Command:
         raise FormatError(members.place, " and ".join(verbs) or "none", f"exactly one of {', '.join(LAYER_FORMS)}")
     name = members.text(verbs[0])
     form = LAYER_FORMS[verbs[0]]
-    return form.record(name, **form.read(members), extra=members.rest())
+    out: Command = form.record(name, **form.read(members), extra=members.rest())
+    return out
 
 
 def _write_layer(command: LayerCommand) -> dict[str, Any]:

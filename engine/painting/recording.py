@@ -34,7 +34,7 @@ class Header:
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
-    extra: Map = field(default_factory=Map)
+    extra: Map[str, Any] = field(default_factory=Map)
 
     def to_json(self) -> dict[str, Any]:
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]

@@ -10,6 +10,7 @@ import os
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from immutables import Map
 
@@ -44,7 +45,7 @@ class Session:
         log: Iterable[c.Command] = (),
         folder: Path | None = None,
         history: History | None = None,
-        extra: Map | None = None,
+        extra: Map[str, Any] | None = None,
     ) -> None:
         self.painting = painting if painting is not None else Painting()
         self.state: object = object()

@@ -67,7 +67,8 @@ def read_mask(path: str | os.PathLike[str]) -> np.ndarray:
     pixels, _ = read_image(path)
     full = int(np.iinfo(pixels.dtype).max)
     light = pixels[..., :3].astype(np.uint32).sum(axis=-1) * pixels[..., 3].astype(np.uint64)
-    return light >= 3 * full * full // 2
+    out: np.ndarray = light >= 3 * full * full // 2
+    return out
 
 
 def kept(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, folder: Path | None = None) -> Exemplar:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -45,7 +46,7 @@ class Drawn:
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
         self.own = painting.seed if seed is None else seed
         self.dropped = 0
-        self.extra: Map = Map()
+        self.extra: Map[str, Any] = Map()
         self._named = layer
         self._points: list[np.ndarray] = []
         self._count = 0

@@ -105,7 +105,8 @@ def _slope(strengths: list[float]) -> float:
     if len(strengths) < 2 or min(strengths) <= 0.0:
         return _USUAL
     fall = np.polyfit(np.arange(len(strengths)), np.log2(strengths), 1)[0]
-    return round(min(max(2.0 ** -float(fall), STEEPEST), EVENEST), 4)
+    out: float = round(min(max(2.0 ** -float(fall), STEEPEST), EVENEST), 4)
+    return out
 
 
 def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:

@@ -17,6 +17,8 @@ def grey(made: Instance, level: int, rect: Rect) -> np.ndarray:
     """
     seen = made.appearance(level, rect)
     if len(seen) == 4:
-        return np.einsum("chw,c->hw", seen[:3], LUMINANCE)
+        luminance: np.ndarray = np.einsum("chw,c->hw", seen[:3], LUMINANCE)
+        return luminance
     mean = seen[0] if len(seen) == 1 else (seen[0] + seen[1] + seen[2]) * np.float32(1.0 / 3.0)
-    return mean * np.float32(0.5) + np.float32(0.5)
+    grey: np.ndarray = mean * np.float32(0.5) + np.float32(0.5)
+    return grey

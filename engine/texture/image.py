@@ -77,7 +77,7 @@ class _Picture:
     refined: ClassVar[slice]  # and those that `bandpass` gives
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         return (self.kind, self.base, self.period, self.source.name, self.source.sha)
 
     @property
@@ -97,7 +97,8 @@ class _Picture:
         coarse = self.appearance(level - 1, parents(even))
         out = np.zeros((coarse.shape[0], even.height, even.width), np.float32)
         subtract_expanded(out, coarse)
-        return np.negative(cut(out, rect, even))
+        result: np.ndarray = np.negative(cut(out, rect, even))
+        return result
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
         """What the picture's next finer level adds, float32."""

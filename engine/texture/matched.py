@@ -95,7 +95,8 @@ class Matched(Tiled):
         t = np.float32(_reach(self.picture, self.period, self.roughness, level - self.native))
         near = np.clip(np.minimum(alpha, np.float32(1.0) - alpha), np.float32(0.0), np.float32(0.5))
         near = np.minimum(near, np.maximum(near - t, np.float32(0.0)) * np.float32(2.5 / 1.5))
-        return np.where(alpha < np.float32(0.5), near, np.float32(1.0) - near)
+        out: np.ndarray = np.where(alpha < np.float32(0.5), near, np.float32(1.0) - near)
+        return out
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
         tile = self._planes(octave_of(self.picture).tile)
@@ -128,7 +129,7 @@ class Series(Matched):
     kind: ClassVar[str] = "series"
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         numbers = (self.period, self.roughness, self.stages, self.weight)
         return (self.kind, self.base, *numbers, self.source.name, self.source.sha)
 
@@ -230,7 +231,8 @@ def _alpha(picture: ImageSource) -> ImageSource:
 def _stretched(source: ImageSource, period: int, roughness: float) -> float:
     """How much weaker an octave is because the native level is wider than the picture's own pixels."""
     wide = sample.tile(source, period).levels[-1].shape[2] / max(source.width, 1)
-    return max(roughness, STEEPEST) ** math.log2(wide)
+    out: float = max(roughness, STEEPEST) ** math.log2(wide)
+    return out
 
 
 @lru_cache(maxsize=256)

@@ -154,7 +154,8 @@ def _told(inside: Generator[float, None, np.ndarray], turn: int, turns: int) -> 
         try:
             yield Step((turn + next(inside)) / turns)
         except StopIteration as stop:
-            return stop.value
+            out: np.ndarray = stop.value
+            return out
 
 
 def matched(

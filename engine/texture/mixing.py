@@ -42,7 +42,8 @@ class SplitColours:
         rest = coarsened(planes, self.shape, self.split)
         out = coarse.unclipped(rest) + fine.unclipped(planes - rest) - fine.mean.reshape(-1, 1, 1)
         low, high = np.minimum(fine.low, coarse.low), np.maximum(fine.high, coarse.high)
-        return np.clip(out, low.reshape(-1, 1, 1), high.reshape(-1, 1, 1))
+        result: np.ndarray = np.clip(out, low.reshape(-1, 1, 1), high.reshape(-1, 1, 1))
+        return result
 
     def _both(self) -> tuple[tuple[ColourAxes, ColourAxes], tuple[ColourAxes, ColourAxes]]:
         return (self.fine, self.coarse), (self.coarse, self.fine)

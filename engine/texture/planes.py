@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -45,7 +46,7 @@ def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
 
 
 @lru_cache(4096)
-def sort_key(key: object) -> tuple:
+def sort_key(key: object) -> tuple[Any, ...]:
     """Orders keys that mix strings, numbers and tuples."""
     if isinstance(key, tuple):
         return (2, *(sort_key(part) for part in key))

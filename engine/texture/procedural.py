@@ -36,7 +36,7 @@ class White:
     base: int
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         return ("white", self.base)
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
@@ -58,7 +58,7 @@ class _Waves:
     kind: ClassVar[str]
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         return (self.kind, self.base, self.period, self.angle, self.phase)
 
     def wave(self, level: int) -> Wave:

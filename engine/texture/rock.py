@@ -59,7 +59,7 @@ class Rock:
     seed: int = 0
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         return ("rock", self.base, self.period, self.roughness, self.seed)
 
     @property
@@ -145,7 +145,8 @@ def octave_variance(age: int) -> float:
     for _ in range(age):
         along, across = (np.convolve(np.repeat(f, 2), [0.25, 0.5, 0.25]) for f in (along, across))
     va, vd = (float((f * f).sum()) / 2 ** (age + 1) for f in (along, across))
-    return (2 * va * vd + vd * vd) / 3
+    out: float = (2 * va * vd + vd * vd) / 3
+    return out
 
 
 @lru_cache(maxsize=256)

@@ -119,7 +119,8 @@ def _windowed(planes: np.ndarray) -> np.ndarray:
     """`planes` (c, h, w) under the window, their means under it taken off."""
     window = radial_window(*planes.shape[1:])
     weight = np.float32(max(float(window.sum(dtype=np.float64)), 1e-9))
-    return (planes - (planes * window).sum((1, 2), keepdims=True) / weight) * window
+    out: np.ndarray = (planes - (planes * window).sum((1, 2), keepdims=True) / weight) * window
+    return out
 
 
 @lru_cache(maxsize=32)
@@ -129,7 +130,8 @@ def seen(source: ImageSource, period: int, coarser: int) -> Impulse:
 
 
 def _mean(planes: np.ndarray) -> np.ndarray:
-    return planes.mean((1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
+    out: np.ndarray = planes.mean((1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
+    return out
 
 
 def _top(planes: np.ndarray) -> tuple[np.ndarray, Continuation]:

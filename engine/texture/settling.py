@@ -202,7 +202,8 @@ def _without(levels: list[int], wanted: dict[Place, Wanted]) -> dict[Place, Want
 
 def _outstanding(distances: np.ndarray) -> np.ndarray:
     """How much more planes count that are further off than others: float32 (m, 1, 1)."""
-    return (distances / max(distances.mean(), 1e-9)).astype(np.float32)[:, None, None]
+    out: np.ndarray = (distances / max(distances.mean(), 1e-9)).astype(np.float32)[:, None, None]
+    return out
 
 
 def _within(edge: int) -> Inside:

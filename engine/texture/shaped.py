@@ -31,7 +31,7 @@ class Shaped:
     curve: Shape
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         return ("shaped", self.inner.base, self.curve, self.inner.key)
 
     @property

@@ -75,9 +75,11 @@ class _Spectral:
         if self.shown.data is None:
             return np.zeros((1, rect.height, rect.width), np.float32)
         if level <= self.native:
-            return self._own(level, rect) + self.centre
+            out: np.ndarray = self._own(level, rect) + self.centre
+            return out
         factors = octave_weights(level - self.native, self.roughness, self.form)
-        return self._cascade(level - self.native, rect, factors) + self.centre
+        carried: np.ndarray = self._cascade(level - self.native, rect, factors) + self.centre
+        return carried
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
         if level <= self.base or rect.empty or self.shown.data is None:
@@ -125,7 +127,7 @@ class Tiled(_Spectral):
     kind: ClassVar[str] = "spectrum"
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         return (self.kind, self.base, self.period, self.roughness, self.source.name, self.source.sha)
 
     @property
@@ -173,7 +175,7 @@ class Sparse(_Spectral):
     kind: ClassVar[str] = "sparse"
 
     @property
-    def key(self) -> tuple:
+    def key(self) -> tuple[object, ...]:
         numbers = (self.roughness, self.density, self.mean, self.spread, self.quantise, self.seed)
         return (self.kind, self.base, self.period, *numbers, self.source.name, self.source.sha)
 

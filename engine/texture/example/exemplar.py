@@ -69,7 +69,8 @@ class Exemplar:
     @cached_property
     def average(self) -> np.ndarray:
         """The mean colour of the region: premultiplied float32 (4,) in 0..1."""
-        return premultiplied(self.pixels)[self.mask].mean(axis=0, dtype=np.float64).astype(np.float32)
+        out: np.ndarray = premultiplied(self.pixels)[self.mask].mean(axis=0, dtype=np.float64).astype(np.float32)
+        return out
 
     @cached_property
     def shapes(self) -> tuple[np.ndarray, ...]:
@@ -152,7 +153,8 @@ def _smoothed(mask: np.ndarray, sigma: float) -> np.ndarray:
     """A smoother outline, a little wider: what was ragged in it is then left to the alpha of the region's pixels."""
     from scipy.ndimage import gaussian_filter
 
-    return gaussian_filter(mask.astype(np.float32), sigma, mode="constant") > _SMOOTHED
+    out: np.ndarray = gaussian_filter(mask.astype(np.float32), sigma, mode="constant") > _SMOOTHED
+    return out
 
 
 def _level_count(mask: np.ndarray, parameters: Parameters, boundary: bool) -> int:

@@ -142,7 +142,8 @@ def _windows(side: int, two: bool) -> np.ndarray:
 
 def _is_inner(made: Layer, above: Layer, two: bool, y: np.ndarray, x: np.ndarray) -> np.ndarray:
     inside = made.bits[y, x] == FULL
-    return inside & (above.bits[_up(y), _up(x)] == FULL) if two else inside
+    out: np.ndarray = inside & (above.bits[_up(y), _up(x)] == FULL) if two else inside
+    return out
 
 
 def _up(places: np.ndarray) -> np.ndarray:

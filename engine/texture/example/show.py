@@ -14,9 +14,9 @@ from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.numeric.grid import snapped
 from engine.texture.example import tiles
-from engine.texture.example.correction import OUTSIDE
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
+from engine.texture.example.region_window import OUTSIDE
 
 FAINT = 0.5  # part of a coarse level's colour that a pixel shows, at least, where the example ends below it
 
@@ -24,7 +24,8 @@ FAINT = 0.5  # part of a coarse level's colour that a pixel shows, at least, whe
 def sources(region: Region, rect: Rect, level: int = 0) -> np.ndarray:
     """Where each pixel of a level comes from: int32 (h, w), rows and columns as `exemplar` names them; -1 outside."""
     out = np.full((1, rect.height, rect.width), OUTSIDE, np.int32)
-    return tiles.gathered_last(region.levels[level].sources, rect, out)[0]
+    result: np.ndarray = tiles.gathered_last(region.levels[level].sources, rect, out)[0]
+    return result
 
 
 def picture(region: Region, rect: Rect, level: int = 0) -> np.ndarray:
