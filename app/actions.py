@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.desk.desk import Desk
+from app.desk.hand import BLACK, WHITE
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -54,29 +55,29 @@ def _posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
 
 def _tool(name: str) -> Callable[[Desk], None]:
     def choose(desk: Desk) -> None:
-        desk.tool, desk.erasing = name, False
+        desk.hand.use(name)
 
     return choose
 
 
 def _is(name: str) -> Check:
-    return lambda desk: desk.tool == name and not desk.erasing
+    return lambda desk: desk.hand.tool == name and not desk.hand.erasing
 
 
 def _erasing(desk: Desk) -> bool:
-    return desk.erasing and desk.tool == "brush"
+    return desk.hand.erasing
 
 
 def _toggle_eraser(desk: Desk) -> None:
-    desk.tool, desk.erasing = "brush", not (desk.erasing and desk.tool == "brush")
+    desk.hand.erase(not desk.hand.erasing)
 
 
 def _swap(desk: Desk) -> None:
-    desk.colour, desk.other_colour = desk.other_colour, desk.colour
+    desk.hand.swap()
 
 
 def _default_colours(desk: Desk) -> None:
-    desk.colour, desk.other_colour = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    desk.hand.colour, desk.hand.other_colour = BLACK, WHITE
 
 
 def _zooms(levels: float) -> Callable[[Desk], None]:
@@ -128,8 +129,7 @@ def _open(name: str) -> Check:
 def _escape(desk: Desk) -> None:
     desk.match.marking = None
     desk.examples.swapping = False
-    desk.erasing = False
-    desk.tool = "brush"
+    desk.hand.use("brush")
 
 
 def free_name(desk: Desk, stem: str) -> str:
@@ -200,8 +200,8 @@ ACTIONS: dict[str, Action] = {
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), _always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), _always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), _always, _is("turn")),
-    "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.resize_brush(1 / 1.15)),
-    "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.resize_brush(1.15)),
+    "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.hand.resize(1 / 1.15)),
+    "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.hand.resize(1.15)),
     "escape": A("Back to the brush", "Tools", ("Escape",), "Stop what is going on; back to the brush", _escape),
     "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), _ready),
     "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), _ready),

@@ -26,7 +26,7 @@ def shape(desk: Desk, panning: bool) -> int:
         return int(glfw.ARROW_CURSOR)
     if panning:
         return int(glfw.RESIZE_ALL_CURSOR)
-    return int(_SHAPES.get(desk.tool, glfw.CROSSHAIR_CURSOR))
+    return int(_SHAPES.get(desk.hand.tool, glfw.CROSSHAIR_CURSOR))
 
 
 def draw_frame(desk: Desk) -> None:
@@ -46,10 +46,10 @@ def draw_outline(desk: Desk) -> None:
         _draw_marked(desk.match.marked)
     if desk.match.marking is not None or desk.examples.swapping:
         return
-    if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.tool].outline:
+    if not (desk.pointer.over_canvas or desk.painting) or not TOOLS[desk.hand.tool].outline:
         return
     painter = imgui.get_background_draw_list()
-    at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, desk.brush.radius)
+    at, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, desk.hand.brush.radius)
     painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.55), 0, 1.6 * desk.scale)
     painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.75), 0, 1.0 * desk.scale)
 

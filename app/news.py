@@ -14,7 +14,6 @@ from app.canvas.gallery import Gallery
 from app.canvas.screen import Screen, ScreenTile, cells, near_first
 from app.canvas.view import SUBPIXEL, Place
 from app.desk import example_use, palette, presets
-from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.example_state import SAMPLE
 from app.desk.lab_state import only_with
@@ -104,7 +103,7 @@ class News:
 
     def _ask_swatches(self, now: float) -> None:
         """The stroke of the brush and the ink mixer's picture follow the brush, no faster than they can be seen."""
-        brush = self.desk.examples.at_home(replace(self.desk.brush, colour=to_hex(self.desk.colour)))
+        brush = self.desk.examples.at_home(self.desk.hand.dipped())
         if brush != self._ink:
             self._ink, self._ink_since = brush, self._ink_since or max(now, self._ink_sent + SETTLE)
         early = brush.mode == "example" and self.desk.preparing is not None
@@ -125,14 +124,14 @@ class News:
             known = {row.name for row in desk.kinds if not row.pictured} | set(
                 desk.scene.textures if desk.scene else ()
             )
-            brush = only_with(replace(desk.brush, ink=()), frozenset(known))
-            brush = replace(brush, colour=to_hex(desk.colour), radius=16.0, opacity=1.0, flow=1.0, mode="paint")
+            brush = only_with(replace(desk.hand.dipped(), ink=()), frozenset(known))
+            brush = replace(brush, radius=16.0, opacity=1.0, flow=1.0, mode="paint")
             desk.lab.ask(desk.post, now, brush)
 
     def _ask_examples(self, now: float) -> None:
         """Thumbnails, the sample stroke, and what was painted in the region, while they are to be seen."""
         desk, state = self.desk, self.desk.examples
-        if self.shelf is not None and (desk.brush.mode == "example" or desk.strip == "examples"):
+        if self.shelf is not None and (desk.hand.brush.mode == "example" or desk.strip == "examples"):
             self.shelf.ask(state.entries, round(LARGE * desk.scale))
         if desk.strip != "examples" or not desk.panels:
             return
@@ -162,9 +161,9 @@ class News:
         for fault in faults + more + torn:
             desk.say(fault, bad=True)
         example_use.stock(desk)
-        if not desk.preset:
+        if not desk.hand.preset:
             first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
-            desk.preset, desk.brush, desk.needs = first.name, first.brush, first.textures
+            desk.hand.take(first.brush, first.name, first.textures)
         for preset in filter(ready_at_start, desk.presets):
             ask_picture(desk, preset)
 
@@ -211,7 +210,7 @@ class News:
 
     def _picked(self, r: results.Picked, _now: float) -> None:
         if r.alpha > 0.01:
-            self.desk.colour = r.rgb
+            self.desk.hand.colour = r.rgb
 
     def _looked(self, r: results.Looked, _now: float) -> None:
         """A recording that plays shows where its artist looked."""

@@ -91,7 +91,7 @@ class Router:
         elif self.desk.examples.swapping:
             begin = swap
         else:
-            begin = TOOLS[self.desk.tool].gesture
+            begin = TOOLS[self.desk.hand.tool].gesture
         return begin(self.desk, event)
 
     def _send(self, event: PenEvent | None) -> None:

@@ -45,7 +45,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
-    smoother = Smoother(desk.stabiliser)
+    smoother = Smoother(desk.hand.stabiliser)
     desk.post(Begin(level, origin, brush))
     desk.painting = True
     done = False
@@ -64,15 +64,15 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         desk.painting = False
         desk.post(Finish() if done else Abandon())
     if brush.mode == "paint":
-        desk.use_colour()
+        desk.hand.remember()
 
 
 def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
     """A stroke in the texture lab's spectrum."""
     lab = desk.lab
     built_in = frozenset(row.name for row in desk.kinds if not row.pictured)
-    brush = lab.brush(desk.brush, to_hex(desk.colour), first.eraser, built_in)
-    smoother = Smoother(desk.stabiliser)
+    brush = lab.brush(desk.hand.brush, to_hex(desk.hand.colour), first.eraser, built_in)
+    smoother = Smoother(desk.hand.stabiliser)
     desk.post(LabBegin(brush))
     lab.painting = True
     done = False

@@ -75,9 +75,9 @@ def _prepare(window: Window, hand: Hand) -> None:
     until(window, lambda: desk.ready and desk.scene is not None)
     until(window, _calm(window))
     desk.view = replace(desk.view, level=0, fraction=0.0)
-    desk.stabiliser = 0.0
+    desk.hand.stabiliser = 0.0
     example_use.choose(desk, next(entry for entry in desk.examples.entries if not entry.own))
-    desk.brush = replace(desk.brush, radius=RADIUS)
+    desk.hand.change(radius=RADIUS)
     until(window, _calm(window))
     _stroke(window, hand)
     until(window, lambda: desk.growing is not None)

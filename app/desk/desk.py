@@ -13,18 +13,15 @@ from typing import Any
 
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
-from app.desk.colours import RGB, to_hex
 from app.desk.example_state import ExampleState
+from app.desk.hand import Hand
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect
-from engine.painting.commands import DefineTexture
 from engine.studio.requests import Request, Save
 from engine.studio.results import CurveRow, Found, Growing, Note, Scene, Writing
 
-HISTORY = 24  # colours remembered
-SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
 MESSAGE_SECONDS = 6.0
 
 
@@ -45,17 +42,7 @@ class Desk:
     view: View
     post: Callable[[Request], None]
     scale: float = 1.0
-    tool: str = "brush"
-    brush: Brush = field(default_factory=Brush)
-    preset: str = ""
-    needs: tuple[DefineTexture, ...] = ()  # textures that the brush came with
-    provided: set[Any] = field(default_factory=set)  # those that were posted, with the painting that they are for
-    paper_stays: bool = False  # the brushes that are taken next are used on the paper of this one
-    erasing: bool = False
-    colour: RGB = (0.11, 0.16, 0.24)
-    other_colour: RGB = (1.0, 1.0, 1.0)
-    colours: list[RGB] = field(default_factory=list)
-    stabiliser: float = 0.3  # 0..1: how much the path of a stroke is smoothed
+    hand: Hand = field(default_factory=Hand)
     blends: tuple[tuple[str, str, str], ...] = ()  # name, title, hint; from the engine
     kinds: tuple[Any, ...] = ()  # rows of engine.texture.table
     ops: tuple[Any, ...] = ()  # rows of engine.brush.ops
@@ -150,22 +137,10 @@ class Desk:
         there = replace(self.view, level=level, fraction=zoom - level).held(place, *self.middle())
         self.view = self.glide.fly(self.view, there, seconds)
 
-    def resize_brush(self, factor: float) -> None:
-        radius = max(SMALLEST, min(LARGEST, self.brush.radius * factor))
-        self.brush = replace(self.brush, radius=round(radius, 2))
-
-    def use_colour(self) -> None:
-        """Remembers the colour: it was painted with."""
-        if self.colour in self.colours:
-            self.colours.remove(self.colour)
-        self.colours.insert(0, self.colour)
-        del self.colours[HISTORY:]
-
     def stroke_brush(self, eraser: bool) -> tuple[int, Brush]:
         """The level of a stroke begun now, and the brush with its radius in pixels of that level."""
         level = self.view.shown_level
-        erase = self.erasing or eraser
-        mode = "erase" if erase and self.brush.mode != "smooth" else self.brush.mode
-        radius = self.brush.radius / self.view.scale(level)
-        brush = replace(self.brush, radius=radius, colour=to_hex(self.colour), mode=mode)
+        held = self.hand.dipped()
+        mode = "erase" if (self.hand.erasing or eraser) and held.mode != "smooth" else held.mode
+        brush = replace(held, radius=held.radius / self.view.scale(level), mode=mode)
         return level, self.examples.erasing(brush) if mode == "erase" else brush

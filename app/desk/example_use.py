@@ -42,7 +42,9 @@ def prepare(desk: Desk, now: float) -> None:
     state = desk.examples
     given = () if desk.scene is None else desk.scene.texture_kinds
     used = (
-        desk.brush.mode == "example" or desk.strip == "examples" or any(kind == example_state.KIND for _, kind in given)
+        desk.hand.brush.mode == "example"
+        or desk.strip == "examples"
+        or any(kind == example_state.KIND for _, kind in given)
     )
     if used and not state.prepared:
         state.prepared, desk.preparing = True, now
@@ -53,10 +55,10 @@ def choose(desk: Desk, entry: Entry) -> None:
     """The brush paints with an example from now on, as large as its pixels are where the view is now."""
     state, level = desk.examples, desk.view.shown_level
     state.chosen = entry.ident
-    if desk.brush.mode != "example" or abs(level - state.base) > NEAR:
+    if desk.hand.brush.mode != "example" or abs(level - state.base) > NEAR:
         state.base = level
-    if desk.brush.mode != "example":  # the tip and the width of a pencil, say, are not for this
-        desk.brush, desk.preset = Brush(radius=state.radius, hardness=1.0), ""
+    if desk.hand.brush.mode != "example":  # the tip and the width of a pencil, say, are not for this
+        desk.hand.take(Brush(radius=state.radius, hardness=1.0), "")
     take(desk)
 
 
@@ -68,26 +70,26 @@ def take(desk: Desk) -> None:
         desk.strip, desk.panels, state.tab = "examples", True, "palette"
         return
     name, needs = state.needs(entry)
-    desk.brush = replace(desk.brush, mode="example", example=name)
-    desk.needs = (*(need for need in desk.needs if need.name != name), *needs)
-    desk.tool, desk.erasing = "brush", False
+    others = (need for need in desk.hand.needs if need.name != name)
+    desk.hand.take(replace(desk.hand.brush, mode="example", example=name), needs=(*others, *needs))
+    desk.hand.use("brush")
     follow(desk)
 
 
 def follow(desk: Desk) -> None:
     """The brush has the size and depth that are set."""
     state = desk.examples
-    if desk.brush.mode == "example":
+    if desk.hand.brush.mode == "example":
         members: dict[str, Any] = {**state.levels(), "depth": float(state.depth)}
-        desk.brush = replace(desk.brush, **members)
+        desk.hand.change(**members)
 
 
 def adopt(desk: Desk) -> None:
     """The panel shows what a brush has that came with an example of its own; its size fits what is seen."""
-    state, brush = desk.examples, desk.brush
+    state, brush = desk.examples, desk.hand.brush
     if brush.mode != "example":
         return
-    need = next((need for need in desk.needs if need.name == brush.example), None)
+    need = next((need for need in desk.hand.needs if need.name == brush.example), None)
     told = None if need is None else need.arguments.get("bundled", need.arguments.get("path"))
     found = (entry for entry in state.entries if told in (str(entry.picture), None if entry.own else entry.name))
     entry = next(found, None) if told is not None else None
@@ -104,7 +106,7 @@ def fit(desk: Desk) -> None:
 
 def reach(desk: Desk) -> None:
     """Before a stroke: the texture's size is fitted anew where the view is too far from where it was chosen."""
-    if desk.brush.mode == "example" and not example_state.within_reach(desk.brush, desk.view.shown_level):
+    if desk.hand.brush.mode == "example" and not example_state.within_reach(desk.hand.brush, desk.view.shown_level):
         fit(desk)
         desk.say("The texture’s size was set too far away: it fits this zoom now")
 
@@ -115,9 +117,9 @@ def swap(desk: Desk, x: float, y: float) -> None:
     desk.examples.swapping = False
     take(desk)
     palette.provide(desk)
-    if desk.brush.example is not None:
+    if desk.hand.brush.example is not None:
         at = desk.view.to_canvas(x, y).pixel(level)
-        desk.post(Do(Swap(level, at, desk.brush.example, detail=desk.brush.example_detail)))
+        desk.post(Do(Swap(level, at, desk.hand.brush.example, detail=desk.hand.brush.example_detail)))
 
 
 # --- the artist's own ------------------------------------------------------------------------------------------------
@@ -224,8 +226,9 @@ def rename(desk: Desk, entry: Entry, text: str) -> None:
     except own_example_files.FAULTS as error:
         desk.say(f"The example was not renamed: {error}", bad=True)
         return
-    painting = desk.examples.chosen == entry.ident and desk.brush.mode == "example"
-    desk.needs = tuple(need for need in desk.needs if need.arguments.get("path") != str(entry.picture))
+    painting = desk.examples.chosen == entry.ident and desk.hand.brush.mode == "example"
+    kept = (need for need in desk.hand.needs if need.arguments.get("path") != str(entry.picture))
+    desk.hand.take(desk.hand.brush, needs=tuple(kept))
     _refresh(desk, entry.name if painting else "")
     desk.say(f"“{entry.title}” is called “{title}” now")
 
@@ -261,8 +264,8 @@ def delete(desk: Desk, entry: Entry) -> None:
 
 def _without(desk: Desk, entry: Entry) -> None:
     """The brush that painted with it takes what the painting has of it, or is another one."""
-    need = next((need for need in desk.needs if need.name == desk.brush.example), None)
-    if desk.brush.mode != "example" or need is None or need.arguments.get("path") != str(entry.picture):
+    need = next((need for need in desk.hand.needs if need.name == desk.hand.brush.example), None)
+    if desk.hand.brush.mode != "example" or need is None or need.arguments.get("path") != str(entry.picture):
         return
     same = (one for one in desk.examples.entries if one.here is not None and one.here.get("path") == str(entry.picture))
     left = next(same, None)

@@ -16,15 +16,15 @@ from engine.studio.requests import Do
 def take(desk: Desk, preset: Preset) -> None:
     """Paints with a preset from now on; the painting gets those of its textures that it lacks with the first stroke: a
     brush that is only looked at leaves nothing behind."""
-    brush, needs = _on_paper(desk, preset) if desk.paper_stays else (preset.brush, preset.textures)
-    desk.brush, desk.preset, desk.needs = brush, preset.name, needs
+    brush, needs = _on_paper(desk, preset) if desk.hand.paper_stays else (preset.brush, preset.textures)
+    desk.hand.take(brush, preset.name, needs)
     _fit(desk)
 
 
 def _on_paper(desk: Desk, preset: Preset) -> tuple[Brush, tuple[DefineTexture, ...]]:
     """The preset's brush on the paper of the present one, and what it needs."""
-    brush, grain = preset.brush, desk.brush.grain
-    along = used(Brush(grain=grain), desk.needs)
+    brush, grain = preset.brush, desk.hand.brush.grain
+    along = used(Brush(grain=grain), desk.hand.needs)
     others = {command.name: command for command in preset.textures}
     if grain is None or any(others.get(command.name, command) != command for command in along):
         return brush, preset.textures
@@ -36,35 +36,36 @@ def _on_paper(desk: Desk, preset: Preset) -> tuple[Brush, tuple[DefineTexture, .
 def lacking(desk: Desk) -> tuple[DefineTexture, ...]:
     """Textures that the brush came with and the painting does not have yet."""
     defined = () if desk.scene is None else desk.scene.textures
-    return tuple(command for command in desk.needs if command.name not in defined)
+    return tuple(command for command in desk.hand.needs if command.name not in defined)
 
 
 def belonging(desk: Desk) -> tuple[tuple[DefineTexture, ...], tuple[str, ...]]:
     """The definitions of the textures that the brush refers to, and the names of those that only this painting has."""
-    found = {command.name: command for command in desk.needs}
+    found = {command.name: command for command in desk.hand.needs}
     defined = () if desk.scene is None else desk.scene.definitions
     told = {name: portable(name, kind, given) for name, kind, given in defined}
     found |= {name: command for name, command in told.items() if command is not None}
     stay = (name for name, command in told.items() if command is None and name not in found)
-    return used(desk.brush, found.values()), tuple(name for name in stay if refers(desk.brush, name))
+    return used(desk.hand.brush, found.values()), tuple(name for name in stay if refers(desk.hand.brush, name))
 
 
 def provide(desk: Desk) -> None:
     """Defines the textures that the brush came with and the painting lacks, which may be another by now."""
     for command in _fit(desk):
         posted = (0 if desk.scene is None else desk.scene.serial, command)
-        if posted not in desk.provided:  # the painting is told of what was posted with its next scene
-            desk.provided.add(posted)
+        if posted not in desk.hand.provided:  # the painting is told of what was posted with its next scene
+            desk.hand.provided.add(posted)
             desk.post(Do(command))
 
 
 def _fit(desk: Desk) -> tuple[DefineTexture, ...]:
     """What the painting lacks.  Where it has another texture of that name, the brush takes a free one."""
-    needs = used(desk.brush, desk.needs)
+    needs = used(desk.hand.brush, desk.hand.needs)
     if not needs:
         return ()
     scene = desk.scene
     known = {} if scene is None else {name: (kind, given) for name, kind, given in scene.definitions}
     taken = {row.name for row in desk.kinds}
-    desk.brush, desk.needs, missing = fitted(desk.brush, needs, known, taken)
+    brush, needs, missing = fitted(desk.hand.brush, needs, known, taken)
+    desk.hand.take(brush, needs=needs)
     return missing

@@ -29,7 +29,7 @@ def draw(desk: Desk, pointer_name: str) -> None:
     elif not desk.ready:
         imgui.text_disabled("Loading the paint engine…")
     else:
-        imgui.text_disabled("Erase with the chosen brush" if desk.erasing else TOOLS[desk.tool].hint)
+        imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
     right = imgui.get_window_width() - imgui.get_style().window_padding.x
     for label, hint, fixed in reversed(_fields(desk, pointer_name)):
         width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())

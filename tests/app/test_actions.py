@@ -52,7 +52,7 @@ def test_every_tool_has_an_icon_and_a_hint_and_can_be_chosen(desk):
         assert tool.hint
         assert tool.icon in vars(icons).values()
         perform(desk, ACTIONS[name])
-        assert desk.tool == name
+        assert desk.hand.tool == name
 
 
 def test_every_dialog_that_an_action_asks_for_is_there(desk):
@@ -70,26 +70,26 @@ def test_nothing_that_needs_the_engine_is_allowed_before_it_is_there(desk):
 
 def test_the_eraser_toggles(desk):
     perform(desk, ACTIONS["eraser"])
-    assert desk.erasing
+    assert desk.hand.erasing
     perform(desk, ACTIONS["eraser"])
-    assert not desk.erasing
+    assert not desk.hand.erasing
 
 
 def test_brackets_change_the_size_and_back(desk):
-    before = desk.brush.radius
+    before = desk.hand.brush.radius
     perform(desk, ACTIONS["larger"])
-    assert desk.brush.radius > before
+    assert desk.hand.brush.radius > before
     perform(desk, ACTIONS["smaller"])
-    assert desk.brush.radius == pytest.approx(before, abs=0.02)
+    assert desk.hand.brush.radius == pytest.approx(before, abs=0.02)
 
 
 def test_the_size_of_the_brush_stays_within_bounds(desk):
     for _ in range(200):
-        desk.resize_brush(1.5)
-    assert desk.brush.radius == 2000
+        desk.hand.resize(1.5)
+    assert desk.hand.brush.radius == 2000
     for _ in range(200):
-        desk.resize_brush(0.5)
-    assert desk.brush.radius == 0.5
+        desk.hand.resize(0.5)
+    assert desk.hand.brush.radius == 0.5
 
 
 def test_a_press_is_written_as_in_the_table():

@@ -70,13 +70,13 @@ def test_all_bundled_examples_are_listed_by_group(desk):
 
 
 def test_the_brush_grows_what_was_chosen_and_the_painting_gets_it_with_the_first_stroke(desk, posted):
-    desk.brush = Brush(radius=1.0, mode="paint", hardness=0.2)
+    desk.hand.take(Brush(radius=1.0, mode="paint", hardness=0.2))
     example_use.choose(desk, named(desk, "felt"))
-    assert (desk.brush.mode, desk.brush.example, desk.brush.depth) == ("example", "Felt", 0.0)
-    assert desk.brush.radius > 10
+    assert (desk.hand.brush.mode, desk.hand.brush.example, desk.hand.brush.depth) == ("example", "Felt", 0.0)
+    assert desk.hand.brush.radius > 10
     assert not posted
     usual = asdict(named(desk, "felt").parameters)
-    assert [to_json(need) for need in desk.needs] == [
+    assert [to_json(need) for need in desk.hand.needs] == [
         {"do": "texture", "name": "Felt", "maker": "example", "bundled": "felt", **usual}
     ]
     level, brush = desk.stroke_brush(eraser=False)
@@ -90,18 +90,18 @@ def test_sizes_go_by_the_zoom_at_which_it_was_chosen(desk, size, level, detail):
     desk.examples.size = size
     example_use.follow(desk)
     desk.view = desk.view.zoomed(-3)
-    assert (desk.brush.example_level, desk.brush.example_detail) == (level, detail)
+    assert (desk.hand.brush.example_level, desk.hand.brush.example_detail) == (level, detail)
     example_use.fit(desk)
-    assert desk.brush.example_level == level - 3
+    assert desk.hand.brush.example_level == level - 3
 
 
 def test_strokes_too_far_from_the_size_fit_it_anew(desk):
     example_use.choose(desk, named(desk, "felt"))
     for levels, fitted in ((8, False), (-13, True), (-1, False)):
         desk.view = desk.view.zoomed(levels)
-        before = desk.brush.example_level
+        before = desk.hand.brush.example_level
         example_use.reach(desk)
-        assert (desk.brush.example_level != before) == fitted
+        assert (desk.hand.brush.example_level != before) == fitted
         level, brush = desk.stroke_brush(eraser=False)
         assert abs(brush.example_level - level) <= 8
 
@@ -110,10 +110,10 @@ def test_another_example_chosen_near_by_has_the_same_pixels_and_far_away_its_own
     example_use.choose(desk, named(desk, "felt"))
     desk.view = desk.view.zoomed(1)
     example_use.choose(desk, named(desk, "turf"))
-    assert desk.brush.example_level == 0
+    assert desk.hand.brush.example_level == 0
     desk.view = desk.view.zoomed(3)
     example_use.choose(desk, named(desk, "felt"))
-    assert desk.brush.example_level == 4
+    assert desk.hand.brush.example_level == 4
 
 
 def test_the_eraser_takes_everything_or_one_depth(desk):
@@ -133,21 +133,21 @@ def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
     example_use.choose(desk, named(desk, "felt"))
     desk.examples.size, desk.examples.depth = -1, 2
     example_use.follow(desk)
-    preset = Preset("Mine", desk.brush, textures=palette.belonging(desk)[0])
+    preset = Preset("Mine", desk.hand.brush, textures=palette.belonging(desk)[0])
     desk.examples.size, desk.examples.depth, desk.examples.chosen = 0, 0, ""
     desk.view = desk.view.zoomed(20)
     palette.take(desk, preset)
     example_use.adopt(desk)
     state = desk.examples
     assert (state.entry.name, state.size, state.depth) == ("felt", -1, 2)
-    assert (desk.brush.example_level, desk.brush.example_detail, desk.brush.depth) == (20, 1, 2.0)
+    assert (desk.hand.brush.example_level, desk.hand.brush.example_detail, desk.hand.brush.depth) == (20, 1, 2.0)
 
 
 def test_growing_without_an_example_opens_the_palette(desk):
     desk.strip = ""
     example_use.take(desk)
     assert desk.strip == "examples"
-    assert desk.brush.mode == "paint"
+    assert desk.hand.brush.mode == "paint"
 
 
 def test_a_swap_defines_the_example_and_names_the_pixel(desk, posted):
@@ -170,12 +170,12 @@ def test_settings_are_told_where_they_differ_and_are_used_on_demand(desk):
     assert dict(state.command(entry, draft=True).arguments) == usual | {"kappa": 9.0}
     example_use.use_settings(desk)
     assert not state.tried(entry)
-    assert desk.needs[-1].arguments["kappa"] == 9.0
+    assert desk.hand.needs[-1].arguments["kappa"] == 9.0
     state.reset(entry)
     assert state.tried(entry)
     example_use.use_settings(desk)
-    assert dict(desk.needs[-1].arguments) == usual
-    assert not defined_by(desk.needs[-1], "example", usual | {"kappa": 9.0})  # the painting gets it anew
+    assert dict(desk.hand.needs[-1].arguments) == usual
+    assert not defined_by(desk.hand.needs[-1], "example", usual | {"kappa": 9.0})  # the painting gets it anew
 
 
 def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, posted):
@@ -190,7 +190,7 @@ def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, 
         state.ask(posted.append, now)
     assert [type(request) for request in posted] == [Swatch] * 3
     assert posted[-1].textures[0].arguments["kappa"] == 3.0
-    assert state.at_home(replace(desk.brush, example_level=77)).example_level == 0
+    assert state.at_home(replace(desk.hand.brush, example_level=77)).example_level == 0
 
 
 # --- the artist's own ------------------------------------------------------------------------------------------------
@@ -204,7 +204,7 @@ def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp
     assert (state.entry.own, state.entry.group, state.tab) == (True, example_state.OWN, "region")
     assert state.mask.inside[:, :20].all()
     assert not state.mask.inside[:, 20:].any()
-    assert desk.brush.example == "My rock"
+    assert desk.hand.brush.example == "My rock"
     example_use.add(desk, tmp_path / "My rock.png")
     assert state.entry.name == "My rock 2"
     desk.strip = ""
@@ -271,8 +271,8 @@ def test_ones_own_is_renamed_and_stays_so(desk, tmp_path):
     assert named(desk, "rock").title == 'My "wet" rock'
     assert state.entry.name == "sand"  # which the brush goes on painting with
     example_use.rename(desk, state.entry, 'my "WET" rock')
-    assert (state.entry.title, desk.brush.example) == ('my "WET" rock 2', 'my "WET" rock 2')
-    assert [need.name for need in desk.needs] == ['my "WET" rock 2']
+    assert (state.entry.title, desk.hand.brush.example) == ('my "WET" rock 2', 'my "WET" rock 2')
+    assert [need.name for need in desk.hand.needs] == ['my "WET" rock 2']
     example_use.rename(desk, state.entry, " \t")
     state.set(state.entry, "kappa", 9.0)
     example_use.use_settings(desk)
@@ -290,16 +290,19 @@ def test_who_paints_with_ones_own_is_told_and_keeps_on_painting_when_it_is_delet
     example_use.add(desk, picture(tmp_path / "sand.png"))
     rock, sand = named(desk, "rock"), named(desk, "sand")
     assert example_use.users(desk, rock) == ""
-    desk.presets = (Preset("Mine", desk.brush, textures=palette.belonging(desk)[0]), Preset("Pen", Brush(radius=3.0)))
+    desk.presets = (
+        Preset("Mine", desk.hand.brush, textures=palette.belonging(desk)[0]),
+        Preset("Pen", Brush(radius=3.0)),
+    )
     desk.scene = scene_with(("Rock", {"path": str(rock.picture), "sha": "1"}))
     example_use.gather(desk)
     assert example_use.users(desk, rock) == "this painting"
     assert example_use.users(desk, sand) == "the brush “Mine”"
     example_use.delete(desk, sand)
-    assert (desk.brush.mode, desk.preset, desk.examples.chosen) == ("paint", "Pen", "")
+    assert (desk.hand.brush.mode, desk.hand.preset, desk.examples.chosen) == ("paint", "Pen", "")
     example_use.choose(desk, rock)
     example_use.delete(desk, rock)
-    assert (desk.brush.example, desk.needs) == ("Rock", ())
+    assert (desk.hand.brush.example, desk.hand.needs) == ("Rock", ())
     assert desk.examples.entry.here is not None
 
 
@@ -506,7 +509,7 @@ def test_examples_that_only_the_painting_has_are_listed_and_painted_with(desk, p
     assert example_state.label(state.listed()[1], state.entries) == "Rag"
     assert len(state.entries) == count + 2
     example_use.choose(desk, named(desk, "Rag"))
-    assert (desk.brush.mode, desk.brush.example, desk.needs) == ("example", "Rag", ())
+    assert (desk.hand.brush.mode, desk.hand.brush.example, desk.hand.needs) == ("example", "Rag", ())
     example_use.swap(desk, 430.0, 300.0)
     assert [request.command for request in posted] == [Swap(0, (30, 0), "Rag")]
     desk.scene = scene_with()

@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from app.desk import palette, presets
+from app.desk.hand import Hand
 from app.desk.presets import Preset
 from engine.brush import settings
 from engine.makers.definitions import fitted, read, renamed, used
@@ -51,8 +52,7 @@ class Desk(SimpleNamespace):
     """What of a desk the palette uses, with an engine that does at once what is posted."""
 
     def __init__(self):
-        super().__init__(brush=settings.Brush(), preset="", needs=(), provided=set(), scene=None, kinds=())
-        self.paper_stays, self.pointer = False, SimpleNamespace(pen=False)
+        super().__init__(hand=Hand(), scene=None, kinds=(), pointer=SimpleNamespace(pen=False))
         self.sent = []
         self.easel = Easel(self._take)
 
@@ -71,7 +71,7 @@ class Desk(SimpleNamespace):
 
     def paint(self):
         palette.provide(self)
-        self.easel.carry_out(Stroke(0, (0, 0), STROKE.points, self.brush))
+        self.easel.carry_out(Stroke(0, (0, 0), STROKE.points, self.hand.brush))
 
 
 def test_a_preset_brings_its_textures_with_the_first_stroke(tmp_path):
@@ -101,28 +101,28 @@ def test_a_paper_that_stays_is_felt_by_the_next_brush(tmp_path):
     grained = Preset("Grained", settings.Brush(grain=rough.grain), textures=rough.textures)
     palette.take(desk, fur)
     palette.take(desk, smooth)
-    assert desk.brush == smooth.brush
+    assert desk.hand.brush == smooth.brush
     palette.take(desk, fur)
-    desk.paper_stays = True
+    desk.hand.paper_stays = True
     palette.take(desk, smooth)
-    assert desk.brush.grain == fur.brush.grain
-    assert desk.brush.opacity < 1.0  # full coverage would fill the paper's hollows
+    assert desk.hand.brush.grain == fur.brush.grain
+    assert desk.hand.brush.opacity < 1.0  # full coverage would fill the paper's hollows
     palette.take(desk, grained)
-    assert desk.brush == replace(grained.brush, grain=fur.brush.grain)
+    assert desk.hand.brush == replace(grained.brush, grain=fur.brush.grain)
     desk.paint()
     assert desk.scene.textures == ("paper",)
-    desk.paper_stays = False
+    desk.hand.paper_stays = False
     palette.take(desk, grained)
-    assert desk.brush == grained.brush
+    assert desk.hand.brush == grained.brush
 
 
 def test_a_paper_makes_way_for_another_texture_of_its_name_that_the_next_brush_brings(tmp_path):
     desk, brush = Desk(), settings.Brush(density=settings.from_json(BRUSH).grain)
     other = read([{**PAPER, "period": 20}], "textures", tmp_path)
     palette.take(desk, preset(tmp_path, FUR, PAPER))
-    desk.paper_stays = True
+    desk.hand.paper_stays = True
     palette.take(desk, Preset("Other", brush, textures=other))
-    assert desk.brush == brush
+    assert desk.hand.brush == brush
 
 
 def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
@@ -132,12 +132,12 @@ def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
     assert [command.name for command in palette.lacking(desk)] == ["fur 2", "paper"]
     desk.paint()
     assert desk.scene.textures == ("fur", "fur 2", "paper")
-    assert [part.texture for part in desk.brush.ink] == ["fur 2", "rock"]
-    assert desk.brush.density.texture == "fur 2"
+    assert [part.texture for part in desk.hand.brush.ink] == ["fur 2", "rock"]
+    assert desk.hand.brush.density.texture == "fur 2"
     assert desk.easel.session.painting.textures["fur"].kind == "rock"
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     assert desk.scene.textures == ("fur", "fur 2", "paper")
-    assert desk.brush.density.texture == "fur 2"
+    assert desk.hand.brush.density.texture == "fur 2"
     desk.paint()
 
 
@@ -249,16 +249,16 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
     members = {key: value.format(dir=tmp_path) if key == "path" else value for key, value in members.items()}
     desk, other = Desk(), Desk()
     desk.post(q.Do(parse({"do": "texture", "name": "fur", **members})))
-    desk.brush = settings.from_json({"radius": 9, "ink": [{"texture": "fur", "colour": "#ffffff"}]})
+    desk.hand.take(settings.from_json({"radius": 9, "ink": [{"texture": "fur", "colour": "#ffffff"}]}))
     textures, stay = palette.belonging(desk)
     assert stay == ()
-    palette.take(other, Preset("Fur", desk.brush, textures=textures))
+    palette.take(other, Preset("Fur", desk.hand.brush, textures=textures))
     other.paint()
     assert other.scene.textures == ("fur",)
-    swatch = q.Swatch("it", desk.brush, (60, 40))
+    swatch = q.Swatch("it", desk.hand.brush, (60, 40))
     pictures = [painted(swatch, d.easel.session.painting) for d in (desk, other)]
     assert np.array_equal(*pictures)
-    palette.take(other, Preset("Fur", desk.brush, textures=textures))
+    palette.take(other, Preset("Fur", desk.hand.brush, textures=textures))
     other.paint()
     assert len(other.asked) == 1
 
@@ -266,5 +266,5 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
 def test_what_only_the_painting_has_is_told():
     desk = Desk()
     desk.post(q.Do(parse({"do": "texture", "name": "fur", "maker": "canvas", "rect": [0, 0, 0, 8, 8]})))
-    desk.brush = settings.from_json({"ink": [{"texture": "fur"}]})
+    desk.hand.take(settings.from_json({"ink": [{"texture": "fur"}]}))
     assert palette.belonging(desk) == ((), ("fur",))

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 from immutables import Map
 
+from app.desk.hand import Hand
 from app.desk.presets import Preset
 from app.panels.controls import texture_rows
 from engine.brush.settings import Brush
@@ -23,7 +24,7 @@ def desk(*defined):
         texture_widths=tuple((name, 48) for name, _, _ in defined),
     )
     presets = (Preset("Cat", Brush(), textures=(FUR,)), Preset("Cloth", Brush(), textures=(LINEN, FUR)))
-    return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, papers=(), needs=())
+    return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, papers=(), hand=Hand())
 
 
 def test_each_texture_is_offered_once_and_the_paintings_own_is_meant():
@@ -42,10 +43,10 @@ def test_a_texture_of_the_brushes_is_brought_once_and_not_where_it_is_already():
     for _ in range(2):
         texture_rows.bring(made, "fur")
         texture_rows.bring(made, "rock")
-    assert made.needs == (FUR,)
+    assert made.hand.needs == (FUR,)
     made = desk(("fur", "sparse", Map()))
     texture_rows.bring(made, "fur")
-    assert made.needs == ()
+    assert made.hand.needs == ()
 
 
 @pytest.mark.parametrize("name", [row.name for row in ready().kinds])

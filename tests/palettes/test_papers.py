@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from app.desk import presets
+from app.desk.hand import Hand
 from app.panels.controls import texture_rows
 from engine.brush.relief import resolve
 from engine.brush.settings import Brush
@@ -65,11 +66,11 @@ def test_one_name_is_one_texture_wherever_it_comes_from():
 
 
 def test_papers_are_offered_and_come_along():
-    desk = SimpleNamespace(kinds=(), scene=None, presets=(), papers=tuple(PAPERS), needs=())
+    desk = SimpleNamespace(kinds=(), scene=None, presets=(), papers=tuple(PAPERS), hand=Hand())
     for paper in PAPERS:
         assert paper.grain.texture in dict(texture_rows.names(desk))
         texture_rows.bring(desk, paper.grain.texture)
-    assert {command.name for command in desk.needs} == {paper.grain.texture for paper in PAPERS}
+    assert {command.name for command in desk.hand.needs} == {paper.grain.texture for paper in PAPERS}
 
 
 def test_what_is_no_paper_is_told_in_a_line(tmp_path):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
@@ -47,15 +46,15 @@ class BrushList:
                 if i % ACROSS:
                     imgui.same_line()
                 if self._preset(desk, preset, wide):
-                    self._seen = desk.preset
-                if self._reveal and preset.name == desk.preset:
+                    self._seen = desk.hand.preset
+                if self._reveal and preset.name == desk.hand.preset:
                     imgui.set_scroll_here_y(0.5)
         if not found:
             imgui.text_disabled("No brush is called so")
         imgui.pop_style_var()
         imgui.end_child()
-        self._reveal = 2 if desk.preset != self._seen else max(0, self._reveal - 1)
-        self._seen = desk.preset
+        self._reveal = 2 if desk.hand.preset != self._seen else max(0, self._reveal - 1)
+        self._seen = desk.hand.preset
 
     def _bar(self, desk: Desk) -> None:
         """The group that is listed, a word to look for, and all at once."""
@@ -118,7 +117,7 @@ class BrushList:
         if not ready_at_start(preset) and preset.name not in self._asked:
             self._asked.add(preset.name)
             ask_picture(desk, preset)
-        hovered, chosen = imgui.is_item_hovered(), desk.preset == preset.name
+        hovered, chosen = imgui.is_item_hovered(), desk.hand.preset == preset.name
         own = preset.path is not None and preset.path.parent == presets.own_folder()
         w.tooltip(f"{preset.name}\nShift keeps the present size" + ("\nRight click to delete it" if own else ""))
         if own:
@@ -149,14 +148,14 @@ def ask_picture(desk: Desk, preset: Preset) -> None:
 
 def take(desk: Desk, preset: Preset) -> None:
     """Paints with a brush from now on, in its own colours where they belong together; Shift keeps the size."""
-    radius = desk.brush.radius
+    radius = desk.hand.brush.radius
     palette.take(desk, preset)
     example_use.adopt(desk)
     if preset.brush.ink:
-        desk.colour = preset.brush.rgb
-    desk.tool, desk.erasing = "brush", False
+        desk.hand.colour = preset.brush.rgb
+    desk.hand.use("brush")
     if imgui.get_io().key_shift:
-        desk.brush = replace(desk.brush, radius=radius)
+        desk.hand.change(radius=radius)
 
 
 def _deletes(desk: Desk, preset: Preset) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
 from app import actions, icons, theme
 from app.desk import example_use
-from app.desk.desk import LARGEST, SMALLEST, Desk
+from app.desk.desk import Desk
+from app.desk.hand import LARGEST, SMALLEST
 from app.desk.knots import at
 from app.panels.brush import example_section
 from app.panels.brush.brush_list import BrushList
@@ -69,7 +69,7 @@ class BrushPanel:
             self._preview(desk)
             self._modes(desk)
             special = _height_of(lambda: self._special(desk))
-            unfolded += special if desk.brush.mode == "raster" else 0.0
+            unfolded += special if desk.hand.brush.mode == "raster" else 0.0
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
@@ -78,11 +78,11 @@ class BrushPanel:
 
     def _special(self, desk: Desk) -> None:
         """What only this mode has."""
-        if desk.erasing or desk.brush.mode == "erase":
+        if desk.hand.erasing or desk.hand.brush.mode == "erase":
             example_section.draw_eraser(desk)
-        elif desk.brush.mode == "raster":
+        elif desk.hand.brush.mode == "raster":
             self._operations.draw(desk)
-        elif desk.brush.mode == "example":
+        elif desk.hand.brush.mode == "example":
             example_section.draw(desk)
 
     def _preview(self, desk: Desk) -> None:
@@ -101,10 +101,10 @@ class BrushPanel:
     def _tools(self, desk: Desk) -> None:
         side = imgui.get_font_size() * 2.1
         names: list[tuple[str, str, bool]] = [
-            ("brush", icons.BRUSH, desk.tool == "brush" and not desk.erasing),
-            ("eraser", icons.ERASER, desk.tool == "brush" and desk.erasing),
+            ("brush", icons.BRUSH, desk.hand.tool == "brush" and not desk.hand.erasing),
+            ("eraser", icons.ERASER, desk.hand.tool == "brush" and desk.hand.erasing),
         ]
-        names += [(name, TOOLS[name].icon, desk.tool == name) for name in ("pick", "pan", "zoom", "turn")]
+        names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "pan", "zoom", "turn")]
         gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
         for i, (name, icon, on) in enumerate(names):
             if i:
@@ -121,45 +121,45 @@ class BrushPanel:
         for i, (mode, label, hint) in enumerate(_MODES):
             if i:
                 imgui.same_line(0, gap)
-            on = desk.brush.mode == mode
+            on = desk.hand.brush.mode == mode
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
             if w.text_button(label, hint, width=words[i] + spare):
-                desk.tool, desk.erasing = "brush", False
-                if mode == "example" and desk.brush.example is None:
+                desk.hand.use("brush")
+                if mode == "example" and desk.hand.brush.example is None:
                     example_use.take(desk)
                 else:
-                    desk.brush = replace(desk.brush, mode=mode)
+                    desk.hand.change(mode=mode)
             imgui.pop_style_color()
         imgui.pop_style_var()
 
     def _settings(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
-            if desk.brush.mode == "example" and not desk.erasing and name in _UNFELT:
+            if desk.hand.brush.mode == "example" and not desk.hand.erasing and name in _UNFELT:
                 continue
             lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
             form = "%.1f px" if row.unit == "px" else "%.2f"
             hint = f"{row.tooltip}  ([ and ])" if name == "radius" else row.tooltip
-            shown, form, lo, hi = _percent(getattr(desk.brush, name), form, lo, hi, row.unit)
+            shown, form, lo, hi = _percent(getattr(desk.hand.brush, name), form, lo, hi, row.unit)
             changed, value = w.slider(row.label, shown, (lo, hi), hint, form=form, curved=row.logarithmic)
             if changed:
                 value = value / 100 if form.endswith("%%") else value
                 setting: dict[str, Any] = {name: row.clamped(round(value, 4))}
-                desk.brush = replace(desk.brush, **setting)
+                desk.hand.change(**setting)
 
         hint = "How much the stroke lags behind the pen to steady the hand"
-        changed, value = w.slider("Stabiliser", desk.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")
+        changed, value = w.slider("Stabiliser", desk.hand.stabiliser * 100, (0.0, 100.0), hint, form="%.0f%%")
         if changed:
-            desk.stabiliser = round(value / 100, 3)
+            desk.hand.stabiliser = round(value / 100, 3)
 
     def _dynamics(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
             if not row.dynamic:
                 continue
-            curve = desk.brush.dynamics.get(name)
+            curve = desk.hand.brush.dynamics.get(name)
             hint = f"How the pen's pressure changes the {row.label.lower()}: left a light touch, right a firm one"
             changed, drawn = self._curves.row(row.label, _shown(curve), _PRESSURE_ROWS, hint)
             if changed:
-                desk.brush = replace(desk.brush, dynamics=_with(desk.brush.dynamics, name, drawn))
+                desk.hand.change(dynamics=_with(desk.hand.brush.dynamics, name, drawn))
 
 
 def _height_of(draw: Callable[[], None]) -> float:

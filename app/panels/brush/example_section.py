@@ -61,7 +61,7 @@ def draw_eraser(desk: Desk) -> None:
 def _shown(desk: Desk) -> None:
     """The example that is painted with; a click opens the palette."""
     entry = desk.examples.entry
-    ours = entry is not None and desk.brush.example is not None
+    ours = entry is not None and desk.hand.brush.example is not None
     side, scale = 40 * desk.scale, desk.scale
     corner, wide = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     pressed = imgui.invisible_button("example", ImVec2(wide, side))
@@ -76,7 +76,7 @@ def _shown(desk: Desk) -> None:
         square = ImVec2(corner.x + side, corner.y + side)
         white = theme.packed((1.0, 1.0, 1.0))
         painter.add_image_rounded(picture, corner, square, ImVec2(0, 0), ImVec2(1, 1), white, 4 * scale)
-    text = entry.title if entry is not None and ours else desk.brush.example or "Choose an example"
+    text = entry.title if entry is not None and ours else desk.hand.brush.example or "Choose an example"
     at = ImVec2(corner.x + side + 9 * scale, corner.y + (side - imgui.get_font_size()) / 2)
     painter.push_clip_rect(corner, ImVec2(end.x - 24 * scale, end.y), True)
     painter.add_text(at, theme.packed(theme.TEXT), text)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 from imgui_bundle import ImVec2, imgui
@@ -50,7 +49,7 @@ class Operations:
         self._fault: FormulaError | None = None
 
     def draw(self, desk: Desk) -> None:
-        op = desk.brush.op
+        op = desk.hand.brush.op
         own = not isinstance(op, str) and "formula" in op
         name = "formula" if own else op if isinstance(op, str) else str(op["name"])
         chosen = self._chooser(desk, name)
@@ -59,7 +58,7 @@ class Operations:
             if started is None:
                 desk.say("Cloning copies a layer: paint on one first", bad=True)
             else:
-                desk.brush = replace(desk.brush, op=started)
+                desk.hand.change(op=started)
             return
         if own:
             self._formula(desk, str(op["formula"]))  # type: ignore[index]
@@ -70,7 +69,7 @@ class Operations:
         for parameter in row.parameters if row else ():
             changed = self._parameter(desk, changed, parameter)
         if changed != given:
-            desk.brush = replace(desk.brush, op=changed.set("name", name))
+            desk.hand.change(op=changed.set("name", name))
 
     def _chooser(self, desk: Desk, name: str) -> str | None:
         rows = {row.name: row for row in desk.ops}
@@ -157,7 +156,7 @@ class Operations:
             self._fault, self._typed = fault(self._text), now
         if self._fault is None and self._text != self._known and (left or now - self._typed > REST):
             self._known = self._text
-            desk.brush = replace(desk.brush, op=Map({"formula": self._text}))
+            desk.hand.change(op=Map({"formula": self._text}))
         if self._fault is not None:
             _mistake(self._text, self._fault)
 

@@ -8,7 +8,6 @@ from imgui_bundle import imgui
 
 from app import icons
 from app.desk import palette, presets
-from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.presets import Preset
 from app.panels.brush.brush_list import ask_picture
@@ -28,7 +27,7 @@ class SaveBrush:
         imgui.same_line(0, 0)
         imgui.set_cursor_pos_x(imgui.get_style().window_padding.x + right - side)
         if w.icon_button("save brush", icons.DISK, "Save this brush under a name", size=side):
-            self._name = presets.free_name(desk.preset or "My brush", desk.presets)
+            self._name = presets.free_name(desk.hand.preset or "My brush", desk.presets)
             imgui.open_popup("save brush")
         if not imgui.begin_popup("save brush"):
             return
@@ -55,7 +54,7 @@ class SaveBrush:
 
 def _save(desk: Desk, name: str) -> None:
     textures, stay = palette.belonging(desk)
-    preset = Preset(name, replace(desk.brush, colour=to_hex(desk.colour)), textures=textures)
+    preset = Preset(name, desk.hand.dipped(), textures=textures)
     try:
         path = presets.save(preset, presets.own_folder())
     except OSError as error:
@@ -63,7 +62,8 @@ def _save(desk: Desk, name: str) -> None:
         return
     preset = replace(preset, path=path)
     others = tuple(p for p in desk.presets if (p.name, p.group) != (name, presets.OWN))
-    desk.presets, desk.preset = (*others, preset), name
+    desk.presets = (*others, preset)
+    desk.hand.take(desk.hand.brush, name)
     ask_picture(desk, preset)
     without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""
     desk.say(f"Saved the brush “{name}”{without}", bad=bool(stay))

@@ -41,17 +41,17 @@ class Texturing:
     def draw(self, desk: Desk) -> float:
         """The height of what is unfolded of them."""
         unfolded = 0.0
-        growing = desk.brush.mode == "example" and not desk.erasing
+        growing = desk.hand.brush.mode == "example" and not desk.hand.erasing
         for name, title, hint, body in _SECTIONS:
             if growing and name != "tip":  # it would not be felt
                 continue
-            held = getattr(desk.brush, name)
+            held = getattr(desk.hand.brush, name)
             shown, on = w.switched_section(title, hint, held is not None)
             if on != (held is not None):
-                desk.paper_stays = desk.paper_stays and name != "grain"
+                desk.hand.paper_stays = desk.hand.paper_stays and name != "grain"
                 held, self._fresh = (self._start(desk, name), name) if on else (None, "")
                 if on and name == "grain":
-                    desk.brush = lightened(desk.brush, desk.pointer.pen)
+                    desk.hand.take(lightened(desk.hand.brush, desk.pointer.pen))
             if shown:
                 top = imgui.get_cursor_pos().y
                 imgui.push_id(name)
@@ -64,9 +64,9 @@ class Texturing:
                 self._show(name)
             if held is not None:
                 self._kept[name] = held
-            if held != getattr(desk.brush, name):
+            if held != getattr(desk.hand.brush, name):
                 setting: dict[str, Any] = {name: held}
-                desk.brush = replace(desk.brush, **setting)
+                desk.hand.change(**setting)
         return unfolded
 
     def _show(self, name: str) -> None:
@@ -92,7 +92,7 @@ class Texturing:
 
     def _grain(self, desk: Desk, part: Surface) -> Surface:
         part = texture_choice.surface(desk, part, "Papers, and any other texture")
-        _, desk.paper_stays = imgui.checkbox("For every brush", desk.paper_stays)
+        _, desk.hand.paper_stays = imgui.checkbox("For every brush", desk.hand.paper_stays)
         w.tooltip("The paper stays when you take another brush")
         part = _amount(part, "How deep the grain is: light touches reach its peaks alone")
         hint = "The level in whose pixels the grain is measured; higher is finer. It stays on the canvas as you zoom"
@@ -160,7 +160,7 @@ def _tint(desk: Desk, part: Edge) -> Edge:
     changed, on = imgui.checkbox("Tint", on)
     w.tooltip("The paint turns to another colour at the rim")
     if changed:
-        part = replace(part, colour=to_hex(tuple(v * 0.5 for v in desk.colour)) if on else None)  # type: ignore[arg-type]
+        part = replace(part, colour=to_hex(tuple(v * 0.5 for v in desk.hand.colour)) if on else None)  # type: ignore[arg-type]
     if part.colour is not None:
         imgui.same_line()
         if w.swatch("tint", part.rgb, "The colour at the rim", (side * 2, side)):

@@ -36,15 +36,15 @@ class ColourPanel:
         side = min(room, imgui.get_font_size() * 12.0)
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + (room - side) / 2)
         imgui.set_next_item_width(side)
-        changed, value = imgui.color_picker3("##wheel", list(desk.colour), w.PICKER_FLAGS)
+        changed, value = imgui.color_picker3("##wheel", list(desk.hand.colour), w.PICKER_FLAGS)
         if changed:
-            desk.colour = (value[0], value[1], value[2])
+            desk.hand.colour = (value[0], value[1], value[2])
 
     def _sliders(self, desk: Desk) -> None:
-        if desk.colour != self._rgb:
-            new = to_oklch(desk.colour)
+        if desk.hand.colour != self._rgb:
+            new = to_oklch(desk.hand.colour)
             keep = new[1] < 0.004  # a grey has no hue of its own
-            self._rgb, self._lch = desk.colour, (new[0], new[1], self._lch[2] if keep else new[2])
+            self._rgb, self._lch = desk.hand.colour, (new[0], new[1], self._lch[2] if keep else new[2])
         light, chroma, hue = self._lch
         rows = (
             ("Lightness", light, "How light the colour looks (OkLCH)"),
@@ -58,28 +58,28 @@ class ColourPanel:
             if changed:
                 parts[i] = new_value
                 self._lch = parts[0], parts[1] * MOST_CHROMA, parts[2] * 360
-                desk.colour = self._rgb = from_oklch(*self._lch)
+                desk.hand.colour = self._rgb = from_oklch(*self._lch)
 
     def _pair(self, desk: Desk) -> None:
         height = imgui.get_frame_height()
         wide = imgui.get_content_region_avail().x
-        w.swatch("now", desk.colour, "The colour you paint with", (wide * 0.26, height))
+        w.swatch("now", desk.hand.colour, "The colour you paint with", (wide * 0.26, height))
         imgui.same_line()
-        if w.swatch("other", desk.other_colour, "The other colour; click to swap (X)", (wide * 0.16, height)):
-            desk.colour, desk.other_colour = desk.other_colour, desk.colour
+        if w.swatch("other", desk.hand.other_colour, "The other colour; click to swap (X)", (wide * 0.16, height)):
+            desk.hand.swap()
         imgui.same_line()
         if w.icon_button("swap", icons.SWAP, "Swap the two colours (X)"):
-            desk.colour, desk.other_colour = desk.other_colour, desk.colour
+            desk.hand.swap()
         imgui.same_line()
         imgui.set_next_item_width(-1)
         _, self._text = imgui.input_text("##hex", self._text, imgui.InputTextFlags_.chars_no_blank)
         if imgui.is_item_deactivated_after_edit():
             try:
-                desk.colour = from_hex("#" + self._text.lstrip("#").lower())
+                desk.hand.colour = from_hex("#" + self._text.lstrip("#").lower())
             except ValueError:
                 desk.say(f"“{self._text}” is no colour: write six hexadecimal digits", bad=True)
         elif not imgui.is_item_active():
-            self._text = to_hex(desk.colour)
+            self._text = to_hex(desk.hand.colour)
         w.tooltip("The colour as #rrggbb")
 
     def _history(self, desk: Desk) -> None:
@@ -90,9 +90,9 @@ class ColourPanel:
         for i in range(_HISTORY_ACROSS):
             if i:
                 imgui.same_line()
-            if i < len(desk.colours):
-                if w.swatch(f"past{i}", desk.colours[i], "Painted with before", (side, side)):
-                    desk.colour = desk.colours[i]
+            if i < len(desk.hand.colours):
+                if w.swatch(f"past{i}", desk.hand.colours[i], "Painted with before", (side, side)):
+                    desk.hand.colour = desk.hand.colours[i]
             else:
                 corner = imgui.get_cursor_screen_pos()
                 imgui.dummy(ImVec2(side, side))

@@ -32,21 +32,21 @@ class InkPanel:
         self._picture(desk)
         self._welcome(desk)
         removed = None
-        for i, component in enumerate(desk.brush.ink):
+        for i, component in enumerate(desk.hand.brush.ink):
             imgui.push_id(i)
             changed, keep = self._component(desk, component)
             imgui.pop_id()
             if not keep:
                 removed = i
             elif changed is not component:
-                desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:i], changed, *desk.brush.ink[i + 1 :]))
+                desk.hand.change(ink=(*desk.hand.brush.ink[:i], changed, *desk.hand.brush.ink[i + 1 :]))
         if removed is not None:
-            desk.brush = replace(desk.brush, ink=(*desk.brush.ink[:removed], *desk.brush.ink[removed + 1 :]))
-        if desk.brush.ink:
+            desk.hand.change(ink=(*desk.hand.brush.ink[:removed], *desk.hand.brush.ink[removed + 1 :]))
+        if desk.hand.brush.ink:
             hint = "A curve that all these textures go through: harder, softer, turned round"
-            reshaped, curve = self._curves.row("Shaping of all", desk.brush.shaping, desk.curves, hint)
+            reshaped, curve = self._curves.row("Shaping of all", desk.hand.brush.shaping, desk.curves, hint)
             if reshaped:
-                desk.brush = replace(desk.brush, shaping=curve)
+                desk.hand.change(shaping=curve)
         self._extent(desk)
         self._adder(desk)
 
@@ -117,14 +117,16 @@ class InkPanel:
 
     def _extent(self, desk: Desk) -> None:
         """Scattered textures can keep their marks whole at the stroke's rim."""
-        if desk.brush.extent or any(texture_rows.kind_of(desk, part.texture) == "sparse" for part in desk.brush.ink):
-            changed, on = imgui.checkbox("Whole marks at the rim", desk.brush.extent)
+        if desk.hand.brush.extent or any(
+            texture_rows.kind_of(desk, part.texture) == "sparse" for part in desk.hand.brush.ink
+        ):
+            changed, on = imgui.checkbox("Whole marks at the rim", desk.hand.brush.extent)
             w.tooltip("The rim of a stroke takes the shape of the texture's marks: none is cut")
             if changed:
-                desk.brush = replace(desk.brush, extent=on)
+                desk.hand.change(extent=on)
 
     def _adder(self, desk: Desk) -> None:
-        full = len(desk.brush.ink) >= COMPONENTS_CAP
+        full = len(desk.hand.brush.ink) >= COMPONENTS_CAP
         if w.text_button(
             f"{icons.ADD}  Add texture",
             "Stir a texture into the paint",
@@ -145,7 +147,7 @@ class InkPanel:
         name = texture_choice.listed(desk)
         if name:
             part = Component(name, 0.6, _COLOURS.get(name, "#ffffff"))
-            desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
+            desk.hand.change(ink=(*desk.hand.brush.ink, part))
         imgui.end_popup()
 
     def _welcome(self, desk: Desk) -> None:
@@ -153,8 +155,8 @@ class InkPanel:
         if not desk.awaited or desk.scene is None or desk.awaited not in desk.scene.textures:
             return
         part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
-        if len(desk.brush.ink) < COMPONENTS_CAP:
-            desk.brush = replace(desk.brush, ink=(*desk.brush.ink, part))
+        if len(desk.hand.brush.ink) < COMPONENTS_CAP:
+            desk.hand.change(ink=(*desk.hand.brush.ink, part))
 
 
 def _pressing(component: Component) -> Component:

@@ -44,15 +44,15 @@ def groups(desk: Desk) -> list[tuple[str, list[tuple[str, str]]]]:
 
 def bring(desk: Desk, name: str) -> None:
     """Has the painting get a texture of the brushes that it lacks, as soon as it is painted with."""
-    if all(other.name != name for other in desk.needs):
-        desk.needs = (*desk.needs, *brought(desk, name))
+    if all(other.name != name for other in desk.hand.needs):
+        desk.hand.bring(*brought(desk, name))
 
 
 def _bringable(desk: Desk) -> dict[str, DefineTexture]:
     """By name, what the brush came with and what presets and papers come with; the first of a name counts."""
     found: dict[str, DefineTexture] = {}
     bundled = (one for source in (*desk.presets, *desk.papers) for one in source.textures)
-    for command in (*desk.needs, *bundled):
+    for command in (*desk.hand.needs, *bundled):
         found.setdefault(command.name, command)
     return found
 

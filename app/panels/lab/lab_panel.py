@@ -216,8 +216,8 @@ class LabPanel:
         name = using or pictured.free_name(desk, "Texture")
         if not using:
             desk.lab.use(desk.post, name)
-        desk.brush = with_texture(desk.brush, how, name, desk.pointer.pen)
-        desk.tool, desk.erasing = "brush", False
+        desk.hand.take(with_texture(desk.hand.brush, how, name, desk.pointer.pen))
+        desk.hand.use("brush")
 
 
 def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float) -> None:

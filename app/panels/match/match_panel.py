@@ -182,13 +182,13 @@ class MatchingPanel:
             match.awaited = None
         elif desk.scene is not None and name in desk.scene.textures:
             match.awaited = None
-            brush = with_texture(desk.brush, how, name)
+            brush = with_texture(desk.hand.brush, how, name)
             if how == "ink" and match.by_pressure:
                 part = replace(brush.ink[0], parameters=brush.ink[0].parameters.set("weight", "pressure"))
                 dynamics = brush.dynamics.delete("opacity") if "opacity" in brush.dynamics else brush.dynamics
                 brush = replace(brush, ink=(part,), dynamics=dynamics)
-            desk.brush = brush
-            desk.tool, desk.erasing = "brush", False
+            desk.hand.take(brush)
+            desk.hand.use("brush")
 
 
 def _stem(desk: Desk) -> str:

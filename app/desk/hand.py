@@ -1,0 +1,103 @@
+"""What the artist has in hand: the brush, the tool, the colours, and what the brush brings along.
+
+Panels and tools read it freely; the brush, its textures and the tool change through the methods alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from app.desk.colours import RGB, to_hex
+from engine.brush.settings import Brush
+from engine.painting.commands import DefineTexture
+
+HISTORY = 24  # colours remembered
+SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
+BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+
+
+@dataclass(slots=True)
+class Hand:
+    """`provided`: textures that were posted to the engine, each with the serial of the painting that it is for;
+    `paper_stays`: the brushes that are taken next are used on the paper of this one; `stabiliser`: how much the path
+    of a stroke is smoothed, 0..1; `colours`: those painted with before, the last one first."""
+
+    colour: RGB = (0.11, 0.16, 0.24)
+    other_colour: RGB = WHITE
+    colours: list[RGB] = field(default_factory=list)
+    stabiliser: float = 0.3
+    paper_stays: bool = False
+    provided: set[tuple[int, DefineTexture]] = field(default_factory=set)
+    _brush: Brush = field(default_factory=Brush)
+    _preset: str = ""
+    _needs: tuple[DefineTexture, ...] = ()
+    _tool: str = "brush"
+    _erasing: bool = False
+
+    @property
+    def brush(self) -> Brush:
+        """The brush; its radius is in pixels of the screen, its colour counts only in `dipped`."""
+        return self._brush
+
+    @property
+    def preset(self) -> str:
+        """The name under which it was taken, or saved; empty if it has none."""
+        return self._preset
+
+    @property
+    def needs(self) -> tuple[DefineTexture, ...]:
+        """The textures that it came with."""
+        return self._needs
+
+    @property
+    def tool(self) -> str:
+        """A row of app.tools.TOOLS."""
+        return self._tool
+
+    @property
+    def erasing(self) -> bool:
+        """Whether the brush erases; never with another tool."""
+        return self._erasing
+
+    def dipped(self) -> Brush:
+        """The brush with the colour on it."""
+        return replace(self._brush, colour=to_hex(self.colour))
+
+    def take(self, brush: Brush, preset: str | None = None, needs: tuple[DefineTexture, ...] | None = None) -> None:
+        """Takes a brush; without a name or textures of its own it keeps those of the one before."""
+        self._brush = brush
+        self._preset = self._preset if preset is None else preset
+        self._needs = self._needs if needs is None else needs
+
+    def change(self, **settings: Any) -> None:
+        """Gives the brush other settings."""
+        self._brush = replace(self._brush, **settings)
+
+    def bring(self, *textures: DefineTexture) -> None:
+        """Adds textures that the brush brings along, in place of those of the same names."""
+        names = {texture.name for texture in textures}
+        self._needs = (*(need for need in self._needs if need.name not in names), *textures)
+
+    def use(self, tool: str) -> None:
+        """Chooses a tool; the brush paints again."""
+        self._tool, self._erasing = tool, False
+
+    def erase(self, on: bool = True) -> None:
+        """Makes the brush erase, or paint again."""
+        self._tool, self._erasing = "brush", on
+
+    def resize(self, factor: float) -> None:
+        """Makes the brush larger or smaller."""
+        self.change(radius=round(max(SMALLEST, min(LARGEST, self._brush.radius * factor)), 2))
+
+    def swap(self) -> None:
+        """Swaps the two colours."""
+        self.colour, self.other_colour = self.other_colour, self.colour
+
+    def remember(self) -> None:
+        """Puts the colour first among those painted with."""
+        if self.colour in self.colours:
+            self.colours.remove(self.colour)
+        self.colours.insert(0, self.colour)
+        del self.colours[HISTORY:]
