@@ -33,7 +33,6 @@ ORDER = (
     ("app.router", "app.cursor", "app.news", "app.pace"),
     ("app.window",),
     ("app.loop",),
-    ("app.bench",),
     ("app.cli",),
     ("app.__main__",),
 )

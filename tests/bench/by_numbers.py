@@ -64,7 +64,9 @@ def sources(labels: np.ndarray, texture: np.ndarray, wanted: np.ndarray, rules: 
     for _ in range(rules.levels - 1):
         planes = [halved(plane, np.ones(plane.shape[:2], bool)) for plane in planes]
         pyramid.append(planes)
-    example = made = found = None
+    example: Level | None = None
+    made: Level | None = None
+    found = np.empty((0, 0, 2), np.int32)
     for n in reversed(range(rules.levels)):
         above = example, made
         labels, texture, wanted, _ = pyramid[n]
@@ -82,7 +84,7 @@ def _padded(plane: np.ndarray, like: np.ndarray) -> np.ndarray:
     return out
 
 
-def _fill(example: Level, made: Level, above: tuple[Level, Level], rules: Rules, n: int) -> np.ndarray:
+def _fill(example: Level, made: Level, above: tuple[Level | None, Level | None], rules: Rules, n: int) -> np.ndarray:
     """Makes a level in scanline order; pixels on a line x + 4 y = t need only those with a smaller t."""
     data = _data(example, above[0], rules.axes)
     height, width = (s - 2 * RADIUS for s in made.labels.shape[:2])

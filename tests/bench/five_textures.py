@@ -1,12 +1,11 @@
 """Five textures that touch each other, in the kind of figure 6 of Ritter et al. 2006, by texture-by-numbers and by
 painting with examples: in the example each lies alone on paper, so that no interface of two of them is in it.
 
-python tests/bench/five_textures.py    writes palettes/pictures/numbers.png
+PYTHONPATH=tests python -m bench.five_textures    writes palettes/pictures/numbers.png
 """
 
 from __future__ import annotations
 
-import sys
 import tomllib
 from pathlib import Path
 from typing import NamedTuple
@@ -15,23 +14,22 @@ import numpy as np
 from PIL import Image
 from scipy import ndimage
 
+from bench import by_numbers
+from bench.likeness import rim
+from engine.numeric.address import Rect
+from engine.texture.example import show
+from engine.texture.example.exemplar import PAD, Exemplar, analysed, premultiplied
+from engine.texture.example.parameters import Parameters, changed
+from engine.texture.example.region import empty, painted, refined
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-import by_numbers  # noqa: E402
-from likeness import rim  # noqa: E402
-
-from engine.numeric.address import Rect  # noqa: E402
-from engine.texture.example import show  # noqa: E402
-from engine.texture.example.exemplar import PAD, Exemplar, analysed, premultiplied  # noqa: E402
-from engine.texture.example.parameters import Parameters, changed  # noqa: E402
-from engine.texture.example.region import empty, painted, refined  # noqa: E402
-
 FOLDER = ROOT / "palettes" / "examples"
 PICTURE = ROOT / "palettes" / "pictures" / "numbers.png"
 NAMES = ("orange-peel", "bread", "torn-sugar-paper", "mossy-gravel", "felt")
-PAPER = np.float32([0.93, 0.91, 0.87])
-LABELS = np.float32([[1, 1, 1], [0.9, 0.2, 0.2], [0.95, 0.8, 0.1], [0.3, 0.6, 1], [0.2, 0.7, 0.3], [0.5, 0.2, 0.6]])
+PAPER = np.array([0.93, 0.91, 0.87], np.float32)
+LABELS = np.array(
+    [[1, 1, 1], [0.9, 0.2, 0.2], [0.95, 0.8, 0.1], [0.3, 0.6, 1], [0.2, 0.7, 0.3], [0.5, 0.2, 0.6]], np.float32
+)
 PANEL, GAP = 400, 12  # of the sheet
 NEAR = 3.0  # pixels from an interface
 BAND = 4.0  # pixels from the outline of an example: its rim; one more, as no outline is quite like another

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.bench import BENCHES, Figure, Skipped
-from app.bench.clock import best, copying
+from bench import BENCHES, Figure, Skipped
+from bench.clock import best, copying
 
 STORED = Path(__file__).parent / "ratios.json"
 QUICK = (
@@ -71,6 +71,15 @@ def test_a_file_of_another_kind_is_not_overwritten(capsys, tmp_path):
 def test_an_unknown_name_is_refused(capsys):
     assert main(["bench", "nothing"]) == 2
     assert "nothing" in capsys.readouterr().err
+
+
+def test_an_installed_program_has_no_benchmarks(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("app.cli.bench.TESTS", tmp_path)
+    for words in (["bench"], ["bench", "view", "--small"], ["bench", "--json"]):
+        assert main(words) == 1
+        told = capsys.readouterr().err
+        assert told.count("\n") == 1
+        assert "benchmarks come with the source" in told
 
 
 @pytest.mark.parametrize(

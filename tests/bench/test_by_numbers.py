@@ -1,10 +1,11 @@
 """Painting with examples against texture-by-numbers (Ritter et al. 2006, section 8): only the former has rims where two
 textures touch that do not touch in the example."""
 
-import by_numbers
-import five_textures as five
 import numpy as np
 import pytest
+
+from bench import by_numbers
+from bench import five_textures as five
 
 pytestmark = [pytest.mark.nightly, pytest.mark.timeout(300)]
 

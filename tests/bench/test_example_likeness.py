@@ -5,10 +5,10 @@ import subprocess
 
 import numpy as np
 import pytest
-from likeness import likeness, shuffled
 from PIL import Image
 
-from app.bench.example import filling, photos
+from bench.example import filling, photos
+from bench.likeness import likeness, shuffled
 
 pytestmark = [pytest.mark.nightly, pytest.mark.timeout(600)]
 SIDE = 512

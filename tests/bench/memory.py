@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench import Figure
-from app.bench.display import ROOT, python
+from bench import Figure
+from bench.display import children, python
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
@@ -34,7 +34,7 @@ BRUSH = Brush(radius=12.0, hardness=0.7, opacity=0.8, colour="#305070")
 def measure(small: bool = False) -> Iterator[Figure]:
     count = 10 if small else STROKES
     done = subprocess.run(
-        python("-m", "app.bench.memory", str(count)), capture_output=True, text=True, cwd=ROOT, check=True
+        python("-m", "bench.memory", str(count)), capture_output=True, text=True, env=children(), check=True
     )
     told = json.loads(done.stdout)
     per_stroke = f"{told['history'] / count / 1024:.0f} KiB a stroke; painting {told['painting'] >> 20} MiB"

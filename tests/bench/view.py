@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from app.bench import Figure
-from app.bench.clock import best, copying
+from bench import Figure
+from bench.clock import best, copying
 from engine.canvas.evaluate import evaluate, step
 from engine.canvas.layers import layers
 from engine.canvas.store import Pyramid

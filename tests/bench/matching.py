@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from app.bench import Figure, Skipped
-from app.bench.clock import Work, best, seconds, slowness
+from bench import Figure, Skipped
+from bench.clock import Work, best, seconds, slowness
 from engine.numeric import histograms, steerable
 from engine.numeric.address import Rect
 from engine.numeric.colour_axes import axes_of

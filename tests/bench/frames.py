@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from app.bench import Figure, Skipped
-from app.bench.display import NEEDED, available, display, python
+from bench import Figure, Skipped
+from bench.display import NEEDED, available, display, python
 
 BLOCKS = 8
 FRAME = 1 / 60  # seconds, as in `panning`
@@ -56,7 +56,7 @@ def window(blocks: int, more: Mapping[str, str] = MappingProxyType({})) -> dict[
     """See `panning`; `more`: variables of its environment."""
     with tempfile.TemporaryDirectory() as folder, display() as environment:
         done = subprocess.run(
-            python("-m", "app.bench.panning", str(blocks)),
+            python("-m", "bench.panning", str(blocks)),
             env={**environment, **more, "XDG_CONFIG_HOME": folder, "XDG_DATA_HOME": folder},
             capture_output=True,
             text=True,

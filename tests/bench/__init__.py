@@ -36,7 +36,7 @@ class Skipped:
     reason: str
 
 
-# Name, what it measures.  The module app.bench.<name> does it.
+# Name, what it measures.  The module bench.<name> does it.
 BENCHES = {
     "view": "a 1920 x 1080 view from its parent level, against copying the bytes that it moves",
     "dab": "soft dabs into the coverage of a stroke, and through texture into pixels",

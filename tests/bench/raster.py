@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from app.bench import Figure
-from app.bench.clock import best, copying
+from bench import Figure
+from bench.clock import best, copying
 from engine.brush import kinds
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from app.bench import Figure, libmypaint
-from app.bench.clock import best, copying, slowness
+from bench import Figure, libmypaint
+from bench.clock import best, copying, slowness
 from engine.brush import kinds
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve

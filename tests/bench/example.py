@@ -18,8 +18,8 @@ from threading import Event
 
 import numpy as np
 
-from app.bench import Figure, Skipped
-from app.bench.clock import Work, best, second_core, slowness
+from bench import Figure, Skipped
+from bench.clock import Work, best, second_core, slowness
 from engine.files.atomic import replacing
 from engine.files.png_writer import write_png
 from engine.numeric.address import Rect

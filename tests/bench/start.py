@@ -6,9 +6,9 @@ import subprocess
 import time
 from collections.abc import Iterator
 
-from app.bench import Figure, Skipped
-from app.bench.clock import slowness
-from app.bench.display import NEEDED, available, display, python
+from bench import Figure, Skipped
+from bench.clock import slowness
+from bench.display import NEEDED, available, display, python
 
 REPEATS = 7
 MYPAINT = 0.42  # seconds to its first frame, second start (of another run)

@@ -9,9 +9,9 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from app.bench import Figure, Skipped
-from app.bench.display import NEEDED, ROOT, available, display, python
 from app.canvas.view import Place, View, place_of_pixel
+from bench import Figure, Skipped
+from bench.display import NEEDED, ROOT, available, display, python
 from engine.archive.saving import Snapshot, save
 from engine.painting.commands import parse
 from engine.painting.recording import read
@@ -104,7 +104,7 @@ def window(painting: Painting, place: Place, levels: int) -> dict:
         save(file, Snapshot(painting))
         where = (str(v) for v in (place.x, place.y, place.exponent, levels, levels / PACE))
         done = subprocess.run(
-            python("-m", "app.bench.zooming", str(file), *where),
+            python("-m", "bench.zooming", str(file), *where),
             env={**environment, "XDG_CONFIG_HOME": folder},
             capture_output=True,
             text=True,

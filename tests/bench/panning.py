@@ -1,5 +1,5 @@
 """The real window panning by itself, while an example grows and over the same painting when it has: `python -m
-app.bench.panning BLOCKS`.
+bench.panning BLOCKS`.
 
 Prints one JSON object.  The view follows the pointer in a circle, as if the middle button were held; it moves 60 times
 a second, and a frame's time is from when it moved until that is on the screen.  A thread
@@ -18,11 +18,11 @@ from dataclasses import replace
 from threading import Event, Thread
 from typing import Any
 
-from app.bench.zooming import processor_times, until
 from app.desk import example_use
 from app.input.events import LEFT, MIDDLE, PenEvent
 from app.loop import SWITCH, opened
 from app.window import Window
+from bench.zooming import processor_times, until
 from engine.painting.commands import Undo
 from engine.studio.requests import Do
 from engine.studio.worker import Worker

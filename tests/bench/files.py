@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench import Figure
-from app.bench.clock import seconds, slowness
+from bench import Figure
+from bench.clock import seconds, slowness
 from engine.archive.imports import pasted
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save

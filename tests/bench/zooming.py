@@ -1,4 +1,4 @@
-"""The real window zooming by itself: `python -m app.bench.zooming FILE X Y EXPONENT LEVELS SECONDS`.
+"""The real window zooming by itself: `python -m bench.zooming FILE X Y EXPONENT LEVELS SECONDS`.
 
 Prints one JSON object.  A frame's time is from the end of the frame before to its own end, without the rest the
 window takes where it is early.

@@ -21,6 +21,12 @@ def available() -> bool:
     return shutil.which("Xvfb") is not None and all(find_spec(n) for n in ("imgui_bundle", "glfw", "moderngl"))
 
 
+def children() -> dict[str, str]:
+    """The environment of programs that import this checkout's code and benchmarks."""
+    paths = [str(ROOT), str(ROOT / "tests"), os.environ.get("PYTHONPATH", "")]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in paths if path)}
+
+
 @contextmanager
 def display() -> Iterator[dict[str, str]]:
     """An environment for programs that shall open their windows there."""
@@ -33,8 +39,7 @@ def display() -> Iterator[dict[str, str]]:
             number = told.readline().strip()
         if not number:
             raise OSError("Xvfb did not start")
-        paths = [str(ROOT), os.environ.get("PYTHONPATH", "")]
-        yield {**os.environ, "DISPLAY": f":{number}", "PYTHONPATH": os.pathsep.join(p for p in paths if p)}
+        yield {**children(), "DISPLAY": f":{number}"}
     finally:
         server.terminate()
         server.wait(10)

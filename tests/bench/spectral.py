@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from app.bench import Figure, Skipped
-from app.bench.clock import best
+from bench import Figure, Skipped
+from bench.clock import best
 from engine.numeric.address import Rect
 from engine.numeric.shapes import drawn
 from engine.numeric.sparse import Impulse, Noise, field

@@ -8,8 +8,8 @@ from functools import partial
 
 import numpy as np
 
-from app.bench import Figure, libmypaint
-from app.bench.clock import best, slowness
+from bench import Figure, libmypaint
+from bench.clock import best, slowness
 from engine.brush.settings import Brush, Component
 from engine.session.apply import Painting
 from engine.strokes.paint_stroke import LiveStroke
