@@ -138,11 +138,6 @@ class View:
             x + math.floor(fx - w), y + math.floor(fy - h), x + math.ceil(fx + w), y + math.ceil(fy + h)
         )  # fmt: skip
 
-    def panned(self, dx: float, dy: float) -> View:
-        """The picture moved by (dx, dy) screen pixels."""
-        x, y = self._canvas_vector(-dx, -dy)
-        return replace(self, centre=self.centre.moved(x, y, self.level))
-
     def zoomed(self, levels: float) -> View:
         """Zoomed about the middle of the screen; the centre stays exactly the same."""
         whole = math.floor(self.fraction + levels)

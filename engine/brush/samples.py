@@ -1,29 +1,17 @@
-"""Pen samples: the record of one, and what becomes of hostile ones."""
+"""Pen samples: the columns of their table, and what becomes of hostile ones."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from engine.brush.checks import BrushError
 
-COLUMNS = 6  # x, y, pressure, tilt_x, tilt_y, t
+# x, y in pixels of the stroke's level from its origin; pressure 0..1; tilt_x, tilt_y in degrees; t in seconds.
+COLUMNS = 6
 REACH = 2.0**31  # px from the stroke's origin
 _DEFAULTS = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
-
-
-class PenSample(NamedTuple):
-    """One event of a pen: x, y in pixels of the stroke's level from its origin, pressure 0..1, tilt in degrees, t in
-    seconds."""
-
-    x: float
-    y: float
-    pressure: float = 1.0
-    tilt_x: float = 0.0
-    tilt_y: float = 0.0
-    t: float = 0.0
 
 
 def cleaned(points: np.ndarray | Sequence[Sequence[float]]) -> tuple[np.ndarray, int]:

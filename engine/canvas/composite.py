@@ -7,7 +7,7 @@ without a copy.  A block is read from the top layer down, and reading stops at a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -16,7 +16,6 @@ import numpy as np
 from engine.canvas.layers import Group, Layer, passes_through
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
-from engine.numeric.colour import to_rgba8
 
 BLOCK = TILE
 
@@ -88,18 +87,6 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     for place, pixels in blocks(root, level, rect, read):
         rows, columns = place.slices(rect)
         out[:, rows, columns] = 0 if pixels is None else pixels
-    return out
-
-
-def composite_pixels(
-    root: Group, level: int, rect: Rect, read: Read, convert: Callable[[np.ndarray], np.ndarray] = to_rgba8
-) -> np.ndarray:
-    """The picture of `rect` as pixels (h, w, 4) of a conversion of `engine.numeric.colour`, made block by block."""
-    dtype = convert(np.zeros((4, 1, 1), np.float32)).dtype
-    out = np.zeros((rect.height, rect.width, 4), dtype)
-    for place, pixels in blocks(root, level, rect, read):
-        if pixels is not None:
-            out[place.slices(rect)] = convert(pixels)
     return out
 
 

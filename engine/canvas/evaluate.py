@@ -120,7 +120,7 @@ def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache |
     coarsest = pyramid.coarsest
     while coarsest is not None and start > coarsest:
         start -= 1
-        rects.append(rects[-1].parents().evened() if start != level else rects[-1])
+        rects.append(rects[-1].parents().evened())
         known, value = _known(pyramid, start, rects[-1], cache)
         if known:
             rects.pop()

@@ -198,11 +198,6 @@ def is_locked(root: Group, name: str) -> bool:
     return find(root, name).locked or any(group.locked for group in ancestors(root, name))
 
 
-def is_shown(root: Group, name: str) -> bool:
-    """Whether the node and all groups around it are visible."""
-    return find(root, name).visible and all(group.visible for group in ancestors(root, name))
-
-
 def next_id(root: Group) -> int:
     return 1 + max((node.id for node in walk(root)), default=0)
 

@@ -25,8 +25,6 @@ from engine.strokes import example_textures
 from engine.texture.image import ImageSource
 from engine.texture.table import KINDS
 
-LATER = ("solid",)
-
 NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one is repeated
 
 
@@ -37,8 +35,7 @@ def define(command: DefineTexture, root: Group, around: Around) -> Texture:
     """
     make = MAKERS.get(command.maker)
     if make is None:
-        note = " (it comes in a later release)" if command.maker in LATER else ""
-        raise FormatError("maker", f"{command.maker!a}{note}", f"one of {', '.join(MAKERS)}")
+        raise FormatError("maker", f"{command.maker!a}", f"one of {', '.join(MAKERS)}")
     texture = make(command, root, around)
     texture.instance({}, 0, 0)  # its parameters are checked where it is defined, not where it is used
     return texture

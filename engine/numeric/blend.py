@@ -303,7 +303,6 @@ _ROWS = (
     Blend("dst-atop", "Backfill", "Keeps what is below on the layer's shape", _porter_duff(_dst_atop), True),
 )
 BLENDS: dict[str, Blend] = {row.name: row for row in _ROWS}
-BY_OP: dict[str, Blend] = {row.op: row for row in _ROWS}
 
 
 @njit(cache=True, nogil=True)

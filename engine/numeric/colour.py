@@ -1,11 +1,10 @@
-"""Colours: hex names, OkLCH, and the way between our planes and 8- or 16-bit pixels.
+"""The way between our planes and 8- or 16-bit pixels.
 
 Planes are float32 (4, h, w), premultiplied and sRGB-encoded.  Files hold straight alpha; screens want it premultiplied.
 """
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Callable
 
@@ -16,98 +15,6 @@ from numba.extending import register_jitable
 from engine.numeric.blend import flat
 from engine.numeric.grid import snap
 
-_HEX = re.compile(r"#[0-9a-fA-F]{6}", re.ASCII)
-
-# --- names -----------------------------------------------------------------------------------------------------------
-
-
-def parse_hex(text: object) -> tuple[float, float, float]:
-    """(red, green, blue) in 0..1, sRGB-encoded, of "#rrggbb"; ValueError for anything else."""
-    if not isinstance(text, str) or not _HEX.fullmatch(text):
-        found = repr(text)
-        raise ValueError(f'colour: found {found if len(found) <= 40 else found[:37] + "..."}, expected "#rrggbb"')
-    return int(text[1:3], 16) / 255, int(text[3:5], 16) / 255, int(text[5:7], 16) / 255
-
-
-def to_hex(rgb: tuple[float, float, float]) -> str:
-    """ "#rrggbb" of a colour in 0..1, rounded to nearest and clipped."""
-    return "#" + "".join(f"{min(255, max(0, int(255 * value + 0.5))):02x}" for value in rgb)
-
-
-# --- OkLCH (Björn Ottosson, "A perceptual color space for image processing", 2020; matrices of his 2021 revision) ----
-
-_LMS_FROM_LINEAR = np.array(
-    [
-        [0.4122214708, 0.5363325363, 0.0514459929],
-        [0.2119034982, 0.6806995451, 0.1073969566],
-        [0.0883024619, 0.2817188376, 0.6299787005],
-    ]
-)
-_LAB_FROM_LMS = np.array(
-    [
-        [0.2104542553, 0.7936177850, -0.0040720468],
-        [1.9779984951, -2.4285922050, 0.4505937099],
-        [0.0259040371, 0.7827717662, -0.8086757660],
-    ]
-)
-_LINEAR_FROM_LMS = np.linalg.inv(_LMS_FROM_LINEAR)  # computed, so that there and back is exact to rounding
-_LMS_FROM_LAB = np.linalg.inv(_LAB_FROM_LMS)
-
-
-def linear_from_srgb(encoded: np.ndarray) -> np.ndarray:
-    """Linear light of sRGB-encoded values (IEC 61966-2-1), float64; odd in its argument, so it takes any value."""
-    x = np.asarray(encoded, np.float64)
-    a = np.abs(x)
-    return np.copysign(np.where(a <= 0.04045, a / 12.92, ((a + 0.055) / 1.055) ** 2.4), x)
-
-
-def srgb_from_linear(linear: np.ndarray) -> np.ndarray:
-    """Inverse of `linear_from_srgb`."""
-    x = np.asarray(linear, np.float64)
-    a = np.abs(x)
-    return np.copysign(np.where(a <= 0.0031308, a * 12.92, 1.055 * a ** (1 / 2.4) - 0.055), x)
-
-
-def oklch_from_srgb(rgb: np.ndarray) -> np.ndarray:
-    """Lightness 0..1, chroma (0 to about 0.32 within sRGB) and hue in degrees 0..360 of sRGB-encoded (..., 3)."""
-    lms = np.cbrt(linear_from_srgb(rgb) @ _LMS_FROM_LINEAR.T)
-    lightness, a, b = np.moveaxis(lms @ _LAB_FROM_LMS.T, -1, 0)
-    return np.stack([lightness, np.hypot(a, b), np.degrees(np.arctan2(b, a)) % 360.0], axis=-1)
-
-
-def srgb_from_oklch(lch: np.ndarray) -> np.ndarray:
-    """sRGB-encoded (..., 3) of lightness, chroma, hue in degrees; outside 0..1 where sRGB has no such colour."""
-    lightness, chroma, hue = np.moveaxis(np.asarray(lch, np.float64), -1, 0)
-    angle = np.radians(hue)
-    lab = np.stack([lightness, chroma * np.cos(angle), chroma * np.sin(angle)], axis=-1)
-    return srgb_from_linear((lab @ _LMS_FROM_LAB.T) ** 3 @ _LINEAR_FROM_LMS.T)
-
-
-def displayable(rgb: np.ndarray, slack: float = 1e-4) -> np.ndarray:
-    """Whether sRGB-encoded (..., 3) lies within 0..1, up to `slack` (less than half a step of 8 bits)."""
-    rgb = np.asarray(rgb)
-    return np.asarray(((rgb >= -slack) & (rgb <= 1 + slack)).all(axis=-1))
-
-
-def fitted_srgb_from_oklch(lch: np.ndarray) -> np.ndarray:
-    """sRGB-encoded (..., 3) in 0..1: the colour itself or, outside sRGB, the one with as much chroma as fits.
-
-    Lightness and hue are kept (CSS Color 4, section 13.2, reduced to its bisection).
-    """
-    lch = np.array(lch, np.float64)
-    lch[..., 0] = np.clip(lch[..., 0], 0, 1)
-    slack = 1e-9  # rounding; near black a larger one would let visible chroma through
-    fits, low, high = displayable(srgb_from_oklch(lch), slack), np.zeros(lch.shape[:-1]), lch[..., 1]
-    for _ in range(16):
-        middle = (low + high) / 2
-        inside = displayable(srgb_from_oklch(np.stack([lch[..., 0], middle, lch[..., 2]], axis=-1)), slack)
-        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
-    lch[..., 1] = np.where(fits, lch[..., 1], low)
-    out: np.ndarray = np.clip(srgb_from_oklch(lch), 0, 1)
-    return out
-
-
-# --- planes and pixels -----------------------------------------------------------------------------------------------
 # A pixel is packed into one integer, so that loads and stores vectorise.
 
 _LITTLE = sys.byteorder == "little"

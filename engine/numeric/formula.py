@@ -6,7 +6,7 @@ Arithmetic over the names of NAMES, the functions of FUNCTIONS and numbers, in P
 
 The reader is this module's own, so nothing but these can be said: there are no attributes, strings, subscripts,
 assignments or calls of anything else.  Size and depth are bounded.  A tree is nested tuples: ("number", value),
-("name", name), or (operation, parts ...), the operation being a row of OPERATIONS.
+("name", name), or (operation, parts ...), the operation being a row of _PRINTED.
 """
 
 from __future__ import annotations
@@ -49,7 +49,6 @@ _PRINTED = {  # what is written for an operation, once its parts are
     **{sign: f"(1.0 if {{0}} {sign} {{1}} else 0.0)" for sign in _COMPARISONS},
     **{name: f"_{name}({', '.join(('{0}', '{1}', '{2}')[:count])})" for name, count in FUNCTIONS.items()},
 }
-OPERATIONS = tuple(_PRINTED)
 _TOKEN = re.compile(
     r"[ \t\r\n]*(?:(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|([A-Za-z_]\w*)|(\*\*|<=|>=|.))", re.ASCII
 )

@@ -1,6 +1,6 @@
 """How far the subbands of pictures are from an example's, and how that grows with each of their pixels.
 
-The measure is that of quality.py: the 1-Wasserstein distance of histograms (Heeger & Bergen 1995, section 3.2), in
+The measure is the 1-Wasserstein distance of histograms (Heeger & Bergen 1995, section 3.2), in
 units of the example's standard deviation, but rounded off near nought, so that it has a slope there too.
 """
 

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from app.desk import presets as palette
-from engine.brush import kinds, presets
+from engine.brush import kinds
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.makers.definitions import used
@@ -59,7 +59,7 @@ def test_script_writes_the_same_recording_again(tmp_path):
 
 
 def test_presets_are_whole_and_can_paint():
-    found, faults = presets.load_folder(PALETTES / "brushes")
+    found, faults = palette.load(PALETTES / "brushes")
     assert not faults
     assert len(found) >= 16
     assert len({p.name for p in found}) == len(found)

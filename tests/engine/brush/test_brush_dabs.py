@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from engine.brush.checks import BrushError
 from engine.brush.dabs import SEGMENT_CAP, STROKE_CAP, Stroker
 from engine.brush.dynamics import evaluate, knots_of, respond, response
-from engine.brush.samples import PenSample, cleaned
+from engine.brush.samples import cleaned
 from engine.brush.settings import Brush, from_json
 
 POINTS = st.lists(st.tuples(st.floats(-200, 200), st.floats(-200, 200), st.floats(0, 1)), min_size=1, max_size=25).map(
@@ -73,8 +73,8 @@ def test_spacing_is_in_radii_and_carries_over():
 
 def test_one_point_makes_one_dab():
     stroker = Stroker(Brush())
-    assert len(stroker.add(np.array([PenSample(3.0, 4.0, 0.5)]))) == 1
-    assert len(stroker.add(np.array([PenSample(3.0, 4.0, 1.0)]))) == 0
+    assert len(stroker.add(np.array([(3.0, 4.0, 0.5, 0.0, 0.0, 0.0)]))) == 1
+    assert len(stroker.add(np.array([(3.0, 4.0, 1.0, 0.0, 0.0, 0.0)]))) == 0
     assert len(stroker.add(np.empty((0, 6)))) == 0
 
 

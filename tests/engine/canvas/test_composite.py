@@ -6,11 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.canvas import layers
-from engine.canvas.composite import BLOCK, blocks, composite, composite_pixels, steps
+from engine.canvas.composite import BLOCK, blocks, composite, steps
 from engine.canvas.layers import EMPTY, Group, Layer
 from engine.numeric.address import Rect
 from engine.numeric.blend import BLENDS, blend
-from engine.numeric.colour import to_premul8, to_rgba8, to_rgba16
 from engine.numeric.grid import snapped
 
 CANVAS = Rect(-200, -150, 120, 140)
@@ -199,16 +198,6 @@ def test_result_is_displayable_and_can_go_to_a_given_array():
     assert out.min() >= 0
     assert out.max() <= 1
     assert (out[:3] <= out[3]).all()
-
-
-@pytest.mark.parametrize("convert", [to_rgba8, to_rgba16, to_premul8])
-def test_pixels_are_those_of_the_whole_picture(convert):
-    read = Pictures(empty={"c"})
-    root = pile(Layer(1, "a"), Layer(2, "b", blend="screen"), Layer(3, "c"))
-    pixels = composite_pixels(root, 3, CANVAS, read, convert)
-    assert np.array_equal(pixels, convert(composite(root, 3, CANVAS, read)))
-    assert pixels.dtype == (np.uint16 if convert is to_rgba16 else np.uint8)
-    assert not composite_pixels(EMPTY, 3, CANVAS, read, convert).any()
 
 
 def test_far_from_the_origin():

@@ -84,8 +84,6 @@ def test_locks_and_visibility_are_inherited(tree):
     assert not layers.is_locked(tree, "Roofs")
     assert layers.is_locked(layers.set_fields(tree, "Land", locked=True), "Roofs")
     assert layers.is_locked(layers.set_fields(tree, "Roofs", locked=True), "Roofs")
-    assert layers.is_shown(tree, "Roofs")
-    assert not layers.is_shown(layers.set_fields(tree, "Town", visible=False), "Roofs")
     assert [group.name for group in layers.ancestors(tree, "Roofs")] == ["Land", "Town"]
 
 

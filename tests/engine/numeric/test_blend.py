@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.numeric.blend import BLENDS, BY_OP, blend, flat, opaque, place
+from engine.numeric.blend import BLENDS, blend, flat, opaque, place
 from engine.numeric.grid import snapped
 
 TOLERANCE = 1e-5
@@ -141,7 +141,7 @@ colour = st.tuples(channel, channel, channel, channel)
 def test_the_table_holds_the_operators_of_openraster():
     assert len(BLENDS) == 20
     assert set(BLENDS) == set(SPECIFIED) | set(PORTER_DUFF)
-    assert BY_OP["svg:color-dodge"] is BLENDS["color-dodge"]
+    assert BLENDS["color-dodge"].op == "svg:color-dodge"
     assert len({row.label for row in BLENDS.values()}) == 20
     assert all(row.tooltip for row in BLENDS.values())
 

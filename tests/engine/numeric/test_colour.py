@@ -1,82 +1,10 @@
-"""Colour names, OkLCH, and conversions between planes and pixels."""
-
-import re
+"""Conversions between planes and pixels."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from engine.numeric import colour
 from engine.numeric.grid import Q, snapped
-
-# --- names
-
-
-def test_hex_there_and_back():
-    assert colour.parse_hex("#ff8000") == (1.0, 128 / 255, 0.0)
-    assert colour.parse_hex("#A0b0C0") == colour.parse_hex("#a0b0c0")
-    for value in range(256):
-        assert colour.to_hex(colour.parse_hex(f"#{value:02x}00{255 - value:02x}")) == f"#{value:02x}00{255 - value:02x}"
-    assert colour.to_hex((-1, 0.5, 2)) == "#0080ff"
-
-
-@pytest.mark.parametrize(
-    "text", ["#fff", "ff8000", "#ff80001", "#ff800", "#gg0000", "#ff8000\n", " #ff8000", "#१२३४५६", "", None, 7]
-)
-def test_hex_is_strict(text):
-    with pytest.raises(ValueError, match=re.escape(f"colour: found {text!r}, expected") + ' "#rrggbb"'):
-        colour.parse_hex(text)
-
-
-def test_long_nonsense_is_cut_in_the_message():
-    with pytest.raises(ValueError, match="expected") as caught:
-        colour.parse_hex("x" * 10**6)
-    assert len(str(caught.value)) < 100
-
-
-# --- OkLCH
-
-
-def test_known_colours_in_oklch():
-    """CSS Color 4, the values of its sample conversions."""
-    known = {
-        "#ffffff": (1, 0, None),
-        "#000000": (0, 0, None),
-        "#ff0000": (0.62796, 0.25768, 29.234),
-        "#00ff00": (0.86644, 0.29483, 142.495),
-        "#0000ff": (0.45201, 0.31321, 264.052),
-    }
-    for name, (lightness, chroma, hue) in known.items():
-        found = colour.oklch_from_srgb(np.array(colour.parse_hex(name)))
-        assert found[:2] == pytest.approx([lightness, chroma], abs=2e-4)
-        if hue is not None:
-            assert found[2] == pytest.approx(hue, abs=0.05)
-
-
-def test_oklch_there_and_back():
-    rgb = np.random.default_rng(0).random((50, 40, 3))
-    assert np.abs(colour.srgb_from_oklch(colour.oklch_from_srgb(rgb)) - rgb).max() < 1e-7
-    wide = rgb * 3 - 1
-    assert np.abs(colour.srgb_from_linear(colour.linear_from_srgb(wide)) - wide).max() < 1e-12
-
-
-@settings(deadline=None, max_examples=40)
-@given(st.floats(-0.1, 1.1), st.floats(0, 0.5), st.floats(-720, 720))
-def test_fitted_colours_keep_lightness_and_hue(lightness, chroma, hue):
-    rgb = colour.fitted_srgb_from_oklch(np.array([lightness, chroma, hue]))
-    assert rgb.min() >= 0
-    assert rgb.max() <= 1
-    found = colour.oklch_from_srgb(rgb)
-    assert found[0] == pytest.approx(min(1, max(0, lightness)), abs=2e-3)
-    assert found[1] <= chroma + 1e-3
-    if found[1] > 0.02:
-        assert abs((found[2] - hue + 180) % 360 - 180) < 1
-    if colour.displayable(colour.srgb_from_oklch(np.array([lightness, chroma, hue])), 0) and 0 <= lightness <= 1:
-        assert found[1] == pytest.approx(chroma, abs=1e-3)
-
-
-# --- pixels
 
 
 def every_pair(top):

@@ -119,7 +119,6 @@ REFUSED = {
     "unknown texture": ([stroke(brush={"ink": [{"texture": "moss"}]})], "brush.ink[0].texture"),
     "texture's parameter": ([stroke(brush={"ink": [{"texture": "rock", "period": 0}]})], "brush.ink[0].period"),
     "a huge stroke": ([stroke(points=[[0, 0], [1e7, 1e7]], brush={"radius": 4000})], "tiles"),
-    "later maker": ([{"do": "texture", "name": "t", "maker": "solid"}], "comes in a later release"),
     "example of nothing": ([{"do": "texture", "name": "t", "maker": "example"}], "path: found nothing"),
     "unknown maker": ([{"do": "texture", "name": "t", "maker": "moss"}], "maker: found 'moss', expected one of"),
     "maker's parameter": ([{"do": "texture", "name": "t", "maker": "rock", "period": "x"}], "period: found"),

@@ -4,12 +4,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+import quality
 import specimens
+from quality import noise_like, unlikeness
 
 from engine.numeric.colour_axes import axes_of
-from engine.texture import matching, quality
+from engine.texture import matching
 from engine.texture.matching import Shape, analysed, matched, noise, picture, started
-from engine.texture.quality import noise_like, unlikeness
 
 SIDE = 128
 

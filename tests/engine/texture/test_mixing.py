@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 import specimens
+from quality import channels_of, unlikeness
 
 from engine.numeric import histograms
 from engine.numeric.colour_axes import axes_of
 from engine.texture.matching import PYRAMIDS, Shape, analysed, matched, noise, picture
 from engine.texture.mixing import MIXES, Mix, average, bands, coarsened, palette
-from engine.texture.quality import channels_of, unlikeness
 
 SIDE = 96
 FIRST, SECOND = specimens.granite((SIDE, SIDE)), specimens.bark((SIDE, SIDE))

@@ -6,12 +6,12 @@ import cutting
 import numpy as np
 import pytest
 import specimens
+from quality import channels_of, unlikeness
 from scipy.ndimage import map_coordinates
 
 from engine.numeric import histograms
 from engine.texture import solid
 from engine.texture.matching import Shape, analysed
-from engine.texture.quality import channels_of, unlikeness
 from engine.texture.settling import Settling
 
 SIDE = 32

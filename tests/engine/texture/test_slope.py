@@ -5,10 +5,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 import specimens
+from quality import channels_of
 
 from engine.numeric import steerable
 from engine.texture.matching import Shape, analysed
-from engine.texture.quality import channels_of
 from engine.texture.slope import beyond, folded, mirrored, sloped, wanted_of
 
 SIDE = 32

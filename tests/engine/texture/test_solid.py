@@ -6,12 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 import specimens
+from quality import noise_like, unlikeness
 from scipy.ndimage import map_coordinates
 
 from engine.numeric.colour_axes import axes_of
 from engine.texture import matching, solid
 from engine.texture.matching import Shape, analysed, matched, picture
-from engine.texture.quality import noise_like, unlikeness
 
 SIDE = 32
 

@@ -6,8 +6,7 @@ import cutting as planes
 import numpy as np
 import pytest
 import specimens
-
-from engine.texture.quality import unlikeness
+from quality import unlikeness
 
 pytestmark = [pytest.mark.nightly, pytest.mark.timeout(300)]
 
