@@ -29,10 +29,8 @@ def main(argv: list[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except BaseException as error:
-        from app.cli.outcome import begin_again, reported
+        from app.cli.outcome import reported
 
-        if argv is None:
-            begin_again(error)
         return reported(error)
 
 

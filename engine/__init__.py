@@ -1,7 +1,9 @@
 """The engine: arrays, textures, brushes, the sparse pyramid and paintings.  Imports no window toolkit."""
 
+import atexit
 import ctypes
 import os
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -30,15 +32,40 @@ def _keep_freed_memory() -> None:
     mallopt(mmap_threshold, _BY_ITSELF)
 
 
-def _compiled_kernels_folder() -> str:
-    """A folder only the user can write to: numba reads its cache of compiled kernels with pickle."""
+def _kernels_folder() -> str:
+    """A folder only the user can write to: compiled kernels are read with pickle.
+
+    Where there is none, one for this process and those that it starts.
+    """
     folder = Path(platformdirs.user_cache_dir("inkfall")) / "kernels"
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError:  # a home that cannot be written to: compiled anew at every start
-        return tempfile.mkdtemp(prefix="inkfall-kernels-")
-    return str(folder)
+        if _own(folder):
+            return str(folder)
+    except OSError:  # a home that cannot be written to
+        pass
+    return _passing_folder()
+
+
+def _own(folder: Path) -> bool:
+    """Whether nobody else can write to a folder, as far as the system tells."""
+    if not hasattr(os, "getuid"):
+        return True
+    about = folder.stat()
+    return about.st_uid == os.getuid() and not about.st_mode & 0o022
+
+
+def _passing_folder() -> str:
+    """A folder that goes with the process; one that cannot be made where that fails: nothing is kept then."""
+    try:
+        folder = tempfile.mkdtemp(prefix="inkfall-kernels-")
+    except OSError:
+        return os.path.join(os.devnull, "kernels")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
 
 
 _keep_freed_memory()
-os.environ.setdefault("NUMBA_CACHE_DIR", _compiled_kernels_folder())
+if "NUMBA_CACHE_DIR" not in os.environ:
+    os.environ["NUMBA_CACHE_DIR"] = _kernels_folder()
+os.environ.setdefault("NUMBA_CACHE_LOCATOR_CLASSES", "engine.kernel_cache.Locator")

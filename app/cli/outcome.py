@@ -6,12 +6,10 @@ import os
 import sys
 import traceback
 from contextlib import suppress
-from pathlib import Path
 
 DONE, FAILED, WRONG = 0, 1, 2
 # Set by those who look for a fault in the program: then the whole trace is shown.
 TRACE = "INKFALL_TRACEBACK"
-REPEATED = "INKFALL_KERNELS_CLEARED"  # set for the second attempt
 
 
 class Refused(Exception):
@@ -77,23 +75,6 @@ def _judged_by_engine(error: BaseException) -> tuple[int, str]:
     where = traceback.extract_tb(error.__traceback__)
     place = f" ({os.path.basename(where[-1].filename)}, line {where[-1].lineno})" if where else ""
     return FAILED, f"a fault in Inkfall: {type(error).__name__}: {error}{place}; {TRACE}=1 shows more"
-
-
-def begin_again(error: BaseException) -> None:
-    """If the cache of compiled kernels is damaged (a loss of power does that): clears it and runs the command anew.
-
-    Returns if that is not what is wrong, or did not help.
-    """
-    frames = traceback.extract_tb(error.__traceback__)
-    cached = os.path.join("numba", "core", "caching.py")
-    ordinary = isinstance(error, OSError | MemoryError | KeyboardInterrupt)
-    if ordinary or os.environ.get(REPEATED) or not any(frame.filename.endswith(cached) for frame in frames):
-        return
-    for path in Path(os.environ["NUMBA_CACHE_DIR"]).rglob("*.nb[ic]"):
-        with suppress(OSError):
-            path.unlink()
-    os.environ[REPEATED] = "1"
-    os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
 def _give_up_standard_output() -> None:

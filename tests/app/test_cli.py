@@ -372,7 +372,7 @@ def test_a_damaged_cache_of_kernels_is_cleared(tmp_path):
     words = ["play", path, "--png", tmp_path / "o.png"]
     cache = tmp_path / "kernels"
     assert start(*words, stdout=subprocess.DEVNULL, cache=cache).communicate(timeout=120)[1] == ""
-    damaged = list(cache.rglob("*.nb[ic]"))
+    damaged = list(cache.rglob("*.kernel"))
     assert damaged
     for number, file in enumerate(damaged):
         file.write_bytes(file.read_bytes()[: (0, 30, 60)[number % 3]])

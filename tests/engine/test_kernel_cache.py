@@ -1,0 +1,180 @@
+"""Compiled kernels are kept whole, for what they depend on, and wherever that is possible."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from engine import kernel_cache
+
+ROOT = Path(__file__).parents[2]
+TOY = "from numba import njit\n@njit(cache=True)\ndef double(x):\n    return 2 * x\n"
+PROGRAM = """
+import sys
+sys.path[:0] = sys.argv[1:3]
+import engine, toy
+print(toy.double(21), sum(toy.double.stats.cache_hits.values()))
+"""
+
+
+class Toy:
+    """A kernel in a folder of its own, called by a new process each time."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.cache, self.home = folder, folder / "cache", folder / "home"
+        self.environment = {**os.environ, "XDG_CACHE_HOME": str(self.home), "NUMBA_CACHE_DIR": str(self.cache)}
+        self.write(TOY)
+
+    def write(self, text: str) -> None:
+        (self.folder / "toy.py").write_text(text)
+        os.utime(self.folder / "toy.py", (1e9, 1e9))  # as installed from a wheel, where every version has the same
+
+    def call(self, program: str = PROGRAM) -> list[int]:
+        """The result, and how many kernels came from the cache."""
+        words = [sys.executable, "-B", "-c", program, str(ROOT), str(self.folder)]
+        done = subprocess.run(
+            words, capture_output=True, text=True, env=self.environment, cwd=self.folder, timeout=100, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        assert not done.stderr
+        return [int(word) for word in done.stdout.split()]
+
+    def kernels(self) -> list[Path]:
+        return sorted(self.folder.rglob(f"*{kernel_cache.ENDING}"))
+
+
+@pytest.fixture
+def toy(tmp_path):
+    return Toy(tmp_path)
+
+
+def test_a_kernel_is_compiled_once(toy):
+    assert toy.call() == [42, 0]
+    assert toy.call() == [42, 1]
+    assert len(toy.kernels()) == 1
+    assert toy.kernels()[0].is_relative_to(toy.cache)
+
+
+@pytest.mark.parametrize("damage", ["empty", "half", "flipped", "no pickle"])
+def test_a_damaged_one_is_made_anew(toy, damage):
+    toy.call()
+    (path,) = toy.kernels()
+    whole = path.read_bytes()
+    middle = len(whole) // 2
+    path.write_bytes(
+        {
+            "empty": b"",
+            "half": whole[:middle],
+            "flipped": whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1 :],
+            "no pickle": b"x" * 5000,
+        }[damage]
+    )
+    assert toy.call() == [42, 0]
+    assert toy.call() == [42, 1]
+
+
+def test_numbas_own_files_beside_it_are_left_alone(toy):
+    toy.call()
+    (path,) = toy.kernels()
+    other = path.with_name("toy.double-2.py311.nbi")
+    other.write_bytes(b"torn")
+    assert toy.call() == [42, 1]
+
+
+def test_other_source_of_the_same_size_and_age_is_another_kernel(toy):
+    assert toy.call() == [42, 0]
+    toy.write(TOY.replace("2 * x", "3 * x"))
+    assert toy.call() == [63, 0]
+    toy.write(TOY)
+    assert toy.call() == [42, 1]
+
+
+@pytest.mark.parametrize(
+    "other", ["numba.__version__ = '0.0'", "import llvmlite.binding as b; b.get_host_cpu_name = lambda: 'i486'"]
+)
+def test_another_numba_or_processor_has_kernels_of_its_own(toy, other):
+    assert toy.call() == [42, 0]
+    if "numba" in other:
+        assert toy.call(PROGRAM.replace("import engine", f"import numba; {other}; import engine")) == [42, 0]
+    else:
+        key = ("(int64,)", ("x86_64", "i486", ""), ("a", "b"))
+        file = kernel_cache.KernelFile("folder", "toy.double", "stamp")
+        assert file.path(key) != file.path((key[0], ("x86_64", "znver3", ""), key[2]))
+    assert toy.call() == [42, 1]
+
+
+def test_a_folder_that_cannot_be_written_to_is_done_without(toy):
+    toy.cache.write_text("a file where the folder would be: nobody, root neither, can write into it")
+    assert toy.call() == [42, 0]
+    assert toy.call() == [42, 0]
+    assert not toy.kernels()
+
+
+def test_a_home_that_cannot_be_written_to_leaves_nothing_behind(toy):
+    del toy.environment["NUMBA_CACHE_DIR"]
+    toy.home.write_text("no folder")
+    (toy.folder / "tmp").mkdir()
+    toy.environment["TMPDIR"] = str(toy.folder / "tmp")
+    assert toy.call() == [42, 0]
+    assert list((toy.folder / "tmp").iterdir()) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="the system has no such modes")
+def test_kernels_that_others_could_write_are_not_read(toy):
+    del toy.environment["NUMBA_CACHE_DIR"]
+    folder = toy.home / "inkfall" / "kernels"
+    folder.mkdir(parents=True)
+    folder.chmod(0o777)
+    assert toy.call() == [42, 0]
+    assert not toy.kernels()
+    folder.chmod(0o700)
+    toy.call()
+    assert toy.kernels()
+
+
+def test_what_a_module_imports_of_the_engine_is_part_of_it(tmp_path, monkeypatch):
+    package = tmp_path / "engine"
+    (package / "room").mkdir(parents=True)
+    monkeypatch.setattr(kernel_cache, "_PACKAGE", package)
+
+    def stamp(**texts: str) -> str:
+        for name, text in texts.items():
+            (package / "room" / f"{name}.py").write_text(text)
+        kernel_cache.stamp.cache_clear()
+        kernel_cache._source.cache_clear()
+        return kernel_cache.stamp(package / "room" / "a.py")
+
+    first = stamp(
+        a="from engine.room import b\n",
+        b="from engine.room.c import (\n    X,\n    Y,\n)\n",
+        c="X = Y = 1\n",
+        d="Z = 1\n",
+    )
+    assert stamp(d="Z = 2\n") == first
+    assert stamp(c="X = Y = 2\n") != first
+    assert stamp(c="X = Y = 1\n") == first
+    assert stamp(b="from engine.room.d import Z\n") != first
+
+
+def test_a_thread_may_refuse_to_compile(toy):
+    program = """
+import sys
+sys.path[:0] = sys.argv[1:3]
+import engine, toy
+from engine import kernel_cache
+told = []
+try:
+    with kernel_cache.refusing():
+        toy.double(21)
+except kernel_cache.NotCompiled as error:
+    told.append(error.name)
+with kernel_cache.watched(kernel_cache.Watch(told.append, told.append)):
+    assert toy.double(21) == 42
+    toy.double(22)
+assert told[0].startswith("toy.double-") and set(told) == {told[0]}, told
+with kernel_cache.refusing():
+    print(toy.double(21), len(told))
+"""
+    assert toy.call(program) == [42, 3]
