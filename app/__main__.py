@@ -8,7 +8,8 @@ from __future__ import annotations
 import os
 import sys
 
-# Command, what it does.  The module app.cli.<command> has declare(parser) and run(options) -> int.
+# Command, what it does.  Its module in app.cli, called so or as `arguments.MODULES` says, has declare(parser) and
+# run(options) -> int.
 COMMANDS = {
     "demo": "play the bundled demo recording, in the window or into pictures",
     "play": "replay a recording without a window",

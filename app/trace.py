@@ -1,18 +1,52 @@
-"""When things happened, for those who measure: with INKFALL_TRACE set, lines on standard error."""
+"""When things happened and where controls lie, for those who measure and for tests: with INKFALL_TRACE set, lines on
+standard error."""
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 import time
 from pathlib import Path
 
+Box = tuple[int, int, int, int]  # left, top, right, bottom, pixels of the window
+TRACED = bool(os.environ.get("INKFALL_TRACE"))
+
+_placed: dict[tuple[str, str], Box] = {}  # in the frame that is drawn now
+_told: dict[tuple[str, str], Box] = {}  # at the end of the frame before
+
 
 def trace(what: str) -> None:
     """Tells the milliseconds since the process began, and whether numba is loaded."""
-    if not os.environ.get("INKFALL_TRACE"):
+    if not TRACED:
         return
-    print(f"{what}: {since_exec() * 1000:.0f} ms, numba {'numba' in sys.modules}", file=sys.stderr, flush=True)
+    sys.stderr.write(f"{what}: {since_exec() * 1000:.0f} ms, numba {'numba' in sys.modules}\n")
+    sys.stderr.flush()
+
+
+def place(window: str, name: str, box: Box) -> None:
+    """Notes where a control of a window lies in this frame; a second one of a name gets a number."""
+    if not TRACED:
+        return
+    key, count = (window, name), 1
+    while key in _placed:
+        count += 1
+        key = window, f"{name} {count}"
+    _placed[key] = box
+
+
+def tell_places() -> None:
+    """Ends a frame: tells each box that came or moved since the frame before, and each that went."""
+    global _placed, _told
+    if not TRACED:
+        return
+    for key, box in _placed.items():
+        if _told.get(key) != box:
+            sys.stderr.write(f"box {json.dumps([*key, *box])}\n")
+    for key in _told.keys() - _placed.keys():
+        sys.stderr.write(f"gone {json.dumps(key)}\n")
+    sys.stderr.flush()
+    _told, _placed = _placed, {}
 
 
 def since_exec() -> float:

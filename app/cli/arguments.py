@@ -12,6 +12,7 @@ from app.cli.outcome import Refused
 
 SIDE = 1 << 20  # pixels each way of what is made
 
+MODULES = {"export": "export_command"}  # of commands whose modules have other names
 _RECTANGLE = re.compile(r"-?\d+(,-?\d+)*")
 
 
@@ -33,7 +34,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def run_command(name: str, words: list[str]) -> int:
-    module = importlib.import_module(f"app.cli.{name}")
+    module = importlib.import_module(f"app.cli.{MODULES.get(name, name)}")
     parser = Parser(prog=f"inkfall {name}", description=module.__doc__, allow_abbrev=False)
     module.declare(parser)
     return module.run(parser.parse_args(joined(words)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app import theme
+from app import theme, trace
 from app.actions import ACTIONS, MENUS, Action, perform
 from app.desk.desk import Desk
 from app.panels import status
@@ -72,6 +72,7 @@ class Layout:
         self.dialogs.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
+        trace.tell_places()
 
     def _sides(self, desk: Desk, span: tuple[float, float, float], widths: tuple[float, float]) -> None:
         """The columns; `span`: where they begin, the height of the left one and of the right one.
@@ -103,6 +104,8 @@ class Layout:
         x, y = desk.middle()
         strip, self._strip = self._strip, desk.strip
         desk.insets = insets
+        left, top, right, bottom = (round(inset) for inset in insets)
+        trace.place("canvas", "canvas", (left, top, desk.view.width - right, desk.view.height - bottom))
         if strip != self._strip and not desk.painting:
             desk.view = desk.view.held(desk.view.to_canvas(x, y), *desk.middle())
 
@@ -133,6 +136,7 @@ class Layout:
         on = bool(action.checked and action.checked(desk))
         if imgui.menu_item(action.title, keys, on, action.when(desk))[0]:
             perform(desk, action)
+        w.named(action.title)
         w.tooltip(action.hint)
 
     def _title(self, desk: Desk) -> None:

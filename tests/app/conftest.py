@@ -1,6 +1,7 @@
 """A display of their own for tests that open the real window, and the program under a test's hand."""
 
 import ctypes
+import json
 import os
 import subprocess
 import sys
@@ -14,8 +15,11 @@ import pytest
 from PIL import ImageGrab
 from xserver import lacking, need, started_server
 
+Point = tuple[int, int]
+Box = tuple[int, int, int, int]  # left, top, right, bottom, pixels of the screen
 ROOT = Path(__file__).parents[2]
 PATIENCE = 90.0  # seconds; the first start compiles kernels
+REST = (640, 790)  # on the status line: there the pointer covers nothing that is looked at
 
 
 class Program:
@@ -33,6 +37,8 @@ class Program:
             "INKFALL_TRACE": "1",
             "INKFALL_TRACEBACK": "1",
         }
+        self._boxes: dict[tuple[str, str], Box] = {}  # by window and name, as far as the log is read
+        self._read = 0
         self.log = folder / f"log-{time.monotonic_ns()}"
         with self.log.open("w") as log:
             command = [sys.executable, "-W", "error::RuntimeWarning", "-m", "app", *words]
@@ -44,6 +50,49 @@ class Program:
         while words not in self.log.read_text():
             assert self.process.poll() is None, self.log.read_text()
             assert time.monotonic() < end, f"no {words!r}: {self.log.read_text()}"
+            time.sleep(0.05)
+
+    def boxes(self) -> dict[tuple[str, str], Box]:
+        """Where the controls that are in sight lie, by their windows' names and their own."""
+        lines = self.log.read_bytes()[self._read :].rpartition(b"\n")[0]
+        self._read += len(lines) + bool(lines)
+        for line in lines.decode().splitlines():
+            if line.startswith("box "):
+                window, name, *box = json.loads(line[4:])
+                self._boxes[window, name] = (box[0], box[1], box[2], box[3])
+            elif line.startswith("gone "):
+                window, name = json.loads(line[5:])
+                self._boxes.pop((window, name), None)
+        return self._boxes
+
+    def box(self, name: str, window: str = "", seconds: float = PATIENCE) -> Box:
+        """Where the control of this name lies, when it is in sight and at rest; `window`: the one it is in, which only
+        names that several windows have need."""
+        end, before = time.monotonic() + seconds, None
+        while True:
+            found = [box for key, box in self.boxes().items() if key[1] == name and window in ("", key[0])]
+            if len(found) == 1 and found[0] == before:
+                return found[0]
+            before = found[0] if len(found) == 1 else None
+            assert self.process.poll() is None, self.log.read_text()
+            assert time.monotonic() < end, f"{name!r}: found {len(found)} in {sorted(self.boxes())}"
+            time.sleep(0.1)
+
+    def at(self, name: str, across: float = 0.5, down: float = 0.5, window: str = "") -> Point:
+        """A point of a control, by its parts of the width and of the height: the middle, unless told."""
+        left, top, right, bottom = self.box(name, window)
+        return round(left + across * (right - left)), round(top + down * (bottom - top))
+
+    def part(self, name: str, window: str = "") -> tuple[slice, slice]:
+        """What of the screen a control takes: rows, columns."""
+        left, top, right, bottom = self.box(name, window)
+        return slice(top, bottom), slice(left, right)
+
+    def until_gone(self, name: str, seconds: float = 30.0) -> None:
+        """Waits until no control in sight has this name."""
+        end = time.monotonic() + seconds
+        while any(key[1] == name for key in self.boxes()):
+            assert time.monotonic() < end, f"{name!r} is still there"
             time.sleep(0.05)
 
     def do(self, *words: object) -> None:
@@ -89,7 +138,7 @@ class Program:
 
     def canvas(self, calm: int = 4) -> np.ndarray:
         """The middle of the settled screen, with the pointer parked so that no cursor or tooltip covers it."""
-        self.do("mousemove", 700, 790)
+        self.do("mousemove", *REST)
         time.sleep(0.2)
         return self.settled(calm=calm)[60:740, 270:970].astype(int)
 
@@ -108,32 +157,32 @@ class Program:
             assert time.monotonic() < end, "the canvas stays as it was"
         return now
 
-    def until(self, good: Callable[[np.ndarray], bool], pointer: tuple[int, int], seconds: float = 60.0) -> np.ndarray:
+    def until(self, good: Callable[[np.ndarray], bool], pointer: Point = REST, seconds: float = 60.0) -> np.ndarray:
         """The settled screen, int (800, 1280, 3), once it is good, with the pointer there: kernels may be compiled."""
         end = time.monotonic() + seconds
         while not good(screen := self.parked(pointer)):
             assert time.monotonic() < end
         return screen
 
-    def parked(self, pointer: tuple[int, int]) -> np.ndarray:
+    def parked(self, pointer: Point = REST) -> np.ndarray:
         """The settled screen, int (800, 1280, 3), with the pointer there, so that no cursor or tooltip covers it."""
         self.do("mousemove", *pointer)
         time.sleep(0.3)
         return self.settled(calm=2).astype(int)
 
-    def click(self, at: tuple[int, int]) -> None:
-        self.do("mousemove", *at)
+    def click(self, at: str | Point, window: str = "") -> None:
+        """A click as slow as a hand's, on a control or on a point: some look where the pointer is a frame before."""
+        self.do("mousemove", *(self.at(at, window=window) if isinstance(at, str) else at))
         time.sleep(0.25)
-        self.do("click", 1)
+        self.do("mousedown", 1)
+        time.sleep(0.1)
+        self.do("mouseup", 1)
 
     def save_as(self, path: Path, seconds: float = 30.0) -> None:
         """Saves under a name, in the dialog that comes up, and waits for the file."""
         end = time.monotonic() + seconds
-        light = self.screen()[60:760, 1000:1270].mean()
         self.keys("ctrl+s")
-        while self.screen()[60:760, 1000:1270].mean() > 0.85 * light:  # a dialog darkens what is behind it
-            assert time.monotonic() < end, "no dialog"
-            time.sleep(0.05)
+        self.box("name", "Save as")
         self.keys("ctrl+a")
         self.type(str(path))
         self.keys("Return")

@@ -69,6 +69,7 @@ class BrushList:
         imgui.set_next_item_width(0.44 * room)
         flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.escape_clears_all
         entered, self._find = imgui.input_text_with_hint("##find", "Find", self._find, flags)
+        w.named("Find")
         w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the nearest")
         nearest = presets.nearest(desk.presets, self._find) if entered else None
         if nearest is not None:
@@ -110,6 +111,7 @@ class BrushList:
         """One brush; whether it was taken."""
         corner, tall = imgui.get_cursor_screen_pos(), _tall(desk, wide)
         taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
+        w.named(preset.name)
         if taken:
             take(desk, preset)
         if not imgui.is_item_visible():  # most are scrolled away
@@ -162,7 +164,9 @@ def _deletes(desk: Desk, preset: Preset) -> None:
     """The menu of a brush of the artist's own."""
     if not imgui.begin_popup_context_item(f"own {preset.name}"):
         return
-    if imgui.selectable(f"Delete “{preset.name}”", False)[0]:
+    deleted = imgui.selectable(f"Delete “{preset.name}”", False)[0]
+    w.named("Delete")
+    if deleted:
         try:
             presets.delete(preset)
         except OSError as error:

@@ -76,6 +76,7 @@ class Operations:
         label = "Formula" if name == "formula" else rows[name].label if name in rows else name
         imgui.set_next_item_width(-1)
         if not imgui.begin_combo("##op", label, imgui.ComboFlags_.height_largest):
+            w.named("operation")
             w.tooltip(_told(rows[name]) if name in rows else "What a stroke does to the colours that are there")
             return None
         picked = None
@@ -88,10 +89,12 @@ class Operations:
                 if op in rows and imgui.selectable(f"   {rows[op].label}##{op}", op == name)[0]:
                     picked = op
                 if op in rows:
+                    w.named(rows[op].label)
                     w.tooltip(_told(rows[op]))
         imgui.separator()
         if imgui.selectable("Formula…", name == "formula")[0]:
             picked = "formula"
+        w.named("Formula…")
         w.tooltip("Write yourself what is added to each channel")
         imgui.end_combo()
         return picked
@@ -138,6 +141,7 @@ class Operations:
         side = imgui.get_frame_height()
         imgui.set_next_item_width(imgui.get_content_region_avail().x - side - imgui.get_style().item_spacing.x)
         changed, self._text = imgui.input_text("##formula", self._text)
+        w.named("formula")
         left = imgui.is_item_deactivated()
         if not imgui.is_item_active():  # it would cover what is said about a mistake
             w.tooltip(_VOCABULARY)

@@ -37,6 +37,7 @@ class SaveBrush:
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(em * 14)
         entered, self._name = imgui.input_text("##name", self._name, imgui.InputTextFlags_.enter_returns_true)
+        w.named("name")
         w.tooltip("Its name among your own brushes")
         name = presets.free_name(self._name, desk.presets)
         if any(p.name == name and p.group == presets.OWN for p in desk.presets):

@@ -80,6 +80,7 @@ class ColourPanel:
                 desk.say(f"“{self._text}” is no colour: write six hexadecimal digits", bad=True)
         elif not imgui.is_item_active():
             self._text = to_hex(desk.hand.colour)
+        w.named("hex")
         w.tooltip("The colour as #rrggbb")
 
     def _history(self, desk: Desk) -> None:

@@ -121,6 +121,7 @@ class InkPanel:
             texture_rows.kind_of(desk, part.texture) == "sparse" for part in desk.hand.brush.ink
         ):
             changed, on = imgui.checkbox("Whole marks at the rim", desk.hand.brush.extent)
+            w.named("Whole marks at the rim")
             w.tooltip("The rim of a stroke takes the shape of the texture's marks: none is cut")
             if changed:
                 desk.hand.change(extent=on)
@@ -139,9 +140,11 @@ class InkPanel:
             return
         if imgui.selectable("Picture from a file…", False)[0]:
             desk.ask("texture picture")
+        w.named("Picture from a file…")
         w.tooltip("Paint with a PNG, JPEG or TIFF; it repeats, and shows its own detail as you zoom in")
         if imgui.selectable("What is in view", False)[0]:
             pictured.from_view(desk)
+        w.named("What is in view")
         w.tooltip("Paint with what the canvas shows now, finer detail included")
         imgui.separator()
         name = texture_choice.listed(desk)

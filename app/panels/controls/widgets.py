@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import icons, theme
+from app import icons, theme, trace
 
 Col = imgui.Col_
 _RETURN = imgui.Key.enter, imgui.Key.keypad_enter
@@ -26,6 +26,26 @@ def tooltip(text: str) -> None:
         imgui.pop_style_var()
 
 
+def named(label: str) -> None:
+    """Tells tests where the item just drawn lies."""
+    if trace.TRACED and imgui.is_item_visible():
+        placed(label, imgui.get_item_rect_min(), imgui.get_item_rect_max())
+
+
+def placed(label: str, corner: ImVec2, end: ImVec2) -> None:
+    """Tells tests what of the present window lies there, as far as it is in sight: by the text that it shows, without
+    signs, or by what stands after ## where it shows none."""
+    if not trace.TRACED:
+        return
+    text, _, hidden = label.partition("##")
+    text = "".join(letter for letter in text if not "\ue000" <= letter <= "\uf8ff").strip(" +")
+    window = imgui.internal.get_current_window_read().root_window.name.partition("##")[0]
+    least, most = imgui.get_window_draw_list().get_clip_rect_min(), imgui.get_window_draw_list().get_clip_rect_max()
+    left, top = round(max(corner.x, least.x)), round(max(corner.y, least.y))
+    right, bottom = round(min(end.x, most.x)), round(min(end.y, most.y))
+    trace.place(window, text or hidden.lstrip("#"), (left, top, right, bottom))
+
+
 def icon_button(
     name: str, icon: str, hint: str, *, on: bool = False, enabled: bool = True, size: float | None = None
 ) -> bool:
@@ -36,6 +56,7 @@ def icon_button(
     imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED, 1.0 if on else 0.0))
     imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on or enabled else theme.QUIET))
     pressed = imgui.button(f"{icon}##{name}", ImVec2(side, side))
+    named(name)
     imgui.pop_style_color(2)
     imgui.pop_style_var()
     imgui.end_disabled()
@@ -47,6 +68,7 @@ def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0
     imgui.begin_disabled(not enabled)
     pressed = imgui.button(label, ImVec2(width, 0))
     imgui.end_disabled()
+    named(label)
     tooltip(hint)
     return pressed
 
@@ -79,6 +101,7 @@ def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = F
     imgui.push_style_color(Col.text, theme.vec((0.70,) * 3))
     shown = imgui.tree_node_ex(f"{title}##section", flags)
     imgui.pop_style_color(4)
+    named(title)
     tooltip(hint)
     return shown
 
@@ -101,6 +124,7 @@ def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
     imgui.push_style_color(Col.text, theme.vec(theme.TEXT if on else (0.70,) * 3))
     shown = imgui.tree_node_ex(f"{title}##section", imgui.TreeNodeFlags_.no_tree_push_on_open)
     imgui.pop_style_color(3)
+    named(title)
     tooltip(hint)
     _switch(at, wide, tall, on, over)
     return shown, on
@@ -138,6 +162,7 @@ def slider(
         f"##{label}", value, lo, hi, form if typing or imgui.get_io().key_ctrl else "", flags
     )
     _hidden_frame(False, typing)
+    named(label)
     if not typing:
         pad = imgui.get_style().frame_padding
         text = _number(form, value)
@@ -205,6 +230,7 @@ def gradient_slider(
     changed = imgui.is_item_active()
     if changed:
         value = max(0.0, min(1.0, (imgui.get_io().mouse_pos.x - corner.x) / width))
+    named(label)
     tooltip(hint)
     painter, n = imgui.get_window_draw_list(), len(stops) - 1
     for i in range(n):
@@ -238,11 +264,13 @@ def choice(
         imgui.set_next_item_width(width)
     opened = imgui.begin_combo(f"##{label}", shown, imgui.ComboFlags_.height_large)
     if not opened:
+        named(label)
         tooltip(hint)
         return None
     for i, (value, text) in enumerate(options):
         if imgui.selectable(text, value == current)[0]:
             picked = value
+        named(text)
         if i < len(hints):
             tooltip(hints[i])
     imgui.end_combo()
@@ -253,6 +281,7 @@ def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[fl
     """A patch of colour that can be pressed."""
     flags = imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop | imgui.ColorEditFlags_.no_alpha
     pressed = imgui.color_button(f"##{name}", theme.vec(rgb), flags, ImVec2(*size))
+    named(name)
     tooltip(hint)
     return pressed
 
@@ -262,15 +291,17 @@ def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(3, 3))
     changed, on = imgui.checkbox(label, on)
     imgui.pop_style_var()
+    named(label)
     tooltip(hint)
     return changed, on
 
 
-def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0) -> ImVec2:
+def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0, name: str = "") -> ImVec2:
     """A picture in a frame of its own, or a dark field while there is none; its corner on the screen.  `tile`: the
-    width and height of each of its repeats; 0: it fills the frame."""
+    width and height of each of its repeats; 0: it fills the frame.  `name`: what tests call it."""
     corner = imgui.get_cursor_screen_pos()
     imgui.dummy(ImVec2(*size))
+    named(name)
     tooltip(hint)
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size[0], corner.y + size[1])
     rounding = imgui.get_style().frame_rounding

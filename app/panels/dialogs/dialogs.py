@@ -78,10 +78,12 @@ class NewPainting:
         imgui.spacing()
         imgui.set_next_item_width(em * 8)
         _, self._width = imgui.input_int("Width", self._width, 0)
+        w.named("Width")
         w.tooltip("Of the frame, in pixels of level 0; you can paint outside it and inside every pixel")
         imgui.same_line()
         imgui.set_next_item_width(em * 8)
         _, self._height = imgui.input_int("Height", self._height, 0)
+        w.named("Height")
         w.tooltip("Of the frame, in pixels of level 0")
         good = 1 <= self._width <= MOST_SIDE and 1 <= self._height <= MOST_SIDE
         imgui.spacing()
@@ -103,6 +105,7 @@ class ExportDepth:
         imgui.set_next_item_width(em * 20)
         flags = imgui.SliderFlags_.always_clamp
         _, desk.export_level = imgui.slider_int("Level", desk.export_level, *EXPORT_LEVELS, flags=flags)
+        w.named("Level")
         w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
         size = desk.frame.zoomed(desk.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")

@@ -90,6 +90,7 @@ class Browser:
             imgui.set_keyboard_focus_here()
             self._focus = False
         _, self._name = imgui.input_text("##name", self._name)
+        w.named("name")
         w.tooltip("The file’s name")
         imgui.same_line()
         word = "Replace" if self._sure else "Save" if self._saving else "Open"

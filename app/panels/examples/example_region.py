@@ -71,6 +71,7 @@ class RegionPanel:
         end = ImVec2(at.x + width * scale, at.y + height * scale)
         painter = imgui.get_window_draw_list()
         painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.FIELD), 4)
+        w.placed("region", at, end)
         shown = desk.pictures.get(f"region {state.chosen}")
         if shown is not None:
             painter.add_image(shown, at, end)

@@ -103,6 +103,7 @@ class ExamplesPanel:
         corner, tall = imgui.get_cursor_screen_pos(), wide + _below(desk)
         if imgui.invisible_button(entry.ident, ImVec2(wide, tall)):
             example_use.choose(desk, entry)
+        w.named(entry.title)
         chosen, hovered = desk.examples.chosen == entry.ident, imgui.is_item_hovered()
         own = "\nDouble click to rename it, right click for more" if entry.own else ""
         w.tooltip(f"{entry.title}\n{entry.group}: click to paint with it{own}")
@@ -136,7 +137,8 @@ class ExamplesPanel:
         tall = room.y - 2 * line
         state.sampled = max(1, round(room.x)), max(1, round(tall))
         shown = desk.pictures.get(example_state.SAMPLE) if entry else None
-        corner = w.picture(shown, (room.x, tall), "A stroke with this example" if entry else "Click on one to try it")
+        hint = "A stroke with this example" if entry else "Click on one to try it"
+        corner = w.picture(shown, (room.x, tall), hint, name="sample")
         if shown is not None and state.seen != state.chosen:  # it is of another one yet
             end = ImVec2(corner.x + room.x, corner.y + tall)
             veil = theme.packed(theme.FIELD, 0.75)

@@ -56,7 +56,7 @@ class LabPanel:
 
     def _spectrum(self, desk: Desk, side: float) -> None:
         lab = desk.lab
-        corner = w.picture(desk.pictures.get("lab spectrum"), (side, side), "")
+        corner = w.picture(desk.pictures.get("lab spectrum"), (side, side), "", name="spectrum")
         free = not imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
         lab.spot = (corner.x, corner.y, side) if free else None
         painter = imgui.get_window_draw_list()
@@ -182,7 +182,7 @@ class LabPanel:
         tall = room.y - below - gap.y
         hint = "The endless field; ringed: one copy" if endless else "The texture, tiled; it follows every touch"
         tile = max(room.x, tall) if endless else tile
-        corner = w.picture(desk.pictures.get("lab texture"), (room.x, tall), hint, tile)
+        corner = w.picture(desk.pictures.get("lab texture"), (room.x, tall), hint, tile, "texture")
         if endless and (imgui.is_item_hovered() or self._settings.on_window):
             _window(corner, (room.x, tall), desk.lab.window, tile / FIELD)
         wide = (room.x - gap.x) / 2

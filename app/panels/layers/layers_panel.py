@@ -132,6 +132,7 @@ class LayersPanel:
                 desk.post(Do(c.SelectLayer(row.name)))
         imgui.pop_style_var()
         imgui.pop_style_color()
+        w.named(row.name)
         self._drag(desk, row)
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
         blend = next((title for name, title, _ in desk.blends if name == row.blend), row.blend)

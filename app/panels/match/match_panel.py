@@ -82,7 +82,8 @@ class MatchingPanel:
         match.spots[index] = (corner.x, corner.y, corner.x + wide, corner.y + tall)
         sizes = match.scene.sizes if match.scene is not None else ()
         shown = desk.pictures.get(_NAMES[index]) if held is not None and index < len(sizes) else None
-        w.picture(None, (wide, tall), _HINTS[index] if held is None else f"{title(held)}\n{_HINTS[index]}")
+        hint = _HINTS[index] if held is None else f"{title(held)}\n{_HINTS[index]}"
+        w.picture(None, (wide, tall), hint, name="example")
         painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
         if shown is not None:
             at, to = _within(corner, (wide, tall), sizes[index])
@@ -136,7 +137,7 @@ class MatchingPanel:
         tall = room.y - line - gap.y - 2
         tile = room.x / REPEATS * match.size / 256 if match.size <= 256 else room.x
         shown = desk.pictures.get("match texture") if ready else None
-        corner = w.picture(shown, (room.x, tall), "The texture, tiled; it has no seams", tile)
+        corner = w.picture(shown, (room.x, tall), "The texture, tiled; it has no seams", tile, "texture")
         painter = imgui.get_window_draw_list()
         if not ready:
             text = "Texture like the example"
