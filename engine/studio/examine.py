@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -13,6 +13,7 @@ from engine.numeric.analysis import Analysis
 from engine.numeric.colour import to_rgba8
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.easel import Easel
 
 MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
 STRIP = 256  # rows read in one step
@@ -21,19 +22,11 @@ _RGB = ((18, 18, 21), (196, 92, 58), (255, 244, 214), (70, 130, 215))
 _DARK, _MID, _LIGHT, _COLD = (np.array(rgb, np.float32) for rgb in _RGB)
 
 
-class Host(Protocol):
-    """What the examiner needs of the easel."""
-
-    send: Callable[[results.Result], None]
-
-    def picture(self, level: int, whole: Rect) -> np.ndarray: ...
-
-
 class Examiner:
     """All calls come from the engine's thread.  One step finds one fact; a newer request drops the older."""
 
-    def __init__(self, host: Host) -> None:
-        self.host = host
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
         self._work: Iterator[results.Found] | None = None
         self.handlers: dict[type, Callable[[Any], None]] = {q.Analyse: self._ask}
 
@@ -49,7 +42,7 @@ class Examiner:
             if found is None or found.done:
                 self._work = None
         if found is not None:
-            self.host.send(found)
+            self._easel.send(found)
 
     def _ask(self, request: q.Analyse) -> None:
         self._work = None if request.area is None else self._found(request.level, request.area)
@@ -68,7 +61,7 @@ class Examiner:
         pixels = np.empty((area.height, area.width, 4), np.uint8)
         for top in range(0, area.height, STRIP):
             strip = Rect(area.x0, area.y0 + top, area.x1, min(area.y0 + top + STRIP, area.y1))
-            pixels[top : top + STRIP] = to_rgba8(self.host.picture(level, strip))
+            pixels[top : top + STRIP] = to_rgba8(self._easel.picture(level, strip))
             yield told()
         facts = Analysis(pixels)
         lines["Colours"] = f"{facts.colours:,}"
@@ -90,7 +83,7 @@ class Examiner:
     def _send(self, ident: str, rgb: np.ndarray, pictures: list[str]) -> None:
         out = np.full((*rgb.shape[:2], 4), 255, np.uint8)
         out[..., :3] = rgb
-        self.host.send(results.Picture(ident, results.frozen(out)))
+        self._easel.send(results.Picture(ident, results.frozen(out)))
         pictures.append(ident)
 
 

@@ -4,33 +4,20 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
-from typing import Protocol
 
 from engine.canvas.growth import Growth, is_settled, progress, settling
 from engine.canvas.layers import Group, Layer
-from engine.numeric.address import Rect
 from engine.painting.difference import areas
 from engine.painting.grown import MOST_THREADS, waiting, with_grown
-from engine.session.session import Session
 from engine.strokes.bed import Bed
-from engine.strokes.example_stroke import Live
 from engine.studio import results
-from engine.studio.viewer import Viewer
+from engine.studio.easel import Easel
 
 TELL = 0.1  # seconds between two results about the progress, at least
 SHARE = 40  # times as long as finding it out takes
-
-
-class Host(Protocol):
-    """What it needs of the easel."""
-
-    session: Session
-    send: Callable[[results.Result], None]
-    live: Live | None
-    viewer: Viewer
 
 
 class Grower:
@@ -39,26 +26,14 @@ class Grower:
     The layer under a stroke in progress stays as it is until the stroke ends; only what the stroke grows is refined.
     """
 
-    def __init__(self, host: Host) -> None:
-        self.host = host
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
         self._steps: Iterator[Growth] | None = None
         self._at: Growth = ()  # what the steps have come to
         self._known: tuple[Group | None, list[Layer]] = None, []
         self._told: float | None = None  # when the window hears of it again; None: it knows that nothing grows
         self._pool: Executor | None = None
         self._failed: Growth | None = None  # what could not be refined: it would fail again
-
-    @property
-    def behind(self) -> bool:
-        """Whether the stroke in progress laid dabs that cannot be seen yet."""
-        live = self.host.live
-        return live is not None and live.bed is not None and live.bed.behind
-
-    def follow(self) -> None:
-        """Makes them seen, at the coarsest level."""
-        live = self.host.live
-        if live is not None and live.bed is not None:
-            self._seen(live, live.bed.follow())
 
     @property
     def pending(self) -> bool:
@@ -82,8 +57,8 @@ class Grower:
             except Exception:
                 self._failed = old
                 raise
-            if grown is not old and bed is not None and self.host.live is not None:
-                self._seen(self.host.live, bed.follow(grown))
+            if grown is not old and bed is not None:
+                self._easel.refined(grown)
             elif grown is not old:
                 self._amend(layers[0], grown)
         if self._told is None or not self._open:
@@ -96,12 +71,12 @@ class Grower:
 
     def _bed(self) -> Bed | None:
         """What the stroke in progress grows, if that is not done."""
-        bed = None if self.host.live is None else self.host.live.bed
+        bed = None if self._easel.live is None else self._easel.live.bed
         return None if bed is None or bed.growth is self._failed or is_settled(bed.growth) else bed
 
     def _waiting(self) -> list[Layer]:
         """The layers of the painting that are to be refined, the active one first."""
-        painting, live = self.host.session.painting, self.host.live
+        painting, live = self._easel.session.painting, self._easel.live
         if self._known[0] is not painting.root:
             self._known = painting.root, waiting(painting.root)
         held = None if live is None else live.layer.id
@@ -111,7 +86,7 @@ class Grower:
     def _advance(self, growth: Growth) -> Growth:
         """The growth after the next step; what was begun with another one is dropped."""
         if self._steps is None or self._at is not growth:
-            self._steps = settling(growth, self.host.viewer.sight.near, self._threads())
+            self._steps = settling(growth, self._easel.viewer.sight.near, self._threads())
         self._at = next(self._steps, growth)
         if is_settled(self._at):
             self._steps = None
@@ -124,19 +99,15 @@ class Grower:
             self._pool = ThreadPoolExecutor(count, "inkfall examples")
         return self._pool
 
-    def _seen(self, live: Live, area: Rect) -> None:
-        if not area.empty:
-            self.host.viewer.grew(live.level, area)
-
     def _amend(self, layer: Layer, grown: Growth) -> None:
         """The painting with a layer further refined, also under the stroke in progress."""
-        session, live = self.host.session, self.host.live
+        session, live = self._easel.session, self._easel.live
         before = session.painting
         after = replace(before, root=with_grown(before.root, layer.name, layer.growth, grown))
         session.amend(after)
         if live is not None:
             live.rebase(after, with_grown(live.base.root, layer.name, layer.growth, grown))
-        self.host.viewer.changed(areas(before, after))
+        self._easel.viewer.changed(areas(before, after))
 
     def _tell(self) -> None:
         """How far all of it is, or that it is done."""
@@ -145,9 +116,9 @@ class Grower:
         growths = [layer.growth for layer in self._waiting()] + ([] if bed is None else [bed.growth])
         if growths:
             rects, done = progress(tuple(plot for growth in growths for plot in growth))
-            self.host.send(results.Growing(done, tuple(rects)))
+            self._easel.send(results.Growing(done, tuple(rects)))
             took = time.monotonic() - now
             self._told = now + max(TELL, SHARE * took)
         elif self._told is not None:
             self._told = None
-            self.host.send(results.Growing(1.0))
+            self._easel.send(results.Growing(1.0))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -26,10 +26,10 @@ from engine.painting import commands as c
 from engine.painting.capture import Place
 from engine.painting.points import rounded
 from engine.painting.textures import Texture
-from engine.session.session import Session
 from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
 from engine.studio import results, swatches
+from engine.studio.easel import Easel
 from engine.texture.image import ImageSource
 
 FIELD = Rect(0, 0, 360, 360)  # the part of an endless field that is shown
@@ -57,15 +57,6 @@ class _Start:
         return mine == theirs
 
 
-class Host(Protocol):
-    """What the lab needs of the easel."""
-
-    session: Session
-    send: Callable[[results.Result], None]
-
-    def carry_out(self, command: c.Command) -> None: ...
-
-
 @dataclass(eq=False, slots=True)
 class _State:
     """A state of the lab that undo comes back to: its strokes, and the sheets that they made of some start."""
@@ -78,8 +69,8 @@ class _State:
 class Lab:
     """All calls come from the engine's thread."""
 
-    def __init__(self, host: Host) -> None:
-        self.host = host
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
         self._set = q.LabSet()
         self._past: list[_State] = []
         self._now = _State()
@@ -118,7 +109,7 @@ class Lab:
     def settle(self) -> None:
         """Brings the texture in use up to date before it is painted with."""
         name, defined = self._used
-        if name and self._live is None and name in self.host.session.painting.textures:
+        if name and self._live is None and name in self._easel.session.painting.textures:
             self._finish_building()
             if self._stale:
                 self._show()
@@ -178,12 +169,12 @@ class Lab:
         if self._stale:
             self._show()
         self.settle()
-        painting = self.host.session.painting
+        painting = self._easel.session.painting
         painting = replace(painting, textures=painting.textures.set(_TRIED, self._tried()))
         brush = replace(request.brush, ink=(Component(_TRIED, 1.0, "#f4f1ea"),), mode="paint")
         for ident, kind, zoom in (("lab stroke", "stroke", 0), ("lab near", "fill", NEARER)):
             pixels = swatches.painted(q.Swatch(ident, brush, request.size, kind, zoom), painting)
-            self.host.send(results.Picture(ident, results.frozen(to_premul8(pixels))))
+            self._easel.send(results.Picture(ident, results.frozen(to_premul8(pixels))))
 
     def _use(self, request: q.LabUse) -> None:
         self._used = request.name, None
@@ -195,7 +186,7 @@ class Lab:
 
     def _resolved(self, shape: Map[str, Any]) -> Map[str, Any]:
         """A shape that names a texture knows its picture by the sha: whatever the name means later."""
-        texture = self.host.session.painting.textures.get(shape.get("texture", ""))
+        texture = self._easel.session.painting.textures.get(shape.get("texture", ""))
         if shape["shape"] != "texture" or texture is None or texture.source is None:
             return shape
         return shape.set("sha", texture.source.sha)
@@ -209,7 +200,7 @@ class Lab:
     def _start(self) -> _Start:
         s = self._set
         seen = any(shape["shape"] == "canvas" for shape in s.shapes)
-        root = self.host.session.painting.root if seen else None
+        root = self._easel.session.painting.root if seen else None
         return _Start(s.size, s.shapes, s.forward, s.phase == "own", root)
 
     def _ready(self) -> bool:
@@ -233,7 +224,7 @@ class Lab:
             self._build()
 
     def _look(self, shape: Map[str, Any]) -> np.ndarray:
-        session = self.host.session
+        session = self._easel.session
         return Place(session.folder, session.painting.root, session.around().pictures).shape(shape)
 
     def _show(self) -> None:
@@ -244,18 +235,18 @@ class Lab:
             sheets = spectrum.stroked(sheets, self._live, not self._set.forward)
         self._texture = spectrum.sample(sheets, self._design())
         self._stale = False
-        self.host.send(results.Picture("lab spectrum", _shown(sheets, self._set.sheet)))
+        self._easel.send(results.Picture("lab spectrum", _shown(sheets, self._set.sheet)))
         shown = self._texture
         if self._set.field.get("field") == "sparse":
             shown = self._tried().instance({}, 0, 0).appearance(0, FIELD)
-        self.host.send(results.Picture("lab texture", _pixels(0.5 + 0.5 * shown)))
+        self._easel.send(results.Picture("lab texture", _pixels(0.5 + 0.5 * shown)))
         self._tell()
 
     def _tell(self) -> None:
         silent = self._texture is None or not self._texture.any()
         rows = tuple(shapes.SHAPES.values())
         strokes, past, future = len(self._now.strokes), bool(self._past), bool(self._future)
-        self.host.send(results.LabScene(rows, strokes, past, future, silent, self._used[0], self._version))
+        self._easel.send(results.LabScene(rows, strokes, past, future, silent, self._used[0], self._version))
 
     # --- the texture -------------------------------------------------------------------------------------------------
 
@@ -277,8 +268,8 @@ class Lab:
         self._used = command.name, command
         self._version += 1
         source = self._source(command.name)
-        self.host.session.lent = source
-        self.host.carry_out(replace(command, arguments=command.arguments.set("sha", source.sha)))
+        self._easel.session.lent = source
+        self._easel.carry_out(replace(command, arguments=command.arguments.set("sha", source.sha)))
         self._tell()
 
 

@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -24,25 +24,14 @@ from engine.makers.heeger_bergen import Plan
 from engine.numeric.colour_axes import ColourAxes
 from engine.painting import commands as c
 from engine.painting.capture import Place
-from engine.session.session import Session
-from engine.strokes.example_stroke import Live
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.easel import Easel
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
 
 _KEPT = 8  # pictures read
-
-
-class Host(Protocol):
-    """What it needs of the easel."""
-
-    session: Session
-    send: Callable[[results.Result], None]
-    live: Live | None
-
-    def carry_out(self, command: c.Command) -> None: ...
 
 
 @dataclass(eq=False, slots=True)
@@ -62,9 +51,9 @@ class _Work:
 class Matcher:
     """All calls come from the engine's thread."""
 
-    def __init__(self, host: Host) -> None:
-        self.host = host
-        self._pictures = _Pictures(host)
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
+        self._pictures = _Pictures(easel)
         self._preview: _Work | None = None
         self._wanted: list[_Work] = []
         self._shown: tuple[str, ...] = ()  # shas of the examples whose pictures were sent
@@ -73,7 +62,7 @@ class Matcher:
     @property
     def pending(self) -> bool:
         if self._wanted:
-            return not self._wanted[0].finished or self.host.live is None
+            return not self._wanted[0].finished or self._easel.live is None
         return self._preview is not None and not self._preview.finished
 
     def step(self) -> None:
@@ -88,16 +77,16 @@ class Matcher:
                 self._advance(work)
         except (FormatError, FileError) as error:
             self._drop(work)
-            self.host.send(results.MatchScene(fault=str(error)))
+            self._easel.send(results.MatchScene(fault=str(error)))
         except Exception as error:
             self._drop(work)  # it would fail again
-            self.host.send(results.MatchScene(fault=str(error).partition("\n")[0] or type(error).__name__))
+            self._easel.send(results.MatchScene(fault=str(error).partition("\n")[0] or type(error).__name__))
             raise
 
     def _set(self, request: q.MatchSet) -> None:
         if request.arguments is None:
             self._preview, self._shown = None, ()
-            self.host.send(results.MatchScene())
+            self._easel.send(results.MatchScene())
         else:
             self._preview = _Work(request.maker, request.arguments)
 
@@ -143,9 +132,9 @@ class Matcher:
         assert work.colours is not None
         sample = heeger_bergen.sample(work.plan, work.colours)
         source = ImageSource.of(work.name, sample.rgba)
-        self.host.session.lent = source
+        self._easel.session.lent = source
         found = sample.found.update(work.arguments).set("examples", sample.found["examples"])
-        self.host.carry_out(c.DefineTexture(work.name, work.maker, found.set("sha", source.sha)))
+        self._easel.carry_out(c.DefineTexture(work.name, work.maker, found.set("sha", source.sha)))
         self._tell(self._preview or work)
 
     # --- what the panel sees -----------------------------------------------------------------------------------------
@@ -162,7 +151,7 @@ class Matcher:
         out = np.full((*planes.shape[1:], 4), 255, np.uint8)
         scaled = np.clip(planes, 0.0, 1.0) * np.float32(255) + np.float32(0.5)
         out[..., : max(len(planes), 3)] = scaled.astype(np.uint8).transpose(1, 2, 0)
-        self.host.send(results.Picture(name, results.frozen(out)))
+        self._easel.send(results.Picture(name, results.frozen(out)))
 
     def _tell(self, work: _Work) -> None:
         plan = work.plan
@@ -172,7 +161,7 @@ class Matcher:
         sizes = tuple((example.planes.shape[2], example.planes.shape[1]) for example in plan.examples)
         making = self._wanted[0].name if self._wanted else ""
         shape = pattern.shape
-        self.host.send(
+        self._easel.send(
             results.MatchScene(work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making)
         )
 
@@ -199,12 +188,12 @@ def _colours(pattern: Pattern) -> tuple[tuple[float, float, float], ...]:
 class _Pictures:
     """Pictures that were read already, while their files and the painting stay as they are."""
 
-    def __init__(self, host: Host) -> None:
-        self._host = host
+    def __init__(self, easel: Easel) -> None:
+        self._easel = easel
         self._known: dict[tuple[Any, ...], tuple[Group | None, np.ndarray]] = {}
 
     def picture(self, members: Fields) -> np.ndarray:
-        session = self._host.session
+        session = self._easel.session
         root = session.painting.root if "rect" in members else None
         key = (json.dumps(_naming(members), sort_keys=True), *self._stamp(members))
         known = self._known.get(key)
@@ -221,7 +210,7 @@ class _Pictures:
         if not isinstance(path, str):
             return ()
         try:
-            found = os.stat(path if self._host.session.folder is None else Path(self._host.session.folder) / path)
+            found = os.stat(path if self._easel.session.folder is None else Path(self._easel.session.folder) / path)
         except (OSError, ValueError):
             return ()
         return found.st_mtime_ns, found.st_size

@@ -23,8 +23,8 @@ from engine.studio.sight import Key, Sight, tile_rect
 _NOTHING = Rect(0, 0, 0, 0)
 
 
-class Host(Protocol):
-    """What the viewer needs of the easel."""
+class Subject(Protocol):
+    """What the viewer looks at: the easel."""
 
     session: Session
     send: Callable[[results.Result], None]
@@ -34,8 +34,8 @@ class Host(Protocol):
 class Viewer:
     """Tiles are functions of the painting and the stroke in progress.  All calls come from the engine's thread."""
 
-    def __init__(self, host: Host) -> None:
-        self.host = host
+    def __init__(self, subject: Subject) -> None:
+        self._subject = subject
         self.sight = Sight()
         self._fresh = _NOTHING  # pixels of the live stroke's level not sent yet
         self._level = 0
@@ -91,18 +91,18 @@ class Viewer:
         revision = self.sight.revision
         if part.empty:
             self.sight.sent(key)
-            self.host.send(results.Same((key,), revision))
+            self._subject.send(results.Same((key,), revision))
             return
         tile = tile_rect(key)
         pixels = results.frozen(to_premul8(self.picture(key[0], part)))
         self.sight.sent(key)
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
-        self.host.send(results.Patch(key, inner, pixels, revision))
+        self._subject.send(results.Patch(key, inner, pixels, revision))
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
-        live = self.host.live
-        root = live.root if live is not None else self.host.session.painting.root
+        live = self._subject.live
+        root = live.root if live is not None else self._subject.session.painting.root
         known: dict[int, np.ndarray | None] = {}
 
         def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
@@ -114,7 +114,7 @@ class Viewer:
         return composite(root, level, whole, read)
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-        live = self.host.live
+        live = self._subject.live
         if (
             isinstance(live, LiveStroke)
             and not live.empty
@@ -123,10 +123,10 @@ class Viewer:
             and rect.meets(live.rect)
         ):
             return covered(live.preview(rect).rgba, layer.growth, level, rect)
-        return layer_planes(layer, level, rect, self.host.session.cache)
+        return layer_planes(layer, level, rect, self._subject.session.cache)
 
     def _pick(self, request: q.Pick) -> None:
         pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]
         alpha = float(pixel[3])
         r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
-        self.host.send(results.Picked((r, g, b), alpha))
+        self._subject.send(results.Picked((r, g, b), alpha))

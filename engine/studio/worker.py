@@ -19,7 +19,7 @@ from engine.studio.results import Note, Pending, Result
 
 
 class Bench(Protocol):
-    """What the thread works at: an `Easel`, or a stand-in for tests."""
+    """What the thread works at: a `Studio`, or a stand-in for tests."""
 
     def do(self, request: Request) -> None:
         """Carries out a request that changes something; sends its results."""
@@ -53,16 +53,16 @@ PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at mo
 Maker = Callable[[Callable[[Result], None]], Bench]
 
 
-def _easel(send: Callable[[Result], None]) -> Bench:
-    from engine.studio.easel import Easel  # here, on the thread: it loads numba
+def _studio(send: Callable[[Result], None]) -> Bench:
+    from engine.studio.studio import Studio  # here, on the thread: it loads numba
 
-    return Easel(send)
+    return Studio(send)
 
 
 class Worker:
     """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread."""
 
-    def __init__(self, wake: Callable[[], None], make: Maker = _easel) -> None:
+    def __init__(self, wake: Callable[[], None], make: Maker = _studio) -> None:
         self._wake, self._make = wake, make
         self._posted: deque[Request] = deque()
         self._look: Look | None = None

@@ -17,7 +17,7 @@ from engine.painting.commands import Stroke, parse
 from engine.painting.value import Painting
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.easel import Easel
+from engine.studio.studio import Studio
 from engine.studio.swatches import painted
 
 FUR = {
@@ -54,7 +54,7 @@ class Desk(SimpleNamespace):
     def __init__(self):
         super().__init__(hand=Hand(), scene=None, kinds=(), pointer=SimpleNamespace(pen=False))
         self.sent = []
-        self.easel = Easel(self._take)
+        self.studio = Studio(self._take)
 
     def _take(self, result):
         self.sent.append(result)
@@ -63,7 +63,7 @@ class Desk(SimpleNamespace):
 
     def post(self, request):
         self.sent.append(request)
-        self.easel.do(request)
+        self.studio.do(request)
 
     @property
     def asked(self):
@@ -71,7 +71,7 @@ class Desk(SimpleNamespace):
 
     def paint(self):
         palette.provide(self)
-        self.easel.carry_out(Stroke(0, (0, 0), STROKE.points, self.hand.brush))
+        self.studio.easel.carry_out(Stroke(0, (0, 0), STROKE.points, self.hand.brush))
 
 
 def test_a_preset_brings_its_textures_with_the_first_stroke(tmp_path):
@@ -134,7 +134,7 @@ def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
     assert desk.scene.textures == ("fur", "fur 2", "paper")
     assert [part.texture for part in desk.hand.brush.ink] == ["fur 2", "rock"]
     assert desk.hand.brush.density.texture == "fur 2"
-    assert desk.easel.session.painting.textures["fur"].kind == "rock"
+    assert desk.studio.easel.session.painting.textures["fur"].kind == "rock"
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     assert desk.scene.textures == ("fur", "fur 2", "paper")
     assert desk.hand.brush.density.texture == "fur 2"
@@ -158,7 +158,7 @@ def test_a_definition_is_recognised_after_saving(tmp_path):
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     desk.paint()
     desk.post(q.Save(tmp_path / "a.ora"))
-    desk.easel.close()
+    desk.studio.close()
     other = Desk()
     other.post(q.Open(tmp_path / "a.ora"))
     palette.take(other, preset(tmp_path, FUR, PAPER))
@@ -256,7 +256,7 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
     other.paint()
     assert other.scene.textures == ("fur",)
     swatch = q.Swatch("it", desk.hand.brush, (60, 40))
-    pictures = [painted(swatch, d.easel.session.painting) for d in (desk, other)]
+    pictures = [painted(swatch, d.studio.easel.session.painting) for d in (desk, other)]
     assert np.array_equal(*pictures)
     palette.take(other, Preset("Fur", desk.hand.brush, textures=textures))
     other.paint()

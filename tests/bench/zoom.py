@@ -18,9 +18,9 @@ from engine.painting.recording import read
 from engine.session.apply import Painting, apply
 from engine.session.replay import replay
 from engine.session.session import Session
-from engine.studio.easel import Easel
 from engine.studio.requests import SIDE, Look
 from engine.studio.results import Patch
+from engine.studio.studio import Studio
 
 LEVELS = 40
 PACE = 4.0  # levels a second
@@ -79,8 +79,8 @@ def engine(painting: Painting, place: Place, levels: int) -> list[float]:
         nonlocal patches
         patches += isinstance(result, Patch)
 
-    easel = Easel(sent)
-    easel.show(Session(painting), None)
+    studio = Studio(sent)
+    studio.easel.show(Session(painting), None)
     times = []
     for level in range(levels + 1):
         seen = View(place, level, 0.0, WIDTH, HEIGHT).visible(level)
@@ -88,12 +88,12 @@ def engine(painting: Painting, place: Place, levels: int) -> list[float]:
         wanted = tuple((level, x, y, -1) for y in rows for x in columns)
         patches = 0
         start = time.perf_counter()
-        easel.look(Look(wanted))
-        while easel.step():
+        studio.look(Look(wanted))
+        while studio.step():
             pass
         times.append(time.perf_counter() - start)
         assert patches == len(wanted)
-    easel.close()
+    studio.close()
     return times[1:]
 
 

@@ -15,8 +15,8 @@ from engine.painting import commands as c
 from engine.session.apply import apply
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.easel import Easel
 from engine.studio.sight import tile_rect
+from engine.studio.studio import Studio
 
 
 class Window:
@@ -24,7 +24,7 @@ class Window:
 
     def __init__(self):
         self.tiles, self.revisions, self.other = {}, {}, []
-        self.easel = Easel(self.take)
+        self.studio = Studio(self.take)
 
     def take(self, result):
         if isinstance(result, results.Patch):
@@ -46,11 +46,11 @@ class Window:
                 self.revisions.clear()
 
     def look(self, *tiles):
-        self.easel.look(q.Look(tuple((*tile, self.revisions.get(tile, -1)) for tile in tiles)))
+        self.studio.look(q.Look(tuple((*tile, self.revisions.get(tile, -1)) for tile in tiles)))
 
     def work(self):
-        while self.easel.pending:
-            self.easel.step()
+        while self.studio.pending:
+            self.studio.step()
 
     def scene(self):
         return next(r for r in reversed(self.other) if isinstance(r, results.Scene))
@@ -58,7 +58,9 @@ class Window:
     def check(self, *tiles):
         """What the window shows of these tiles is what the painting is."""
         for tile in tiles:
-            assert np.array_equal(self.tiles[tile], to_premul8(self.easel.picture(tile[0], tile_rect(tile)))), tile
+            assert np.array_equal(self.tiles[tile], to_premul8(self.studio.easel.picture(tile[0], tile_rect(tile)))), (
+                tile
+            )
 
 
 def line(n, x=20.0, y=40.0, dx=9.0, dy=3.0):
@@ -99,38 +101,38 @@ def test_the_window_ends_up_with_the_picture(deeds):
     for deed in deeds:
         match deed:
             case ("begin", at, brush):
-                window.easel.do(q.Begin(at, (0, 0), BRUSHES[brush]))
+                window.studio.do(q.Begin(at, (0, 0), BRUSHES[brush]))
             case ("stroke" | "given up" as end, at, brush):
-                window.easel.do(q.Begin(at, (0, 0), BRUSHES[brush]))
-                window.easel.do(q.Points(line(5, -30.0)))
+                window.studio.do(q.Begin(at, (0, 0), BRUSHES[brush]))
+                window.studio.do(q.Points(line(5, -30.0)))
                 window.work()
-                window.easel.do(q.Points(line(5, 50.0, 0.0)))
-                window.easel.do(q.Finish() if end == "stroke" else q.Abandon())
+                window.studio.do(q.Points(line(5, 50.0, 0.0)))
+                window.studio.do(q.Finish() if end == "stroke" else q.Abandon())
             case ("points", x, y):
-                window.easel.do(q.Points(line(5, x, y)))
+                window.studio.do(q.Points(line(5, x, y)))
             case ("finish",):
-                window.easel.do(q.Finish())
+                window.studio.do(q.Finish())
             case ("undo",):
-                window.easel.do(q.Do(c.Undo()))
+                window.studio.do(q.Do(c.Undo()))
             case ("redo",):
-                window.easel.do(q.Do(c.Redo()))
+                window.studio.do(q.Do(c.Redo()))
             case ("add",):
                 names = {row.name for row in window.scene().layers}
-                window.easel.do(q.Do(c.AddLayer(f"Another {len(names)}")))
+                window.studio.do(q.Do(c.AddLayer(f"Another {len(names)}")))
             case ("hide",):
                 for row in window.scene().layers[:1]:
-                    window.easel.do(q.Do(c.SetLayer(row.name, visible=not row.visible)))
+                    window.studio.do(q.Do(c.SetLayer(row.name, visible=not row.visible)))
             case ("look", at):
                 level = at
                 window.look(*VIEWS[level])
             case ("work",):
                 window.work()
             case ("half",):
-                window.easel.step()
+                window.studio.step()
         if deed[0] in ("work", "undo", "look"):
             window.work()
             window.check(*VIEWS[level])
-    window.easel.do(q.Finish())
+    window.studio.do(q.Finish())
     for other in LEVELS:
         window.look(*VIEWS[other])
         window.work()
@@ -141,12 +143,12 @@ def test_what_is_shown_while_the_pen_moves_is_what_is_committed():
     window = Window()
     window.look(*VIEWS[0])
     window.work()
-    window.easel.do(q.Begin(0, (0, 0), BRUSHES[3]))
+    window.studio.do(q.Begin(0, (0, 0), BRUSHES[3]))
     for k in range(4):
-        window.easel.do(q.Points(line(6, 20.0 + 40 * k)))
+        window.studio.do(q.Points(line(6, 20.0 + 40 * k)))
         window.work()
     shown = {tile: window.tiles[tile].copy() for tile in VIEWS[0]}
-    window.easel.do(q.Finish())
+    window.studio.do(q.Finish())
     window.tiles.clear()
     window.revisions.clear()
     window.look(*VIEWS[0])
@@ -160,11 +162,11 @@ def test_points_that_wait_are_painted_before_any_picture_is_made():
     window.look(*VIEWS[0])
     window.work()
     sent = len(window.revisions)
-    window.easel.do(q.Begin(0, (0, 0), BRUSHES[0]))
+    window.studio.do(q.Begin(0, (0, 0), BRUSHES[0]))
     for _ in range(10):
-        window.easel.do(q.Points(line(3)))
+        window.studio.do(q.Points(line(3)))
     assert len(window.revisions) == sent
-    assert window.easel.pending
+    assert window.studio.pending
 
 
 def test_a_tile_far_from_the_change_is_not_made_anew():
@@ -173,35 +175,35 @@ def test_a_tile_far_from_the_change_is_not_made_anew():
     window.look(*far)
     window.work()
     pixels = window.tiles[far[0]]
-    window.easel.do(q.Begin(0, (0, 0), BRUSHES[0]))
-    window.easel.do(q.Points(line(4)))
-    window.easel.do(q.Finish())
+    window.studio.do(q.Begin(0, (0, 0), BRUSHES[0]))
+    window.studio.do(q.Points(line(4)))
+    window.studio.do(q.Finish())
     window.work()
     assert window.tiles[far[0]] is pixels
-    assert window.revisions[far[0]] == window.easel.revision
+    assert window.revisions[far[0]] == window.studio.easel.viewer.sight.revision
 
 
 def test_the_stroke_of_the_pen_is_the_stroke_of_the_command():
     window = Window()
-    window.easel.do(q.Begin(1, (7, -3), BRUSHES[1]))
+    window.studio.do(q.Begin(1, (7, -3), BRUSHES[1]))
     for k in range(3):
-        window.easel.do(q.Points(line(4, 30.0 * k)))
-    window.easel.do(q.Finish())
-    stroke = window.easel.session.log[-1]
+        window.studio.do(q.Points(line(4, 30.0 * k)))
+    window.studio.do(q.Finish())
+    stroke = window.studio.easel.session.log[-1]
     assert isinstance(stroke, c.Stroke)
-    again = apply(Window().easel.session.painting, stroke)
+    again = apply(Window().studio.easel.session.painting, stroke)
     other = Window()
-    other.easel.session.painting = again
+    other.studio.easel.session.painting = again
     rect = Rect(0, 0, 200, 200)
-    assert np.array_equal(other.easel.picture(1, rect), window.easel.picture(1, rect))
+    assert np.array_equal(other.studio.easel.picture(1, rect), window.studio.easel.picture(1, rect))
 
 
 def test_the_scene_tells_what_the_panels_show():
     window = Window()
     assert window.scene().layers == ()
-    window.easel.do(q.Do(c.AddLayer("Low")))
-    window.easel.do(q.Do(c.AddLayer("Group", kind="group")))
-    window.easel.do(q.Do(c.AddLayer("In it", group="Group")))
+    window.studio.do(q.Do(c.AddLayer("Low")))
+    window.studio.do(q.Do(c.AddLayer("Group", kind="group")))
+    window.studio.do(q.Do(c.AddLayer("In it", group="Group")))
     scene = window.scene()
     assert [(r.name, r.group, r.depth, r.parent, r.position) for r in scene.layers] == [
         ("Group", True, 0, None, 1),
@@ -215,20 +217,20 @@ def test_the_scene_tells_what_the_panels_show():
 
 def test_picking_takes_the_colour_that_is_seen():
     window = Window()
-    window.easel.do(q.Begin(0, (0, 0), Brush(radius=20.0, hardness=1.0, colour="#336699")))
-    window.easel.do(q.Points(line(2, 50.0, 50.0, 4.0, 0.0)))
-    window.easel.do(q.Pick(0, 52, 50))
+    window.studio.do(q.Begin(0, (0, 0), Brush(radius=20.0, hardness=1.0, colour="#336699")))
+    window.studio.do(q.Points(line(2, 50.0, 50.0, 4.0, 0.0)))
+    window.studio.do(q.Pick(0, 52, 50))
     found = window.other[-1]
     assert found.alpha == 1.0
     assert np.allclose(found.rgb, (0x33 / 255, 0x66 / 255, 0x99 / 255), atol=1e-3)
-    window.easel.do(q.Pick(0, 500, 500))
+    window.studio.do(q.Pick(0, 500, 500))
     assert window.other[-1].alpha == 0.0
 
 
 @pytest.mark.parametrize("mode", ["paint", "erase", "smooth"])
 def test_a_preset_paints_its_own_thumbnail(mode):
     window = Window()
-    window.easel.do(q.Swatch("it", Brush(radius=10.0, mode=mode), (104, 44)))
+    window.studio.do(q.Swatch("it", Brush(radius=10.0, mode=mode), (104, 44)))
     picture = window.other[-1]
     assert picture.pixels.shape == (44, 104, 4)
     assert len(np.unique(picture.pixels[..., 3])) > 4
@@ -237,33 +239,33 @@ def test_a_preset_paints_its_own_thumbnail(mode):
 def test_the_ink_mixers_picture_is_covered_everywhere_and_shows_more_when_nearer():
     window = Window()
     brush = Brush(radius=16.0, colour="#203040", ink=(Component("rock", 0.8, "#ffffff"),))
-    window.easel.do(q.Swatch("ink", brush, (96, 48), "fill"))
+    window.studio.do(q.Swatch("ink", brush, (96, 48), "fill"))
     flat = window.other[-1].pixels
     assert (flat[..., 3] == 255).all()
     assert flat[..., 0].std() > 4
-    window.easel.do(q.Swatch("near", brush, (96, 48), "fill", 4))
+    window.studio.do(q.Swatch("near", brush, (96, 48), "fill", 4))
     assert window.other[-1].pixels[..., 0].std() > 1
 
 
 def test_saving_and_opening_give_the_same_picture(tmp_path):
     window = Window()
-    window.easel.do(q.Begin(0, (0, 0), BRUSHES[3]))
-    window.easel.do(q.Points(line(12)))
-    window.easel.do(q.Finish())
-    window.easel.do(q.Save(tmp_path / "p.ora"))
-    window.easel.close()
+    window.studio.do(q.Begin(0, (0, 0), BRUSHES[3]))
+    window.studio.do(q.Points(line(12)))
+    window.studio.do(q.Finish())
+    window.studio.do(q.Save(tmp_path / "p.ora"))
+    window.studio.close()
     assert any(isinstance(r, results.Saved) for r in window.other)
     assert not window.scene().modified
     other = Window()
-    other.easel.do(q.Open(tmp_path / "p.ora"))
+    other.studio.do(q.Open(tmp_path / "p.ora"))
     assert other.scene().path == tmp_path / "p.ora"
     assert not other.scene().modified
     for level in LEVELS:
         other.look(*VIEWS[level])
         other.work()
         for tile in VIEWS[level]:
-            assert np.array_equal(other.tiles[tile], to_premul8(window.easel.picture(level, tile_rect(tile))))
-    assert other.easel.session.log
+            assert np.array_equal(other.tiles[tile], to_premul8(window.studio.easel.picture(level, tile_rect(tile))))
+    assert other.studio.easel.session.log
 
 
 def test_a_recording_plays_to_the_same_painting_live_or_not(tmp_path):
@@ -277,11 +279,11 @@ def test_a_recording_plays_to_the_same_painting_live_or_not(tmp_path):
     pictures = []
     for live in (False, True):
         window = Window()
-        window.easel.do(q.Open(tmp_path / "r.jsonl", live))
-        while window.easel.due is not None:
-            window.easel.play()
+        window.studio.do(q.Open(tmp_path / "r.jsonl", live))
+        while window.studio.due is not None:
+            window.studio.play()
         assert any(isinstance(r, results.Looked) for r in window.other)
-        pictures.append(window.easel.picture(1, Rect(0, 0, 400, 400)))
+        pictures.append(window.studio.easel.picture(1, Rect(0, 0, 400, 400)))
     assert np.array_equal(*pictures)
     assert pictures[0][3].max() > 0.5
 
@@ -298,43 +300,43 @@ def half_played(tmp_path, monkeypatch):
     monkeypatch.setattr("engine.studio.playing.PIECE", 1e-6)  # one point at a time
     (tmp_path / "long.jsonl").write_text(LONG)
     window = Window()
-    window.easel.do(q.Open(tmp_path / "long.jsonl", True))
-    window.easel.play()
-    assert window.easel.live is not None
+    window.studio.do(q.Open(tmp_path / "long.jsonl", True))
+    window.studio.play()
+    assert window.studio.easel.live is not None
     return window
 
 
 def _played_out(window):
     end = time.monotonic() + 5.0
-    while window.easel.due is not None:
+    while window.studio.due is not None:
         assert time.monotonic() < end, "the recording does not end"
-        window.easel.play()
-    return [type(command) for command in window.easel.session.log]
+        window.studio.play()
+    return [type(command) for command in window.studio.easel.session.log]
 
 
 @pytest.mark.parametrize("request_", [q.Begin(0, (0, 0), Brush()), q.Do(c.AddLayer("New"))])
 def test_a_recordings_stroke_is_whole_though_the_artist_does_something_meanwhile(half_played, request_):
     window = half_played
-    window.easel.do(request_)
-    stroke = window.easel.session.log[0]
+    window.studio.do(request_)
+    stroke = window.studio.easel.session.log[0]
     assert len(stroke.points) == 5
     assert dict(stroke.extra) == {"by": "x"}
     if isinstance(request_, q.Begin):
-        window.easel.do(q.Points(line(3)))
+        window.studio.do(q.Points(line(3)))
         for _ in range(5):
-            window.easel.play()  # the hand's stroke comes first
-        window.easel.do(q.Points(line(2)))
-        window.easel.do(q.Finish())
-        assert [len(command.points) for command in window.easel.session.log] == [5, 5]
+            window.studio.play()  # the hand's stroke comes first
+        window.studio.do(q.Points(line(2)))
+        window.studio.do(q.Finish())
+        assert [len(command.points) for command in window.studio.easel.session.log] == [5, 5]
     assert len(_played_out(window)) == 2
 
 
 def test_points_of_a_stroke_that_was_refused_do_not_join_the_recordings(half_played):
     window = half_played
-    window.easel.do(q.Points(line(3)))
-    window.easel.do(q.Abandon())
+    window.studio.do(q.Points(line(3)))
+    window.studio.do(q.Abandon())
     assert _played_out(window) == [c.Stroke]
-    assert len(window.easel.session.log[0].points) == 5
+    assert len(window.studio.easel.session.log[0].points) == 5
 
 
 @pytest.mark.parametrize("swelling", [False, True])
@@ -345,14 +347,14 @@ def test_the_artist_is_told_whether_the_filter_that_continues_a_texture_is_stabl
         for x in range(20, 64):
             colour = f"#{min(round(1.3 ** (x - 40)) + 1, 255):02x}0000"
             brush = Brush(radius=3.0, hardness=1.0, colour=colour)
-            window.easel.do(q.Do(c.Stroke(0, (x, 0), line(40, 0, 0, 0, 2), brush)))
+            window.studio.do(q.Do(c.Stroke(0, (x, 0), line(40, 0, 0, 0, 2), brush)))
     else:
         rocky = Brush(radius=40.0, ink=(Component("rock", 0.9, "#88aaff", Map({"period": 9.0})),))
-        window.easel.do(q.Do(c.Stroke(0, (0, 0), line(3), rocky)))
+        window.studio.do(q.Do(c.Stroke(0, (0, 0), line(3), rocky)))
     op = Map({"name": "predict", "reach": 3, "window": 32})
-    window.easel.do(q.Begin(0, (40, 40), Brush(radius=5.0, mode="raster", op=op)))
-    window.easel.do(q.Points(line(2, 0, 0)))
-    window.easel.do(q.Finish())
+    window.studio.do(q.Begin(0, (40, 40), Brush(radius=5.0, mode="raster", op=op)))
+    window.studio.do(q.Points(line(2, 0, 0)))
+    window.studio.do(q.Finish())
     [told] = [r.text for r in window.other if isinstance(r, results.Note)]
     how, poles = told.removeprefix("Continued by a filter of reach 3: ").split(", poles to ")
     assert how == ("made stable" if swelling else "stable")

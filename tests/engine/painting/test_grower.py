@@ -37,9 +37,9 @@ def window(meadow):
 
 def begun(meadow):
     one = Window()
-    one.easel.do(q.New(FRAME, 7))
+    one.studio.do(q.New(FRAME, 7))
     for name in "ab":
-        one.easel.do(q.Do(texture(name, str(meadow / f"{name}.png"))))
+        one.studio.do(q.Do(texture(name, str(meadow / f"{name}.png"))))
     one.look(*TILES)
     one.work()
     return one
@@ -54,17 +54,17 @@ def points(rows):
 
 def steps(window, count):
     for _ in range(count):
-        if window.easel.pending:
-            window.easel.step()
+        if window.studio.pending:
+            window.studio.step()
 
 
 def grows(window):
     """Whether the painting is still to be refined."""
-    return any(not is_settled(layer.growth) for layer in layers.layers(window.easel.session.painting.root))
+    return any(not is_settled(layer.growth) for layer in layers.layers(window.studio.easel.session.painting.root))
 
 
 def replayed(window):
-    log = window.easel.session.log
+    log = window.studio.easel.session.log
     return replay(Recording(Header(FRAME, 7), tuple(log), folder=None)).painting
 
 
@@ -73,7 +73,7 @@ def check(window):
     window.work()
     assert not grows(window)
     window.check(*TILES)
-    assert alike(pixels(window.easel.session.painting), pixels(replayed(window)))
+    assert alike(pixels(window.studio.easel.session.painting), pixels(replayed(window)))
 
 
 def progress(window):
@@ -81,13 +81,13 @@ def progress(window):
 
 
 def test_a_stroke_is_seen_at_once_and_refined_afterwards(window):
-    easel = window.easel
-    easel.do(q.Begin(0, (0, 0), brush()))
-    easel.do(q.Points(points(LONG[:2])))
-    easel.step()
-    easel.step()
+    studio = window.studio
+    studio.do(q.Begin(0, (0, 0), brush()))
+    studio.do(q.Points(points(LONG[:2])))
+    studio.step()
+    studio.step()
     assert window.tiles[0, 0, 0][20, 40, 3] > 0  # seen before anything is refined
-    easel.do(q.Finish())
+    studio.do(q.Finish())
     assert grows(window)
     early = window.tiles[0, 0, 0].copy()
     check(window)
@@ -99,14 +99,14 @@ def test_a_stroke_is_seen_at_once_and_refined_afterwards(window):
 
 
 def test_the_stroke_in_progress_is_refined_too(window):
-    easel = window.easel
-    easel.do(q.Begin(0, (0, 0), brush()))
-    easel.do(q.Points(points(LONG[:2])))
+    studio = window.studio
+    studio.do(q.Begin(0, (0, 0), brush()))
+    studio.do(q.Points(points(LONG[:2])))
     window.work()
-    assert is_settled(easel.live.bed.growth)
-    kept = easel.live.bed.growth
-    easel.do(q.Finish())
-    assert layers.find(easel.session.painting.root, "Layer 1").growth is kept  # not done twice
+    assert is_settled(studio.easel.live.bed.growth)
+    kept = studio.easel.live.bed.growth
+    studio.do(q.Finish())
+    assert layers.find(studio.easel.session.painting.root, "Layer 1").growth is kept  # not done twice
     check(window)
 
 
@@ -138,59 +138,59 @@ ACTIONS = st.one_of(
 @given(st.lists(st.tuples(ACTIONS, st.integers(0, 12)), min_size=2, max_size=7))
 def test_whatever_comes_between_the_window_ends_up_with_the_painting(meadow, actions):
     window = begun(meadow)
-    easel = window.easel
+    studio = window.studio
     for (kind, *told), work in actions:
         if kind == "stroke":
-            easel.do(q.Begin(0, (0, 0), brush(**told[1])))
+            studio.do(q.Begin(0, (0, 0), brush(**told[1])))
             for spot in told[0]:
-                easel.do(q.Points(points([spot])))
+                studio.do(q.Points(points([spot])))
                 steps(window, work)
-            easel.do(q.Finish())
+            studio.do(q.Finish())
         elif kind == "do":
             try:
-                easel.do(q.Do(told[0]))
+                studio.do(q.Do(told[0]))
             except ValueError:
                 continue
         else:
-            easel.do(q.Begin(0, (0, 0), brush(example="b")))
-            easel.do(q.Points(points([[40, 40], [60, 40]])))
+            studio.do(q.Begin(0, (0, 0), brush(example="b")))
+            studio.do(q.Points(points([[40, 40], [60, 40]])))
             steps(window, work)
-            easel.do(q.Abandon())
+            studio.do(q.Abandon())
         window.look(*TILES)
         steps(window, work)
     check(window)
 
 
 def test_another_layer_is_refined_while_paint_is_laid(window):
-    easel = window.easel
-    easel.do(q.Do(stroke(LONG)))
-    easel.do(q.Do(c.AddLayer("more")))
-    easel.do(q.Begin(0, (0, 0), brush(mode="paint", radius=4)))
-    easel.do(q.Points(points([[30, 30], [60, 50]])))
-    before = easel.session.state
+    studio = window.studio
+    studio.do(q.Do(stroke(LONG)))
+    studio.do(q.Do(c.AddLayer("more")))
+    studio.do(q.Begin(0, (0, 0), brush(mode="paint", radius=4)))
+    studio.do(q.Points(points([[30, 30], [60, 50]])))
+    before = studio.easel.session.state
     window.work()
     assert not grows(window)
-    assert easel.live is not None
-    easel.do(q.Points(points([[70, 40]])))
-    easel.do(q.Finish())
-    assert easel.session.state is not before
-    assert len(easel.session.log[-1].points) == 3
+    assert studio.easel.live is not None
+    studio.do(q.Points(points([[70, 40]])))
+    studio.do(q.Finish())
+    assert studio.easel.session.state is not before
+    assert len(studio.easel.session.log[-1].points) == 3
     check(window)
-    easel.do(q.Do(c.Undo()))
+    studio.do(q.Do(c.Undo()))
     check(window)
 
 
 def test_undo_in_the_middle_and_back(window):
-    easel = window.easel
-    easel.do(q.Do(stroke(LONG)))
-    easel.do(q.Do(stroke([[45, 10], [45, 70]], example="b")))
+    studio = window.studio
+    studio.do(q.Do(stroke(LONG)))
+    studio.do(q.Do(stroke([[45, 10], [45, 70]], example="b")))
     steps(window, 6)
-    easel.do(q.Do(c.Undo()))
+    studio.do(q.Do(c.Undo()))
     steps(window, 4)
-    easel.do(q.Do(c.Redo()))
+    studio.do(q.Do(c.Redo()))
     steps(window, 3)
     check(window)
-    easel.do(q.Do(c.Undo(2)))
+    studio.do(q.Do(c.Undo(2)))
     check(window)
     assert progress(window)[-1] == results.Growing(1.0)
     assert not window.tiles[0, 0, 0].any()
@@ -198,9 +198,9 @@ def test_undo_in_the_middle_and_back(window):
 
 def test_more_threads_make_no_difference(window, monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 4)
-    window.easel.do(q.Do(stroke([[0, y] for y in range(0, 400, 40)], radius=60)))
+    window.studio.do(q.Do(stroke([[0, y] for y in range(0, 400, 40)], radius=60)))
     check(window)
-    window.easel.close()
+    window.studio.close()
 
 
 def test_a_fault_is_told_once_and_painting_goes_on(window, monkeypatch):
@@ -208,46 +208,46 @@ def test_a_fault_is_told_once_and_painting_goes_on(window, monkeypatch):
         raise RuntimeError("it does not grow")
         yield
 
-    easel = window.easel
+    studio = window.studio
     monkeypatch.setattr("engine.studio.grower.settling", broken)
-    easel.do(q.Do(stroke(LONG)))
+    studio.do(q.Do(stroke(LONG)))
     with pytest.raises(RuntimeError):
         window.work()
     window.work()
     monkeypatch.undo()
-    easel.do(q.Do(stroke([[45, 10], [45, 70]])))
+    studio.do(q.Do(stroke([[45, 10], [45, 70]])))
     check(window)
 
 
 def test_a_recording_plays_stroke_by_stroke(window, meadow):
     from engine.painting.recording import read, write
 
-    window.easel.do(q.Do(stroke(LONG)))
-    window.easel.do(q.Do(stroke([[45, 10], [45, 70]], example="b", depth=1)))
-    window.easel.do(q.Do(c.Swap(0, (45, 40), "a")))
+    window.studio.do(q.Do(stroke(LONG)))
+    window.studio.do(q.Do(stroke([[45, 10], [45, 70]], example="b", depth=1)))
+    window.studio.do(q.Do(c.Swap(0, (45, 40), "a")))
     path = meadow / "played.jsonl"
-    write(Recording(Header(FRAME, 7), tuple(window.easel.session.log)), path)
+    write(Recording(Header(FRAME, 7), tuple(window.studio.easel.session.log)), path)
     wanted = pixels(replay(read(path)).painting)
-    easel = window.easel
-    easel.do(q.Open(path, live=True))
+    studio = window.studio
+    studio.do(q.Open(path, live=True))
     window.look(*TILES)
-    while easel.due is not None:
-        easel.play()
+    while studio.due is not None:
+        studio.play()
         steps(window, 5)
     check(window)
-    assert alike(wanted, pixels(easel.session.painting))
-    assert easel.session.log == list(read(path).commands)
+    assert alike(wanted, pixels(studio.easel.session.painting))
+    assert studio.easel.session.log == list(read(path).commands)
 
 
 @pytest.mark.parametrize(("request_", "saving"), [(q.Save, True), (q.Export, False)])
 def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, request_, saving):
-    easel = window.easel
-    easel.do(q.Do(stroke(LONG)))
-    easel.do(q.Do(c.AddLayer("more")))
-    easel.do(q.Do(stroke(LONG, example="b")))
+    studio = window.studio
+    studio.do(q.Do(stroke(LONG)))
+    studio.do(q.Do(c.AddLayer("more")))
+    studio.do(q.Do(stroke(LONG, example="b")))
     assert grows(window)
-    easel.do(request_(tmp_path / ("p.ora" if saving else "p.png")))
-    easel.close()
+    studio.do(request_(tmp_path / ("p.ora" if saving else "p.png")))
+    studio.close()
     told = [r for r in window.other if isinstance(r, results.Writing)]
     assert told[0] == results.Writing(1, saving)
     assert told[1] == results.Writing(1, saving, 0.0)
@@ -256,8 +256,8 @@ def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, reques
     assert told[-1] == results.Writing()
     window.work()
     window.other.clear()
-    easel.do(request_(tmp_path / ("q.ora" if saving else "q.png")))
-    easel.close()
+    studio.do(request_(tmp_path / ("q.ora" if saving else "q.png")))
+    studio.close()
     told = [r for r in window.other if isinstance(r, results.Writing)]
     assert told == [results.Writing(1, saving), results.Writing()]  # all had grown
 
@@ -265,24 +265,24 @@ def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, reques
 def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(window, tmp_path):
     from engine.archive.opening import open_painting
 
-    easel = window.easel
-    easel.do(q.Do(stroke(LONG)))
+    studio = window.studio
+    studio.do(q.Do(stroke(LONG)))
     steps(window, 3)
     assert grows(window)
-    easel.do(q.Save(tmp_path / "p.ora"))
-    easel.do(q.Export(tmp_path / "p.png"))
-    easel.close()
+    studio.do(q.Save(tmp_path / "p.ora"))
+    studio.do(q.Export(tmp_path / "p.png"))
+    studio.close()
     assert not [r for r in window.other if isinstance(r, results.Note) and r.bad]
     assert not window.scene().modified
     window.work()
-    easel.tell()
+    studio.easel.tell()
     assert not window.scene().modified
-    easel.do(q.Export(tmp_path / "q.png"))
-    easel.close()
+    studio.do(q.Export(tmp_path / "q.png"))
+    studio.close()
     assert (tmp_path / "p.png").read_bytes() == (tmp_path / "q.png").read_bytes()
     opened = open_painting(tmp_path / "p.ora")
-    assert alike(pixels(opened.painting), pixels(easel.session.painting))
-    easel.do(q.Do(c.Undo()))
+    assert alike(pixels(opened.painting), pixels(studio.easel.session.painting))
+    studio.do(q.Do(c.Undo()))
     assert window.scene().modified
 
 

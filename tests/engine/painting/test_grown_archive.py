@@ -50,7 +50,7 @@ from engine.painting.grown import settled
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.easel import Easel
+from engine.studio.studio import Studio
 from engine.texture.example import SYNTHESIS
 from engine.texture.example import region as regions
 from engine.texture.example.tiles import NONE
@@ -174,15 +174,15 @@ def test_the_window_grows_what_is_opened(session, members, tmp_path, lying):
     path = tmp_path / "a.ora"
     path.write_bytes(forged(members) if lying else rewritten(members))
     sent = []
-    easel = Easel(sent.append)
-    easel.do(q.Open(path))
-    while easel.pending:
-        easel.step()
-    easel.close()
+    studio = Studio(sent.append)
+    studio.do(q.Open(path))
+    while studio.pending:
+        studio.step()
+    studio.close()
     notes = [result.text for result in sent if isinstance(result, results.Note)]
     assert notes == ([files.OTHERWISE] if lying else [])
-    assert not easel.filing.modified
-    painting = easel.session.painting
+    assert not studio.easel.modified
+    painting = studio.easel.session.painting
     assert all(plot.settled for plot in grown(painting))
     assert_same(session.painting, painting)
 

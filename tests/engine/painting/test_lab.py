@@ -19,23 +19,23 @@ from engine.session.apply import apply
 from engine.session.replay import replay
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.easel import Easel
+from engine.studio.studio import Studio
 
 RING = q.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
 WHITE = Brush(radius=5, colour="#ffffff")
 
 
 class Desk:
-    """An easel, and what it has sent."""
+    """A studio, and what it has sent."""
 
     def __init__(self):
         self.sent = []
-        self.easel = Easel(self.sent.append)
+        self.studio = Studio(self.sent.append)
 
     def ask(self, *requests):
         for request in requests:
-            self.easel.do(request)
-        while self.easel.step():
+            self.studio.do(request)
+        while self.studio.step():
             pass
 
     def picture(self, ident):
@@ -51,14 +51,14 @@ class Desk:
 
     @property
     def log(self):
-        return self.easel.session.log
+        return self.studio.easel.session.log
 
 
 @pytest.fixture
 def desk():
     one = Desk()
     yield one
-    one.easel.close()
+    one.studio.close()
 
 
 def sample_of(command):
@@ -71,7 +71,7 @@ def test_the_lab_shows_what_its_command_makes(desk):
     desk.ask(q.LabUse("Fur"))
     command = desk.log[-1]
     assert command.maker == "spectrum"
-    source = desk.easel.session.painting.textures["Fur"].source
+    source = desk.studio.easel.session.painting.textures["Fur"].source
     assert source == sample_of(c.parse(c.to_json(command)))
     shown = np.rint(source.data[0] * 255).astype(int)
     assert np.abs(shown - desk.picture("lab texture")[..., 0]).max() <= 1  # halves may round either way
@@ -127,17 +127,17 @@ def test_other_shapes_slide_under_the_strokes(desk):
 
 def test_a_texture_in_use_follows_the_lab_and_the_next_stroke_paints_with_it(desk):
     desk.ask(RING, q.LabUse("Cloth"))
-    before = desk.easel.session.painting.textures["Cloth"].source.sha
+    before = desk.studio.easel.session.painting.textures["Cloth"].source.sha
     version = desk.scene.version
     desk.stroke((10, 12), (30, 20))
     brush = Brush(radius=20, colour="#000000", ink=(Component("Cloth"),))
     desk.ask(q.Begin(0, (0, 0), brush), q.Points(np.array([[50.0, 50, 1, 0, 0, 0], [90, 60, 1, 0, 0, 0]])), q.Finish())
-    painting = desk.easel.session.painting
+    painting = desk.studio.easel.session.painting
     assert painting.textures["Cloth"].source.sha != before
     desk.ask(q.LabRest(WHITE, (80, 40)))
     assert desk.scene.version == version + 1
     assert desk.picture("lab stroke").shape == desk.picture("lab near").shape == (40, 80, 4)
-    again = replay(desk.easel.session.recording()).painting
+    again = replay(desk.studio.easel.session.recording()).painting
     assert again.textures["Cloth"].source == painting.textures["Cloth"].source
     assert len(desk.log) == 2  # the definition that was painted with, and the stroke
 
@@ -150,7 +150,7 @@ def test_its_texture_serves_as_paper_and_as_a_dry_brush(desk, field):
     seen = []
     for brush in (plain, replace(plain, grain=Surface("Cloth", 0.9)), replace(plain, density=Surface("Cloth", 0.9))):
         desk.ask(q.Begin(-1, (0, 0), brush), points, q.Finish())
-        seen.append(desk.easel.picture(-1, Rect(60, 45, 80, 65))[3])
+        seen.append(desk.studio.easel.picture(-1, Rect(60, 45, 80, 65))[3])
         desk.ask(q.Do(c.Undo()))
     assert seen[0].std() < 0.01
     assert seen[1].std() > 0.05
@@ -163,8 +163,8 @@ def test_definitions_that_nothing_was_painted_with_are_not_recorded(desk):
         desk.stroke((x, 10), (x, 20))
         desk.ask(q.LabRest(WHITE, (40, 20)))
     assert len(desk.log) == 1
-    again = replay(desk.easel.session.recording()).painting
-    assert again.textures["Cloth"].source == desk.easel.session.painting.textures["Cloth"].source
+    again = replay(desk.studio.easel.session.recording()).painting
+    assert again.textures["Cloth"].source == desk.studio.easel.session.painting.textures["Cloth"].source
 
 
 def test_a_texture_let_go_stays_as_it_is(desk):
@@ -182,8 +182,8 @@ def test_the_spectrum_of_what_is_on_the_canvas(desk):
     shown = desk.picture("lab spectrum")[32, :, 0].astype(int)
     assert set(np.argsort(shown)[-2:]) == {24, 40}
     desk.ask(q.LabUse("Seen"))
-    again = replay(desk.easel.session.recording()).painting
-    assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+    again = replay(desk.studio.easel.session.recording()).painting
+    assert again.textures["Seen"].source == desk.studio.easel.session.painting.textures["Seen"].source
 
 
 def test_the_spectrum_of_another_texture_stays_what_it_was(desk):
@@ -197,8 +197,8 @@ def test_the_spectrum_of_another_texture_stays_what_it_was(desk):
     assert set(np.argsort(shown[32, :, 0])[-2:]) == {24, 40}
     desk.ask(*stroke, q.LabUse("Seen"), *stroke)
     assert np.array_equal(desk.picture("lab spectrum"), shown)
-    again = replay(desk.easel.session.recording()).painting
-    assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+    again = replay(desk.studio.easel.session.recording()).painting
+    assert again.textures["Seen"].source == desk.studio.easel.session.painting.textures["Seen"].source
 
 
 def test_the_phases_of_what_is_on_the_canvas(desk):
@@ -213,18 +213,18 @@ def test_the_phases_of_what_is_on_the_canvas(desk):
     desk.stroke((10, 12), (30, 20))
     assert not np.array_equal(desk.picture("lab texture"), own)
     desk.ask(q.LabUse("Seen"))
-    again = replay(desk.easel.session.recording()).painting
-    assert again.textures["Seen"].source == desk.easel.session.painting.textures["Seen"].source
+    again = replay(desk.studio.easel.session.recording()).painting
+    assert again.textures["Seen"].source == desk.studio.easel.session.painting.textures["Seen"].source
 
 
 @pytest.mark.parametrize("shape", [{"shape": "image", "path": "none.png"}, {"shape": "texture", "texture": "None"}])
 def test_a_picture_that_is_not_there_is_told_once(desk, shape):
     desk.ask(RING)
     before = desk.picture("lab texture")
-    desk.easel.do(q.LabSet((64, 64), (Map(shape),)))
+    desk.studio.do(q.LabSet((64, 64), (Map(shape),)))
     with pytest.raises((FileError, FormatError)):
-        desk.easel.step()
-    assert not desk.easel.pending
+        desk.studio.step()
+    assert not desk.studio.pending
     desk.ask(RING)
     assert np.array_equal(desk.picture("lab texture"), before)
 
@@ -244,7 +244,7 @@ def test_forward_paints_a_pattern_without_its_mirror_image(desk):
     assert desk.picture("lab spectrum")[16, 16, 0] == 255
     assert desk.picture("lab spectrum")[48, 48, 0] < 40
     desk.ask(q.LabUse("T"))
-    assert desk.easel.session.painting.textures["T"].source == sample_of(c.parse(c.to_json(desk.log[-1])))
+    assert desk.studio.easel.session.painting.textures["T"].source == sample_of(c.parse(c.to_json(desk.log[-1])))
 
 
 def test_the_phase_has_a_sheet_of_its_own(desk):
@@ -261,8 +261,8 @@ def test_the_phase_has_a_sheet_of_its_own(desk):
 def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
     points = np.array([[32.0, 32.0, 1, 0, 0, 0]])
     desk.ask(q.Begin(0, (0, 0), Brush(radius=10, hardness=1.0)), q.Points(points), q.Finish())
-    desk.easel.do(q.Analyse(0, Rect(0, 0, 64, 64)))
-    desk.easel.step()
+    desk.studio.do(q.Analyse(0, Rect(0, 0, 64, 64)))
+    desk.studio.step()
     desk.ask(q.Analyse(0, Rect(0, 0, 96, 64)))
     found = [r for r in desk.sent if isinstance(r, results.Found)]
     assert [r.done for r in found].count(True) == 1
@@ -273,7 +273,7 @@ def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
         assert desk.picture(ident).shape[2] == 4
     assert len(found[-1].pictures) == 4
     assert found[-1].rings
-    desk.easel.do(q.Analyse(0, Rect(0, 0, 64, 64)))
+    desk.studio.do(q.Analyse(0, Rect(0, 0, 64, 64)))
     desk.ask(q.Analyse())
     assert [r for r in desk.sent if isinstance(r, results.Found)][-1] is found[-1]
 
@@ -289,6 +289,6 @@ def test_a_recording_of_the_lab_replays_from_its_lines(desk):
     desk.ask(RING)
     desk.stroke((10, 12), (30, 20), brush=Brush(radius=4, colour="#ffffff", ink=(Component("rock"),)))
     desk.ask(q.LabUse("A"))
-    kept = desk.easel.session.recording()
+    kept = desk.studio.easel.session.recording()
     again = replay(Recording(kept.header, tuple(c.parse(c.to_json(x)) for x in kept.commands))).painting
-    assert again.textures["A"].source == desk.easel.session.painting.textures["A"].source
+    assert again.textures["A"].source == desk.studio.easel.session.painting.textures["A"].source

@@ -14,23 +14,23 @@ from engine.session.apply import apply
 from engine.session.replay import replay
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.easel import Easel
+from engine.studio.studio import Studio
 
 
 class Desk:
-    """An easel, and what it has sent."""
+    """A studio, and what it has sent."""
 
     def __init__(self):
         self.sent = []
-        self.easel = Easel(self.sent.append)
+        self.studio = Studio(self.sent.append)
 
     def ask(self, *requests):
         for request in requests:
-            self.easel.do(request)
+            self.studio.do(request)
 
     def rest(self):
         steps = 0
-        while self.easel.step():
+        while self.studio.step():
             steps += 1
             assert steps < 5000
         return steps
@@ -47,7 +47,7 @@ class Desk:
 def desk():
     one = Desk()
     yield one
-    one.easel.close()
+    one.studio.close()
 
 
 @pytest.fixture
@@ -71,7 +71,7 @@ def test_a_preview_grows_step_by_step(desk, example):
     assert (desk.scene.done, desk.scene.levels, desk.scene.orientations) == (1.0, 2, 4)
     assert len(desk.scene.colours) == 3
     assert desk.scene.sizes == ((56, 48),)
-    assert not desk.easel.pending
+    assert not desk.studio.pending
 
 
 def test_a_translucent_example_is_seen_and_used_so(desk, example):
@@ -89,7 +89,7 @@ def test_a_translucent_example_is_seen_and_used_so(desk, example):
     assert all(len(colour) == 3 for colour in desk.scene.colours)
     desk.ask(q.MatchUse("Lace", "match", given))
     desk.rest()
-    made = desk.easel.session.painting.textures["Lace"]
+    made = desk.studio.easel.session.painting.textures["Lace"]
     assert np.abs(made.source.data.transpose(1, 2, 0) * 255 - desk.pictures("match texture")[-1]).max() < 0.51
     assert made.instance({}, 0, 0).cover is not None
     given = given.set("axes", (1.0, 1.0, 0.5, 0.0))
@@ -101,16 +101,16 @@ def test_a_translucent_example_is_seen_and_used_so(desk, example):
 def test_the_newest_settings_win_and_tiles_come_first(desk, example):
     desk.ask(q.MatchSet("match", members(example)))
     for _ in range(8):
-        desk.easel.step()
+        desk.studio.step()
     desk.ask(q.MatchSet("match", members(example, iterations=1, seed=5)))
-    desk.easel.look(q.Look(((0, 0, 0, -1),)))
-    desk.easel.step()
+    desk.studio.look(q.Look(((0, 0, 0, -1),)))
+    desk.studio.step()
     assert any(isinstance(r, results.Patch | results.Same) for r in desk.sent)
     desk.rest()
     assert len(desk.pictures("match texture")) == 1
     assert len(desk.pictures("match example")) == 1  # it is the same
     desk.ask(q.MatchSet("match", None))
-    assert not desk.easel.pending
+    assert not desk.studio.pending
     assert desk.scene.done == 0.0
 
 
@@ -121,10 +121,10 @@ def test_what_is_used_is_what_was_seen_and_replays(desk, example):
     seen = desk.pictures("match texture")[-1]
     desk.ask(q.MatchUse("Stone", "match", given))
     assert desk.rest() < 4  # nothing is done twice
-    texture = desk.easel.session.painting.textures["Stone"]
+    texture = desk.studio.easel.session.painting.textures["Stone"]
     assert texture.kind == "matched"
     assert np.abs(texture.source.data[:3].transpose(1, 2, 0) * 255 - seen[..., :3]).max() < 0.51
-    (command,) = desk.easel.session.log
+    (command,) = desk.studio.easel.session.log
     alone = apply(Painting(), c.DefineTexture("Stone", "match", given)).textures["Stone"]
     assert alone.source.sha == texture.source.sha == command.arguments["sha"]
     assert alone.parameters == texture.parameters.delete("sha")
@@ -135,16 +135,16 @@ def test_a_series_is_made_for_use_between_strokes(desk, example):
     desk.ask(q.MatchSet("mix", given), q.MatchUse("Both", "mix", given.set("stages", 3)))
     desk.ask(q.Begin(0, (0, 0), from_json({"radius": 4})), q.Points(np.array([[0.0, 0, 1, 0, 0, 0]])))
     for _ in range(3000):
-        desk.easel.step()
-    assert not desk.easel.pending
-    assert "Both" not in desk.easel.session.painting.textures
+        desk.studio.step()
+    assert not desk.studio.pending
+    assert "Both" not in desk.studio.easel.session.painting.textures
     desk.ask(q.Points(np.array([[9.0, 0, 1, 0, 0, 0]])), q.Finish())
     desk.rest()
-    assert desk.easel.session.painting.textures["Both"].kind == "series"
-    log = desk.easel.session.log
+    assert desk.studio.easel.session.painting.textures["Both"].kind == "series"
+    log = desk.studio.easel.session.log
     assert [type(command) for command in log] == [c.Stroke, c.DefineTexture]
-    again = replay(Recording(desk.easel.session.recording().header, tuple(log))).painting
-    assert again.textures["Both"].source.sha == desk.easel.session.painting.textures["Both"].source.sha
+    again = replay(Recording(desk.studio.easel.session.recording().header, tuple(log))).painting
+    assert again.textures["Both"].source.sha == desk.studio.easel.session.painting.textures["Both"].source.sha
 
 
 def test_a_rectangle_is_taken_as_the_canvas_is_now(desk):
@@ -163,11 +163,11 @@ def test_a_rectangle_is_taken_as_the_canvas_is_now(desk):
     stroke("#1020ff")
     desk.ask(q.MatchUse("View", "match", given))
     desk.rest()
-    blue = desk.easel.session.painting.textures["View"].source.data[:3].mean((1, 2))
+    blue = desk.studio.easel.session.painting.textures["View"].source.data[:3].mean((1, 2))
     assert blue[2] > blue[0]
-    log = desk.easel.session.log
-    again = replay(Recording(desk.easel.session.recording().header, tuple(log))).painting
-    assert again.textures["View"].source.sha == desk.easel.session.painting.textures["View"].source.sha
+    log = desk.studio.easel.session.log
+    again = replay(Recording(desk.studio.easel.session.recording().header, tuple(log))).painting
+    assert again.textures["View"].source.sha == desk.studio.easel.session.painting.textures["View"].source.sha
 
 
 @pytest.mark.parametrize(
@@ -178,4 +178,4 @@ def test_faults_are_told_and_end_the_work(desk, given, message):
     desk.ask(q.MatchSet("match", Map(given)))
     desk.rest()
     assert message in desk.scene.fault
-    assert not desk.easel.pending
+    assert not desk.studio.pending

@@ -35,31 +35,31 @@ def known():
     }
 
 def paint(window, brushes):
-    easel, tiles = window.easel, tuple((level, x, 0) for level in (-2, -1, 0, 1, 2) for x in (-1, 0))
+    studio, tiles = window.studio, tuple((level, x, 0) for level in (-2, -1, 0, 1, 2) for x in (-1, 0))
     for brush in brushes:
-        easel.do(q.Begin(0, (0, 0), brush))
+        studio.do(q.Begin(0, (0, 0), brush))
         for x in range(0, 160, 20):
             points = np.zeros((2, 6))
             points[:, 2] = 1.0
             points[:, :2] = (x, 40), (x + 10, 44)
-            easel.do(q.Points(points))
-            easel.step()
-        easel.do(q.Finish())
+            studio.do(q.Points(points))
+            studio.step()
+        studio.do(q.Finish())
         window.look(*tiles)
         window.work()
-    easel.do(q.Do(c.Undo()))
+    studio.do(q.Do(c.Undo()))
     window.work()
 
 window = Window()
 paint(window, [Brush(radius=9.0), Brush(radius=9.0, mode="erase")])
 for _ in range(2):
-    window.easel.do(q.GetReady())
+    window.studio.do(q.GetReady())
 while not any(isinstance(r, results.GotReady) for r in window.other):
     time.sleep(0.05)
 before = known()
 for kind, name in enumerate("ab", 1):
     Image.fromarray(blob(kind, 90)).save(folder / f"{name}.png")
-    window.easel.do(q.Do(texture(name, str(folder / f"{name}.png"))))
+    window.studio.do(q.Do(texture(name, str(folder / f"{name}.png"))))
 grows = Brush(radius=19.0, mode="example", hardness=1.0)
 from dataclasses import replace
 paint(window, [
@@ -69,7 +69,7 @@ paint(window, [
     Brush(radius=5.0, mode="erase", depth=0.0),
     Brush(radius=3.0, mode="erase"),
 ])
-window.easel.do(q.Do(c.Swap(0, (80, 60), "a")))
+window.studio.do(q.Do(c.Swap(0, (80, 60), "a")))
 window.work()
 told = [r.text for r in window.other if isinstance(r, results.Note)]
 count = sum(isinstance(r, results.GotReady) for r in window.other)
