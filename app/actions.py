@@ -34,19 +34,19 @@ def _always(_desk: Desk) -> bool:
 
 
 def _ready(desk: Desk) -> bool:
-    return desk.ready and not desk.painting
+    return desk.known.ready and not desk.painting
 
 
 def _layer(desk: Desk) -> bool:
-    return _ready(desk) and desk.scene is not None and desk.scene.active is not None
+    return _ready(desk) and desk.known.scene is not None and desk.known.scene.active is not None
 
 
 def _can_undo(desk: Desk) -> bool:
-    return _ready(desk) and desk.scene is not None and desk.scene.can_undo
+    return _ready(desk) and desk.known.scene is not None and desk.known.scene.can_undo
 
 
 def _can_redo(desk: Desk) -> bool:
-    return _ready(desk) and desk.scene is not None and desk.scene.can_redo
+    return _ready(desk) and desk.known.scene is not None and desk.known.scene.can_redo
 
 
 def _posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
@@ -134,7 +134,7 @@ def _escape(desk: Desk) -> None:
 
 def free_name(desk: Desk, stem: str) -> str:
     """`stem` with the first number that no layer has yet."""
-    taken = {row.name for row in desk.scene.layers} if desk.scene else set()
+    taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
     n = 1
     while f"{stem} {n}" in taken:
         n += 1
@@ -146,9 +146,9 @@ def _add(kind: str, stem: str) -> Callable[[Desk], None]:
 
 
 def _active(desk: Desk) -> str:
-    assert desk.scene is not None
-    assert desk.scene.active is not None
-    return desk.scene.active
+    assert desk.known.scene is not None
+    assert desk.known.scene.active is not None
+    return desk.known.scene.active
 
 
 def _duplicate(desk: Desk) -> None:
@@ -162,7 +162,7 @@ def _remove(desk: Desk) -> None:
 
 def _moves(by: int) -> Callable[[Desk], None]:
     def do(desk: Desk) -> None:
-        row = next((r for r in desk.scene.layers if r.name == _active(desk)), None) if desk.scene else None
+        row = next((r for r in desk.known.scene.layers if r.name == _active(desk)), None) if desk.known.scene else None
         if row is not None and row.position + by >= 0:
             desk.post(Do(c.MoveLayer(row.name, row.position + by)))
 

@@ -31,7 +31,7 @@ def shape(desk: Desk, panning: bool) -> int:
 
 def draw_frame(desk: Desk) -> None:
     """The frame's edge, so that it shows under paint that goes beyond it."""
-    r, view = desk.frame, desk.view
+    r, view = desk.known.frame, desk.view
     corners = [view.pixel_to_screen(0, x, y) for x, y in ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))]
     painter = imgui.get_background_draw_list()
     far = 4.0 * (view.width + view.height)
@@ -56,8 +56,8 @@ def draw_outline(desk: Desk) -> None:
 
 def draw_growing(desk: Desk) -> None:
     """A small ring over what still grows, filled as far as it is done; not at once, so that little work shows none."""
-    growing, radius = desk.growing, 7.0 * desk.scale
-    if growing is None or time.monotonic() - desk.grows < PATIENCE:
+    growing, radius = desk.known.growing, 7.0 * desk.scale
+    if growing is None or time.monotonic() - desk.known.grows < PATIENCE:
         return
     painter, (x0, y0, x1, y1) = imgui.get_background_draw_list(), desk.free_area()
     middles: list[tuple[float, float]] = []

@@ -16,6 +16,7 @@ from app.canvas.view import SUBPIXEL, Place
 from app.desk import example_use, palette, presets
 from app.desk.desk import Desk
 from app.desk.example_state import SAMPLE
+from app.desk.known import Known, told
 from app.desk.lab_state import only_with
 from app.desk.region_mask import shown
 from app.desk.thumbnails import Shelf
@@ -46,22 +47,19 @@ class News:
         self._ink: Any = None
         self._ink_since = self._ink_sent = 0.0
         self._serial: int | None = None
-        self._laid_out = False
-        self._handlers: dict[type, Callable[[Any, float], None]] = {
+        self._laid_out, self._now = False, 0.0
+        self._handlers: dict[type, Callable[[Any, Known], None]] = {
             results.Ready: self._ready,
             results.Patch: self._patch,
             results.Same: self._same,
             results.Scene: self._scene,
-            results.Note: lambda r, now: self.desk.told(r),
+            results.Note: lambda r, before: self.desk.told(r),
             results.Saved: self._saved,
             results.Picture: self._picture,
             results.Picked: self._picked,
             results.Looked: self._looked,
             results.LabScene: self._lab,
-            results.Found: self._found,
             results.MatchScene: self._matched,
-            results.Pending: self._pending,
-            results.Writing: self._writing,
             results.Growing: self._growing,
             results.GotReady: self._got_ready,
         }
@@ -71,7 +69,11 @@ class News:
         came = self.worker.results() if self.worker else []
         came += self.shelf.take() if self.shelf else []
         for result in came:
-            self._handlers[type(result)](result, now)
+            before, self._now = self.desk.known, now
+            self.desk.known = told(before, result, now)
+            handler = self._handlers.get(type(result))
+            if handler is not None:
+                handler(result, before)
         return bool(came)
 
     def first_layout(self) -> bool:
@@ -81,7 +83,7 @@ class News:
 
     def ask(self, now: float) -> None:
         """Posts which tiles the screen wants, when that has changed, and new swatches."""
-        if not self.desk.ready or self.worker is None:
+        if not self.desk.known.ready or self.worker is None:
             return
         view, level = self.desk.view, self.desk.view.shown_level
         seen = cells(view, level)
@@ -106,7 +108,7 @@ class News:
         brush = self.desk.examples.at_home(self.desk.hand.dipped())
         if brush != self._ink:
             self._ink, self._ink_since = brush, self._ink_since or max(now, self._ink_sent + SETTLE)
-        early = brush.mode == "example" and self.desk.preparing is not None
+        early = brush.mode == "example" and self.desk.known.preparing is not None
         if self._ink_since and now >= self._ink_since and self.worker and not early:
             self._ink_since, self._ink_sent = 0.0, now
             scale = self.desk.scale
@@ -121,8 +123,8 @@ class News:
     def _ask_lab(self, now: float) -> None:
         desk = self.desk
         if desk.strip == "lab" and desk.panels:
-            known = {row.name for row in desk.kinds if not row.pictured} | set(
-                desk.scene.textures if desk.scene else ()
+            known = {row.name for row in desk.known.tables.kinds if not row.pictured} | set(
+                desk.known.scene.textures if desk.known.scene else ()
             )
             brush = only_with(replace(desk.hand.dipped(), ink=()), frozenset(known))
             brush = replace(brush, radius=16.0, opacity=1.0, flow=1.0, mode="paint")
@@ -135,7 +137,7 @@ class News:
             self.shelf.ask(state.entries, round(LARGE * desk.scale))
         if desk.strip != "examples" or not desk.panels:
             return
-        if desk.preparing is None:  # or the engine would wait for it, and strokes for the engine
+        if desk.known.preparing is None:  # or the engine would wait for it, and strokes for the engine
             state.ask(desk.post, now)
         state.ask_thumbnails(desk.post, round(LARGE * desk.scale))
         mask = state.mask
@@ -148,35 +150,31 @@ class News:
         """Whether a swatch is about to be asked for."""
         return self._ink_since > 0
 
-    def _ready(self, result: results.Ready, _now: float) -> None:
+    def _ready(self, _r: results.Ready, _before: Known) -> None:
         desk = self.desk
-        desk.ready, desk.blends, desk.kinds = True, result.blends, result.kinds
-        desk.ops, desk.curves, desk.edges = result.ops, result.curves, result.edges
         trace("engine ready")
         found, faults = presets.load(presets.bundled_folder())
         own, more = presets.load(presets.own_folder())
-        desk.presets = (*found, *own) or (presets.DEFAULT,)
         papers, torn = presets.load_papers(presets.papers_folder())
-        desk.papers = tuple(papers)
+        desk.learn(presets=(*found, *own) or (presets.DEFAULT,), papers=tuple(papers))
         for fault in faults + more + torn:
             desk.say(fault, bad=True)
         example_use.stock(desk)
         if not desk.hand.preset:
-            first = next((p for p in desk.presets if p.brush.mode == "paint"), desk.presets[0])
+            first = next((p for p in desk.known.presets if p.brush.mode == "paint"), desk.known.presets[0])
             desk.hand.take(first.brush, first.name, first.textures)
-        for preset in filter(ready_at_start, desk.presets):
+        for preset in filter(ready_at_start, desk.known.presets):
             ask_picture(desk, preset)
 
-    def _patch(self, r: results.Patch, now: float) -> None:
-        self.screen.upload(r, self.desk.view, now)
+    def _patch(self, r: results.Patch, _before: Known) -> None:
+        self.screen.upload(r, self.desk.view, self._now)
 
-    def _same(self, r: results.Same, _now: float) -> None:
+    def _same(self, r: results.Same, _before: Known) -> None:
         for tile in r.tiles:
             self.screen.confirm(ScreenTile(*tile), r.revision)
 
-    def _scene(self, scene: results.Scene, _now: float) -> None:
-        before, self.desk.scene = self.desk.scene, scene
-        if before is None or before.definitions != scene.definitions:
+    def _scene(self, scene: results.Scene, before: Known) -> None:
+        if before.scene is None or before.scene.definitions != scene.definitions:
             example_use.gather(self.desk)
         if scene.serial != self._serial:
             self.screen.forget()
@@ -185,34 +183,31 @@ class News:
             self._serial = scene.serial
             trace(f"painting {scene.serial} shown")
 
-    def _saved(self, r: results.Saved, _now: float) -> None:
+    def _saved(self, r: results.Saved, _before: Known) -> None:
         self.desk.say(f"Saved {Path(r.path).name}")
         then, self.desk.after_save = self.desk.after_save, None
         if then is not None:
             then(self.desk)
 
-    def _picture(self, r: results.Picture, _now: float) -> None:
+    def _picture(self, r: results.Picture, _before: Known) -> None:
         """A swatch over paper, as a texture for imgui."""
         if r.ident == SAMPLE:
             self.desk.examples.seen = self.desk.examples.sampling
         self.gallery.hang(r.ident, r.pixels)
 
-    def _lab(self, r: results.LabScene, _now: float) -> None:
+    def _lab(self, r: results.LabScene, _before: Known) -> None:
         before, self.desk.lab.scene = self.desk.lab.scene, r
         if before is not None and before.version != r.version:
             self._ink = None  # its pictures are of a texture that is another one now
 
-    def _matched(self, r: results.MatchScene, _now: float) -> None:
+    def _matched(self, r: results.MatchScene, _before: Known) -> None:
         self.desk.match.scene = r
 
-    def _found(self, r: results.Found, _now: float) -> None:
-        self.desk.found = r
-
-    def _picked(self, r: results.Picked, _now: float) -> None:
+    def _picked(self, r: results.Picked, _before: Known) -> None:
         if r.alpha > 0.01:
             self.desk.hand.colour = r.rgb
 
-    def _looked(self, r: results.Looked, _now: float) -> None:
+    def _looked(self, r: results.Looked, _before: Known) -> None:
         """A recording that plays shows where its artist looked."""
         x, y = (_middle(o, s, r.level % 1) for o, s in zip(r.origin, r.size, strict=True))
         x0, y0, x1, y1 = self.desk.free_area()
@@ -222,23 +217,13 @@ class News:
         place = Place(x, y, int(r.level // 1) + SUBPIXEL)
         self.desk.look_at(place, zoom, r.seconds)
 
-    def _got_ready(self, _r: results.GotReady, _now: float) -> None:
-        self.desk.preparing = None
+    def _got_ready(self, _r: results.GotReady, _before: Known) -> None:
         trace("examples ready")
 
-    def _growing(self, r: results.Growing, now: float) -> None:
-        desk = self.desk
-        done = r.done >= 1.0 or not r.rects
-        if done == (desk.growing is not None):
-            trace("all has grown" if done else "something grows")
-        desk.grows = desk.grows if desk.growing is not None else now
-        desk.growing = None if done else r
-
-    def _pending(self, r: results.Pending, _now: float) -> None:
-        self.desk.pending = r.tiles
-
-    def _writing(self, r: results.Writing, _now: float) -> None:
-        self.desk.writing = r
+    def _growing(self, _r: results.Growing, before: Known) -> None:
+        grows = self.desk.known.growing is not None
+        if grows != (before.growing is not None):
+            trace("something grows" if grows else "all has grown")
 
 
 def _middle(origin: float, size: float, fraction: float) -> int:

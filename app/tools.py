@@ -34,7 +34,7 @@ def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, sta
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:
     """A stroke, at the level that is shown."""
-    if not desk.ready:
+    if not desk.known.ready:
         desk.say("The paint engine is still loading")
         return
     layer = _locked_layer(desk)
@@ -70,7 +70,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
 def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
     """A stroke in the texture lab's spectrum."""
     lab = desk.lab
-    built_in = frozenset(row.name for row in desk.kinds if not row.pictured)
+    built_in = frozenset(row.name for row in desk.known.tables.kinds if not row.pictured)
     brush = lab.brush(desk.hand.brush, to_hex(desk.hand.colour), first.eraser, built_in)
     smoother = Smoother(desk.hand.stabiliser)
     desk.post(LabBegin(brush))
@@ -100,8 +100,10 @@ def _post(desk: Desk, points: np.ndarray, form: type[Points] | type[LabPoints] =
 
 
 def _locked_layer(desk: Desk) -> str | None:
-    rows = desk.scene.layers if desk.scene else ()
-    return next((row.name for row in rows if desk.scene and row.name == desk.scene.active and row.locked), None)
+    rows = desk.known.scene.layers if desk.known.scene else ()
+    return next(
+        (row.name for row in rows if desk.known.scene and row.name == desk.known.scene.active and row.locked), None
+    )
 
 
 def pan(desk: Desk, first: PenEvent) -> Gesture:

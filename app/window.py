@@ -115,7 +115,7 @@ class Window:
 
     def _dropped(self, _w: Any, paths: Any) -> None:
         self.pace.event()
-        if not paths or not self.desk.ready:
+        if not paths or not self.desk.known.ready:
             return
         x, y = self._pointer()
         taken = self.desk.strip == "match" and self.desk.panels and self.desk.match.dropped(Path(paths[0]), x, y)
@@ -164,13 +164,13 @@ class Window:
         self.news.ask(now)
         self._show_cursor()
         moving = self._draw(now) or moving
-        self.pace.end(self._drawn, moving, self.desk.growing is not None)
+        self.pace.end(self._drawn, moving, self.desk.known.growing is not None)
         return moving
 
     def _draw(self, now: float) -> bool:
         """Draws, if anything is to be seen that is not on the screen; True while something fades."""
         desk, data = self.desk, imgui.get_draw_data()
-        plan = self.screen.plan(desk.view, desk.frame, now, desk.insets)
+        plan = self.screen.plan(desk.view, desk.known.frame, now, desk.insets)
         told = self.overlay.look(data, (desk.view.width, desk.view.height), self.news.gallery.fresh())
         self._drawn = told or plan != self._plan or self._exposed
         if self._drawn:
@@ -208,7 +208,8 @@ class Window:
             if wanted not in self._cursors:
                 self._cursors[wanted] = glfw.create_standard_cursor(wanted)
             glfw.set_cursor(self.handle, self._cursors[wanted])
-        title = f"{'*' if self.desk.modified else ''}{self.desk.path.name if self.desk.path else 'Untitled'} - Inkfall"
+        known = self.desk.known
+        title = f"{'*' if known.modified else ''}{known.path.name if known.path else 'Untitled'} - Inkfall"
         if title != self._title:
             self._title = title
             glfw.set_window_title(self.handle, title)

@@ -8,19 +8,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
 from app.desk.example_state import ExampleState
 from app.desk.hand import Hand
+from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from engine.brush.settings import Brush
-from engine.numeric.address import Rect
 from engine.studio.requests import Request, Save
-from engine.studio.results import CurveRow, Found, Growing, Note, Scene, Writing
+from engine.studio.results import Note
 
 MESSAGE_SECONDS = 6.0
 
@@ -43,23 +42,13 @@ class Desk:
     post: Callable[[Request], None]
     scale: float = 1.0
     hand: Hand = field(default_factory=Hand)
-    blends: tuple[tuple[str, str, str], ...] = ()  # name, title, hint; from the engine
-    kinds: tuple[Any, ...] = ()  # rows of engine.texture.table
-    ops: tuple[Any, ...] = ()  # rows of engine.brush.ops
-    curves: tuple[CurveRow, ...] = ()  # that shape textures
-    edges: tuple[CurveRow, ...] = ()  # that shape the rim of a stroke
-    presets: tuple[Any, ...] = ()  # app.presets.Preset
-    papers: tuple[Any, ...] = ()  # app.presets.Paper
-    scene: Scene | None = None
-    ready: bool = False
+    known: Known = field(default_factory=Known)
     painting: bool = False
     panels: bool = True
     insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
     pointer: Pointer = field(default_factory=Pointer)
     glide: Glide = field(default_factory=Glide)
     message: tuple[str, bool, float] = ("", False, 0.0)
-    pending: int = 0
-    writing: Writing = field(default_factory=Writing)
     export_level: int = 0
     behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
     asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
@@ -69,26 +58,14 @@ class Desk:
     awaited: str = ""  # a texture that was asked for: it joins the ink when the painting has it
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
     lab: LabState = field(default_factory=LabState)
-    found: Found | None = None  # by the analysis
     match: MatchState = field(default_factory=MatchState)
     examples: ExampleState = field(default_factory=ExampleState)
-    preparing: float | None = None  # since when the engine gets ready for painting with examples, if it does
-    growing: Growing | None = None  # what is painted with examples and not yet as it will stay
-    grows: float = 0.0  # since when
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
 
-    @property
-    def frame(self) -> Rect:
-        return self.scene.frame if self.scene else Rect(0, 0, 1024, 768)
-
-    @property
-    def modified(self) -> bool:
-        return self.scene is not None and self.scene.modified
-
-    @property
-    def path(self) -> Path | None:
-        return self.scene.path if self.scene else None
+    def learn(self, **known: Any) -> None:
+        """Takes over what has become known: other values for members of `known`."""
+        self.known = replace(self.known, **known)
 
     def say(self, text: str, bad: bool = False) -> None:
         """Shows a line in the status line for some seconds."""
@@ -105,15 +82,16 @@ class Desk:
 
     def guard(self, then: Callable[[Desk], None]) -> None:
         """Does `then`, after asking about unsaved changes if there are any, or may be when all is carried out."""
-        if self.modified or self.behind():
+        if self.known.modified or self.behind():
             self.then, self.asked = then, "unsaved"
         else:
             then(self)
 
     def save(self) -> None:
         """Saves where the painting came from; asks where, the first time."""
-        if self.path is not None and self.path.suffix.lower() == ".ora":
-            self.post(Save(self.path))
+        path = self.known.path
+        if path is not None and path.suffix.lower() == ".ora":
+            self.post(Save(path))
         else:
             self.asked = "save as"
 
@@ -129,7 +107,7 @@ class Desk:
     def fit(self) -> None:
         """Shows the whole frame."""
         self.glide.stop()
-        self.view = fitted(self.frame, self.free_area(), self.view.width, self.view.height)
+        self.view = fitted(self.known.frame, self.free_area(), self.view.width, self.view.height)
 
     def look_at(self, place: Place, zoom: float, seconds: float = 0.0) -> None:
         """Brings a place into the middle at a real zoom level, in some seconds."""

@@ -31,7 +31,7 @@ def stock(desk: Desk) -> None:
 def gather(desk: Desk) -> None:
     """Lists those that only the painting has, too."""
     state = desk.examples
-    here = () if desk.scene is None else example_state.here(desk.scene.definitions, state)
+    here = () if desk.known.scene is None else example_state.here(desk.known.scene.definitions, state)
     state.entries = tuple(example_state.arranged([*(entry for entry in state.entries if entry.here is None), *here]))
     if state.group not in (example_state.ALL, *state.groups()):
         state.group = example_state.ALL
@@ -40,14 +40,15 @@ def gather(desk: Desk) -> None:
 def prepare(desk: Desk, now: float) -> None:
     """Has the engine get ready for examples, once, when the palette is open or something is painted with one."""
     state = desk.examples
-    given = () if desk.scene is None else desk.scene.texture_kinds
+    given = () if desk.known.scene is None else desk.known.scene.texture_kinds
     used = (
         desk.hand.brush.mode == "example"
         or desk.strip == "examples"
         or any(kind == example_state.KIND for _, kind in given)
     )
     if used and not state.prepared:
-        state.prepared, desk.preparing = True, now
+        state.prepared = True
+        desk.learn(preparing=now)
         desk.post(GetReady())
 
 
@@ -235,11 +236,11 @@ def rename(desk: Desk, entry: Entry, text: str) -> None:
 
 def users(desk: Desk, entry: Entry) -> str:
     """What is painted with one of the artist's own: the painting, brushes; empty if nothing is."""
-    scene, path = desk.scene, str(entry.picture)
+    scene, path = desk.known.scene, str(entry.picture)
     found = ["this painting"] if scene is not None and example_state.in_painting(entry, scene.definitions) else []
     found += [
         f"the brush “{preset.name}”"
-        for preset in desk.presets
+        for preset in desk.known.presets
         if any(need.arguments.get("path") == path for need in preset.textures)
     ]
     return " and ".join(found[:2]) + (" and more" if len(found) > 2 else "")
@@ -272,7 +273,7 @@ def _without(desk: Desk, entry: Entry) -> None:
     if left is not None:
         choose(desk, left)
     else:
-        palette.take(desk, next((p for p in desk.presets if p.brush.mode == "paint"), presets.DEFAULT))
+        palette.take(desk, next((p for p in desk.known.presets if p.brush.mode == "paint"), presets.DEFAULT))
 
 
 def _title(desk: Desk) -> str:

@@ -35,14 +35,14 @@ def _on_paper(desk: Desk, preset: Preset) -> tuple[Brush, tuple[DefineTexture, .
 
 def lacking(desk: Desk) -> tuple[DefineTexture, ...]:
     """Textures that the brush came with and the painting does not have yet."""
-    defined = () if desk.scene is None else desk.scene.textures
+    defined = () if desk.known.scene is None else desk.known.scene.textures
     return tuple(command for command in desk.hand.needs if command.name not in defined)
 
 
 def belonging(desk: Desk) -> tuple[tuple[DefineTexture, ...], tuple[str, ...]]:
     """The definitions of the textures that the brush refers to, and the names of those that only this painting has."""
     found = {command.name: command for command in desk.hand.needs}
-    defined = () if desk.scene is None else desk.scene.definitions
+    defined = () if desk.known.scene is None else desk.known.scene.definitions
     told = {name: portable(name, kind, given) for name, kind, given in defined}
     found |= {name: command for name, command in told.items() if command is not None}
     stay = (name for name, command in told.items() if command is None and name not in found)
@@ -52,7 +52,7 @@ def belonging(desk: Desk) -> tuple[tuple[DefineTexture, ...], tuple[str, ...]]:
 def provide(desk: Desk) -> None:
     """Defines the textures that the brush came with and the painting lacks, which may be another by now."""
     for command in _fit(desk):
-        posted = (0 if desk.scene is None else desk.scene.serial, command)
+        posted = (0 if desk.known.scene is None else desk.known.scene.serial, command)
         if posted not in desk.hand.provided:  # the painting is told of what was posted with its next scene
             desk.hand.provided.add(posted)
             desk.post(Do(command))
@@ -63,9 +63,9 @@ def _fit(desk: Desk) -> tuple[DefineTexture, ...]:
     needs = used(desk.hand.brush, desk.hand.needs)
     if not needs:
         return ()
-    scene = desk.scene
+    scene = desk.known.scene
     known = {} if scene is None else {name: (kind, given) for name, kind, given in scene.definitions}
-    taken = {row.name for row in desk.kinds}
+    taken = {row.name for row in desk.known.tables.kinds}
     brush, needs, missing = fitted(desk.hand.brush, needs, known, taken)
     desk.hand.take(brush, needs=needs)
     return missing

@@ -53,7 +53,7 @@ def _define(desk: Desk, command: DefineTexture) -> None:
 def free_name(desk: Desk, stem: str) -> str:
     """A name that no texture has yet."""
     stem = "".join(c for c in stem if c.isprintable())[:NAME_LENGTH].strip() or "Picture"
-    taken = {row.name for row in desk.kinds} | set(desk.scene.textures if desk.scene else ())
+    taken = {row.name for row in desk.known.tables.kinds} | set(desk.known.scene.textures if desk.known.scene else ())
     name, number = stem, 1
     while name in taken or name.lower() in taken:
         number += 1

@@ -140,8 +140,8 @@ class Layout:
         w.tooltip(action.hint)
 
     def _title(self, desk: Desk) -> None:
-        name = desk.path.name if desk.path else "Untitled"
-        text = f"{name}{' *' if desk.modified else ''}"
+        name = desk.known.path.name if desk.known.path else "Untitled"
+        text = f"{name}{' *' if desk.known.modified else ''}"
         imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
         imgui.text_disabled(text)
 

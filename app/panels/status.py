@@ -26,7 +26,7 @@ def draw(desk: Desk, pointer_name: str) -> None:
     elif desk.examples.swapping:
         name = desk.examples.entry.title if desk.examples.entry else ""
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
-    elif not desk.ready:
+    elif not desk.known.ready:
         imgui.text_disabled("Loading the paint engine…")
     else:
         imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
@@ -43,15 +43,15 @@ def draw(desk: Desk, pointer_name: str) -> None:
 
 def _work(desk: Desk) -> str:
     """What goes on beside the painting."""
-    if desk.writing.files:
-        word = "Saving" if desk.writing.saving else "Writing"
-        grown = f", growing {desk.writing.grown * 100:.0f} %" if desk.writing.grown < 1.0 else ""
+    if desk.known.writing.files:
+        word = "Saving" if desk.known.writing.saving else "Writing"
+        grown = f", growing {desk.known.writing.grown * 100:.0f} %" if desk.known.writing.grown < 1.0 else ""
         return f"{icons.DISK} {word}{grown}"
-    if desk.preparing is not None and time.monotonic() - desk.preparing > PATIENCE:
+    if desk.known.preparing is not None and time.monotonic() - desk.known.preparing > PATIENCE:
         return f"{icons.WAIT} examples: getting ready"
-    if desk.growing is not None:
-        return f"growing {desk.growing.done * 100:.0f} %"
-    return f"{desk.pending} tiles to do" if desk.pending else ""
+    if desk.known.growing is not None:
+        return f"growing {desk.known.growing.done * 100:.0f} %"
+    return f"{desk.known.pending} tiles to do" if desk.known.pending else ""
 
 
 def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:

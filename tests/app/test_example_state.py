@@ -42,7 +42,8 @@ def posted():
 @pytest.fixture
 def desk(own, posted):
     made = Desk(View(Place(0, 0, 0), 0, 0.0, 800, 600), posted.append)
-    made.ready, made.strip = True, "examples"
+    made.learn(ready=True)
+    made.strip = "examples"
     example_use.stock(made)
     return made
 
@@ -290,11 +291,9 @@ def test_who_paints_with_ones_own_is_told_and_keeps_on_painting_when_it_is_delet
     example_use.add(desk, picture(tmp_path / "sand.png"))
     rock, sand = named(desk, "rock"), named(desk, "sand")
     assert example_use.users(desk, rock) == ""
-    desk.presets = (
-        Preset("Mine", desk.hand.brush, textures=palette.belonging(desk)[0]),
-        Preset("Pen", Brush(radius=3.0)),
-    )
-    desk.scene = scene_with(("Rock", {"path": str(rock.picture), "sha": "1"}))
+    mine = Preset("Mine", desk.hand.brush, textures=palette.belonging(desk)[0])
+    desk.learn(presets=(mine, Preset("Pen", Brush(radius=3.0))))
+    desk.learn(scene=scene_with(("Rock", {"path": str(rock.picture), "sha": "1"})))
     example_use.gather(desk)
     assert example_use.users(desk, rock) == "this painting"
     assert example_use.users(desk, sand) == "the brush “Mine”"
@@ -457,13 +456,13 @@ def test_a_click_swaps_and_escape_does_not(desk, posted):
 
 
 def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
-    desk.growing, desk.pending = Growing(0.42), 0
+    desk.learn(growing=Growing(0.42), pending=0)
     assert status._fields(desk, "")[0][0] == "growing 42 %"
-    desk.growing, desk.pending = None, 8
+    desk.learn(growing=None, pending=8)
     assert status._fields(desk, "")[0][0] == "8 tiles to do"
-    desk.writing = Writing(1, True, 0.4)
+    desk.learn(writing=Writing(1, True, 0.4))
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Saving, growing 40 %"
-    desk.writing = Writing(1)
+    desk.learn(writing=Writing(1))
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Writing"
 
 
@@ -480,7 +479,7 @@ def test_the_engine_gets_ready_when_examples_are_used_once(desk, posted):
     for now in (2.0, 3.0):
         example_use.prepare(desk, now)
     assert posted == [GetReady()]
-    assert desk.preparing == 2.0
+    assert desk.known.preparing == 2.0
     assert "getting ready" in status._fields(desk, "")[0][0]
 
 
@@ -499,7 +498,7 @@ def test_examples_that_only_the_painting_has_are_listed_and_painted_with(desk, p
     desk.examples.used[felt.ident] = Map(kappa=9.0)
     lost = {"path": "/nowhere/rag.png", "sha": "1"}
     given = (("Felt", plain), ("F", plain | {"kappa": 9.0}), ("G", plain | {"kappa": 8.0}), ("Rag", lost))
-    desk.scene = scene_with(*given)
+    desk.learn(scene=scene_with(*given))
     count = len(desk.examples.entries)
     example_use.gather(desk)
     example_use.gather(desk)
@@ -512,21 +511,21 @@ def test_examples_that_only_the_painting_has_are_listed_and_painted_with(desk, p
     assert (desk.hand.brush.mode, desk.hand.brush.example, desk.hand.needs) == ("example", "Rag", ())
     example_use.swap(desk, 430.0, 300.0)
     assert [request.command for request in posted] == [Swap(0, (30, 0), "Rag")]
-    desk.scene = scene_with()
+    desk.learn(scene=scene_with())
     example_use.gather(desk)
     assert (state.entry, state.group, len(state.entries)) == (None, example_state.ALL, count)
 
 
 def test_their_thumbnails_are_strokes_asked_for_once(desk, posted):
     made = thumbnails.Shelf(lambda: None)
-    desk.scene = scene_with(("Rag", {"sha": "1"}))
+    desk.learn(scene=scene_with(("Rag", {"sha": "1"})))
     example_use.gather(desk)
     state = desk.examples
     made.ask((named(desk, "Rag"),), 32)
     assert made.take() == []
     for side in (60, 60, 90):
         state.ask_thumbnails(posted.append, side)
-    desk.scene = scene_with(("Rag", {"sha": "2"}))
+    desk.learn(scene=scene_with(("Rag", {"sha": "2"})))
     example_use.gather(desk)
     state.ask_thumbnails(posted.append, 90)
     assert [(swatch.ident, swatch.size[0]) for swatch in posted] == [("example here Rag", n) for n in (60, 90, 90)]

@@ -10,6 +10,7 @@ from PIL import Image
 
 from app.desk import palette, presets
 from app.desk.hand import Hand
+from app.desk.known import Known
 from app.desk.presets import Preset
 from engine.brush import settings
 from engine.makers.definitions import fitted, read, renamed, used
@@ -52,14 +53,14 @@ class Desk(SimpleNamespace):
     """What of a desk the palette uses, with an engine that does at once what is posted."""
 
     def __init__(self):
-        super().__init__(hand=Hand(), scene=None, kinds=(), pointer=SimpleNamespace(pen=False))
+        super().__init__(hand=Hand(), known=Known(), pointer=SimpleNamespace(pen=False))
         self.sent = []
         self.studio = Studio(self._take)
 
     def _take(self, result):
         self.sent.append(result)
         if isinstance(result, results.Scene):
-            self.scene = result
+            self.known = replace(self.known, scene=result)
 
     def post(self, request):
         self.sent.append(request)
@@ -80,7 +81,7 @@ def test_a_preset_brings_its_textures_with_the_first_stroke(tmp_path):
     assert desk.asked == []  # a brush that is only looked at leaves nothing behind
     desk.paint()
     assert [command.name for command in desk.asked] == ["fur", "paper"]
-    assert desk.scene.textures == ("fur", "paper")
+    assert desk.known.scene.textures == ("fur", "paper")
     desk.paint()
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     desk.paint()
@@ -91,7 +92,7 @@ def test_only_what_the_brush_refers_to_comes_along(tmp_path):
     desk = Desk()
     palette.take(desk, preset(tmp_path, FUR, PAPER, {"name": "moss", "maker": "rock"}))
     desk.paint()
-    assert desk.scene.textures == ("fur", "paper")
+    assert desk.known.scene.textures == ("fur", "paper")
 
 
 def test_a_paper_that_stays_is_felt_by_the_next_brush(tmp_path):
@@ -110,7 +111,7 @@ def test_a_paper_that_stays_is_felt_by_the_next_brush(tmp_path):
     palette.take(desk, grained)
     assert desk.hand.brush == replace(grained.brush, grain=fur.brush.grain)
     desk.paint()
-    assert desk.scene.textures == ("paper",)
+    assert desk.known.scene.textures == ("paper",)
     desk.hand.paper_stays = False
     palette.take(desk, grained)
     assert desk.hand.brush == grained.brush
@@ -131,12 +132,12 @@ def test_another_texture_of_the_name_stays_and_a_free_one_is_taken(tmp_path):
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     assert [command.name for command in palette.lacking(desk)] == ["fur 2", "paper"]
     desk.paint()
-    assert desk.scene.textures == ("fur", "fur 2", "paper")
+    assert desk.known.scene.textures == ("fur", "fur 2", "paper")
     assert [part.texture for part in desk.hand.brush.ink] == ["fur 2", "rock"]
     assert desk.hand.brush.density.texture == "fur 2"
     assert desk.studio.easel.session.painting.textures["fur"].kind == "rock"
     palette.take(desk, preset(tmp_path, FUR, PAPER))
-    assert desk.scene.textures == ("fur", "fur 2", "paper")
+    assert desk.known.scene.textures == ("fur", "fur 2", "paper")
     assert desk.hand.brush.density.texture == "fur 2"
     desk.paint()
 
@@ -145,11 +146,11 @@ def test_another_painting_gets_them_with_its_first_stroke(tmp_path):
     desk = Desk()
     palette.take(desk, preset(tmp_path, FUR, PAPER))
     desk.post(q.New(q.Rect(0, 0, 64, 64)))
-    assert desk.scene.textures == ()
-    assert not desk.scene.modified
+    assert desk.known.scene.textures == ()
+    assert not desk.known.scene.modified
     assert [command.name for command in palette.lacking(desk)] == ["fur", "paper"]
     desk.paint()
-    assert desk.scene.textures == ("fur", "paper")
+    assert desk.known.scene.textures == ("fur", "paper")
     assert palette.lacking(desk) == ()
 
 
@@ -167,7 +168,7 @@ def test_a_definition_is_recognised_after_saving(tmp_path):
     changed = {**FUR, "shapes": [{"shape": "wedge", "angle": 21}]}
     palette.take(other, preset(tmp_path, changed, PAPER))
     other.paint()
-    assert other.scene.textures == ("fur", "fur 2", "paper")
+    assert other.known.scene.textures == ("fur", "fur 2", "paper")
 
 
 def test_the_thumbnail_knows_them(tmp_path):
@@ -254,7 +255,7 @@ def test_a_brush_takes_the_paintings_textures_along(tmp_path, members):
     assert stay == ()
     palette.take(other, Preset("Fur", desk.hand.brush, textures=textures))
     other.paint()
-    assert other.scene.textures == ("fur",)
+    assert other.known.scene.textures == ("fur",)
     swatch = q.Swatch("it", desk.hand.brush, (60, 40))
     pictures = [painted(swatch, d.studio.easel.session.painting) for d in (desk, other)]
     assert np.array_equal(*pictures)

@@ -7,6 +7,7 @@ from PIL import Image
 
 from app.canvas.view import View, place_of_pixel
 from app.desk import pictured
+from app.desk.known import Known
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.settings import Brush, Component
@@ -22,7 +23,7 @@ def desk(session=None):
     posted = []
     view = View(place_of_pixel(0, 60, 40), 0, 0.0, width=200, height=160)
     seen = SimpleNamespace(textures=("View",))
-    made = SimpleNamespace(view=view, scene=seen, kinds=(), awaited="", free_area=lambda: (20.0, 10.0, 180.0, 150.0))
+    made = SimpleNamespace(view=view, known=Known(scene=seen), awaited="", free_area=lambda: (20.0, 10.0, 180.0, 150.0))
     made.post = lambda request: posted.append(request.command) or (session and session.do(request.command))
     return made, posted
 

@@ -6,6 +6,7 @@ import pytest
 from immutables import Map
 
 from app.desk.hand import Hand
+from app.desk.known import Known
 from app.desk.presets import Preset
 from app.panels.controls import texture_rows
 from engine.brush.settings import Brush
@@ -24,7 +25,7 @@ def desk(*defined):
         texture_widths=tuple((name, 48) for name, _, _ in defined),
     )
     presets = (Preset("Cat", Brush(), textures=(FUR,)), Preset("Cloth", Brush(), textures=(LINEN, FUR)))
-    return SimpleNamespace(kinds=ready().kinds, scene=scene, presets=presets, papers=(), hand=Hand())
+    return SimpleNamespace(known=Known(tables=ready(), scene=scene, presets=presets), hand=Hand())
 
 
 def test_each_texture_is_offered_once_and_the_paintings_own_is_meant():
@@ -68,13 +69,13 @@ def test_sliders_begin_at_what_the_texture_was_defined_with():
 def test_a_picture_is_asked_for_again_only_where_a_name_means_another_texture():
     made = desk()
     made.lab = SimpleNamespace(scene=None)
-    made.scene.serial = 1
+    made.known.scene.serial = 1
     known = {texture_rows.meant(made, name) for name in ("rock", "fur", "linen")}
     assert len(known) == 3
     assert texture_rows.meant(made, "fur") in known
     assert texture_rows.brought(made, "fur") == (FUR,)
     here = desk(("fur", "sparse", Map({"density": 3.0})))
-    here.lab, here.scene.serial = SimpleNamespace(scene=SimpleNamespace(using="fur", version=4)), 1
+    here.lab, here.known.scene.serial = SimpleNamespace(scene=SimpleNamespace(using="fur", version=4)), 1
     first = texture_rows.meant(here, "fur")
     assert first not in known
     here.lab.scene.version = 5

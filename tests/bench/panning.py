@@ -51,8 +51,8 @@ def main(blocks: int) -> dict[str, Any]:
         _prepare(window, hand)
         for _ in range(blocks):
             _stroke(window, hand)
-            until(window, lambda: window.desk.growing is not None)
-            found["growing"].append(_panned(window, hand, lambda: window.desk.growing is not None))
+            until(window, lambda: window.desk.known.growing is not None)
+            found["growing"].append(_panned(window, hand, lambda: window.desk.known.growing is not None))
             until(window, _calm(window))
             found["alone"].append(_panned(window, hand, lambda: True))
             _undo(window)
@@ -72,7 +72,7 @@ def _told(pans: list[Pan]) -> dict[str, Any]:
 def _prepare(window: Window, hand: Hand) -> None:
     """An example is chosen, analysed and has grown once; nothing else is left to do."""
     desk = window.desk
-    until(window, lambda: desk.ready and desk.scene is not None)
+    until(window, lambda: desk.known.ready and desk.known.scene is not None)
     until(window, _calm(window))
     desk.view = replace(desk.view, level=0, fraction=0.0)
     desk.hand.stabiliser = 0.0
@@ -80,7 +80,7 @@ def _prepare(window: Window, hand: Hand) -> None:
     desk.hand.change(radius=RADIUS)
     until(window, _calm(window))
     _stroke(window, hand)
-    until(window, lambda: desk.growing is not None)
+    until(window, lambda: desk.known.growing is not None)
     _undo(window)
 
 
@@ -91,7 +91,7 @@ def _calm(window: Window) -> Callable[[], bool]:
     def calm() -> bool:
         nonlocal seen, since
         now = time.perf_counter()
-        if len(window.desk.pictures) != seen or window.desk.pending or window.desk.growing is not None:
+        if len(window.desk.pictures) != seen or window.desk.known.pending or window.desk.known.growing is not None:
             seen, since = len(window.desk.pictures), now
         return now - since > CALM
 
@@ -99,9 +99,9 @@ def _calm(window: Window) -> Callable[[], bool]:
 
 
 def _undo(window: Window) -> None:
-    until(window, lambda: window.desk.growing is None)
+    until(window, lambda: window.desk.known.growing is None)
     window.desk.post(Do(Undo()))
-    until(window, lambda: window.desk.scene is not None and not window.desk.scene.can_undo)
+    until(window, lambda: window.desk.known.scene is not None and not window.desk.known.scene.can_undo)
     until(window, _calm(window))
 
 

@@ -34,7 +34,7 @@ def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float)
     worker.post(Open(Path(file)))
     place = Place(x, y, exponent)
     try:
-        until(window, lambda: window.desk.scene is not None and window.desk.scene.path is not None)
+        until(window, lambda: window.desk.known.scene is not None and window.desk.known.scene.path is not None)
         window.desk.view = replace(window.desk.view, centre=place, level=0, fraction=0.0)
         until(window, lambda: sharp(window))
         _rest(window, 2.0)  # the presets' pictures are painted

@@ -11,6 +11,7 @@ import pytest
 
 from app.desk import presets
 from app.desk.hand import Hand
+from app.desk.known import Known
 from app.panels.controls import texture_rows
 from engine.brush.relief import resolve
 from engine.brush.settings import Brush
@@ -66,7 +67,7 @@ def test_one_name_is_one_texture_wherever_it_comes_from():
 
 
 def test_papers_are_offered_and_come_along():
-    desk = SimpleNamespace(kinds=(), scene=None, presets=(), papers=tuple(PAPERS), hand=Hand())
+    desk = SimpleNamespace(known=Known(papers=tuple(PAPERS)), hand=Hand())
     for paper in PAPERS:
         assert paper.grain.texture in dict(texture_rows.names(desk))
         texture_rows.bring(desk, paper.grain.texture)

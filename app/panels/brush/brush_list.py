@@ -33,11 +33,11 @@ class BrushList:
         """`below`: the height that what follows needs."""
         self._bar(desk)
         gap, em = 5 * desk.scale, imgui.get_font_size()
-        found = presets.found(desk.presets, self._group, self._find)
+        found = presets.found(desk.known.presets, self._group, self._find)
         wide = (imgui.get_content_region_avail().x - 12 * desk.scale - gap * (ACROSS - 1)) / ACROSS
         tall = _tall(desk, wide)
         room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
-        everything = _height(presets.found(desk.presets, EVERY, ""), tall + gap, em + gap)
+        everything = _height(presets.found(desk.known.presets, EVERY, ""), tall + gap, em + gap)
         imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.6 * tall))))  # the same for every group
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:
@@ -60,8 +60,8 @@ class BrushList:
         """The group that is listed, a word to look for, and all at once."""
         gap, side = 3 * desk.scale, imgui.get_frame_height()
         room = imgui.get_content_region_avail().x - 2 * gap - side
-        groups = [(EVERY, f"All {len(desk.presets)}")]
-        groups += [(group, group) for group, _ in presets.found(desk.presets, EVERY, "")]
+        groups = [(EVERY, f"All {len(desk.known.presets)}")]
+        groups += [(group, group) for group, _ in presets.found(desk.known.presets, EVERY, "")]
         picked = w.choice("group", self._group, groups, "Which brushes are listed", 0.56 * room)
         if picked is not None:
             self._group, self._find = picked, ""
@@ -71,7 +71,7 @@ class BrushList:
         entered, self._find = imgui.input_text_with_hint("##find", "Find", self._find, flags)
         w.named("Find")
         w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the nearest")
-        nearest = presets.nearest(desk.presets, self._find) if entered else None
+        nearest = presets.nearest(desk.known.presets, self._find) if entered else None
         if nearest is not None:
             take(desk, nearest)
             self._find = ""
@@ -92,7 +92,7 @@ class BrushList:
         if not imgui.begin_popup("all brushes"):
             return
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
-        for group, members in presets.found(desk.presets, EVERY, ""):
+        for group, members in presets.found(desk.known.presets, EVERY, ""):
             top = imgui.get_cursor_pos().y
             imgui.set_cursor_pos_y(top + (_tall(desk, wide) - em) / 2)
             imgui.text_disabled(group)
@@ -172,7 +172,7 @@ def _deletes(desk: Desk, preset: Preset) -> None:
         except OSError as error:
             desk.say(f"The brush was not deleted: {error}", bad=True)
         else:
-            desk.presets = tuple(one for one in desk.presets if one is not preset)
+            desk.learn(presets=tuple(one for one in desk.known.presets if one is not preset))
             desk.say(f"Deleted the brush “{preset.name}”")
     imgui.end_popup()
 

@@ -63,7 +63,7 @@ class Operations:
         if own:
             self._formula(desk, str(op["formula"]))  # type: ignore[index]
             return
-        row = next((row for row in desk.ops if row.name == name), None)
+        row = next((row for row in desk.known.tables.ops if row.name == name), None)
         given: Map[str, Any] = Map() if isinstance(op, str) else op
         changed = given
         for parameter in row.parameters if row else ():
@@ -72,7 +72,7 @@ class Operations:
             desk.hand.change(op=changed.set("name", name))
 
     def _chooser(self, desk: Desk, name: str) -> str | None:
-        rows = {row.name: row for row in desk.ops}
+        rows = {row.name: row for row in desk.known.tables.ops}
         label = "Formula" if name == "formula" else rows[name].label if name in rows else name
         imgui.set_next_item_width(-1)
         if not imgui.begin_combo("##op", label, imgui.ComboFlags_.height_largest):
@@ -223,7 +223,7 @@ def _told(row: Any) -> str:
 
 
 def _layers(desk: Desk) -> list[str]:
-    return [row.name for row in desk.scene.layers if not row.group] if desk.scene else []
+    return [row.name for row in desk.known.scene.layers if not row.group] if desk.known.scene else []
 
 
 def copied(layers: Sequence[str], active: str | None) -> str:
@@ -238,11 +238,11 @@ def _started(desk: Desk, name: str) -> Any:
     """The op as it begins: its name, with what has to be given; None if there is nothing to give."""
     if name == "formula":
         return Map({"formula": FORMULAS[0][1]})
-    row = next(row for row in desk.ops if row.name == name)
+    row = next(row for row in desk.known.tables.ops if row.name == name)
     given: dict[str, Any] = {}
     for parameter in row.parameters:
         if parameter.default is None and parameter.kind == "layer":
-            layers, active = _layers(desk), desk.scene.active if desk.scene else None
+            layers, active = _layers(desk), desk.known.scene.active if desk.known.scene else None
             if not layers:
                 return None
             given[parameter.name] = source = copied(layers, active)

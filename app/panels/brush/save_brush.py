@@ -27,7 +27,7 @@ class SaveBrush:
         imgui.same_line(0, 0)
         imgui.set_cursor_pos_x(imgui.get_style().window_padding.x + right - side)
         if w.icon_button("save brush", icons.DISK, "Save this brush under a name", size=side):
-            self._name = presets.free_name(desk.hand.preset or "My brush", desk.presets)
+            self._name = presets.free_name(desk.hand.preset or "My brush", desk.known.presets)
             imgui.open_popup("save brush")
         if not imgui.begin_popup("save brush"):
             return
@@ -39,8 +39,8 @@ class SaveBrush:
         entered, self._name = imgui.input_text("##name", self._name, imgui.InputTextFlags_.enter_returns_true)
         w.named("name")
         w.tooltip("Its name among your own brushes")
-        name = presets.free_name(self._name, desk.presets)
-        if any(p.name == name and p.group == presets.OWN for p in desk.presets):
+        name = presets.free_name(self._name, desk.known.presets)
+        if any(p.name == name and p.group == presets.OWN for p in desk.known.presets):
             imgui.text_disabled("Replaces your brush of this name")
         elif name != " ".join(self._name.split()):
             imgui.text_disabled(f"Saved as “{name}”")
@@ -62,8 +62,8 @@ def _save(desk: Desk, name: str) -> None:
         desk.say(f"The brush was not saved: {error}", bad=True)
         return
     preset = replace(preset, path=path)
-    others = tuple(p for p in desk.presets if (p.name, p.group) != (name, presets.OWN))
-    desk.presets = (*others, preset)
+    others = tuple(p for p in desk.known.presets if (p.name, p.group) != (name, presets.OWN))
+    desk.learn(presets=(*others, preset))
     desk.hand.take(desk.hand.brush, name)
     ask_picture(desk, preset)
     without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""

@@ -79,7 +79,7 @@ class Texturing:
     def _start(self, desk: Desk, name: str) -> Any:
         """What it was before, unless that needs a texture of another painting."""
         held = self._kept[name]
-        first = next((paper for paper in desk.papers if paper.name == PAPER), None)
+        first = next((paper for paper in desk.known.papers if paper.name == PAPER), None)
         if held is _START["grain"] and first is not None:
             texture_rows.bring(desk, first.grain.texture)
             return first.grain
@@ -106,14 +106,14 @@ class Texturing:
         if parameters != part.parameters:
             part = replace(part, parameters=parameters)
         hint = "A curve that the texture's values go through"
-        changed, curve = self._curves.row("Shaping", part.shaping, desk.curves, hint)
+        changed, curve = self._curves.row("Shaping", part.shaping, desk.known.tables.curves, hint)
         return replace(part, shaping=curve) if changed else part
 
     def _edge(self, desk: Desk, part: Edge) -> Edge:
         hint = "Left: at the rim of the stroke; right: a width inside it. Up: more paint"
-        changed, curve = self._curves.row("Curve", part.curve, desk.edges, hint)
+        changed, curve = self._curves.row("Curve", part.curve, desk.known.tables.edges, hint)
         if changed:
-            part = replace(part, curve=curve if curve is not None else desk.edges[0].name)
+            part = replace(part, curve=curve if curve is not None else desk.known.tables.edges[0].name)
         rows = (
             ("width", "Width", "How far it reaches inwards, in per cent of the radius", 200.0),
             ("amount", "Amount", "How much of it", 100.0),

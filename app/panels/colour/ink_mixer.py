@@ -44,7 +44,9 @@ class InkPanel:
             desk.hand.change(ink=(*desk.hand.brush.ink[:removed], *desk.hand.brush.ink[removed + 1 :]))
         if desk.hand.brush.ink:
             hint = "A curve that all these textures go through: harder, softer, turned round"
-            reshaped, curve = self._curves.row("Shaping of all", desk.hand.brush.shaping, desk.curves, hint)
+            reshaped, curve = self._curves.row(
+                "Shaping of all", desk.hand.brush.shaping, desk.known.tables.curves, hint
+            )
             if reshaped:
                 desk.hand.change(shaping=curve)
         self._extent(desk)
@@ -109,7 +111,7 @@ class InkPanel:
         if texture_rows.kind_of(desk, component.texture) == "series":
             component = _pressing(component)
         hint = "A curve that this texture's values go through: harder, softer, turned round"
-        changed, curve = self._curves.row("Shaping", component.shaping, desk.curves, hint)
+        changed, curve = self._curves.row("Shaping", component.shaping, desk.known.tables.curves, hint)
         if changed:
             component = replace(component, shaping=curve)
         imgui.end_popup()
@@ -131,7 +133,7 @@ class InkPanel:
         if w.text_button(
             f"{icons.ADD}  Add texture",
             "Stir a texture into the paint",
-            enabled=bool(desk.kinds) and not full,
+            enabled=bool(desk.known.tables.kinds) and not full,
             width=-1,
         ):
             imgui.open_popup("add texture")
@@ -155,7 +157,7 @@ class InkPanel:
 
     def _welcome(self, desk: Desk) -> None:
         """A picture that was asked for is a texture now: it joins the ink."""
-        if not desk.awaited or desk.scene is None or desk.awaited not in desk.scene.textures:
+        if not desk.awaited or desk.known.scene is None or desk.awaited not in desk.known.scene.textures:
             return
         part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
         if len(desk.hand.brush.ink) < COMPONENTS_CAP:

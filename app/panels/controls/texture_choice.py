@@ -39,8 +39,8 @@ def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | N
 
 def surface(desk: Desk, part: Surface, hint: str) -> Surface:
     """A drop-down of the papers and, below them, of all textures but plain white; the surface chosen now, or `part`."""
-    same = next((one.name for one in desk.papers if one.grain.texture == part.texture), "")
-    paper = next((one.name for one in desk.papers if one.grain == part), "")
+    same = next((one.name for one in desk.known.papers if one.grain.texture == part.texture), "")
+    paper = next((one.name for one in desk.known.papers if one.grain == part), "")
     imgui.set_next_item_width(-1)
     limit(desk)
     shown = paper or (f"{same}, changed" if same else texture_rows.label(desk, part.texture))
@@ -49,13 +49,13 @@ def surface(desk: Desk, part: Surface, hint: str) -> Surface:
         return part
     imgui.text_disabled("Papers")
     chosen = part
-    for i, one in enumerate(desk.papers):
+    for i, one in enumerate(desk.known.papers):
         if i % ACROSS:
             imgui.same_line()
         if _row(desk, one.grain.texture, one.name, "", one.name == paper):
             texture_rows.bring(desk, one.grain.texture)
             chosen = one.grain
-    name = listed(desk, "" if same else part.texture, ("white", *(one.grain.texture for one in desk.papers)))
+    name = listed(desk, "" if same else part.texture, ("white", *(one.grain.texture for one in desk.known.papers)))
     if name and name != part.texture:
         chosen = replace(part, texture=name, parameters=Map())
     imgui.end_combo()
@@ -108,7 +108,7 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
 def _picture(desk: Desk, name: str) -> Any:
     """Its picture if there is one; asks for it when it is not of the texture that is meant now."""
     ident, meant = f"texture {name}", texture_rows.meant(desk, name)
-    if desk.ready and desk.sampled.get(name) != meant:
+    if desk.known.ready and desk.sampled.get(name) != meant:
         desk.sampled[name] = meant
         period = {row.name: row for row in texture_rows.rows(desk, name)}.get("period")
         usual = texture_rows.own(desk, name).get("period", period.default if period else PERIOD)

@@ -26,10 +26,10 @@ def names(desk: Desk) -> list[tuple[str, str]]:
 
 def groups(desk: Desk) -> list[tuple[str, list[tuple[str, str]]]]:
     """The same by where they come from, under a title each; a name that several have means the first's."""
-    here = desk.scene.textures if desk.scene else ()
+    here = desk.known.scene.textures if desk.known.scene else ()
     sources = (
         ("Of this painting", [(name, "A texture of this painting") for name in here]),
-        ("Built in", [(row.name, row.tooltip) for row in desk.kinds if not row.pictured]),
+        ("Built in", [(row.name, row.tooltip) for row in desk.known.tables.kinds if not row.pictured]),
         ("Of the brushes", [(name, "The painting gets it when you paint with it") for name in _bringable(desk)]),
     )
     seen: set[str] = set()
@@ -51,41 +51,42 @@ def bring(desk: Desk, name: str) -> None:
 def _bringable(desk: Desk) -> dict[str, DefineTexture]:
     """By name, what the brush came with and what presets and papers come with; the first of a name counts."""
     found: dict[str, DefineTexture] = {}
-    bundled = (one for source in (*desk.presets, *desk.papers) for one in source.textures)
+    bundled = [one for preset in desk.known.presets for one in preset.textures]
+    bundled += [one for paper in desk.known.papers for one in paper.textures]
     for command in (*desk.hand.needs, *bundled):
         found.setdefault(command.name, command)
     return found
 
 
 def label(desk: Desk, texture: str) -> str:
-    return texture.capitalize() if any(row.name == texture for row in desk.kinds) else texture
+    return texture.capitalize() if any(row.name == texture for row in desk.known.tables.kinds) else texture
 
 
 def meant(desk: Desk, name: str) -> Hashable:
     """What a name means now: another value when it means another texture."""
-    if desk.scene and name in desk.scene.textures:
-        given = next((parameters for known, _, parameters in desk.scene.definitions if known == name), None)
+    if desk.known.scene and name in desk.known.scene.textures:
+        given = next((parameters for known, _, parameters in desk.known.scene.definitions if known == name), None)
         lab = desk.lab.scene
-        return desk.scene.serial, given, lab.version if lab is not None and lab.using == name else 0
+        return desk.known.scene.serial, given, lab.version if lab is not None and lab.using == name else 0
     return _bringable(desk).get(name, name)
 
 
 def brought(desk: Desk, name: str) -> tuple[DefineTexture, ...]:
     """The definition of a texture that the painting lacks and the brushes have."""
     command = _bringable(desk).get(name)
-    here = desk.scene is not None and name in desk.scene.textures
+    here = desk.known.scene is not None and name in desk.known.scene.textures
     return () if command is None or here else (command,)
 
 
 def rows(desk: Desk, texture: str) -> tuple[Any, ...]:
     """The parameters of a texture, from the table of its kind."""
     kind = kind_of(desk, texture)
-    return next((tuple(row.parameters) for row in desk.kinds if row.name == kind), ())
+    return next((tuple(row.parameters) for row in desk.known.tables.kinds if row.name == kind), ())
 
 
 def kind_of(desk: Desk, texture: str) -> str:
     """The kind of a texture: of the painting, of those still to come into it, or built in."""
-    defined = dict(desk.scene.texture_kinds) if desk.scene else {}
+    defined = dict(desk.known.scene.texture_kinds) if desk.known.scene else {}
     if texture in defined:
         return defined[texture]
     command = _bringable(desk).get(texture)
@@ -109,9 +110,9 @@ def own(desk: Desk, texture: str) -> Mapping[str, Any]:
     """The parameters that a texture was defined with, with which a brush paints that says nothing; the period is the
     width of its picture where the definition says nothing either."""
     width, given = 0, None
-    if desk.scene:
-        width = dict(desk.scene.texture_widths).get(texture, 0)
-        given = next((parameters for name, _, parameters in desk.scene.definitions if name == texture), None)
+    if desk.known.scene:
+        width = dict(desk.known.scene.texture_widths).get(texture, 0)
+        given = next((parameters for name, _, parameters in desk.known.scene.definitions if name == texture), None)
     command = _bringable(desk).get(texture)
     if given is None and command is not None:
         given, size = command.arguments, command.arguments.get("size")

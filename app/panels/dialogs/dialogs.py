@@ -107,7 +107,7 @@ class ExportDepth:
         _, desk.export_level = imgui.slider_int("Level", desk.export_level, *EXPORT_LEVELS, flags=flags)
         w.named("Level")
         w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
-        size = desk.frame.zoomed(desk.export_level)
+        size = desk.known.frame.zoomed(desk.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
         imgui.spacing()
         chosen = w.default_button("Choose file…", "Choose where to write it", width=em * 8)
@@ -124,10 +124,12 @@ class Unsaved:
 
     def draw(self, desk: Desk) -> bool:
         then, going = desk.then, False
-        if then is not None and not desk.modified and not desk.behind():  # nothing was changed, or it is saved by now
+        if (
+            then is not None and not desk.known.modified and not desk.behind()
+        ):  # nothing was changed, or it is saved by now
             then(desk)
             return False
-        name, writing = desk.path.name if desk.path else "This painting", desk.writing
+        name, writing = desk.known.path.name if desk.known.path else "This painting", desk.known.writing
         grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
         told = f"is still being saved{grown}." if writing.saving else "has changes that are not saved."
         imgui.text_unformatted(f"{name} {told}")

@@ -155,7 +155,7 @@ def _chooser(title: str, start: Path, endings: tuple[str, ...], saving: bool, th
 
 
 def _folder(desk: Desk) -> Path:
-    return desk.path.parent if desk.path else Path.cwd()
+    return desk.known.path.parent if desk.known.path else Path.cwd()
 
 
 def opening(desk: Desk) -> SystemDialog | Browser:
@@ -163,12 +163,12 @@ def opening(desk: Desk) -> SystemDialog | Browser:
 
 
 def saving(desk: Desk) -> SystemDialog | Browser:
-    stem = desk.path.stem if desk.path else "untitled"
+    stem = desk.known.path.stem if desk.known.path else "untitled"
     return _chooser("Save as", _folder(desk) / f"{stem}.ora", SAVES, True, lambda d, path: d.post(Save(path)))
 
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
-    stem = desk.path.stem if desk.path else "untitled"
+    stem = desk.known.path.stem if desk.known.path else "untitled"
     start, level = _folder(desk) / f"{stem}.png", desk.export_level
     return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
 

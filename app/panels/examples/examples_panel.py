@@ -143,7 +143,7 @@ class ExamplesPanel:
             end = ImVec2(corner.x + room.x, corner.y + tall)
             veil = theme.packed(theme.FIELD, 0.75)
             imgui.get_window_draw_list().add_rect_filled(corner, end, veil, imgui.get_style().frame_rounding)
-        if shown is None and entry is not None and desk.preparing is not None:
+        if shown is None and entry is not None and desk.known.preparing is not None:
             _in_middle("Getting ready…", corner, (room.x, tall))
         wide = (room.x - gap.x) / 2
         imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))

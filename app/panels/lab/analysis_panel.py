@@ -58,7 +58,7 @@ class AnalysisPanel:
         """Nothing in the strip's title line."""
 
     def _picture(self, desk: Desk, name: str) -> object | None:
-        return desk.pictures.get(name) if desk.found is not None and name in desk.found.pictures else None
+        return desk.pictures.get(name) if desk.known.found is not None and name in desk.known.found.pictures else None
 
     def _ask(self, desk: Desk) -> None:
         wide = (imgui.get_content_region_avail().x - 2 * desk.scale) / 2
@@ -66,29 +66,30 @@ class AnalysisPanel:
             self._look(desk, desk.view.shown_level, pictured.seen(desk))
         imgui.same_line(0, 2 * desk.scale)
         if w.text_button("The frame", "Looks at the whole frame at level 0", width=wide):
-            self._look(desk, 0, desk.frame)
+            self._look(desk, 0, desk.known.frame)
         if not self._asked:
             self._look(desk, desk.view.shown_level, pictured.seen(desk))
 
     def _look(self, desk: Desk, level: int, area: Rect) -> None:
-        self._asked, desk.found = True, None
+        self._asked = True
+        desk.learn(found=None)
         desk.post(Analyse(level, area))
 
     def _facts(self, desk: Desk) -> None:
         imgui.spacing()
-        if desk.found is None:
+        if desk.known.found is None:
             imgui.text_disabled(f"{icons.WAIT} looking…")
             return
-        for name, value in sorted(desk.found.lines.items(), key=lambda line: _ORDER.index(line[0])):
+        for name, value in sorted(desk.known.found.lines.items(), key=lambda line: _ORDER.index(line[0])):
             imgui.text_disabled(name)
             imgui.same_line(6.5 * imgui.get_font_size())
             imgui.text_unformatted(value)
-        if not desk.found.done:
+        if not desk.known.found.done:
             imgui.text_disabled(f"{icons.WAIT} looking…")
 
     def _rings(self, desk: Desk, wide: float, tall: float) -> None:
         """Power by frequency, both logarithmic; over it the model's."""
-        rows = desk.found.rings if desk.found is not None else ()
+        rows = desk.known.found.rings if desk.known.found is not None else ()
         corner = w.picture(None, (wide, tall), "Power by frequency, coarse to fine: the picture, and the model over it")
         strongest = max((power for _, power, _ in rows), default=0.0)
         if strongest <= 0.0 or len(rows) < 2:

@@ -194,7 +194,7 @@ class LabPanel:
     def _using(self, desk: Desk) -> str:
         """The texture of this painting that follows the lab."""
         name = desk.lab.scene.using if desk.lab.scene is not None else ""
-        return name if desk.scene is not None and name in desk.scene.textures else ""
+        return name if desk.known.scene is not None and name in desk.known.scene.textures else ""
 
     # --- its use -----------------------------------------------------------------------------------------------------
 

@@ -27,9 +27,9 @@ class LayersPanel:
     def draw(self, desk: Desk) -> None:
         if not w.section("Layers"):
             return
-        rows = desk.scene.layers if desk.scene else ()
-        active = next((r for r in rows if desk.scene and r.name == desk.scene.active), None)
-        imgui.begin_disabled(not desk.ready)
+        rows = desk.known.scene.layers if desk.known.scene else ()
+        active = next((r for r in rows if desk.known.scene and r.name == desk.known.scene.active), None)
+        imgui.begin_disabled(not desk.known.ready)
         self._settings(desk, active)
         self._list(desk, rows)
         self._buttons(desk)
@@ -39,7 +39,7 @@ class LayersPanel:
         imgui.begin_disabled(row is None)
         side = imgui.get_frame_height()
         width = imgui.get_content_region_avail().x - 2 * (side + imgui.get_style().item_spacing.x)
-        options = [(name, title) for name, title, _ in desk.blends]
+        options = [(name, title) for name, title, _ in desk.known.tables.blends]
         blend = w.choice(
             "blend", row.blend if row else "src-over", options, "How the layer mixes with those below", width
         )
@@ -119,7 +119,7 @@ class LayersPanel:
             self._name(desk, row)
 
     def _name(self, desk: Desk, row: LayerRow) -> None:
-        active = desk.scene is not None and desk.scene.active == row.name
+        active = desk.known.scene is not None and desk.known.scene.active == row.name
         signs = (f" {icons.LOCK}" if row.locked else "") + (f" {icons.ALPHA_LOCK}" if row.alpha_locked else "")
         quiet = theme.TEXT if row.visible else theme.QUIET
         imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))
@@ -135,7 +135,7 @@ class LayersPanel:
         w.named(row.name)
         self._drag(desk, row)
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
-        blend = next((title for name, title, _ in desk.blends if name == row.blend), row.blend)
+        blend = next((title for name, title, _ in desk.known.tables.blends if name == row.blend), row.blend)
         w.tooltip(f"{about}{blend}\nDrag to reorder, double-click to rename")
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:
@@ -154,7 +154,7 @@ class LayersPanel:
 
     def _drag(self, desk: Desk, row: LayerRow) -> None:
         if imgui.begin_drag_drop_source():
-            names = [r.name for r in desk.scene.layers] if desk.scene else []
+            names = [r.name for r in desk.known.scene.layers] if desk.known.scene else []
             imgui.set_drag_drop_payload_py_id(_PAYLOAD, names.index(row.name))
             imgui.text_unformatted(row.name)
             imgui.end_drag_drop_source()
@@ -162,8 +162,8 @@ class LayersPanel:
             top, bottom = imgui.get_item_rect_min().y, imgui.get_item_rect_max().y
             where = (imgui.get_io().mouse_pos.y - top) / max(1.0, bottom - top)
             payload = imgui.accept_drag_drop_payload_py_id(_PAYLOAD)
-            if payload is not None and desk.scene:
-                command = dropped(desk.scene.layers, desk.scene.layers[int(payload.data_id)], row, where)
+            if payload is not None and desk.known.scene:
+                command = dropped(desk.known.scene.layers, desk.known.scene.layers[int(payload.data_id)], row, where)
                 if command:
                     desk.post(Do(command))
             imgui.end_drag_drop_target()

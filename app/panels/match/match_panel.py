@@ -181,7 +181,7 @@ class MatchingPanel:
         how, name = match.awaited
         if match.scene is not None and match.scene.fault:
             match.awaited = None
-        elif desk.scene is not None and name in desk.scene.textures:
+        elif desk.known.scene is not None and name in desk.known.scene.textures:
             match.awaited = None
             brush = with_texture(desk.hand.brush, how, name)
             if how == "ink" and match.by_pressure:

@@ -65,7 +65,9 @@ class MatchSettings:
         subbands.draw(match, levels, orientations)
         gain, curve = match.bands.get(match.chosen, (1.0, None))
         hint = "A curve for the sizes of the marked subband's values: which of its features stand out, which vanish"
-        changed, curve = self._curves.row(f"Shape of {_named(match.chosen, levels)}", curve, desk.curves, hint)
+        changed, curve = self._curves.row(
+            f"Shape of {_named(match.chosen, levels)}", curve, desk.known.tables.curves, hint
+        )
         if changed:
             match.bands[match.chosen] = gain, curve
 

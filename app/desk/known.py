@@ -1,0 +1,75 @@
+"""What is known of the painting and the engine: what the engine has told so far, and what lies in the palettes.
+
+The record never changes; `told` gives the next one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from app.desk.presets import Paper, Preset
+from engine.numeric.address import Rect
+from engine.studio import results
+from engine.studio.results import Found, Growing, Ready, Result, Scene, Writing
+
+FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """`ready`: whether the engine is loaded; `tables`: its rows, of textures, operations and so on; `scene`: the
+    painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
+    will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
+    does; `found`: by the analysis, so far.  Times are seconds of time.monotonic()."""
+
+    ready: bool = False
+    tables: Ready = Ready()  # noqa: RUF009  # it is frozen
+    presets: tuple[Preset, ...] = ()
+    papers: tuple[Paper, ...] = ()
+    scene: Scene | None = None
+    pending: int = 0
+    writing: Writing = Writing()  # noqa: RUF009
+    growing: Growing | None = None
+    grows: float = 0.0
+    preparing: float | None = None
+    found: Found | None = None
+
+    @property
+    def frame(self) -> Rect:
+        """The painting's frame, in pixels of level 0."""
+        return self.scene.frame if self.scene else FIRST_FRAME
+
+    @property
+    def modified(self) -> bool:
+        """Whether the painting has changes that are not saved."""
+        return self.scene is not None and self.scene.modified
+
+    @property
+    def path(self) -> Path | None:
+        """The painting's file."""
+        return self.scene.path if self.scene else None
+
+
+def told(known: Known, result: Result, now: float) -> Known:
+    """What is known after a result of the engine that came at a time; the same if it tells nothing of this."""
+    teller = _TELLERS.get(type(result))
+    return known if teller is None else replace(known, **teller(known, result, now))
+
+
+def _growing(known: Known, result: Growing, now: float) -> dict[str, Any]:
+    done = result.done >= 1.0 or not result.rects
+    return {"growing": None if done else result, "grows": known.grows if known.growing is not None else now}
+
+
+_TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
+    results.Ready: lambda known, r, now: {"ready": True, "tables": r},
+    results.Scene: lambda known, r, now: {"scene": r},
+    results.Pending: lambda known, r, now: {"pending": r.tiles},
+    results.Writing: lambda known, r, now: {"writing": r},
+    results.Found: lambda known, r, now: {"found": r},
+    results.GotReady: lambda known, r, now: {"preparing": None},
+    results.Growing: _growing,
+}

@@ -1,0 +1,57 @@
+"""What is known: each result of the engine gives the next record, and leaves the one before as it was."""
+
+from dataclasses import FrozenInstanceError
+
+import pytest
+
+from app.desk.known import Known, told
+from engine.numeric.address import Rect
+from engine.studio.results import Found, GotReady, Growing, Note, Pending, Ready, Scene, Writing
+
+SCENE = Scene(Rect(0, 0, 64, 48), (), None, False, False, modified=True, path=None)
+PLACE = ((0, Rect(0, 0, 8, 8)),)
+
+
+def test_it_is_replaced_never_changed():
+    known = Known()
+    with pytest.raises(FrozenInstanceError):
+        known.pending = 3
+    assert told(known, Pending(3), 1.0).pending == 3
+    assert known.pending == 0
+
+
+@pytest.mark.parametrize(
+    ("result", "name", "value"),
+    [(SCENE, "scene", SCENE), (Writing(2), "writing", Writing(2)), (Found({}), "found", Found({}))],
+)
+def test_what_the_engine_tells_is_known(result, name, value):
+    assert getattr(told(Known(), result, 1.0), name) == value
+
+
+def test_what_tells_nothing_of_it_leaves_the_same_record():
+    known = Known()
+    assert told(known, Note("a line"), 1.0) is known
+
+
+def test_the_engine_is_ready_with_its_tables():
+    tables = Ready(blends=(("normal", "Normal", "As it is"),))
+    known = told(Known(), tables, 1.0)
+    assert known.ready
+    assert known.tables is tables
+    assert told(Known(preparing=0.5), GotReady(), 1.0).preparing is None
+
+
+def test_what_grows_is_known_since_it_began_and_forgotten_when_it_is_done():
+    begun = told(Known(), Growing(0.1, PLACE), 5.0)
+    more = told(begun, Growing(0.4, PLACE), 7.0)
+    assert (more.growing, more.grows) == (Growing(0.4, PLACE), 5.0)
+    for end in (Growing(1.0, PLACE), Growing(0.5)):
+        assert told(more, end, 9.0).growing is None
+    assert told(told(more, Growing(1.0), 9.0), Growing(0.0, PLACE), 11.0).grows == 11.0
+
+
+def test_a_frame_is_there_before_the_painting_is():
+    assert Known().frame.width > 0
+    assert (Known().modified, Known().path) == (False, None)
+    assert Known(scene=SCENE).frame == SCENE.frame
+    assert Known(scene=SCENE).modified
