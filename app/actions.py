@@ -170,16 +170,16 @@ def _moves(by: int) -> Callable[[Desk], None]:
 
 
 def _asks(name: str) -> Callable[[Desk], None]:
-    return lambda desk: desk.ask(name)
+    return lambda desk: desk.asked.show(name)
 
 
 def _asks_guarded(name: str) -> Callable[[Desk], None]:
-    return lambda desk: desk.guard(lambda d: d.ask(name))
+    return lambda desk: desk.guard(lambda: desk.asked.show(name))
 
 
 def close(desk: Desk) -> None:
     """Closes the window, after asking about unsaved changes."""
-    desk.guard(lambda d: setattr(d, "quit", True))
+    desk.guard(desk.asked.close)
 
 
 A = Action

@@ -185,9 +185,7 @@ class News:
 
     def _saved(self, r: results.Saved, _before: Known) -> None:
         self.desk.say(f"Saved {Path(r.path).name}")
-        then, self.desk.after_save = self.desk.after_save, None
-        if then is not None:
-            then(self.desk)
+        self.desk.asked.saved()
 
     def _picture(self, r: results.Picture, _before: Known) -> None:
         """A swatch over paper, as a texture for imgui."""

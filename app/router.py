@@ -120,7 +120,7 @@ class Router:
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
             return
-        dialog = self.layout.dialogs.open or bool(self.desk.asked)
+        dialog = self.layout.dialogs.open or bool(self.desk.asked.dialog)
         if keys == "Escape" and self.layout.popup and not dialog:
             self.layout.dismiss()
             return

@@ -121,7 +121,7 @@ class Window:
         taken = self.desk.strip == "match" and self.desk.panels and self.desk.match.dropped(Path(paths[0]), x, y)
         taken = taken or example_use.dropped(self.desk, Path(paths[0]))
         if not taken:
-            self.desk.guard(lambda desk: desk.post(Open(Path(paths[0]))))
+            self.desk.guard(lambda: self.open(Path(paths[0])))
 
     def _pointer(self) -> tuple[float, float]:
         """Where the pointer is, framebuffer pixels: while something is dragged, no pointer events tell."""
@@ -223,7 +223,7 @@ class Window:
         if glfw.window_should_close(self.handle):
             glfw.set_window_should_close(self.handle, False)
             close(self.desk)
-        return self.desk.quit
+        return self.desk.asked.quit
 
     def hide(self) -> None:
         """Takes it from the screen."""

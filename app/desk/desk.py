@@ -1,6 +1,6 @@
-"""What lies on the artist's desk: view, brush, colours, tool, and what is known of the painting.
+"""What lies on the artist's desk: the hand, what is known, what is asked, the view, and what is set in strips.
 
-Panels and actions read and change this record; everything that changes pixels goes through `post`.
+Panels and actions read and change these; everything that changes pixels goes through `post`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
+from app.desk.asked import Asked, Then
 from app.desk.example_state import ExampleState
 from app.desk.hand import Hand
 from app.desk.known import Known
@@ -49,13 +50,8 @@ class Desk:
     pointer: Pointer = field(default_factory=Pointer)
     glide: Glide = field(default_factory=Glide)
     message: tuple[str, bool, float] = ("", False, 0.0)
-    export_level: int = 0
     behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
-    asked: str = ""  # a row of app.panels.dialogs.DIALOGS that is to be shown
-    then: Callable[[Desk], None] | None = None  # goes on once unsaved changes are dealt with
-    quit: bool = False
-    after_save: Callable[[Desk], None] | None = None
-    awaited: str = ""  # a texture that was asked for: it joins the ink when the painting has it
+    asked: Asked = field(default_factory=Asked)
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
     lab: LabState = field(default_factory=LabState)
     match: MatchState = field(default_factory=MatchState)
@@ -74,18 +70,14 @@ class Desk:
     def told(self, note: Note) -> None:
         self.say(note.text, note.bad)
         if note.bad:
-            self.after_save = None
+            self.asked.give_up()
 
-    def ask(self, name: str) -> None:
-        """Opens a dialog by its name."""
-        self.asked = name
-
-    def guard(self, then: Callable[[Desk], None]) -> None:
+    def guard(self, then: Then) -> None:
         """Does `then`, after asking about unsaved changes if there are any, or may be when all is carried out."""
         if self.known.modified or self.behind():
-            self.then, self.asked = then, "unsaved"
+            self.asked.about_changes(then)
         else:
-            then(self)
+            then()
 
     def save(self) -> None:
         """Saves where the painting came from; asks where, the first time."""
@@ -93,7 +85,7 @@ class Desk:
         if path is not None and path.suffix.lower() == ".ora":
             self.post(Save(path))
         else:
-            self.asked = "save as"
+            self.asked.show("save as")
 
     def free_area(self) -> tuple[float, float, float, float]:
         """The part of the screen that no panel covers."""

@@ -46,7 +46,7 @@ def seen(desk: Desk) -> Rect:
 
 
 def _define(desk: Desk, command: DefineTexture) -> None:
-    desk.awaited = command.name
+    desk.asked.texture = command.name
     desk.post(Do(command))
 
 

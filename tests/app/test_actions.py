@@ -57,10 +57,10 @@ def test_every_tool_has_an_icon_and_a_hint_and_can_be_chosen(desk):
 
 def test_every_dialog_that_an_action_asks_for_is_there(desk):
     for action in ACTIONS.values():
-        desk.asked = ""
+        desk.asked.dialog = ""
         if action.title.endswith("…"):
             action.do(desk)
-            assert desk.asked in DIALOGS
+            assert desk.asked.dialog in DIALOGS
 
 
 def test_nothing_that_needs_the_engine_is_allowed_before_it_is_there(desk):
@@ -107,9 +107,9 @@ def test_plus_is_the_upper_sign_of_its_key(monkeypatch):
 
 def test_unsaved_changes_are_asked_about(desk):
     went = []
-    desk.guard(went.append)
+    desk.guard(lambda: went.append(desk))
     assert went == [desk]
     desk.behind = lambda: True  # a stroke may be among what is still to be carried out
-    desk.guard(went.append)
+    desk.guard(lambda: went.append(desk))
     assert went == [desk]
-    assert desk.asked == "unsaved"
+    assert desk.asked.dialog == "unsaved"

@@ -7,6 +7,7 @@ from PIL import Image
 
 from app.canvas.view import View, place_of_pixel
 from app.desk import pictured
+from app.desk.asked import Asked
 from app.desk.known import Known
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
@@ -23,7 +24,9 @@ def desk(session=None):
     posted = []
     view = View(place_of_pixel(0, 60, 40), 0, 0.0, width=200, height=160)
     seen = SimpleNamespace(textures=("View",))
-    made = SimpleNamespace(view=view, known=Known(scene=seen), awaited="", free_area=lambda: (20.0, 10.0, 180.0, 150.0))
+    made = SimpleNamespace(
+        view=view, known=Known(scene=seen), asked=Asked(), free_area=lambda: (20.0, 10.0, 180.0, 150.0)
+    )
     made.post = lambda request: posted.append(request.command) or (session and session.do(request.command))
     return made, posted
 
@@ -38,7 +41,7 @@ def test_what_is_in_view_becomes_ink_that_survives_a_file(tmp_path):
     session = painted()
     made, posted = desk(session)
     pictured.from_view(made)
-    assert made.awaited == "View 2"
+    assert made.asked.texture == "View 2"
     rect = pictured.seen(made)
     assert (rect.width, rect.height) == (160, 140)
     assert posted[0].arguments["rect"] == (0, rect.x0, rect.y0, 160, 140)
@@ -61,5 +64,5 @@ def test_a_picture_file_becomes_ink_under_its_name(tmp_path):
     session = painted()
     made, posted = desk(session)
     pictured.from_file(made, tmp_path / "Brick wall.png")
-    assert made.awaited == posted[0].name == "Brick wall"
+    assert made.asked.texture == posted[0].name == "Brick wall"
     assert session.painting.textures["Brick wall"].source.width == 60

@@ -141,7 +141,7 @@ class InkPanel:
         if not imgui.begin_popup("add texture"):
             return
         if imgui.selectable("Picture from a file…", False)[0]:
-            desk.ask("texture picture")
+            desk.asked.show("texture picture")
         w.named("Picture from a file…")
         w.tooltip("Paint with a PNG, JPEG or TIFF; it repeats, and shows its own detail as you zoom in")
         if imgui.selectable("What is in view", False)[0]:
@@ -157,9 +157,10 @@ class InkPanel:
 
     def _welcome(self, desk: Desk) -> None:
         """A picture that was asked for is a texture now: it joins the ink."""
-        if not desk.awaited or desk.known.scene is None or desk.awaited not in desk.known.scene.textures:
+        name, scene = desk.asked.texture, desk.known.scene
+        if not name or scene is None or name not in scene.textures:
             return
-        part, desk.awaited = Component(desk.awaited, 1.0, "#ffffff"), ""
+        part, desk.asked.texture = Component(name, 1.0, "#ffffff"), ""
         if len(desk.hand.brush.ink) < COMPONENTS_CAP:
             desk.hand.change(ink=(*desk.hand.brush.ink, part))
 

@@ -39,8 +39,8 @@ class Dialogs:
         return self._open is not None
 
     def draw(self, desk: Desk) -> None:
-        if desk.asked and self._open is None:
-            self._open, desk.asked = DIALOGS[desk.asked](desk), ""
+        if desk.asked.dialog and self._open is None:
+            self._open = DIALOGS[desk.asked.taken()](desk)
             imgui.open_popup("###dialog")
         dialog = self._open
         if dialog is None:
@@ -52,7 +52,7 @@ class Dialogs:
         if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
             given_up = imgui.is_key_pressed(imgui.Key.escape)
             if given_up:
-                desk.after_save = None
+                desk.asked.give_up()
             if given_up or not dialog.draw(desk):
                 imgui.close_current_popup()
                 self._open = None
@@ -104,15 +104,15 @@ class ExportDepth:
         imgui.text_unformatted("Each level deeper doubles the picture, with new detail.")
         imgui.set_next_item_width(em * 20)
         flags = imgui.SliderFlags_.always_clamp
-        _, desk.export_level = imgui.slider_int("Level", desk.export_level, *EXPORT_LEVELS, flags=flags)
+        _, desk.asked.export_level = imgui.slider_int("Level", desk.asked.export_level, *EXPORT_LEVELS, flags=flags)
         w.named("Level")
         w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
-        size = desk.known.frame.zoomed(desk.export_level)
+        size = desk.known.frame.zoomed(desk.asked.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")
         imgui.spacing()
         chosen = w.default_button("Choose file…", "Choose where to write it", width=em * 8)
         if chosen:
-            desk.ask("export to")
+            desk.asked.show("export to")
         imgui.same_line()
         return not (w.text_button("Cancel", "Go back", width=em * 7) or chosen)
 
@@ -123,11 +123,10 @@ class Unsaved:
     title = "Unsaved changes"
 
     def draw(self, desk: Desk) -> bool:
-        then, going = desk.then, False
-        if (
-            then is not None and not desk.known.modified and not desk.behind()
-        ):  # nothing was changed, or it is saved by now
-            then(desk)
+        then, going = desk.asked.then, False
+        changed = desk.known.modified or desk.behind()
+        if then is not None and not changed:  # nothing was, or it is saved by now
+            then()
             return False
         name, writing = desk.known.path.name if desk.known.path else "This painting", desk.known.writing
         grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
@@ -137,15 +136,15 @@ class Unsaved:
         em = imgui.get_font_size()
         if writing.saving:
             if w.default_button("Wait", "Go on as soon as it is saved", width=em * 7) and then is not None:
-                desk.after_save, going = (lambda d: d.guard(then)), True
+                desk.asked.after_save, going = (lambda: desk.guard(then)), True
         elif w.default_button("Save", "Save, then go on", width=em * 7):
-            desk.after_save, going = then, True
+            desk.asked.after_save, going = then, True
             desk.save()
         imgui.same_line()
         if w.text_button("Don’t save", "Go on; the changes are lost", width=em * 7):
             going = True
             if then is not None:
-                then(desk)
+                then()
         imgui.same_line()
         return not (w.text_button("Cancel", "Go back to the painting", width=em * 7) or going)
 

@@ -52,7 +52,7 @@ class SystemDialog:
                 path = path.with_name(path.name + self._endings[0])
             self._then(desk, path)
         else:
-            desk.after_save = None
+            desk.asked.give_up()
         return False
 
 
@@ -99,7 +99,7 @@ class Browser:
             return self._choose(desk)
         imgui.same_line()
         if w.text_button("Cancel", "Go back", width=em * 6):
-            desk.after_save = None
+            desk.asked.give_up()
             return False
         if self._fault:
             imgui.text_colored(theme.vec(theme.WARN), self._fault)
@@ -169,7 +169,7 @@ def saving(desk: Desk) -> SystemDialog | Browser:
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
     stem = desk.known.path.stem if desk.known.path else "untitled"
-    start, level = _folder(desk) / f"{stem}.png", desk.export_level
+    start, level = _folder(desk) / f"{stem}.png", desk.asked.export_level
     return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
 
 

@@ -82,7 +82,7 @@ class ExamplesPanel:
             state.group = picked
         imgui.same_line(0, gap)
         if w.icon_button("add", icons.ADD, "Add a picture of your own, or drop one on the window", size=side):
-            desk.ask("example picture")
+            desk.asked.show("example picture")
 
     def _thumbnails(self, desk: Desk) -> None:
         listed, gap = desk.examples.listed(), 6 * desk.scale

@@ -93,7 +93,7 @@ class LabSettings:
         if len(rest) < len(lab.made.shapes) and (shift or not rest):
             lab.begin_with(rest)
         elif name == "image":
-            desk.ask("lab picture")
+            desk.asked.show("lab picture")
         else:
             shape: dict[str, Any] = {"shape": name}
             if name == "texture":

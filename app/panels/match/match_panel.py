@@ -120,7 +120,7 @@ class MatchingPanel:
     def _pick(self, desk: Desk, index: int, name: str) -> None:
         match = desk.match
         if name == "file":
-            desk.ask(f"match picture {index}")
+            desk.asked.show(f"match picture {index}")
         elif name == "area":
             match.marking = None if match.marking == index else index
         else:

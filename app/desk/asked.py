@@ -1,0 +1,51 @@
+"""What is asked of the artist, and what goes on after the answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+Then = Callable[[], None]
+
+
+@dataclass(slots=True)
+class Asked:
+    """`dialog`: a row of app.panels.dialogs.DIALOGS that is to be shown; `then`: goes on once unsaved changes are dealt
+    with; `after_save`: goes on once the painting is saved; `quit`: the window is to go; `export_level`: how deep the
+    exported picture goes; `texture`: a name under which one is being made, which joins the ink when the painting has
+    it."""
+
+    dialog: str = ""
+    then: Then | None = None
+    after_save: Then | None = None
+    quit: bool = False
+    export_level: int = 0
+    texture: str = ""
+
+    def show(self, dialog: str) -> None:
+        """Opens a dialog by its name."""
+        self.dialog = dialog
+
+    def taken(self) -> str:
+        """Gives the dialog that is to be shown, once."""
+        dialog, self.dialog = self.dialog, ""
+        return dialog
+
+    def about_changes(self, then: Then) -> None:
+        """Asks what is to become of unsaved changes, before `then`."""
+        self.then = then
+        self.show("unsaved")
+
+    def close(self) -> None:
+        """Lets the window go."""
+        self.quit = True
+
+    def give_up(self) -> None:
+        """Lets nothing follow a save: it was given up, or went wrong."""
+        self.after_save = None
+
+    def saved(self) -> None:
+        """Goes on after a save, once."""
+        then, self.after_save = self.after_save, None
+        if then is not None:
+            then()
