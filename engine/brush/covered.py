@@ -1,28 +1,73 @@
-"""What all edits of strokes share: where the stroke covers, and with what."""
+"""What all edits of strokes share: where the stroke covers, with what, and what it may look at."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
-from engine.brush.ink import Ink
+import numpy as np
+
+from engine.brush import coat
+from engine.brush.ink import Ink, Texture
 from engine.brush.mask import Coverage
 from engine.brush.settings import Brush
-from engine.numeric.address import Rect, TileKey
+from engine.brush.stamp import Stamp
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.prediction import Predictor
+from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
 
 Read = Callable[[Rect], Planes]  # the old values of a rectangle of the stroke's level
 
 
+@dataclass(frozen=True, slots=True)
+class Looks:
+    """What a stroke looks at besides the pixels under it: the pen's `pressure` at each; another `layer`, by name.
+    `whole` names what has to see the whole stroke before it knows any pixel, "" for nothing of the kind."""
+
+    pressure: bool = False
+    layer: str | None = None
+    whole: str = ""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Scene:
+    """What `Looks` asked for.
+
+    `source`: reads the layer that the op names, at the stroke's level; `origin`: the stroke's, in pixels of its level;
+    `pressure`: the stroke's coverage laid with the pen's pressure as opacity: the strongest that went over a pixel.
+    `start`: the pixel where the stroke begins; `seed`: of what is random; `memo`: what was learnt there, kept for the
+    whole stroke.
+    """
+
+    source: Read | None = None
+    origin: tuple[int, int] = (0, 0)
+    pressure: Coverage | None = None
+    start: tuple[int, int] = (0, 0)
+    seed: int = 0
+    memo: dict[str, Predictor | None] = field(default_factory=dict)
+
+
 @dataclass(frozen=True, eq=False)
 class Covered:
-    """An edit of the tiles that a stroke covers.  `locked`: under alpha lock."""
+    """An edit of the tiles that a stroke covers; one class a mode.  `locked`: under alpha lock."""
 
     coverage: Coverage
     brush: Brush
     ink: Ink | None
     locked: bool
     read: Read | None
+    scene: Scene = field(default_factory=Scene)
+
+    @staticmethod
+    def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
+        """The ink that strokes of the mode are made with, as `ink.resolve`; None for those that need none."""
+        return None
+
+    @staticmethod
+    def looks(brush: Brush, ink: Ink | None) -> Looks:
+        """What strokes of the mode look at."""
+        return Looks()
 
     @property
     def level(self) -> int:
@@ -35,3 +80,24 @@ class Covered:
     @property
     def rect(self) -> Rect:
         return self.coverage.rect
+
+    @property
+    def spares_alpha(self) -> bool:
+        """Whether alpha stays as it is, at every level."""
+        return self.locked
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        """The change of one tile, as `stamp.Edit.stamp`."""
+        raise NotImplementedError
+
+    def keep(self, key: TileKey) -> np.ndarray | None:
+        """1 - M over a tile, M being the stroke's coverage on the grid: float32 (128, 128), or None where nothing is
+        covered."""
+        covered = self.coverage.tiles.get(key)
+        if covered is None:
+            return None
+        keep = np.empty((TILE, TILE), np.float32)
+        if not isinstance(covered, np.ndarray):
+            keep[...] = 1.0 - np.rint(covered * 65536.0) / 65536.0
+            return keep if keep[0, 0] < 1.0 else None
+        return keep if coat.keep_of(covered, keep) else None

@@ -1,7 +1,7 @@
 """The brush as a value: its settings in one table, and its strict reading from and writing to JSON.
 
 The fields are those of the recording format.  Every field is read, checked and kept; which of them this version can
-paint with is decided when the brush is used (`kinds.check`).  Unknown members are kept and ignored.
+paint with is decided when the brush is used (`edits.check`).  Unknown members are kept and ignored.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from immutables import Map
 
 from engine.brush import checks, ops, parts
 from engine.brush.checks import BrushError, Knots
+from engine.brush.modes import MODES, Mode
 from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
 from engine.numeric.curves import Shape
 
 __all__ = ["COMPONENTS_CAP", "SETTINGS", "Brush", "Component", "Curve", "Setting", "from_json", "to_json"]
 
-MODE_NAMES = ("paint", "erase", "smooth", "raster", "example")
 LEVEL_LIMIT = 1 << 16  # of an example's pixels
 DEEPEST = 2.0**31  # of the layers of examples
 MOST_DETAIL = 4
@@ -131,10 +131,15 @@ class Brush:
     def __post_init__(self) -> None:
         for name, row in SETTINGS.items():
             object.__setattr__(self, name, checks.number(getattr(self, name), f"brush.{name}", row.lo, row.hi))
-        checks.one_of(self.mode, "brush.mode", MODE_NAMES)
+        checks.one_of(self.mode, "brush.mode", tuple(MODES))
         object.__setattr__(self, "colour", checks.colour(self.colour, "brush.colour"))
         for name in ("depth", "example_level", "example_detail"):
             object.__setattr__(self, name, _READERS[name](getattr(self, name), f"brush.{name}"))
+
+    @property
+    def row(self) -> Mode:
+        """The row of its mode."""
+        return MODES[self.mode]
 
     @property
     def rgb(self) -> tuple[float, float, float]:
@@ -208,7 +213,7 @@ def _dynamics(value: Any, place: str) -> Map[str, Any]:
 
 _READERS: dict[str, Callable[[Any, str], Any]] = {
     **{name: _setting(name) for name in SETTINGS},
-    "mode": lambda value, place: checks.one_of(value, place, MODE_NAMES),
+    "mode": lambda value, place: checks.one_of(value, place, tuple(MODES)),
     "colour": checks.colour,
     "ink": parts.ink,
     "op": ops.read,

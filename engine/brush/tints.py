@@ -10,33 +10,27 @@ import numpy as np
 from engine.brush import checks, tones
 from engine.brush.ops import Chosen
 
-_BLANK = np.zeros((tones.STEPS + 1, 3), np.float32)
+_MOST = 9
 
 
-def constants(op: Chosen) -> tuple[int, np.ndarray, np.ndarray]:
-    """The op's code, its parameters float32 (9,), and its ramp's table float32 (1025, 3)."""
-    out = np.zeros(9, np.float32)
-    row, given = op.row, op.parameters
-    if row is None:
-        return tones.FORMULA, out, _BLANK
-    if row.code == tones.MATRIX:
-        matrix = saturating(given["amount"]) if row.name == "saturate" else turning(given["turn"])
-        out[:] = matrix.reshape(-1)
-    elif row.code == tones.RAMP:
-        return tones.TEXTURE_RAMP if op.by_texture else tones.RAMP, out, ramp(given["ramp"])
-    else:
-        numbers = [given[part.name] for part in row.parameters if part.kind == "number"]
-        out[: len(numbers)] = np.rint(numbers) if row.name == "posterise" else numbers
-    return row.code, out, _BLANK
+def numbers(op: Chosen) -> np.ndarray:
+    """The op's numeric parameters in turn, float32 (9,), 0 where it has none."""
+    out = np.zeros(_MOST, np.float32)
+    for i, part in enumerate(part for part in (op.row.parameters if op.row else ()) if part.kind == "number"):
+        out[i] = np.rint(op.parameters[part.name]) if part.whole else op.parameters[part.name]
+    return out
 
 
+@lru_cache(32)
 def saturating(amount: float) -> np.ndarray:
-    """The matrix (3, 3) that multiplies what a colour differs from its grey by `amount`; brightness stays."""
+    """The matrix (3, 3), not to be written to, that multiplies what a colour differs from its grey by `amount`;
+    brightness stays."""
     return amount * np.eye(3) + (1.0 - amount) * np.tile(np.array(tones.LUMA), (3, 1))
 
 
+@lru_cache(32)
 def turning(degrees: float) -> np.ndarray:
-    """The matrix (3, 3) that turns colours about the grey axis; brightness and greys stay."""
+    """The matrix (3, 3), not to be written to, that turns colours about the grey axis; brightness and greys stay."""
     angle = math.radians(degrees)
     cross = np.array([[0.0, -1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 1.0, 0.0]]) / math.sqrt(3.0)
     grey = np.tile(np.array(tones.LUMA), (3, 1))

@@ -1,4 +1,4 @@
-"""Kernels of the raster-ops that change the colour of a pixel: the table of channel functions, each with its own loop.
+"""Loops of the raster-ops: channel functions by name, each with its own loop, and what ops need besides.
 
 Colours are straight (not premultiplied), encoded as the layer is, 0..1.  A function gives the target t of a channel
 and its slope t', so that a stroke of weight w makes c + w (t - c), and small grey detail 1 + w (t' - 1) of itself.  A
@@ -6,6 +6,8 @@ target is brought into 0..1; where that cuts it off, the slope is 0.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numba import njit
@@ -23,6 +25,7 @@ _RED, _GREEN, _BLUE = (np.float32(part) for part in LUMA)
 STEPS = 1024  # of a ramp's table
 
 _inlined = register_jitable(forceinline=True)
+Loop = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray], None]  # of `_separable`
 
 
 # ---- channel functions: (channel, brush's colour, first and second parameter) -> target, slope ----------------------
@@ -102,7 +105,8 @@ def _posterise(c, p, a, b):
 
 
 def _separable(function):
-    """The loop of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n)."""
+    """The loop of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n), by the brush's
+    `colour` (3,) and the op's `parameters` (9,).  It is compiled when it is first used."""
 
     @njit(cache=True, nogil=True)
     def loop(c, colour, parameters, t, s):
@@ -117,19 +121,17 @@ def _separable(function):
     return loop
 
 
-_rows = tuple(
-    _separable(function)
+CHANNELS: dict[str, Loop] = {
+    function.__name__[1:]: _separable(function)
     for function in (
         _multiply, _screen, _overlay, _dodge, _burn, _add, _subtract, _difference, _invert, _lighten, _darken, _gamma,
         _contrast, _posterise,
     )
-)  # fmt: skip
-
-MATRIX, RAMP, TEXTURE_RAMP, GIVEN, SHARPEN, FORMULA = 15, 16, 17, 18, 19, 20
+}  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
-def _matrix(c, matrix, t, s):
+def mixed(c, matrix, t, s):
     """Channels mixed by `matrix`, float32 (9,), whose rows sum to 1, so that grey detail stays."""
     for channel in range(3):
         m0, m1, m2 = matrix[3 * channel], matrix[3 * channel + 1], matrix[3 * channel + 2]
@@ -141,7 +143,7 @@ def _matrix(c, matrix, t, s):
 
 
 @njit(cache=True, nogil=True)
-def _ramp(index, table, t, s):
+def ramp(index, table, t, s):
     """The colours of `table`, float32 (1025, 3), at `index`, 0..1, and how fast they change along it."""
     steps = np.float32(STEPS)
     for x in range(index.size):
@@ -155,7 +157,8 @@ def _ramp(index, table, t, s):
 
 
 @njit(cache=True, nogil=True)
-def _sharpen(c, mean, amount, t, s):
+def sharpen(c, mean, amount, t, s):
+    """Colours away from the `mean` around them, float32 (3, n), by `amount` times how far they are."""
     for channel in range(3):
         source, around, target, slope = c[channel], mean[channel], t[channel], s[channel]
         for x in range(source.size):
@@ -198,33 +201,6 @@ def weigh(coverage, texture, weight, free):
             f[x] = covered if _ZERO <= t[x] <= _ONE else _ZERO
             some |= np.int32(w[x] > _ZERO)
     return some != 0
-
-
-def targets(
-    code: int, c: np.ndarray, colour: np.ndarray, p: np.ndarray, table: np.ndarray, index: np.ndarray, given: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Targets and slopes, float32 (3, n) each, of straight colours `c` (3, n), by the op's code (`ops.Op`).
-
-    `colour` (3,), `p` (9,) parameters, `table` (1025, 3); `index` (n,): the texture; `given` (3 or 6, n): targets and
-    slopes made elsewhere.  An op's loop is compiled when it is first used.
-    """
-    if code == FORMULA:
-        return given[:3], given[3:]
-    t, s = np.empty_like(c), np.empty_like(c)
-    if code <= len(_rows):
-        _rows[code - 1](c, colour, p, t, s)
-    elif code == MATRIX:
-        _matrix(c, p, t, s)
-    elif code == SHARPEN:
-        _sharpen(c, given, p[0], t, s)
-    elif code == GIVEN:
-        t, s[:] = given, 0.0
-    else:
-        if code == RAMP:
-            index = np.empty(c.shape[1], np.float32)
-            luma(c, index)
-        _ramp(index, table, t, s)
-    return t, s
 
 
 @njit(cache=True, nogil=True)

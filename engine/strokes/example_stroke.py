@@ -56,7 +56,7 @@ class LiveGrowth(Drawn):
         brush, level, painting = self.brush, self.level, self.before
         grid = _grid(brush, level)
         shape = tip.resolve(brush, painting.textures, level, self.own)
-        within = growths.bounds(self.layer.growth, grid) if brush.mode == "erase" else None
+        within = growths.bounds(self.layer.growth, grid) if brush.row.takes_away else None
         begin = partial(Footprint, brush, self.origin, grid - level, shape, within)
         self.bed = Bed(self.layer.growth, level, begin, _change(brush, grid, painting, self.own))
 
@@ -94,7 +94,7 @@ def _check_alpha(layer: Layer, what: str) -> None:
 
 def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
     """What the brush makes of a growth where it takes pixels of level `grid`."""
-    if brush.mode == "erase":
+    if brush.row.takes_away:
         return lambda growth, rect, mask: growths.cut(growth, grid, rect, mask, brush.depth)
     assert brush.example is not None
     plant = sown(painting, brush.example, brush.example_detail, "brush.example")
@@ -105,7 +105,7 @@ def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
 
 def _grid(brush: Brush, level: int) -> int:
     """The level whose pixels are taken."""
-    if brush.mode == "erase" or brush.example_level is None:
+    if brush.row.takes_away or brush.example_level is None:
         return level
     grid = brush.example_level
     if abs(grid - level) > FURTHEST:
@@ -121,7 +121,7 @@ Live = LiveStroke | LiveGrowth
 def kind_of(brush: Brush) -> type[Live]:
     """Of the stroke that a brush makes: one that paints, or one that grows an example or erases what was grown at a
     depth."""
-    grows = brush.mode == "example" or (brush.mode == "erase" and brush.depth is not None)
+    grows = brush.row.grows or (brush.row.takes_away and brush.depth is not None)
     return LiveGrowth if grows else LiveStroke
 
 

@@ -151,7 +151,7 @@ def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
     for rect, taken in Footprint(stroke.brush, stroke.origin).lay(stroke.points):
         part = rect.intersect(whole)
         if not part.empty:
-            out[part.slices(whole)][taken[part.slices(rect)]] = stroke.brush.mode != "erase"
+            out[part.slices(whole)][taken[part.slices(rect)]] = not stroke.brush.row.takes_away
     return out
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from immutables import Map
 
-from engine.brush import kinds
+from engine.brush import edits
 from engine.brush.settings import Brush
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
@@ -40,7 +40,7 @@ class Drawn:
         layer: str | None = None,
         seed: int | None = None,
     ) -> None:
-        kinds.check(brush)
+        edits.check(brush)
         self.base, self.layer = layer_for(painting, layer)
         self.before, self.cache = painting, cache
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed

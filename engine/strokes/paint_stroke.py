@@ -7,11 +7,10 @@ from functools import partial
 
 import numpy as np
 
-from engine.brush import kinds, raster, relief, tip
+from engine.brush import edits, relief, tip
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.footprint import Footprint
-from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
 from engine.brush.stamp import Edit
 from engine.canvas import commit, evaluate, layers
@@ -25,7 +24,7 @@ from engine.painting.grown import threads
 from engine.painting.value import Painting
 from engine.strokes.bed import Bed, Meeting
 from engine.strokes.live_stroke import Drawn
-from engine.strokes.scenery import Scenery
+from engine.strokes.scenery import Scenery, reader
 from engine.texture.planes import Planes
 
 
@@ -38,22 +37,21 @@ class LiveStroke(Drawn):
 
     def _begin(self) -> None:
         brush, level, own, textures = self.brush, self.level, self.own, self.before.textures
-        if kinds.MODES[brush.mode].edit is None:
-            raise BrushError("brush.mode", f'"{brush.mode}"', "a mode that edits what is there")
+        made = edits.class_of(brush.mode)
         self._stroker = Stroker(brush)
         self._tip = tip.resolve(brush, textures, level, own)
         self._mask = StrokeMask(level, self.origin, tip=self._tip)
-        inks = {"paint": resolve, "raster": raster.mixture}
-        self._ink = inks[brush.mode](brush, textures, level, own) if brush.mode in inks else None
-        looking = brush.mode == "raster" or (self._ink is not None and bool(self._ink.swayed))
-        self._scenery = Scenery(brush, self.base.root, level, self.origin, own, self.cache) if looking else None
+        self._ink = made.ink_of(brush, textures, level, own)
+        looks = made.looks(brush, self._ink)
+        source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
+        self._scenery = Scenery(looks, brush, (level, self.origin), own, source)
         self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
         self._edit: Edit | None = None
         self.flattened, self.bed = False, self._new_bed()
         self._meeting = Meeting(level, self.origin, brush.radius)
 
     def _new_bed(self) -> Bed | None:
-        if self.brush.mode != "erase" or not self.layer.growth or self.layer.alpha_locked:
+        if not self.brush.row.takes_away or not self.layer.growth or self.layer.alpha_locked:
             return None
         level = self.level
         within = growths.bounds(self.layer.growth, level)
@@ -67,8 +65,7 @@ class LiveStroke(Drawn):
             dabs = self._stroker.walk(points)
             dirty = tile_bounds(self._mask.paint(dabs))
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
-            if self._scenery is not None:
-                dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
+            dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
             if self.bed is not None:
                 self.bed.lay(points)
         except BrushError:
@@ -76,7 +73,7 @@ class LiveStroke(Drawn):
             raise
         self._keep(points)
         self._edit = None
-        if self.brush.mode != "erase" and self.layer.growth:
+        if not self.brush.row.takes_away and self.layer.growth:
             self._flatten(dabs)
         return dirty
 
@@ -100,7 +97,7 @@ class LiveStroke(Drawn):
 
     @property
     def predictor(self) -> Predictor | None:
-        return None if self._scenery is None else self._scenery.predictor
+        return self._scenery.predictor
 
     @property
     def rect(self) -> Rect:
@@ -118,10 +115,8 @@ class LiveStroke(Drawn):
     def edit(self) -> Edit:
         """The edit of the layer that the points so far make."""
         if self._edit is None:
-            scene = None if self._scenery is None else self._scenery.scene
-            self._edit = kinds.edit(
-                self.brush, self._mask, self._ink, self.layer.alpha_locked, self._read, self._relief, scene
-            )
+            locked, scene = self.layer.alpha_locked, self._scenery.scene
+            self._edit = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._relief, scene)
         return self._edit
 
     def _read(self, rect: Rect) -> Planes:

@@ -1,4 +1,4 @@
-"""What a stroke looks at besides the pixels under it: for a raster-op another layer; the pen's pressure."""
+"""What a stroke looks at besides the pixels under it: another layer, the pen's pressure, itself as a whole."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from engine.brush import ops
 from engine.brush.checks import BrushError
+from engine.brush.covered import Looks, Read, Scene
 from engine.brush.dabs import Stroker
 from engine.brush.foretell import AREA_CAP
 from engine.brush.mask import StrokeMask
-from engine.brush.raster import Read, Scene
 from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
@@ -20,45 +19,43 @@ from engine.canvas.growth import is_settled, settled
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import layer_ink
 from engine.numeric.address import Rect
-from engine.numeric.formula import variables
 from engine.numeric.prediction import Predictor
 from engine.texture.planes import Planes
 
 
 class Scenery:
-    """Grows with the stroke: one of a raster-op, or one whose ink goes with the pressure.  BrushError if the op names a
-    layer that is none of `root`'s."""
+    """What its mode's class asked to see (`looks`) of a stroke, growing with it.
+
+    `place`: the stroke's level and origin; `seed`: of what is random; `source` reads the layer that is looked at.
+    """
 
     def __init__(
-        self, brush: Brush, root: Group, level: int, origin: tuple[int, int], seed: int, cache: TileCache | None
+        self, looks: Looks, brush: Brush, place: tuple[int, tuple[int, int]], seed: int, source: Read | None
     ) -> None:
-        op = ops.chosen(brush.op if brush.mode == "raster" else "toward")
-        self._level, self._origin = level, origin
-        self._source = _reader(root, op.parameters["layer"], level, cache) if "layer" in op.parameters else None
-        self._pressed = brush.mode != "raster" or (op.tree is not None and "pressure" in variables(op.tree))
+        level, self._origin = place
+        self._looks, self._source = looks, source
         steady = brush.dynamics.delete("flow") if "flow" in brush.dynamics else brush.dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, hardness=1.0, dynamics=steady.set("opacity", "pressure"))
         self._stroker = Stroker(self._brush)
-        self._mask = StrokeMask(level, origin)
+        self._mask = StrokeMask(level, self._origin)
         self._seed, self._start = seed, (0, 0)
-        self._predicts = op.row is not None and op.row.name == "predict"
         self._memo: dict[str, Predictor | None] = {}
         self._begun = False
 
     def lay(self, points: np.ndarray, rect: Rect) -> Rect:
         """More points, float64 (n, 6), that are known to be good, of a stroke that now covers `rect`.
 
-        Returns the pixels that may look different although they were covered before.  BrushError if the op cannot be
-        done on so large a stroke; the points are not laid then.
+        Returns the pixels that may look different although they were covered before.  BrushError if what is
+        done cannot be done on so large a stroke; the points are not laid then.
         """
-        if self._predicts and rect.area > AREA_CAP:
-            raise BrushError("stroke", f"one of {rect.area} pixels", f"at most {AREA_CAP} of the operation predict")
+        if self._looks.whole and rect.area > AREA_CAP:
+            raise BrushError("stroke", f"one of {rect.area} pixels", f"at most {AREA_CAP} of {self._looks.whole}")
         if not self._begun:
             left, top = (math.floor(value) for value in points[0, :2])
             self._start, self._begun = (self._origin[0] + left, self._origin[1] + top), True
-        if self._pressed:
+        if self._looks.pressure:
             self._mask.paint(self._stroker.walk(points))
-        return rect if self._predicts else Rect(0, 0, 0, 0)
+        return rect if self._looks.whole else Rect(0, 0, 0, 0)
 
     @property
     def predictor(self) -> Predictor | None:
@@ -67,11 +64,12 @@ class Scenery:
 
     @property
     def scene(self) -> Scene:
-        pressure = self._mask.coverage() if self._pressed else None
+        pressure = self._mask.coverage() if self._looks.pressure else None
         return Scene(self._source, self._origin, pressure, self._start, self._seed, self._memo)
 
 
-def _reader(root: Group, name: str, level: int, cache: TileCache | None) -> Read:
+def reader(root: Group, name: str, level: int, cache: TileCache | None) -> Read:
+    """Reads the ink of a layer at a level.  BrushError if there is no layer of that name."""
     known = [node.name for node in layers.layers(root)]
     if name not in known:
         found = "a group" if layers.has(root, name) else "none of that name"

@@ -19,7 +19,7 @@ from engine.studio.requests import Swatch
 
 _GROUND = "#5b6470"
 _SMALLER = 2  # octaves by which an example is made smaller for a thumbnail, at most: finer ones leave nothing to see
-_BARS = 8  # of paint under a brush that changes what is there
+_BARS = 8  # of paint on the ground
 _COLOURS = ("#23262e", "#7c2f3b", "#c8643c", "#e2b04a", "#6f9a4c", "#3d8f93", "#41609f", "#b9bfc9")  # to be changed
 
 
@@ -47,25 +47,24 @@ def _fill(brush: Brush, width: int, height: int) -> list[c.Stroke]:
 
 
 def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
-    """A wave whose pressure rises and falls; over some paint, if the brush takes paint away."""
+    """A wave whose pressure rises and falls; over the ground that the brush's mode asks for."""
     t = np.linspace(0.0, 1.0, 40)
     x = width * (0.12 + 0.76 * t)
     y = height * (0.5 + 0.2 * np.sin(t * math.tau))
     pressure = np.sin(np.pi * (0.06 + 0.9 * t)) ** 0.8
     radius = min(max(brush.radius, 2.0), height * 0.24)
     wave = c.Stroke(0, (0, 0), _points(np.stack([x, y, pressure], axis=1)), replace(brush, radius=radius))
-    if brush.mode == "example":
+    if brush.row.grows:
         smaller = min(_SMALLER, max(0, round(math.log2(brush.radius / radius))))  # its texture, as the stroke is
         detail = min(brush.example_detail + smaller, MOST_DETAIL)
         return [replace(wave, brush=replace(wave.brush, example_detail=detail))]
-    if brush.mode == "paint":
+    bars, colours = [], brush.row.ground == "colours"
+    if not brush.row.ground:
         return [wave]
-    raster = brush.mode == "raster"
-    bars = []
     for k in range(_BARS):
         across = width * (0.1 + 0.8 * k / (_BARS - 1))
         ground = Brush(
-            radius=width * (0.055 if raster else 0.035), hardness=0.9, colour=_COLOURS[k] if raster else _GROUND
+            radius=width * (0.055 if colours else 0.035), hardness=0.9, colour=_COLOURS[k] if colours else _GROUND
         )
         bars.append(c.Stroke(0, (0, 0), _points([[across, height * 0.14, 1.0], [across, height * 0.86, 1.0]]), ground))
     return [*bars, wave]

@@ -9,7 +9,7 @@ import numpy as np
 
 from bench import Figure, libmypaint
 from bench.clock import best, copying, slowness
-from engine.brush import kinds
+from engine.brush import edits
 from engine.brush.dabs import Stroker
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
@@ -66,7 +66,7 @@ def _textured(repeats: int) -> Figure:
     def own() -> None:
         mask = StrokeMask(0, (0, 0))
         mask.paint(Stroker(brush).add(np.array([[300.0, 300.0, 0.7]])))
-        edit = kinds.edit(brush, mask, ink)
+        edit = edits.edit(brush, mask, ink)
         for key in edit.tiles:
             below = old.setdefault(key, Planes(np.full((7, 128, 128), 0.25, np.float32), ink.inks))
             stamp = edit.stamp(key, below)

@@ -9,11 +9,12 @@ import numpy as np
 
 from bench import Figure
 from bench.clock import best, copying
-from engine.brush import kinds
+from engine.brush import edits
+from engine.brush.covered import Scene
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
+from engine.brush.mixture import mixture
 from engine.brush.ops import OPS
-from engine.brush.raster import Scene, mixture
 from engine.brush.settings import from_json
 from engine.canvas import kernels
 from engine.numeric.address import TILE, Rect, TileKey
@@ -50,7 +51,7 @@ def _dab(name: str, op: dict[str, Any], repeats: int, limit: float) -> Figure:
     def own() -> None:
         mask = StrokeMask(0, (0, 0))
         mask.paint(Stroker(brush).add(np.array([[EDGE / 2, EDGE / 2, 0.7]])))
-        edit = kinds.edit(brush, mask, ink, False, read, scene=scene)
+        edit = edits.edit(brush, mask, ink, False, read, scene=scene)
         for key in edit.tiles:
             old = olds.get(key)
             if old is None:

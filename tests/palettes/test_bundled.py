@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from app.desk import presets as palette
-from engine.brush import kinds
+from engine.brush import edits
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.makers.definitions import used
@@ -64,7 +64,7 @@ def test_presets_are_whole_and_can_paint():
     assert len(found) >= 16
     assert len({p.name for p in found}) == len(found)
     for preset in found:
-        kinds.check(preset.brush)
+        edits.check(preset.brush)
 
 
 def test_every_preset_brings_all_it_needs_and_draws_itself():

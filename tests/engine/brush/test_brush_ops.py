@@ -5,11 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.brush import kinds
+from engine.brush import edits, op_paint, op_targets
 from engine.brush.checks import rgb
+from engine.brush.covered import Scene
 from engine.brush.mask import StrokeMask
+from engine.brush.mixture import mixture
 from engine.brush.ops import OPS
-from engine.brush.raster import Scene, mixture
 from engine.brush.settings import from_json, to_json
 from engine.brush.tints import saturating, turning
 from engine.numeric.address import TILE, Rect, TileKey
@@ -46,7 +47,7 @@ def edited(op, planes, dabs=FULL, locked=False, **members):
     mask = StrokeMask(0, (0, 0))
     mask.paint(dabs)
     read = reader(planes)
-    made = kinds.edit(brush, mask, mixture(brush, {}, 0, 7), locked, read, scene=Scene(read))
+    made = edits.edit(brush, mask, mixture(brush, {}, 0, 7), locked, read, scene=Scene(read))
     return made, mask.coverage().on_grid(KEY)
 
 
@@ -101,6 +102,11 @@ def test_the_table_is_complete():
         assert row.finer.endswith(".")
         assert row.coarser.endswith(".")
         assert "\n" not in row.finer + row.coarser + row.tooltip
+
+
+def test_every_row_names_its_kernel_and_no_kernel_is_without_a_row():
+    for module, lays in ((op_paint, True), (op_targets, False)):
+        assert {row.kernel for row in OPS.values() if row.lays == lays} == set(module.KERNELS)
 
 
 @pytest.mark.parametrize("name", TARGETS)
@@ -275,7 +281,7 @@ def test_predict_continues_the_texture_of_where_the_stroke_begins():
     mask = StrokeMask(0, (0, 0))
     mask.paint(np.array([[60.0, 60, 45, 1, 1, 1]]))
     read = reader(whole)
-    made = kinds.edit(brush, mask, mixture(brush, {}, 0, 7), False, read, scene=Scene(read, start=(-40, -40)))
+    made = edits.edit(brush, mask, mixture(brush, {}, 0, 7), False, read, scene=Scene(read, start=(-40, -40)))
     got = after(made, old)
     hole = (slice(None), slice(40, 80), slice(30, 90))
     want = old_of(planes).data[hole]
@@ -291,7 +297,7 @@ def continued(planes, start):
     mask.paint(np.array([[60.0, 60, 45, 1, 1, 1]]))
     read = reader(planes)
     old = old_of(planes)
-    made = kinds.edit(brush, mask, mixture(brush, {}, 0, 7), False, read, scene=Scene(read, start=start))
+    made = edits.edit(brush, mask, mixture(brush, {}, 0, 7), False, read, scene=Scene(read, start=start))
     return after(made, old), (slice(None), slice(40, 80), slice(30, 90))
 
 
@@ -328,7 +334,7 @@ def test_erase_takes_by_the_texture():
     old = old_of(planes)
     made, _ = edited("erase", planes, ink=[{"texture": "stripes", "period": 32, "amount": 0.6}])
     got = after(made, old)
-    t = np.clip(made._texture(KEY), 0, 1)
+    t = np.clip(made.mixture.tile(KEY), 0, 1)
     np.testing.assert_allclose(got, old.data * (1 - t), atol=4e-5)
     assert 0.35 < got[3].min() < 0.5
     assert got[3].max() > 0.95
@@ -349,7 +355,7 @@ def test_the_weight_is_coverage_times_texture(name, ink):
     planes = around(opaque=True)
     old = old_of(planes)
     made, m = edited(name, planes, SOFT, ink=ink)
-    t = np.clip(made._texture(KEY), 0, 1)
+    t = np.clip(made.mixture.tile(KEY), 0, 1)
     if ink[0]["texture"] == "white":
         np.testing.assert_allclose(t, 0.5)
     c = old.data[:3]
@@ -363,7 +369,7 @@ def test_the_texture_goes_on_as_ink_of_the_amplitude_that_the_op_has():
         made, _ = edited(name, planes, ink=[{"texture": "rock", "amount": 0.8}])
         stamp = made.stamp(KEY, old)
         assert [i.key[0] for i in stamp.inks] == ["rock"]
-        t = made._texture(KEY)
+        t = made.mixture.tile(KEY)
         free = (t >= 0) & (t <= 1)
         want = np.where(free, 0.4 * (TARGETS[name](old.data[:3]) - old.data[:3]), 0)
         np.testing.assert_allclose(stamp.add[4:7], want, atol=4e-5)
@@ -398,7 +404,7 @@ def test_a_wash_by_texture_runs_along_the_ramp():
     op = {"name": "gradient", "by": "texture", "ramp": [[0, "#000000"], [1, "#ff8000"]]}
     made, _ = edited(op, planes, ink=[{"texture": "stripes", "period": 40}])
     stamp = made.stamp(KEY, old)
-    t = np.clip(made._texture(KEY), 0, 1)
+    t = np.clip(made.mixture.tile(KEY), 0, 1)
     want = np.array(rgb("#ff8000"))[:, None, None] * t
     np.testing.assert_allclose(after(made, old)[:3], want, atol=5e-5)
     assert (stamp.keep == 0).all()
@@ -456,7 +462,7 @@ def test_a_formula_knows_its_place_texture_level_and_coverage():
         got = after(edited({"formula": text}, planes)[0], old)
         np.testing.assert_allclose(got[0], want, atol=3e-5)
     made, _ = edited({"formula": "tex"}, planes, ink=[{"texture": "rock"}])
-    np.testing.assert_allclose(after(made, old)[1], np.clip(made._texture(KEY), 0, 1) ** 2, atol=4e-5)
+    np.testing.assert_allclose(after(made, old)[1], np.clip(made.mixture.tile(KEY), 0, 1) ** 2, atol=4e-5)
 
 
 def test_a_formula_has_a_slope():

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from immutables import Map
 
 from engine.brush.checks import BrushError
-from engine.brush.kinds import check
+from engine.brush.edits import check
 from engine.brush.parts import Edge, Surface
 from engine.brush.settings import SETTINGS, Brush, from_json, to_json
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.brush.checks import BrushError
-from engine.brush.kinds import edit
+from engine.brush.edits import edit
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.relief import SOFTNESS, Heights, resolve
 from engine.brush.settings import from_json

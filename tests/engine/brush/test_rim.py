@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import distance_transform_edt
 
+from engine.brush.edits import edit
 from engine.brush.ink import resolve as resolve_ink
-from engine.brush.kinds import edit
 from engine.brush.mask import StrokeMask
 from engine.brush.relief import resolve
 from engine.brush.rim import CAP, Rim

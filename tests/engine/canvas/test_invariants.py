@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strokes import ArrayEdit, Grain, fill, random_stroke, spread_planes
 
+from engine.brush.edits import edit as edit_of
 from engine.brush.ink import resolve
-from engine.brush.kinds import edit as edit_of
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
 from engine.canvas.commit import commit

@@ -12,8 +12,8 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.checks import BrushError
 from engine.brush.ink import resolve
+from engine.brush.mixture import mixture
 from engine.brush.parts import Component
-from engine.brush.raster import mixture
 from engine.brush.settings import Brush, from_json, to_json
 from engine.brush.sway import Hat
 from engine.canvas.evaluate import evaluate

@@ -1,5 +1,7 @@
 """The edits of a stroke: A and B of painting, erasing and smoothing, alpha lock, and resolved ink."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,10 +9,12 @@ from hypothesis import strategies as st
 
 from engine.brush.checks import BrushError
 from engine.brush.coat import local_mean
+from engine.brush.covered import Covered
+from engine.brush.edits import class_of, edit
 from engine.brush.ink import Ink, resolve
-from engine.brush.kinds import MODES, edit
 from engine.brush.mask import StrokeMask
-from engine.brush.settings import MODE_NAMES, from_json
+from engine.brush.modes import MODES
+from engine.brush.settings import Brush, from_json
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped
 from engine.texture.image import ImageSource
@@ -44,8 +48,12 @@ def on_grid(array):
     return (np.asarray(array, float) * 65536 == np.rint(np.asarray(array, float) * 65536)).all()
 
 
-def test_the_table_has_a_row_for_every_mode():
-    assert tuple(MODES) == MODE_NAMES
+def test_a_row_names_the_class_of_its_edits_and_the_modes_it_turns_into():
+    for name, row in MODES.items():
+        assert row.name == name
+        assert row.eraser in MODES
+        assert row.grows or issubclass(class_of(name), Covered)
+        assert row.unfelt <= {part.name for part in fields(Brush)}
 
 
 def test_paint_is_over():

@@ -1,0 +1,94 @@
+"""The stroke modes: what a stroke may do where it goes, as one table.
+
+A row tells everything about a mode that others ask; what it does to pixels stands in the module that the row names.
+So a mode is added by a module of its own and a row.  Light on purpose: brushes are checked by the table, and panels
+show it before anything is compiled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """A row of the table.
+
+    `name`: in recordings; `label` and `tooltip`: of its button, and in `inkfall play --help`.
+    `edit`: "module:class" of its edits, a `covered.Covered`; "" for a mode that makes none, since it grows an example.
+    `lays_ink`: it lays the brush's own colour and ink.  `takes_away`: it makes what is there less, paint and what is
+    painted with examples; strokes of other modes make paint of the latter where they meet it.  `uses_op`: it does what
+    the brush's `op` says.  `in_lab`: it makes sense on a spectrum.
+    `eraser`: the mode that the eraser, or the pen's other end, has with such a brush.
+    `section`: what the brush panel shows for it alone, by name.  `unfelt`: members of the brush that do not count.
+    `ground`: what small pictures of its strokes are painted on: "" for nothing, "bars" or "colours".
+    """
+
+    name: str
+    label: str
+    tooltip: str
+    edit: str = ""
+    lays_ink: bool = False
+    takes_away: bool = False
+    uses_op: bool = False
+    in_lab: bool = False
+    eraser: str = "erase"
+    section: str = ""
+    unfelt: frozenset[str] = frozenset()
+    ground: str = ""
+
+    @property
+    def grows(self) -> bool:
+        """Whether its strokes are regions in which an example grows."""
+        return not self.edit
+
+
+MODES: dict[str, Mode] = {
+    row.name: row
+    for row in (
+        Mode(
+            "paint",
+            "Paint",
+            "Lays paint over what is there",
+            "engine.brush.paint_edit:Painting",
+            lays_ink=True,
+            in_lab=True,
+        ),
+        Mode(
+            "erase",
+            "Erase",
+            "Takes paint away, at all depths",
+            "engine.brush.erase_edit:Erasing",
+            takes_away=True,
+            in_lab=True,
+            section="eraser",
+            ground="bars",
+        ),
+        Mode(
+            "smooth",
+            "Smooth",
+            "Softens the paint and takes away the detail that zooming would show",
+            "engine.brush.smooth_edit:Smoothing",
+            in_lab=True,
+            eraser="smooth",
+            ground="bars",
+        ),
+        Mode(
+            "raster",
+            "Change",
+            "Changes the paint that is there: darker, another hue, blurred, copied…",
+            "engine.brush.raster_edit:Raster",
+            uses_op=True,
+            in_lab=True,
+            section="operations",
+            ground="colours",
+        ),
+        Mode(
+            "example",
+            "Grow",
+            "Grows a texture like an example where you paint, rim and all",
+            section="example",
+            unfelt=frozenset(("opacity", "flow", "density", "grain", "edge")),
+        ),
+    )
+}

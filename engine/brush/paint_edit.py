@@ -1,0 +1,90 @@
+"""Edits of mode "paint": A = 1 - M, B = M times the ink, M being the stroke's coverage on the grid.
+
+Under alpha lock, colour is scaled by the alpha that lies there, and alpha itself stays as it is, bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from engine.brush import coat
+from engine.brush.covered import Covered, Looks
+from engine.brush.ink import Ink, Texture, resolve
+from engine.brush.settings import Brush
+from engine.brush.stamp import Stamp
+from engine.numeric.address import TILE, TileKey
+from engine.texture.image import ImageSource
+from engine.texture.planes import COLOURS, Planes
+from engine.texture.record import Instance
+
+_ALPHA = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Painting(Covered):
+    """Lays the ink over what is there; its amplitudes become ink planes."""
+
+    _flat: dict[float | None, Stamp] = field(default_factory=dict, repr=False)
+
+    @staticmethod
+    def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
+        return resolve(brush, textures, level, seed)
+
+    @staticmethod
+    def looks(brush: Brush, ink: Ink | None) -> Looks:
+        """At the pressure, where the ink goes with it."""
+        return Looks(pressure=ink is not None and bool(ink.swayed))
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        assert self.ink is not None
+        covered = self.coverage.tiles.get(key)
+        alike = covered if isinstance(covered, float) and not self.ink.loaded and not self.locked else None
+        if alike in self._flat:
+            return self._flat[alike]
+        keep = self.keep(key)
+        if keep is None:
+            return None
+        parts, inks = self.ink.loaded, self.ink.inks
+        add = np.empty((COLOURS + 3 * len(parts), TILE, TILE), np.float32)
+        if self.ink.swayed:
+            inks, add = self._sway(keep, key, old)
+        elif self.locked:
+            self._glaze(keep, key, old, add)
+        elif parts:
+            coat.load(keep, self.ink.field(key), self.ink.amplitudes, add)
+        else:
+            coat.lay(keep, self.ink.base, add)
+        stain = self.coverage.stain
+        part = None if stain is None else stain.part(key)
+        if stain is not None and part is not None:
+            coat.stain(part, stain.colour, add)
+        made = Stamp(keep, add, inks, plain=True)
+        if alike is not None:
+            self._flat[alike] = made
+        return made
+
+    def _sway(self, keep: np.ndarray, key: TileKey, old: Planes) -> tuple[tuple[Instance, ...], np.ndarray]:
+        """The inks under the pen's pressure, and B."""
+        assert self.ink is not None
+        felt = self.scene.pressure
+        pressure = felt.on_grid(key) if felt is not None else np.ones((TILE, TILE), np.float32)
+        colour, planes, inks = self.ink.under(key, pressure)
+        add = np.empty((COLOURS + len(planes), TILE, TILE), np.float32)
+        weight = coat.weigh(keep, old.data[_ALPHA], self.locked, add[_ALPHA])
+        coat.glaze(weight, colour, add[:_ALPHA])
+        coat.glaze(weight, planes, add[COLOURS:])
+        return inks, add
+
+    def _glaze(self, keep: np.ndarray, key: TileKey, old: Planes, add: np.ndarray) -> None:
+        """B under alpha lock: as `coat.load` and `coat.lay`, the paint weighed by the alpha that lies there."""
+        assert self.ink is not None
+        weight = coat.weigh(keep, old.data[_ALPHA], True, add[_ALPHA])
+        if self.ink.loaded:
+            coat.glaze(weight, self.ink.field(key), add[:_ALPHA])
+        else:
+            coat.wash(weight, self.ink.base, add[:_ALPHA])
+        for i, part in enumerate(self.ink.loaded):
+            coat.wash(weight, part.amplitude, add[COLOURS + 3 * i : COLOURS + 3 * i + 3])
