@@ -97,7 +97,8 @@ def _difference(plane, y, kind, line):
             for i in range(width - 1, 0, -1):
                 line[i] -= row[i - 1] - before[i - 1]
         return
-    line[:] = row
+    for i in range(width):
+        line[i] = row[i]
     if kind == 1 or kind == 3:
         here, beside = row[1:], row[: width - 1]
         rest = line[1:]

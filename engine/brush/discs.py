@@ -97,25 +97,32 @@ def list_pairs(discs, start, codes, which, inside):
     return count, i
 
 
-@njit(cache=True, nogil=True)
-def list_runs(discs, start, codes, which, inside, runs):
+def list_runs(
+    discs: np.ndarray, start: int, codes: np.ndarray, which: np.ndarray, inside: np.ndarray, runs: np.ndarray
+) -> tuple[int, int]:
     """As `list_pairs`, with the pairs of a tile brought together, tiles in order of their codes, discs in their own.
 
     Writes a row of `runs`, int64 (n, 5), for each tile: its first pair and the one after its last, the tile's x and y,
     and how many of its discs cover it in full.  Returns the number of rows and the next disc.
     """
     count, following = list_pairs(discs, start, codes, which, inside)
-    if count <= _FEW:
-        for i in range(1, count):  # insertion: stable, and nothing is faster for the few of a frame
-            code, disc, full = codes[i], which[i], inside[i]
-            k = i
-            while k > 0 and codes[k - 1] > code:
-                codes[k], which[k], inside[k] = codes[k - 1], which[k - 1], inside[k - 1]
-                k -= 1
-            codes[k], which[k], inside[k] = code, disc, full
-    else:
-        order = np.argsort(codes[:count], kind="mergesort")
-        codes[:count], which[:count], inside[:count] = codes[order], which[order], inside[order]
+    if count > _FEW:  # numpy's sort: one compiled here would cost a new program five seconds
+        order = np.argsort(codes[:count], kind="stable")
+        for column in (codes, which, inside):
+            column[:count] = column[order]
+    return _join(codes, which, inside, count, runs), following
+
+
+@njit(cache=True, nogil=True)
+def _join(codes, which, inside, count, runs):
+    """The runs among `count` pairs, which are sorted on the way."""
+    for i in range(1, count):  # insertion: stable, and nothing is faster for the few of a frame, or where all is sorted
+        code, disc, full = codes[i], which[i], inside[i]
+        k = i
+        while k > 0 and codes[k - 1] > code:
+            codes[k], which[k], inside[k] = codes[k - 1], which[k - 1], inside[k - 1]
+            k -= 1
+        codes[k], which[k], inside[k] = code, disc, full
     made = 0
     for i in range(count):
         if i == 0 or codes[i] != codes[i - 1]:
@@ -124,7 +131,7 @@ def list_runs(discs, start, codes, which, inside, runs):
             made += 1
         runs[made - 1, 1] = i + 1
         runs[made - 1, 4] += inside[i]
-    return made, following
+    return made
 
 
 @njit(inline="always")

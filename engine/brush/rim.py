@@ -109,13 +109,16 @@ def _distances(inside, reach, scale, out):
     size, n = inside.shape[0], out.shape[0]
     far = np.int32(reach + 1)
     down = np.empty((n, size), np.int32)
-    run = np.zeros(size, np.int32) + far
+    run = np.empty(size, np.int32)
+    run[:] = far
     for y in range(reach + n):
         row = inside[y]
         for x in range(size):
             run[x] = min(run[x] + np.int32(1), far) if row[x] else np.int32(0)
         if y >= reach:
-            down[y - reach, :] = run
+            here = down[y - reach]
+            for x in range(size):
+                here[x] = run[x]
     run[:] = far
     for y in range(size - 1, reach - 1, -1):
         row = inside[y]

@@ -98,7 +98,8 @@ def apply_stamp(old, keep, add, planes, plain, spares_alpha, new, changed):
         for y in range(keep.shape[0]):
             a, before, after = keep[y], old[c, y], new[c, y]
             if c == 3 and spares_alpha:
-                after[:] = before
+                for i in range(a.size):
+                    after[i] = before[i]
             elif source < 0:
                 for i in range(a.size):
                     after[i] = snap(a[i] * before[i])
@@ -200,7 +201,8 @@ def climb(below_old, below_new, keep, parents, spares_alpha, old, new, changed):
         for c in range(old.shape[0]):
             v, w, before, after = old[c, y], new[c, y], below_old[c, y], below_new[c, y]
             if c == 3 and spares_alpha:
-                w[:] = v
+                for i in range(width):
+                    w[i] = v[i]
                 continue
             for i in range(width):
                 r = v[i] - before[i]

@@ -214,7 +214,8 @@ def _sort(keys, spare):
             target[starts[turn, digit]] = source[i]
             starts[turn, digit] += 1
         source, target = target, source
-    keys[:] = source
+    for i in range(keys.size):
+        keys[i] = source[i]
 
 
 @njit(cache=True, nogil=True)
@@ -232,5 +233,5 @@ def _sort_with_places(keys, spare, order, spare_order):
             to[place] = from_[i]
             starts[turn, digit] = place + 1
         source, target, from_, to = target, source, to, from_
-    keys[:] = source
-    order[:] = from_
+    for i in range(keys.size):
+        keys[i], order[i] = source[i], from_[i]
