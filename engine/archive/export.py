@@ -36,6 +36,7 @@ class Picture:
 
     @property
     def area(self) -> Rect:
+        """Gives the rectangle that is exported, in pixels of `level`."""
         return self.painting.frame.zoomed(self.level) if self.rect is None else self.rect
 
 

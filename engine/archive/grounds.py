@@ -102,6 +102,7 @@ def with_tiles(ground: Pyramid, levels: dict[int, dict[tuple[int, int], Record]]
 
 
 def to_json(found: GroundEntry) -> dict[str, Any]:
+    """Tells a ground as the manifest does; `parse` is the inverse."""
     return {"member": found.member, "at": list(found.at), "gone": [list(key) for key in found.gone]}
 
 

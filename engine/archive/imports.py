@@ -71,6 +71,7 @@ class Pasted:
 
     @property
     def tiles(self) -> Sequence[TileKey]:
+        """Gives the tiles on which the picture is not wholly transparent."""
         return [key for key in self.rect.tiles(self.level) if self._part(key)[3].any()]
 
     def _part(self, key: TileKey) -> np.ndarray:
@@ -78,6 +79,7 @@ class Pasted:
         return self.pixels[rows, columns].transpose(2, 0, 1)
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp:
+        """Lays the picture's pixels in place of what is there, as `Edit.stamp`."""
         rows, columns = key.rect.intersect(self.rect).slices(key.rect)
         keep = np.ones((TILE, TILE), np.float32)
         keep[rows, columns] = 0

@@ -80,6 +80,7 @@ def origin(plot: Plot) -> Origin:
 
 
 def example_entry(plot: Plot) -> ExampleEntry:
+    """Tells what the example of a plot is made of."""
     found = origin(plot)
     mask = None if found.mask is None else found.mask.sha
     return ExampleEntry(found.source.sha, mask, plot.region.exemplar.parameters, found.detail)
@@ -112,11 +113,13 @@ def entries(root: Group) -> dict[str, ExampleEntry]:
 
 
 def plot_json(entry: PlotEntry) -> dict[str, Any]:
+    """Tells a plot as the manifest does; `parse_plot` is the inverse."""
     own = {field.name: getattr(entry, field.name) for field in fields(entry)}
     return {**own, "masks": [list(member) for member in entry.masks]}
 
 
 def examples_json(examples: Mapping[str, ExampleEntry]) -> dict[str, Any]:
+    """Tells all examples as the manifest does; `parse_examples` is the inverse."""
     return {key: _example_json(entry) for key, entry in examples.items()}
 
 
@@ -169,6 +172,7 @@ def _called(name: str) -> str:
 
 
 def parse_examples(told: Mapping[str, Any]) -> dict[str, ExampleEntry]:
+    """Reads the examples of a manifest by their keys.  FormatError names what is wrong, or that there are too many."""
     if len(told) > EXAMPLES_CAP:
         raise FormatError("manifest.examples", f"{len(told)}", f"at most {EXAMPLES_CAP}")
     return {name: parse_example(value, f"examples.{_called(name)}") for name, value in told.items()}

@@ -40,6 +40,7 @@ class Step:
 
     @property
     def may_cover(self) -> bool:
+        """Tells whether the step hides what lies below wherever it is opaque."""
         return self.over and self.opacity == 1
 
 

@@ -68,6 +68,7 @@ class TileCache:
                 self._held -= _held_bytes(evicted)
 
     def clear(self) -> None:
+        """Forgets all tiles."""
         with self._lock:
             self._tiles.clear()
             self._held = 0

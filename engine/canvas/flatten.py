@@ -29,18 +29,22 @@ class PlotEdit:
 
     @property
     def level(self) -> int:
+        """Gives the level at which the plot's pixels become paint: its finest."""
         return self.plot.finest
 
     @cached_property
     def rect(self) -> Rect:
+        """Gives the pixels of that level that the plot takes, and maybe some around."""
         return growths.bounds((self.plot,), self.level)
 
     @cached_property
     def tiles(self) -> list[TileKey]:
+        """Gives the tiles on which the plot has pixels."""
         growth = (self.plot,)
         return [key for key in self.rect.tiles(self.level) if growths.meets(growth, self.level, key.rect)]
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        """Lays the plot's pixels over what is there, as `Edit.stamp`."""
         found = growths.planes((self.plot,), key.level, key.rect)
         return None if found is None else Stamp(_ONE - found[3], found)
 

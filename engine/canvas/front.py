@@ -52,6 +52,7 @@ class Below:
 
     @classmethod
     def blank(cls, rect: Rect, inks: tuple[Instance, ...]) -> Below:
+        """Makes one for a rectangle where nothing lies and nothing has changed."""
         planes, size = COLOURS + 3 * len(inks), (rect.height, rect.width)
         old, new = np.zeros((planes, *size), np.float32), np.zeros((planes, *size), np.float32)
         return cls(old, new, np.zeros(size, np.float32), np.zeros(size, np.uint8), inks)

@@ -208,6 +208,7 @@ def _settled(plot: Plot, threads: Executor | None, tell: Tell) -> Plot:
 
 
 def is_settled(growth: Growth) -> bool:
+    """Tells whether every plot has its final pixels."""
     return all(plot.settled for plot in growth)
 
 

@@ -178,6 +178,7 @@ def find(root: Group, name: str) -> Node:
 
 
 def has(root: Group, name: str) -> bool:
+    """Tells whether a layer or group of that name is in the tree."""
     return any(node.name == name for node in walk(root))
 
 
@@ -199,6 +200,7 @@ def is_locked(root: Group, name: str) -> bool:
 
 
 def next_id(root: Group) -> int:
+    """Gives a number that no layer or group of the tree has."""
     return 1 + max((node.id for node in walk(root)), default=0)
 
 
@@ -281,6 +283,7 @@ def set_fields(root: Group, name: str, /, **fields: Any) -> Group:
 
 
 def rename(root: Group, name: str, to: str) -> Group:
+    """Returns the tree with a layer or group renamed.  LayerError if there is none of that name."""
     return substitute(root, name, replace(find(root, name), name=to))
 
 

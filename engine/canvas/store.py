@@ -41,6 +41,7 @@ class Record:
 
     @property
     def nbytes(self) -> int:
+        """Counts the bytes of memory that the record takes."""
         return self.data.nbytes + RECORD_OVERHEAD
 
 
@@ -69,6 +70,7 @@ class Change:
 
     @property
     def nbytes(self) -> int:
+        """Counts the bytes of memory that the commit takes."""
         return RECORD_OVERHEAD + (sum(a.nbytes for a in self.keep.values()) if self.keep else 0)
 
 
@@ -103,14 +105,17 @@ class Pyramid:
 
     @property
     def depth(self) -> int:
+        """Counts the commits that led to this state."""
         return self.last.depth if self.last else 0
 
     @property
     def coarsest(self) -> int | None:
+        """Gives the coarsest level with a record; None if there is none."""
         return min(self.levels, default=None)
 
     @property
     def finest(self) -> int | None:
+        """Gives the finest level with a record; None if there is none."""
         return max(self.levels, default=None)
 
     @property
@@ -149,6 +154,7 @@ class Pyramid:
                 yield key, record
 
     def all_records(self) -> Iterator[tuple[TileKey, Record]]:
+        """Gives all records with their places, the coarsest level first, row by column of tiles."""
         for level in sorted(self.levels):
             for place, record in sorted(self.levels[level].items()):
                 yield TileKey(level, *place), record
@@ -165,6 +171,7 @@ class Pyramid:
 
     @property
     def nbytes(self) -> int:
+        """Counts the bytes of memory that all records take."""
         return sum(record.nbytes for _, record in self.all_records())
 
 

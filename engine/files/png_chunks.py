@@ -23,6 +23,7 @@ class Chunks:
         self._count = 0
 
     def fail(self, message: str) -> FileError:
+        """Makes the error that names the file."""
         return FileError(self._name, message)
 
     def exactly(self, count: int, place: str) -> bytes:

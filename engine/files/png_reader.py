@@ -45,6 +45,7 @@ class Header:
 
     @property
     def dtype(self) -> np.dtype:
+        """Gives the type of a decoded sample: uint8, or uint16 for 16 bits."""
         return np.dtype(np.uint16 if self.depth == 16 else np.uint8)
 
     def stride(self, width: int) -> int:

@@ -246,9 +246,11 @@ class MemberStream(io.RawIOBase):
         self._crc = 0
 
     def readable(self) -> bool:
+        """Tells that the stream can be read, as io.RawIOBase asks."""
         return True
 
     def read(self, count: int = -1) -> bytes:
+        """Reads `count` bytes, fewer at the end only; all that is left if `count` is negative."""
         count = self._left if count < 0 else min(count, self._left)
         piece = self._source.piece(count) if isinstance(self._source, _Plain) else None
         if piece is None:

@@ -43,6 +43,7 @@ class MemberSink:
         self.sha256 = hashlib.sha256()
 
     def write(self, data: bytes) -> int:
+        """Writes all of `data` and reckons it into size, CRC and hash; returns how many bytes it has."""
         self._file.write(data)
         self.size += len(data)
         self.crc = isal_zlib.crc32(data, self.crc)

@@ -94,7 +94,9 @@ class Made:
 class Pictures(Protocol):
     """Where examples come from, such as `capture.Place`."""
 
-    def picture(self, members: Fields) -> np.ndarray: ...
+    def picture(self, members: Fields) -> np.ndarray:
+        """Reads the picture that members name: float32 (C, h, w)."""
+        ...
 
 
 def read(maker: str, members: Fields, place: Pictures) -> Plan:

@@ -159,6 +159,7 @@ class Sheets(NamedTuple):
 
     @property
     def size(self) -> tuple[int, int]:
+        """Gives (width, height) in pixels."""
         return self.phase.shape[2], self.phase.shape[1]
 
 

@@ -20,6 +20,7 @@ class TileKey(NamedTuple):
 
     @property
     def rect(self) -> Rect:
+        """Gives the pixels of the tile's level that it covers."""
         return Rect(self.x * TILE, self.y * TILE, (self.x + 1) * TILE, (self.y + 1) * TILE)
 
 
@@ -33,28 +34,35 @@ class Rect(NamedTuple):
 
     @classmethod
     def at(cls, x: int, y: int, width: int, height: int) -> Rect:
+        """Makes the rectangle of a size at a corner."""
         return cls(x, y, x + width, y + height)
 
     @property
     def width(self) -> int:
+        """Gives the number of columns."""
         return self.x1 - self.x0
 
     @property
     def height(self) -> int:
+        """Gives the number of rows."""
         return self.y1 - self.y0
 
     @property
     def empty(self) -> bool:
+        """Tells whether no pixel lies within."""
         return self.x1 <= self.x0 or self.y1 <= self.y0
 
     @property
     def area(self) -> int:
+        """Counts the pixels."""
         return 0 if self.empty else self.width * self.height
 
     def intersect(self, other: Rect) -> Rect:
+        """Gives the pixels of both; what is empty if they do not meet."""
         return Rect(max(self.x0, other.x0), max(self.y0, other.y0), min(self.x1, other.x1), min(self.y1, other.y1))
 
     def meets(self, other: Rect) -> bool:
+        """Tells whether both share a pixel."""
         return self.x0 < other.x1 and other.x0 < self.x1 and self.y0 < other.y1 and other.y0 < self.y1
 
     def union(self, other: Rect) -> Rect:
@@ -66,6 +74,7 @@ class Rect(NamedTuple):
         return Rect(min(self.x0, other.x0), min(self.y0, other.y0), max(self.x1, other.x1), max(self.y1, other.y1))
 
     def grown(self, by: int) -> Rect:
+        """Gives the rectangle with `by` pixels more on every side."""
         return Rect(self.x0 - by, self.y0 - by, self.x1 + by, self.y1 + by)
 
     def evened(self) -> Rect:

@@ -27,6 +27,7 @@ class Analysis:
 
     @cached_property
     def packed(self) -> np.ndarray:
+        """Gives the pixels as one number each, as `packed`."""
         return packed(self.pixels)
 
     @cached_property
@@ -51,10 +52,12 @@ class Analysis:
 
     @cached_property
     def power(self) -> np.ndarray:
+        """Gives the power spectrum of the grey picture, as `power_spectrum`."""
         return power_spectrum(self.grey)
 
     @cached_property
     def autocorrelation(self) -> np.ndarray:
+        """Gives the autocorrelation of the grey picture, as `autocorrelation`."""
         return autocorrelation(self.grey)
 
     @cached_property

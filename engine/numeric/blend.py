@@ -277,6 +277,7 @@ class Blend:
 
     @property
     def op(self) -> str:
+        """Gives the mode's name as OpenRaster writes it."""
         return "svg:" + self.name
 
 

@@ -29,6 +29,7 @@ class ColourAxes:
 
     @property
     def count(self) -> int:
+        """Counts the axes."""
         out: int = self.axes.shape[1]
         return out
 
@@ -44,6 +45,7 @@ class ColourAxes:
         return out
 
     def unclipped(self, planes: np.ndarray) -> np.ndarray:
+        """Gives the colours (C, h, w) of planes (R, h, w) along the axes, wherever they lie."""
         return combined(self.axes, planes, self.mean)
 
 

@@ -53,11 +53,13 @@ class Filters:
         return self.orientations % 2 == 0
 
     def mask(self, place: Place) -> np.ndarray:
+        """Gives what a subband's place is multiplied with in the spectrum."""
         if place.level < 0:
             return self.high
         return self.low if place.level == self.levels else self.bands[place.level][place.orientation]
 
     def size(self, place: Place) -> tuple[int, int]:
+        """Gives the size of a subband, as `sizes`."""
         return self.sizes[max(place.level, 0)]
 
     def turned(self, place: Place) -> bool:

@@ -126,6 +126,7 @@ class SetLayer:
 
     @property
     def changes(self) -> dict[str, Any]:
+        """Gives the properties that are set, by name."""
         names = (row[0] for row in _SETTABLE)
         return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
 

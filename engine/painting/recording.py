@@ -37,6 +37,7 @@ class Header:
     extra: Map[str, Any] = field(default_factory=Map)
 
     def to_json(self) -> dict[str, Any]:
+        """Tells the header as the first line of a recording does; `parse_header` is the inverse."""
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
         return {"inkfall": VERSION, "frame": frame, "seed": self.seed, **thawed(self.extra)}
 
@@ -115,6 +116,7 @@ def _lines(file: BinaryIO, name: str) -> Iterator[tuple[int, bytes]]:
 
 
 def parse_header(value: Any) -> Header:
+    """Reads the first line of a recording.  FormatError names the member that is wrong."""
     members = Fields(value, "header")
     if "inkfall" not in members:
         raise FormatError("header", "no member inkfall", '{"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')

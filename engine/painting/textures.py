@@ -28,6 +28,8 @@ class Texture:
     mask: ImageSource | None = None
 
     def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance:
+        """Makes the instance that a brush's ink names, with the parameters that it gives anew, a base level and a
+        seed.  TextureError names what is wrong."""
         return instance(self.kind, {**self.parameters, **parameters}, level, seed, self.source)
 
 

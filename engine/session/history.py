@@ -42,10 +42,12 @@ class History:
 
     @property
     def undo_count(self) -> int:
+        """Counts the steps that can be taken back."""
         return len(self._done)
 
     @property
     def redo_count(self) -> int:
+        """Counts the steps that can be done again."""
         return len(self._undone)
 
     def push(self, before: Painting, after: Painting) -> None:

@@ -58,14 +58,17 @@ class Session:
 
     @property
     def can_undo(self) -> bool:
+        """Tells whether there is a step to take back."""
         return self._history.undo_count > 0
 
     @property
     def can_redo(self) -> bool:
+        """Tells whether there is a step to do again."""
         return self._history.redo_count > 0
 
     @property
     def history(self) -> History:
+        """Gives the paintings before and after."""
         return self._history
 
     def do(self, command: c.Command) -> Painting:

@@ -68,6 +68,7 @@ class Drawn:
 
     @property
     def empty(self) -> bool:
+        """Tells whether the pen has told no point yet."""
         return self._count == 0
 
     def add(self, points: np.ndarray) -> Rect:

@@ -59,6 +59,7 @@ class LiveStroke(Drawn):
         return Bed(self.layer.growth, level, begin, lambda growth, rect, mask: growths.cut(growth, level, rect, mask))
 
     def lay(self, points: np.ndarray) -> Rect:
+        """Lays the dabs of more points; returns what of the level they may have changed."""
         if not len(points):
             return Rect(0, 0, 0, 0)
         try:
@@ -97,6 +98,7 @@ class LiveStroke(Drawn):
 
     @property
     def predictor(self) -> Predictor | None:
+        """Gives the filter that continues what is around the stroke; None for all ops but `predict`."""
         return self._scenery.predictor
 
     @property

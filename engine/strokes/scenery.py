@@ -64,6 +64,7 @@ class Scenery:
 
     @property
     def scene(self) -> Scene:
+        """Gives what a raster-op looks at, as the stroke is now."""
         pressure = self._mask.coverage() if self._looks.pressure else None
         return Scene(self._source, self._origin, pressure, self._start, self._seed, self._memo)
 

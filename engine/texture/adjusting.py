@@ -33,9 +33,11 @@ class Band:
 
     @property
     def idle(self) -> bool:
+        """Tells whether the change leaves a subband as it is."""
         return self.gain == 1.0 and shaping.is_identity(self.shaping)
 
     def of(self, place: Place) -> bool:
+        """Tells whether the change is about the subband at `place`."""
         return place.level == self.level and self.orientation in (None, place.orientation)
 
 

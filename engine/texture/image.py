@@ -36,6 +36,8 @@ class ImageSource:
 
     @classmethod
     def of(cls, name: str, data: np.ndarray) -> ImageSource:
+        """Makes the source of float32 (4, h, w), premultiplied, named by the hash of its pixels.  ValueError for other
+        arrays."""
         if data.ndim != 3 or data.shape[0] != 4 or data.dtype != np.float32 or not data.size:
             raise ValueError(f"image: found {data.dtype} {data.shape}, expected float32 (4, h, w)")
         data = np.ascontiguousarray(data)
@@ -45,14 +47,17 @@ class ImageSource:
 
     @property
     def opaque(self) -> bool:
+        """Tells whether alpha is 1 all over; False where the pixels are not there."""
         return self.data is not None and _opaque(self)
 
     @property
     def width(self) -> int:
+        """Gives the columns; 0 where the pixels are not there."""
         return 0 if self.data is None else self.data.shape[2]
 
     @property
     def height(self) -> int:
+        """Gives the rows; 0 where the pixels are not there."""
         return 0 if self.data is None else self.data.shape[1]
 
 

@@ -52,6 +52,7 @@ class Matched(Tiled):
 
     @property
     def shown(self) -> ImageSource:
+        """Gives the picture that is tiled."""
         return self.picture
 
     @property
@@ -62,6 +63,7 @@ class Matched(Tiled):
         return _COVERS[self.kind](**{field.name: getattr(self, field.name) for field in fields(self)})
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """Gives S at a level over a rectangle, as `Instance.appearance`."""
         seen, cover = super().appearance(level, rect), self.cover
         if cover is None:
             return seen
@@ -76,6 +78,7 @@ class Matched(Tiled):
         return out
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """Gives what the level adds over a rectangle, as `Instance.bandpass`."""
         if self.source.opaque or self.source.data is None:
             return super().bandpass(level, rect)
         if not self._curved(level) or level <= self.base or rect.empty:
@@ -130,6 +133,7 @@ class Series(Matched):
 
     @property
     def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.period, self.roughness, self.stages, self.weight)
         return (self.kind, self.base, *numbers, self.source.name, self.source.sha)
 
@@ -140,6 +144,7 @@ class Series(Matched):
 
     @property
     def picture(self) -> ImageSource:
+        """Gives the picture of the stage that the pen's pressure chose; the source where its pixels are not there."""
         lost = self.source.data is None or self.source.height < self.stages
         return self.source if lost else stage(self.source, self.stages, self.weight)
 

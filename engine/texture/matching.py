@@ -38,6 +38,7 @@ class Shape:
     orientations: int = ORIENTATIONS
 
     def places(self) -> list[Place]:
+        """Gives the places of all subbands, the finest first."""
         if self.kind == "steerable":
             return places(self.levels, self.orientations)
         return [Place(level) for level in range(self.levels + 1)]
@@ -52,9 +53,13 @@ class Colours(Protocol):
     """How planes (R, h, w), R = `count`, become colours (C, h, w)."""
 
     @property
-    def count(self) -> int: ...
+    def count(self) -> int:
+        """Counts the axes of colour."""
+        ...
 
-    def colours(self, planes: np.ndarray) -> np.ndarray: ...
+    def colours(self, planes: np.ndarray) -> np.ndarray:
+        """Gives the colours (C, h, w) of planes (R, h, w) along the axes: float32."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -208,6 +213,7 @@ def _iterated(
 
 
 def filters_for(planes: np.ndarray, shape: Shape) -> steerable.Filters:
+    """Gives the filters of a steerable pyramid for planes (..., h, w)."""
     height, width = planes.shape[-2:]
     return steerable.filters(height, width, shape.levels, shape.orientations)
 

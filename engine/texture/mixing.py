@@ -34,6 +34,7 @@ class SplitColours:
 
     @property
     def count(self) -> int:
+        """Counts the axes of colour of both examples together."""
         return max(self.fine.count, self.coarse.count)
 
     def colours(self, planes: np.ndarray) -> np.ndarray:

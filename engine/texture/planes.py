@@ -24,13 +24,16 @@ class Planes:
 
     @classmethod
     def empty(cls, height: int, width: int) -> Planes:
+        """Makes the values of a rectangle on which nothing lies."""
         return cls(np.zeros((COLOURS, height, width), np.float32))
 
     @property
     def rgba(self) -> np.ndarray:
+        """Gives colour and alpha: a view (4, h, w)."""
         return self.data[:COLOURS]
 
     def cut(self, rows: slice, columns: slice) -> Planes:
+        """Gives a part: views, no copies."""
         return Planes(self.data[:, rows, columns], self.inks)
 
 

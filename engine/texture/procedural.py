@@ -37,12 +37,15 @@ class White:
 
     @property
     def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
         return ("white", self.base)
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """Gives S at a level over a rectangle, as `Instance.appearance`."""
         return np.ones((1, rect.height, rect.width), np.float32)
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """Gives what the level adds over a rectangle, as `Instance.bandpass`."""
         return None
 
 
@@ -117,12 +120,15 @@ class Sawtooth(_Waves):
     kind: ClassVar[str] = "sawtooth"
 
     def sampler(self, fine: Wave) -> Sampler:
+        """Gives the function that evaluates a wave over a rectangle."""
         return step_wave if fine.period > FAR else saw_wave
 
     def edges(self, fine: Wave) -> list[tuple[Wave, int]]:
+        """Gives the waves whose jumps need exact means, each with the distance of its jumps."""
         return [(fine, fine.period)]
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """Gives S at a level over a rectangle, as `Instance.appearance`."""
         wave = self.wave(level)
         if wave.period <= LONGEST:
             return saw_wave(wave, rect)[None]
@@ -146,9 +152,11 @@ class Squares(_Waves):
     kind: ClassVar[str] = "squares"
 
     def sampler(self, fine: Wave) -> Sampler:
+        """Gives the function that evaluates a wave over a rectangle."""
         return _checkerboard
 
     def edges(self, fine: Wave) -> list[tuple[Wave, int]]:
+        """Gives the waves whose jumps need exact means, each with the distance of its jumps."""
         return [(wave, wave.period // 2) for wave in (fine, fine.across())]
 
     def along_axes(self, fine: Wave, coarse: Wave, rect: Rect, even: Rect) -> np.ndarray | None:

@@ -22,10 +22,14 @@ class Instance(Protocol):
     """
 
     @property
-    def key(self) -> tuple[object, ...]: ...
+    def key(self) -> tuple[object, ...]:
+        """Tells this instance from every other; JSON-ready."""
+        ...
 
     @property
-    def base(self) -> int: ...
+    def base(self) -> int:
+        """Gives the level at which the texture was first painted."""
+        ...
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         """S at `level` over `rect`: float32 (1 or 3 or 4, h, w).  Nominal range -1..1 for procedural textures;

@@ -60,6 +60,7 @@ class Rock:
 
     @property
     def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
         return ("rock", self.base, self.period, self.roughness, self.seed)
 
     @property
@@ -78,11 +79,13 @@ class Rock:
         return max(FIRST, self.base - self.root)
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """Gives S at a level over a rectangle, as `Instance.appearance`."""
         if level < self.base:
             raise ValueError(f"rock: level {level} is coarser than the base level {self.base}")
         return self._cascade(level, rect, self.weights(level))
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """Gives what the level adds over a rectangle, as `Instance.bandpass`."""
         if level <= self.base or rect.empty:
             return None
         return self._cascade(level, rect, self.changes(level))

@@ -72,6 +72,7 @@ class Tile:
 
 @lru_cache(maxsize=16)  # of a series with alpha, two of each stage
 def tile(source: ImageSource, period: int) -> Tile:
+    """Gives the pyramid of a sample that is tiled with a period in pixels of its base level; kept for the next call."""
     n = finer(source, period)
     native = _native(source, period, n)
     mean = _mean(native)

@@ -32,10 +32,12 @@ class Shaped:
 
     @property
     def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
         return ("shaped", self.inner.base, self.curve, self.inner.key)
 
     @property
     def base(self) -> int:
+        """Gives the inner texture's base level."""
         return self.inner.base
 
     @property
@@ -45,12 +47,15 @@ class Shaped:
 
     @property
     def coloured(self) -> bool:
+        """Tells whether the inner texture has colours of its own."""
         return bool(getattr(self.inner, "coloured", False))
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
+        """Gives S at a level over a rectangle, as `Instance.appearance`."""
         return self._shaped(self.inner.appearance(level, rect))
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
+        """Gives what the level adds over a rectangle, as `Instance.bandpass`."""
         if level <= self.base or rect.empty:
             return None
         picture = unshaped(self)

@@ -128,18 +128,22 @@ class Tiled(_Spectral):
 
     @property
     def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
         return (self.kind, self.base, self.period, self.roughness, self.source.name, self.source.sha)
 
     @property
     def native(self) -> int:
+        """Gives the level at which a pixel is one of the sample's."""
         return self.base + sample.finer(self.shown, self.period)
 
     @property
     def centre(self) -> np.ndarray:
+        """Gives the mean around which the sample varies: float32 (1 or 3, 1, 1)."""
         return sample.tile(self.shown, self.period).mean
 
     @property
     def form(self) -> Continuation:
+        """Gives how octaves beyond the sample's pixels go on."""
         return sample.tile(self.shown, self.period).form
 
     def _own(self, level: int, rect: Rect) -> np.ndarray:
@@ -176,15 +180,18 @@ class Sparse(_Spectral):
 
     @property
     def key(self) -> tuple[object, ...]:
+        """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.roughness, self.density, self.mean, self.spread, self.quantise, self.seed)
         return (self.kind, self.base, self.period, *numbers, self.source.name, self.source.sha)
 
     @property
     def native(self) -> int:
+        """Gives the level at which a pixel is one of the sample's."""
         return self.base + sample.finer(self.source, self.period, sample.LARGEST)
 
     @property
     def centre(self) -> np.ndarray:
+        """Gives the mean of the field: float32 (1 or 3, 1, 1)."""
         own = sample.response(self.source, self.period).mean if self.coloured else np.zeros((1, 1, 1), np.float32)
         return own + np.float32(self.mean)
 
@@ -196,6 +203,7 @@ class Sparse(_Spectral):
 
     @property
     def form(self) -> Continuation:
+        """Gives how octaves beyond the sample's pixels go on."""
         return sample.finest(self.source, self.period)[1]
 
     @property

@@ -92,6 +92,7 @@ class Step:
 
 
 def empty(exemplar: Exemplar, seed: int = 0) -> Region:
+    """Makes a region without a pixel, of an example and a seed."""
     count = len(exemplar.levels)
     return Region(exemplar, seed, (NONE,) * count, (Filled(),) * count)
 

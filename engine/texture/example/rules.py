@@ -18,11 +18,13 @@ _MOST = 16.0  # of the energy of a shape: so it stays within 32 bits
 
 
 def example_of(exemplar: Exemplar, n: int) -> Example:
+    """Gives level `n` of an example as kernels take it, 0 the finest."""
     level = exemplar.levels[n]
     return Example(level.compared.reshape(-1), level.region, level.bits, level.order, exemplar.shapes[n], level.starts)
 
 
 def rules_of(exemplar: Exemplar, n: int) -> Rules:
+    """Gives how neighbourhoods are compared at level `n`, as kernels take it."""
     given = exemplar.parameters
     above = len(exemplar.levels) - 1 - n
     size = SIDE * SIDE / given.neighbourhood**2

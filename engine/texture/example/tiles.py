@@ -28,6 +28,7 @@ def keys_of(rect: Rect) -> Iterator[Key]:
 
 
 def rect_of(key: Key) -> Rect:
+    """Gives the pixels that a tile covers."""
     return Rect.at(key[1] * SIDE, key[0] * SIDE, SIDE, SIDE)
 
 
