@@ -15,6 +15,7 @@ ROOT = Path(__file__).parent.parent
 # do not know one another.
 ORDER = (
     ("engine.kernel_cache",),
+    ("engine.checks",),
     ("engine.numeric",),
     ("engine.texture",),
     ("engine.brush",),

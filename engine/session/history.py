@@ -15,6 +15,7 @@ from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.store import Pyramid, Record, changed_rects
+from engine.checks.owned import Owned
 from engine.painting.value import Painting
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
@@ -31,8 +32,11 @@ class Step:
     gained: int
 
 
-class History:
-    """The steps done and the steps undone.  `bytes_cap`: None for no limit; `keep`: steps never forgotten."""
+class History(Owned):
+    """The steps done and the steps undone.  It belongs to the thread that made it.
+
+    `bytes_cap`: None for no limit; `keep`: steps never forgotten.
+    """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1) -> None:
         self._done: deque[Step] = deque()

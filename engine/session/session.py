@@ -16,6 +16,7 @@ from immutables import Map
 
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
+from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording
 from engine.painting.textures import Around, recorded
@@ -29,12 +30,11 @@ HISTORY_BYTES = 1 << 30
 SMALLEST_CACHE = 64 << 20
 
 
-class Session:
-    """One painting being worked on.  Not for several threads at once; the paintings it hands out are.
+class Session(Owned):
+    """One painting being worked on.  It belongs to the thread that made it; the paintings it hands out are for all.
 
     `state`: another object as soon as the painting is another one; the same while it is only refined;
-    `log`: commands that led to `painting`, if they are known; `lent`: a picture that the next definition may name by
-    its sha; `folder`: what paths in commands are relative to;
+    `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
     `extra`: members of the recording's header that this version does not know.
     """
 
@@ -52,7 +52,6 @@ class Session:
         self.cache = cache if cache is not None else TileCache(cache_budget())
         self.folder = folder
         self.log: list[c.Command] = list(log)
-        self.lent: ImageSource | None = None
         self._history = history if history is not None else History(HISTORY_BYTES)
         self._extra = extra if extra is not None else Map()
 
@@ -71,12 +70,12 @@ class Session:
         """Gives the paintings before and after."""
         return self._history
 
-    def do(self, command: c.Command) -> Painting:
-        """Carries out any command; the painting after it.  Refusal or FileError: nothing has changed, nothing is
-        recorded."""
+    def do(self, command: c.Command, lent: ImageSource | None = None) -> Painting:
+        """Carries out any command; returns the painting after it.  Refusal or FileError: nothing has changed, nothing
+        is recorded.  `lent`: a picture that a definition may name by its sha."""
         if isinstance(command, c.Undo | c.Redo):
             return self._travel(command)
-        after = apply(self.painting, command, self.around())
+        after = apply(self.painting, command, self.around(lent))
         if isinstance(command, c.DefineTexture):
             command = recorded(command, after.textures[command.name])
         return self._done(command, after)
@@ -100,10 +99,11 @@ class Session:
         header = Header(self.painting.frame, self.painting.seed, self._extra)
         return Recording(header, tuple(self.log), folder=self.folder)
 
-    def around(self) -> Around:
-        """Pictures of textures are known by their sha, wherever their files are now."""
+    def around(self, lent: ImageSource | None = None) -> Around:
+        """What definitions find around them: pictures of textures by their sha, wherever their files are now; `lent`
+        among them."""
         textures = self.painting.textures.values()
-        sources = (self.lent, *(t.source for t in textures), *(t.mask for t in textures))
+        sources = (lent, *(t.source for t in textures), *(t.mask for t in textures))
         return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
 
     def _done(self, command: c.Command, after: Painting) -> Painting:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.canvas.growth import Growth
+from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.difference import areas
@@ -18,10 +18,11 @@ from engine.strokes.example_stroke import Live
 from engine.studio import results
 from engine.studio.outline import rows
 from engine.studio.viewer import Viewer
+from engine.texture.image import ImageSource
 
 
-class Easel:
-    """A session with the stroke in progress.  All calls come from one thread.
+class Easel(Owned):
+    """A session with the stroke in progress.  It belongs to the engine's thread.
 
     `path`: the file of the painting, None for none; `saved`: the session's state that this file holds, None for none;
     `serial`: another number, another painting.
@@ -35,7 +36,6 @@ class Easel:
         self.saved: object = self.session.state
         self.serial = 0
         self.viewer = Viewer(self)
-        self._telling = threading.Lock()
 
     @property
     def modified(self) -> bool:
@@ -51,12 +51,15 @@ class Easel:
         self.tell()
         self.viewer.changed(lambda level: None)
 
-    def carry_out(self, command: c.Command) -> None:
-        """Does a command, after the stroke in progress; what it changed on the screen is brought up to date."""
+    def carry_out(self, command: c.Command, lent: ImageSource | None = None) -> None:
+        """Does a command, after the stroke in progress; what it changed on the screen is brought up to date.
+
+        `lent`: the picture that a definition names by its sha, where it need not be made again.
+        """
         if self.live is not None:
             self.finish()
         before = self.session.painting
-        after = self.session.do(command)
+        after = self.session.do(command, lent)
         if after is not before:
             self.viewer.changed(areas(before, after))
         self.tell()
@@ -135,14 +138,9 @@ class Easel:
         return self.viewer.picture(level, whole)
 
     def tell(self) -> None:
-        """Sends what the panels show.  Files that were written tell as well, from their own threads: in turn, so that
-        the last one sent is the newest."""
-        with self._telling:
-            self.send(self._scene())
-
-    def _scene(self) -> results.Scene:
+        """Sends what the panels show."""
         painting = self.session.painting
-        return results.Scene(
+        scene = results.Scene(
             frame=painting.frame,
             layers=tuple(rows(painting.root)),
             active=painting.active,
@@ -156,3 +154,4 @@ class Easel:
             texture_widths=tuple((name, t.source.width) for name, t in painting.textures.items() if t.source),
             serial=self.serial,
         )
+        self.send(scene)

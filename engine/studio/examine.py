@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from immutables import Map
 
+from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.analysis import Analysis
 from engine.numeric.colour import to_rgba8
@@ -22,8 +23,8 @@ _RGB = ((18, 18, 21), (196, 92, 58), (255, 244, 214), (70, 130, 215))
 _DARK, _MID, _LIGHT, _COLD = (np.array(rgb, np.float32) for rgb in _RGB)
 
 
-class Examiner:
-    """All calls come from the engine's thread.  One step finds one fact; a newer request drops the older."""
+class Examiner(Owned):
+    """It belongs to the engine's thread.  One step finds one fact; a newer request drops the older."""
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel

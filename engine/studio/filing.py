@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from engine.archive.plot_files import OTHERWISE, Mark, otherwise
+from engine.checks.owned import Owned
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.studio import documents, results
@@ -14,24 +16,28 @@ from engine.studio import requests as q
 from engine.studio.documents import Document
 from engine.studio.easel import Easel
 from engine.studio.playing import PIECE, Playing
-from engine.studio.writers import Writers
+from engine.studio.writers import Post, Writers
 
 
-class Filing:
-    """`due`: when a recording that plays goes on, by the monotonic clock, None when none plays."""
+class Filing(Owned):
+    """The files of the painting on the easel.  It belongs to the engine's thread.
 
-    def __init__(self, easel: Easel) -> None:
+    `due`: when a recording that plays goes on, by the monotonic clock, None when none plays.
+    """
+
+    def __init__(self, easel: Easel, post: Post) -> None:
         self._easel = easel
         self.due: float | None = None
         self._script: Playing | None = None
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._known = True  # whether the session's log leads from nothing to the painting
-        self._writers = Writers(easel.send)
+        self._writers = Writers(easel.send, post)
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
             q.Save: self._save,
             q.Export: self._export,
+            **self._writers.handlers,
         }
 
     def close(self) -> None:
@@ -91,20 +97,16 @@ class Filing:
         recording = self._easel.session.recording() if self._known else None
         serial = self._easel.serial
 
-        def write(grown: Painting) -> None:
-            documents.save(request.path, grown, recording)
+        def done() -> None:
             if serial == self._easel.serial:  # the same painting is still on the easel
                 self._easel.path, self._easel.saved = request.path, state
                 self._easel.tell()
             self._easel.send(results.Saved(request.path))
 
-        self._writers.start(write, painting, True)
+        self._writers.start(lambda grown: documents.save(request.path, grown, recording), painting, done, saving=True)
 
     def _export(self, request: q.Export) -> None:
-        painting = self._easel.session.painting
-
-        def write(grown: Painting) -> None:
-            documents.write_picture(request, grown)
+        def done() -> None:
             self._easel.send(results.Note(f"Wrote {request.path.name}"))
 
-        self._writers.start(write, painting, False)
+        self._writers.start(partial(documents.write_picture, request), self._easel.session.painting, done)

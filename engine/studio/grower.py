@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from engine.canvas.growth import Growth, is_settled, progress, settling
 from engine.canvas.layers import Group, Layer
+from engine.checks.owned import Owned
 from engine.painting.difference import areas
 from engine.painting.grown import MOST_THREADS, waiting, with_grown
 from engine.strokes.bed import Bed
@@ -20,10 +21,11 @@ TELL = 0.1  # seconds between two results about the progress, at least
 SHARE = 40  # times as long as finding it out takes
 
 
-class Grower:
-    """All calls come from the engine's thread.  The stroke in progress comes first, then the active layer.
+class Grower(Owned):
+    """It belongs to the engine's thread; the threads of its pool are given values alone.
 
-    The layer under a stroke in progress stays as it is until the stroke ends; only what the stroke grows is refined.
+    The stroke in progress comes first, then the active layer.  The layer under a stroke in progress stays as it is
+    until the stroke ends; only what the stroke grows is refined.
     """
 
     def __init__(self, easel: Easel) -> None:

@@ -16,6 +16,7 @@ from immutables import Map
 from engine.brush.parts import Component
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
+from engine.checks.owned import Owned
 from engine.makers import spectrum
 from engine.makers.makers import FIELDS
 from engine.makers.spectrum import Design, Sheets
@@ -66,8 +67,8 @@ class _State:
     start: _Start | None = None
 
 
-class Lab:
-    """All calls come from the engine's thread."""
+class Lab(Owned):
+    """The lab.  It belongs to the engine's thread."""
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
@@ -268,8 +269,7 @@ class Lab:
         self._used = command.name, command
         self._version += 1
         source = self._source(command.name)
-        self._easel.session.lent = source
-        self._easel.carry_out(replace(command, arguments=command.arguments.set("sha", source.sha)))
+        self._easel.carry_out(replace(command, arguments=command.arguments.set("sha", source.sha)), source)
         self._tell()
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
+from engine.checks.owned import Owned
 from engine.files.fault import FileError
 from engine.files.strict_json import Fields, FormatError
 from engine.makers import heeger_bergen
@@ -48,8 +49,8 @@ class _Work:
     finished: bool = False
 
 
-class Matcher:
-    """All calls come from the engine's thread."""
+class Matcher(Owned):
+    """The textures being matched.  It belongs to the engine's thread."""
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
@@ -132,9 +133,8 @@ class Matcher:
         assert work.colours is not None
         sample = heeger_bergen.sample(work.plan, work.colours)
         source = ImageSource.of(work.name, sample.rgba)
-        self._easel.session.lent = source
         found = sample.found.update(work.arguments).set("examples", sample.found["examples"])
-        self._easel.carry_out(c.DefineTexture(work.name, work.maker, found.set("sha", source.sha)))
+        self._easel.carry_out(c.DefineTexture(work.name, work.maker, found.set("sha", source.sha)), source)
         self._tell(self._preview or work)
 
     # --- what the panel sees -----------------------------------------------------------------------------------------

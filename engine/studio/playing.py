@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.recording import Recording
 from engine.strokes.live_stroke import POINTS_CAP
@@ -29,8 +30,11 @@ class Stage(Protocol):
     def send(self, result: results.Result) -> None: ...
 
 
-class Playing:
-    """A recording that is being played.  Live, strokes grow as the pen drew them and views move the screen."""
+class Playing(Owned):
+    """A recording that is being played.  It belongs to the engine's thread.
+
+    Live, strokes grow as the pen drew them and views move the screen.
+    """
 
     def __init__(self, recording: Recording, live: bool) -> None:
         self._commands: Iterator[c.Command] = iter(recording.commands)

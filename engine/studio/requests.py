@@ -209,6 +209,24 @@ class GetReady:
     """Examples are going to be painted with: what that needs is loaded, or compiled, meanwhile."""
 
 
+@dataclass(frozen=True, slots=True)
+class FileGrown:
+    """What is painted with examples has been grown to the part `part`, 0..1, for the file number `file`; posted by the
+    thread that writes it."""
+
+    file: int
+    part: float
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """The file number `file` is written, or cannot be: `fault` says why, on one line; posted by the thread that wrote
+    it."""
+
+    file: int
+    fault: str = ""
+
+
 LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
 Request = (
     New
@@ -228,4 +246,6 @@ Request = (
     | MatchSet
     | MatchUse
     | GetReady
+    | FileGrown
+    | Written
 )

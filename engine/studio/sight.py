@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
+from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.painting.difference import Areas
 from engine.studio import requests as q
@@ -12,8 +13,8 @@ Key = tuple[int, int, int]
 STEPS_KEPT = 64  # changes remembered: a tile older than all of them is made anew
 
 
-class Sight:
-    """The tiles on the screen by urgency, and the changes since they were made.
+class Sight(Owned):
+    """The tiles on the screen by urgency, and the changes since they were made.  It belongs to the engine's thread.
 
     `revision` counts the changes; a tile that the window holds is as good as the revision it was made at.
     """

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from engine.checks.owned import Owned
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting.points import rounded
@@ -23,14 +24,18 @@ from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
 from engine.studio.ready import ready
 from engine.studio.warming import Warming
+from engine.studio.writers import Post, Send
 
 
-class Studio:
-    """What the worker works at.  All calls come from one thread."""
+class Studio(Owned):
+    """What the worker works at.  It belongs to the engine's thread.
 
-    def __init__(self, send: Callable[[results.Result], None]) -> None:
+    `send` and `post` may be called from any thread: `send` takes results to the window, `post` requests to this.
+    """
+
+    def __init__(self, send: Send, post: Post) -> None:
         self.easel = easel = Easel(send)
-        self.filing, self.lab, self.examiner = Filing(easel), Lab(easel), Examiner(easel)
+        self.filing, self.lab, self.examiner = Filing(easel, post), Lab(easel), Examiner(easel)
         self.matcher, self.grower = Matcher(easel), Grower(easel)
         self._handlers: dict[type, Callable[[Any], None]] = {
             q.Do: lambda r: easel.carry_out(r.command),
@@ -94,7 +99,7 @@ class Studio:
         self.filing.play()
 
     def close(self) -> None:
-        """Waits for files that are being written."""
+        """Waits for files that are being written.  What their threads posted is still to be carried out."""
         self.filing.close()
         self.grower.close()
 

@@ -10,6 +10,7 @@ import numpy as np
 from engine.canvas.composite import composite
 from engine.canvas.layers import Layer
 from engine.canvas.reading import covered, layer_planes
+from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting.difference import Areas
@@ -31,8 +32,8 @@ class Subject(Protocol):
     live: Live | None
 
 
-class Viewer:
-    """Tiles are functions of the painting and the stroke in progress.  All calls come from the engine's thread."""
+class Viewer(Owned):
+    """Tiles are functions of the painting and the stroke in progress.  It belongs to the engine's thread."""
 
     def __init__(self, subject: Subject) -> None:
         self._subject = subject

@@ -43,20 +43,24 @@ class Bench(Protocol):
         """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
         ...
 
-    def play(self) -> None: ...
+    def play(self) -> None:
+        """Plays the next piece."""
+        ...
 
-    def close(self) -> None: ...
+    def close(self) -> None:
+        """Waits for its threads; what they have posted is carried out afterwards."""
+        ...
 
 
 PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
 PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
-Maker = Callable[[Callable[[Result], None]], Bench]
+Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
 
 
-def _studio(send: Callable[[Result], None]) -> Bench:
+def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> Bench:
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
 
-    return Studio(send)
+    return Studio(send, post)
 
 
 class Worker:
@@ -179,17 +183,22 @@ class Worker:
 
     def _run(self) -> None:
         try:
-            bench = self._make(self._send)
+            bench = self._make(self._send, self.post)
         except Exception as error:
             self._send(Note(f"The paint engine did not load: {error}", bad=True))
             return
+        self._work(bench)
+        bench.close()
+        self._work(bench)  # what the threads that wrote files have posted
+
+    def _work(self, bench: Bench) -> None:
+        """Does what is to be done, until the worker is closed and nothing posted is left."""
         while (work := self._next(bench)) is not None:
             try:
                 work()
             except Exception as error:  # the painting is a value: whatever failed left it as it was
                 self._send(Note(_line(error), bad=True))
             self._tell(bench)
-        bench.close()
 
     def _tell(self, bench: Bench) -> None:
         """Sends how much waits, when that has changed and the work is done or long."""

@@ -1,65 +1,95 @@
-"""Files on their way: each is written on a thread of its own, from a painting as it was, and the window hears of it."""
+"""Files on their way: each is written on a thread of its own, from a painting as it was, and the window hears of it.
+
+The threads share nothing with the studio.  What they have to say they post to it as requests.
+"""
 
 from __future__ import annotations
 
 import threading
 import time
 from collections.abc import Callable
-from functools import partial
+from dataclasses import dataclass
+from typing import Any
 
+from engine.checks.owned import Owned
 from engine.painting.grown import settled
 from engine.painting.value import Painting
+from engine.studio import requests as q
 from engine.studio import results
 
-TELL = 0.1  # seconds between two results about one file, at least
+TELL = 0.1  # seconds between two posts about one file, at least
+Send = Callable[[results.Result], None]
+Post = Callable[[q.Request], None]
+Write = Callable[[Painting], None]
 
 
-class Writers:
-    """`start` and `close` are called from one thread; `send` from any."""
+@dataclass(eq=False, slots=True)
+class _File:
+    """A file on its way.  `saving`: it is the painting's own; `done` is called when it is written; `grown`: how far
+    its painting is, 0..1."""
 
-    def __init__(self, send: Callable[[results.Result], None]) -> None:
-        self._send = send
-        self._threads: list[threading.Thread] = []
-        self._lock = threading.Lock()
-        self._going: dict[int, tuple[bool, float, float]] = {}  # saving?, how far grown, when that was told
+    thread: threading.Thread
+    saving: bool
+    done: Callable[[], None]
+    grown: float = 1.0
+
+
+class Writers(Owned):
+    """The files that are being written.  It belongs to the engine's thread.  `post` is called from those that write."""
+
+    def __init__(self, send: Send, post: Post) -> None:
+        self._send, self._post = send, post
+        self._files: dict[int, _File] = {}
         self._count = 0
+        self.handlers: dict[type, Callable[[Any], None]] = {q.FileGrown: self._grown, q.Written: self._written}
 
-    def start(self, write: Callable[[Painting], None], painting: Painting, saving: bool) -> None:
-        """Has a painting grown to its end and given to `write`; `saving`: to the painting's own file."""
+    def start(self, write: Write, painting: Painting, done: Callable[[], None], saving: bool = False) -> None:
+        """Has a painting grown to its end and given to `write` on a thread of its own; calls `done` here afterwards."""
         self._count += 1
-        with self._lock:
-            self._going[self._count] = saving, 1.0, 0.0
-            self._tell()
-        run = partial(self._run, self._count, write, painting)
-        self._threads = [thread for thread in self._threads if thread.is_alive()]
-        self._threads.append(threading.Thread(target=run, name="inkfall file", daemon=False))
-        self._threads[-1].start()
+        thread = threading.Thread(
+            target=_run, args=(self._count, write, painting, self._post), name="inkfall file", daemon=False
+        )
+        self._files[self._count] = _File(thread, saving, done)
+        self._tell()
+        thread.start()
 
     def close(self) -> None:
-        """Waits for all of them."""
-        for thread in self._threads:
-            thread.join()
+        """Waits until all files are written; what their threads posted is still to be carried out."""
+        for file in self._files.values():
+            file.thread.join()
 
-    def _run(self, job: int, write: Callable[[Painting], None], painting: Painting) -> None:
-        try:
-            write(settled(painting, tell=partial(self._grown, job)))
-        except Exception as error:
-            self._send(results.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
-        finally:
-            with self._lock:
-                del self._going[job]
-                self._tell()
+    def _grown(self, request: q.FileGrown) -> None:
+        self._files[request.file].grown = request.part
+        self._tell()
 
-    def _grown(self, job: int, part: float) -> None:
-        now = time.monotonic()
-        with self._lock:
-            saving, _, told = self._going[job]
-            if part >= 1.0 or now - told >= TELL:
-                self._going[job] = saving, part, now
-                self._tell()
+    def _written(self, request: q.Written) -> None:
+        file = self._files.pop(request.file)
+        if request.fault:
+            self._send(results.Note(request.fault, bad=True))
+        else:
+            file.done()
+        self._tell()
 
     def _tell(self) -> None:
-        """In turn, so that the last one sent is the newest."""
-        going = self._going.values()
-        saving, grown = any(job[0] for job in going), min((job[1] for job in going), default=1.0)
-        self._send(results.Writing(len(going), saving, grown))
+        files = self._files.values()
+        saving, grown = any(file.saving for file in files), min((file.grown for file in files), default=1.0)
+        self._send(results.Writing(len(files), saving, grown))
+
+
+def _run(file: int, write: Write, painting: Painting, post: Post) -> None:
+    """Writes a file, on a thread of its own."""
+    told = 0.0
+
+    def tell(part: float) -> None:
+        nonlocal told
+        now = time.monotonic()
+        if part >= 1.0 or now - told >= TELL:
+            told = now
+            post(q.FileGrown(file, part))
+
+    try:
+        write(settled(painting, tell=tell))
+    except Exception as error:
+        post(q.Written(file, str(error).partition("\n")[0] or type(error).__name__))
+    else:
+        post(q.Written(file))

@@ -55,7 +55,7 @@ class Desk(SimpleNamespace):
     def __init__(self):
         super().__init__(hand=Hand(), known=Known(), pointer=SimpleNamespace(pen=False))
         self.sent = []
-        self.studio = Studio(self._take)
+        self.studio = Studio(self._take, self.sent.append)
 
     def _take(self, result):
         self.sent.append(result)

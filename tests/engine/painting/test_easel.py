@@ -1,6 +1,7 @@
 """The easel: whatever is done and looked at, the window ends up with the picture that the painting is."""
 
 import time
+from collections import deque
 
 import numpy as np
 import pytest
@@ -24,7 +25,8 @@ class Window:
 
     def __init__(self):
         self.tiles, self.revisions, self.other = {}, {}, []
-        self.studio = Studio(self.take)
+        self.posted = deque()
+        self.studio = Studio(self.take, self.posted.append)
 
     def take(self, result):
         if isinstance(result, results.Patch):
@@ -51,6 +53,12 @@ class Window:
     def work(self):
         while self.studio.pending:
             self.studio.step()
+
+    def written(self):
+        """Waits for the files that are being written, and for what comes of it."""
+        self.studio.close()
+        while self.posted:
+            self.studio.do(self.posted.popleft())
 
     def scene(self):
         return next(r for r in reversed(self.other) if isinstance(r, results.Scene))
@@ -247,13 +255,40 @@ def test_the_ink_mixers_picture_is_covered_everywhere_and_shows_more_when_nearer
     assert window.other[-1].pixels[..., 0].std() > 1
 
 
+def test_a_file_that_was_written_is_known_when_its_post_is_carried_out(tmp_path):
+    window = Window()
+    window.studio.do(q.Do(c.AddLayer("more")))
+    window.studio.do(q.Save(tmp_path / "p.ora"))
+    window.studio.close()
+    assert window.scene().modified
+    assert window.studio.easel.path is None
+    window.other.clear()
+    window.written()
+    scene, saved, writing = window.other
+    assert (scene.path, scene.modified) == (tmp_path / "p.ora", False)
+    assert saved == results.Saved(tmp_path / "p.ora")
+    assert writing == results.Writing()
+
+
+def test_a_file_that_cannot_be_written_is_told_and_leaves_the_painting_modified(tmp_path):
+    window = Window()
+    window.studio.do(q.Do(c.AddLayer("more")))
+    window.studio.do(q.Save(tmp_path / "missing" / "p.ora"))
+    window.written()
+    note, writing = window.other[-2:]
+    assert note.bad
+    assert str(tmp_path) in note.text
+    assert writing == results.Writing()
+    assert window.studio.easel.modified
+
+
 def test_saving_and_opening_give_the_same_picture(tmp_path):
     window = Window()
     window.studio.do(q.Begin(0, (0, 0), BRUSHES[3]))
     window.studio.do(q.Points(line(12)))
     window.studio.do(q.Finish())
     window.studio.do(q.Save(tmp_path / "p.ora"))
-    window.studio.close()
+    window.written()
     assert any(isinstance(r, results.Saved) for r in window.other)
     assert not window.scene().modified
     other = Window()

@@ -247,7 +247,7 @@ def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, reques
     studio.do(q.Do(stroke(LONG, example="b")))
     assert grows(window)
     studio.do(request_(tmp_path / ("p.ora" if saving else "p.png")))
-    studio.close()
+    window.written()
     told = [r for r in window.other if isinstance(r, results.Writing)]
     assert told[0] == results.Writing(1, saving)
     assert told[1] == results.Writing(1, saving, 0.0)
@@ -257,7 +257,7 @@ def test_a_file_that_is_grown_first_tells_how_far_it_is(window, tmp_path, reques
     window.work()
     window.other.clear()
     studio.do(request_(tmp_path / ("q.ora" if saving else "q.png")))
-    studio.close()
+    window.written()
     told = [r for r in window.other if isinstance(r, results.Writing)]
     assert told == [results.Writing(1, saving), results.Writing()]  # all had grown
 
@@ -271,14 +271,14 @@ def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(w
     assert grows(window)
     studio.do(q.Save(tmp_path / "p.ora"))
     studio.do(q.Export(tmp_path / "p.png"))
-    studio.close()
+    window.written()
     assert not [r for r in window.other if isinstance(r, results.Note) and r.bad]
     assert not window.scene().modified
     window.work()
     studio.easel.tell()
     assert not window.scene().modified
     studio.do(q.Export(tmp_path / "q.png"))
-    studio.close()
+    window.written()
     assert (tmp_path / "p.png").read_bytes() == (tmp_path / "q.png").read_bytes()
     opened = open_painting(tmp_path / "p.ora")
     assert alike(pixels(opened.painting), pixels(studio.easel.session.painting))

@@ -174,7 +174,7 @@ def test_the_window_grows_what_is_opened(session, members, tmp_path, lying):
     path = tmp_path / "a.ora"
     path.write_bytes(forged(members) if lying else rewritten(members))
     sent = []
-    studio = Studio(sent.append)
+    studio = Studio(sent.append, sent.append)
     studio.do(q.Open(path))
     while studio.pending:
         studio.step()

@@ -30,7 +30,7 @@ class Desk:
 
     def __init__(self):
         self.sent = []
-        self.studio = Studio(self.sent.append)
+        self.studio = Studio(self.sent.append, self.sent.append)
 
     def ask(self, *requests):
         for request in requests:

@@ -52,8 +52,9 @@ def worker():
     woken = threading.Event()
     made = []
 
-    def make(send):
+    def make(send, post):
         made.append(Bench(send))
+        made[0].post = post
         return made[0]
 
     one = Worker(woken.set, make)
@@ -84,6 +85,14 @@ def test_it_is_behind_until_all_is_carried_out_and_its_results_are_taken(worker)
         assert time.monotonic() < end
         time.sleep(0.01)
     assert bench.did == [q.Finish()]
+
+
+def test_what_is_posted_while_it_closes_is_carried_out(worker):
+    """The threads that write files post that they have, and closing waits for them."""
+    bench = worker.bench
+    bench.close = lambda: worker.post(q.Written(1))
+    worker.close()
+    assert bench.did == [q.Written(1)]
 
 
 def test_requests_are_carried_out_in_order(worker):
@@ -185,7 +194,7 @@ def test_something_that_plays_goes_on_by_itself(worker):
 def test_an_engine_that_does_not_load_is_told(capfd):
     woken = threading.Event()
 
-    def broken(send):
+    def broken(send, post):
         raise ImportError("no numba here")
 
     worker = Worker(woken.set, broken)
