@@ -112,7 +112,7 @@ class Stages:
         from engine.studio import requests as q
         from engine.studio.studio import Studio
 
-        self.studio = Studio(lambda result: None)
+        self.studio = Studio(lambda result: None, lambda request: None)
         self.studio.do(q.New(Rect(0, 0, 512, 512)))
         self.known: dict[str, Callable[[], None]] = {
             "empty": _empty,
