@@ -18,6 +18,7 @@ import imgui_bundle  # before glfw, so that both use one libglfw
 
 import glfw  # isort: skip
 
+from app.file_guard import guard_files
 from app.trace import trace
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
     window = opened()
     window.frame()
     trace("first frame")
+    guard_files()
     sys.setswitchinterval(SWITCH)
     worker = _worker(window)
     for name, live in ((path, False), (play, True)):

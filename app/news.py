@@ -13,9 +13,10 @@ import numpy as np
 from app.canvas.gallery import Gallery
 from app.canvas.screen import Screen, ScreenTile, cells, near_first
 from app.canvas.view import SUBPIXEL, Place
-from app.desk import example_use, palette, presets
+from app.desk import example_use, palette
 from app.desk.desk import Desk
 from app.desk.example_state import SAMPLE
+from app.desk.files import Files
 from app.desk.known import Known, told
 from app.desk.lab_state import only_with
 from app.desk.region_mask import shown
@@ -42,6 +43,8 @@ class News:
         self.worker: Worker | None = None
         desk.behind = lambda: self.worker is not None and self.worker.behind
         self._asked: tuple[Any, ...] = ()
+        self.files: Files | None = None
+        self._begun = False
         self.shelf: Shelf | None = None
         self.gallery = Gallery(ctx, desk.pictures)
         self._ink: Any = None
@@ -49,7 +52,6 @@ class News:
         self._serial: int | None = None
         self._laid_out, self._now = False, 0.0
         self._handlers: dict[type, Callable[[Any, Known], None]] = {
-            results.Ready: self._ready,
             results.Patch: self._patch,
             results.Same: self._same,
             results.Scene: self._scene,
@@ -74,7 +76,11 @@ class News:
             handler = self._handlers.get(type(result))
             if handler is not None:
                 handler(result, before)
-        return bool(came)
+        done = self.files.take() if self.files else []
+        for one in done:
+            one.arrive(self.desk)
+        self._begin()
+        return bool(came or done)
 
     def first_layout(self) -> bool:
         """True once: after the first frame's panels are laid out, the free area is known."""
@@ -150,16 +156,13 @@ class News:
         """Whether a swatch is about to be asked for."""
         return self._ink_since > 0
 
-    def _ready(self, _r: results.Ready, _before: Known) -> None:
+    def _begin(self) -> None:
+        """Brushes lie ready, once the engine is loaded and their files are read."""
         desk = self.desk
+        if self._begun or not desk.known.ready or not desk.known.presets:
+            return
+        self._begun = True
         trace("engine ready")
-        found, faults = presets.load(presets.bundled_folder())
-        own, more = presets.load(presets.own_folder())
-        papers, torn = presets.load_papers(presets.papers_folder())
-        desk.learn(presets=(*found, *own) or (presets.DEFAULT,), papers=tuple(papers))
-        for fault in faults + more + torn:
-            desk.say(fault, bad=True)
-        example_use.stock(desk)
         if not desk.hand.preset:
             first = next((p for p in desk.known.presets if p.brush.mode == "paint"), desk.known.presets[0])
             desk.hand.take(first.brush, first.name, first.textures)

@@ -9,6 +9,8 @@ import imgui_bundle  # before glfw, so that both use one libglfw
 
 import glfw  # isort: skip
 
+from app.trace import trace_frame
+
 assert imgui_bundle
 LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
 IDLE, BLINK = 5.0, 0.3  # seconds to wait for an event when nothing moves, and where text is typed
@@ -73,6 +75,7 @@ class Pace:
     def end(self, drawn: bool, moving: bool, growing: bool) -> None:
         """It ends; whether anything was drawn, something moves by itself, and the engine grows examples."""
         now = time.monotonic()
+        trace_frame(self._last, now)
         self._took, self._drawn, self._growing = now - self._last, drawn, growing
         self._by_turns = self._shared and growing and (moving or now - self._moved < AT_HAND)
 

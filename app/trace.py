@@ -1,5 +1,5 @@
 """When things happened and where controls lie, for those who measure and for tests: with INKFALL_TRACE set, lines on
-standard error."""
+standard error; with "frames" in it, one for each frame."""
 
 from __future__ import annotations
 
@@ -47,6 +47,14 @@ def tell_places() -> None:
         sys.stderr.write(f"gone {json.dumps(key)}\n")
     sys.stderr.flush()
     _told, _placed = _placed, {}
+
+
+def trace_frame(began: float, ended: float) -> None:
+    """Tells when a frame began, how long it took, and how long the thread has had the processor in all, milliseconds.
+    `began`, `ended`: by the monotonic clock, seconds."""
+    if "frames" in os.environ.get("INKFALL_TRACE", ""):
+        told = (began, ended - began, time.thread_time())
+        print("frame:", *(f"{seconds * 1000:.1f}" for seconds in told), file=sys.stderr, flush=True)
 
 
 def since_exec() -> float:

@@ -18,8 +18,10 @@ from app.actions import close
 from app.canvas.overlay import Overlay
 from app.canvas.screen import Plan, Screen
 from app.canvas.view import Place, View
-from app.desk import example_use
+from app.desk import example_work
 from app.desk.desk import Desk
+from app.desk.files import Files
+from app.desk.stock import TakeStock
 from app.desk.thumbnails import Shelf
 from app.input.choose import pen_source
 from app.input.events import PointerSource
@@ -52,6 +54,7 @@ class Window:
         self.router = Router(self.desk, self.layout)
         self.mouse: PointerSource = GlfwPointer(self.handle)
         self.pen: PointerSource | None = None
+        self.files: Files | None = None
         self._callbacks()
         address = ctypes.cast(self.handle, ctypes.c_void_p).value or 0
         backends.glfw_init_for_opengl(address, False)
@@ -119,7 +122,7 @@ class Window:
             return
         x, y = self._pointer()
         taken = self.desk.strip == "match" and self.desk.panels and self.desk.match.dropped(Path(paths[0]), x, y)
-        taken = taken or example_use.dropped(self.desk, Path(paths[0]))
+        taken = taken or example_work.dropped(self.desk, Path(paths[0]))
         if not taken:
             self.desk.guard(lambda: self.open(Path(paths[0])))
 
@@ -139,6 +142,9 @@ class Window:
         self.desk.post, self.pace.worker = worker.post, worker
         self.news.worker = worker
         self.news.shelf = Shelf(glfw.post_empty_event)
+        self.news.files = self.files = Files(glfw.post_empty_event)
+        self.desk.work = self.files.post
+        self.desk.work(TakeStock())
 
     def frame(self) -> bool:
         """Takes in what happened and draws; True while something still moves."""
@@ -226,9 +232,11 @@ class Window:
         return self.desk.asked.quit
 
     def hide(self) -> None:
-        """Takes it from the screen."""
+        """Takes it from the screen; waits for the files that it writes."""
         glfw.hide_window(self.handle)
         glfw.poll_events()
+        if self.files is not None:
+            self.files.close()
 
     def close(self) -> None:
         self.router.cancel()

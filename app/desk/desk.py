@@ -25,6 +25,27 @@ from engine.studio.results import Note
 MESSAGE_SECONDS = 6.0
 
 
+class FileWork:
+    """Work with files in two halves, the first on the files’ thread, the second on the window’s: a frozen record."""
+
+    def carry_out(self) -> Any:
+        """Reads or writes, and returns what the window is to know, which never changes.  One of `files.FAULTS` where
+        that cannot be."""
+        raise NotImplementedError
+
+    def arrive(self, desk: Desk, found: Any) -> None:
+        """Puts on the desk what `carry_out` returned."""
+        raise NotImplementedError
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        """Tells why it was not carried out, one line."""
+        desk.say(fault, bad=True)
+
+
+def _nowhere(_work: FileWork) -> None:
+    raise RuntimeError("no thread for files yet")
+
+
 @dataclass(slots=True)
 class Pointer:
     """Where the pointer is, and what it is over."""
@@ -42,6 +63,7 @@ class Desk:
     view: View
     post: Callable[[Request], None]
     scale: float = 1.0
+    work: Callable[[FileWork], None] = _nowhere  # with files, on their own thread
     hand: Hand = field(default_factory=Hand)
     known: Known = field(default_factory=Known)
     painting: bool = False

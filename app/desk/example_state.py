@@ -9,6 +9,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from immutables import Map
 
 from app.desk.region_mask import Mask
 from engine.brush.settings import Brush
+from engine.files.fault import FileError
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
 from engine.studio.requests import Request, Swatch
@@ -44,8 +46,8 @@ KIND = "example"  # of textures
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """An example.  `revision`: another number when the artist's own region is another one; `here`: the parameters of a
-    texture that only the painting has, which has no files; `given`: what its file says it is called."""
+    """An example.  `mask_sha`: of the artist's own region as its file is; `here`: the parameters of a texture that only
+    the painting has, which has no files; `given`: what its file says it is called."""
 
     name: str
     group: str
@@ -53,7 +55,7 @@ class Entry:
     mask: Path | None
     parameters: Parameters
     own: bool
-    revision: int = 0
+    mask_sha: str = ""
     here: Mapping[str, Any] | None = None
     given: str = ""
 
@@ -83,17 +85,21 @@ def own_folder() -> Path:
 
 
 def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
-    """The examples of a folder by group and name, and a line for each file of parameters that is none."""
+    """The examples of a folder by group and name, and a line for each file of parameters, or mask, that is none."""
     found, faults = [], []
     pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith(MASK)) if folder.is_dir() else ()
     for path in sorted(pictures):
         names, parameters, fault = _told(path.with_suffix(PARAMETERS))
         faults += [f"{path.stem}{PARAMETERS}: {fault}"] if fault else []
         mask = path.with_name(path.stem + MASK)
-        there = mask if mask.is_file() else None
-        revision = _stamp(there) if own else 0
+        there, sha = mask if mask.is_file() else None, ""
+        try:
+            sha = mask_sha(mask, mask.stat().st_mtime_ns) if own and there else ""
+        except (FileError, OSError) as error:
+            faults.append(str(error))
+            there = None
         group, title = names.get("group", "Other"), names.get("title", "")
-        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, revision, given=title))
+        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, sha, given=title))
     return arranged(found), faults
 
 
@@ -107,10 +113,6 @@ def label(entry: Entry, entries: Iterable[Entry]) -> str:
     first, _, rest = entry.title.partition(" ")
     same = sum(other.group == entry.group and other.title.partition(" ")[0] == first for other in entries)
     return rest[:1].upper() + rest[1:] if rest and same > 2 and entry.group not in (OWN, HERE) else entry.title
-
-
-def _stamp(path: Path | None) -> int:
-    return 0 if path is None else path.stat().st_mtime_ns
 
 
 def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
@@ -152,6 +154,7 @@ class ExampleState:
     drafts: dict[str, Map[str, Any]] = field(default_factory=dict)
     used: dict[str, Map[str, Any]] = field(default_factory=dict)
     masks: dict[str, Mask] = field(default_factory=dict)
+    opening: str = ""  # the entry whose region is being read
     spot: tuple[float, float, float] | None = None
     sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
     sampling: str = ""  # the entry whose picture of a stroke was asked for last
@@ -273,7 +276,7 @@ def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
         return DefineTexture(entry.title, KIND, Map(given | {"bundled": entry.name}))
     given["path"] = str(entry.picture)
     if entry.mask is not None:
-        given |= {"mask": str(entry.mask), "mask_sha": mask_sha(entry.mask, entry.revision)}
+        given |= {"mask": str(entry.mask), "mask_sha": entry.mask_sha}
     return DefineTexture(entry.title, KIND, Map(given))
 
 
@@ -282,7 +285,7 @@ def here(definitions: Iterable[tuple[str, str, Mapping[str, Any]]], state: Examp
     found = []
     for name, kind, told in definitions:
         if kind == KIND and not any(_is(entry, told, state) for entry in state.entries if entry.here is None):
-            found.append(Entry(name, HERE, NOWHERE, None, Parameters(), False, 0, told))
+            found.append(Entry(name, HERE, NOWHERE, None, Parameters(), False, here=told))
     return found
 
 
@@ -318,16 +321,12 @@ def in_painting(entry: Entry, definitions: Iterable[tuple[str, str, Mapping[str,
     return [name for name, kind, told in definitions if kind == KIND and told.get("path") == str(entry.picture)]
 
 
-_SHAS: dict[tuple[Path, int], str] = {}
+@lru_cache(maxsize=256)
+def mask_sha(path: Path, _changed: int) -> str:
+    """What a definition calls the region that a file holds now: with another region it defines another texture.
+    FileError if it is no picture.  `_changed`: when the file was, in nanoseconds."""
+    from engine.strokes.example_files import read_mask  # here: it loads much that the window's start need not wait for
+    from engine.texture.image import ImageSource
 
-
-def mask_sha(path: Path, revision: int) -> str:
-    """What a definition calls the region that a file holds now: with another region it defines another texture."""
-    if (path, revision) not in _SHAS:
-        from engine.strokes.example_files import read_mask  # here: the engine is loaded by now
-        from engine.texture.image import ImageSource
-
-        inside = read_mask(path)
-        planes = np.repeat(inside[None].astype(np.float32), 4, axis=0)
-        _SHAS[path, revision] = ImageSource.of(path.stem, planes).sha
-    return _SHAS[path, revision]
+    inside = read_mask(path)
+    return ImageSource.of(path.stem, np.repeat(inside[None].astype(np.float32), 4, axis=0)).sha

@@ -29,13 +29,13 @@ class Shelf:
         self._wake = wake
         self._wanted: deque[tuple[Entry, int]] = deque()
         self._ready: deque[Picture] = deque()
-        self._known: dict[str, tuple[int, int]] = {}
+        self._known: dict[str, tuple[str, int]] = {}
         self._thread: threading.Thread | None = None
 
     def ask(self, entries: tuple[Entry, ...], side: int) -> None:
         """Has thumbnails made of those with files that have none, or none of that size, or another region by now."""
         for entry in (entry for entry in entries if entry.here is None):
-            state = entry.revision, side
+            state = entry.mask_sha, side
             if self._known.get(entry.ident) != state:
                 self._known[entry.ident] = state
                 self._wanted.append((entry, side))

@@ -15,6 +15,8 @@ import pytest
 from PIL import ImageGrab
 from xserver import lacking, need, started_server
 
+from app.file_guard import TOLD
+
 Point = tuple[int, int]
 Box = tuple[int, int, int, int]  # left, top, right, bottom, pixels of the screen
 ROOT = Path(__file__).parents[2]
@@ -25,7 +27,7 @@ REST = (640, 790)  # on the status line: there the pointer covers nothing that i
 class Program:
     """`python -m app` on a display, moved by xdotool, seen through pictures of its screen."""
 
-    def __init__(self, display: str, folder: Path, *words: str) -> None:
+    def __init__(self, display: str, folder: Path, *words: str, trace: str = "1") -> None:
 
         self.display, self.folder = display, folder
         environment = {
@@ -34,7 +36,7 @@ class Program:
             "PYTHONPATH": str(ROOT),
             "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_DATA_HOME": str(folder / "data"),
-            "INKFALL_TRACE": "1",
+            "INKFALL_TRACE": trace,
             "INKFALL_TRACEBACK": "1",
         }
         self._boxes: dict[tuple[str, str], Box] = {}  # by window and name, as far as the log is read
@@ -193,6 +195,8 @@ class Program:
     def close(self) -> None:
         self.process.terminate()
         self.process.wait(10)
+        told = [line for line in self.log.read_text(errors="replace").splitlines() if line.startswith(TOLD)]
+        assert not told, "\n".join(told)
 
 
 @pytest.fixture(scope="session")
@@ -208,8 +212,8 @@ def display():
 def program(display, tmp_path):
     opened = []
 
-    def start(*words: str, on: str = display) -> Program:
-        opened.append(Program(on, tmp_path, *words))
+    def start(*words: str, on: str = display, trace: str = "1") -> Program:
+        opened.append(Program(on, tmp_path, *words, trace=trace))
         return opened[-1]
 
     yield start

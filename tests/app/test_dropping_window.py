@@ -2,7 +2,9 @@
 
 import os
 import subprocess
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -11,6 +13,8 @@ from PIL import Image
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
+MOVES = 100  # of the pointer
+PLACES = {"examples": "p", "match": "t", "lab": "l", "canvas": "l"}  # and the key that opens, or closes, it
 REGION = (slice(459, 766), slice(258, 745))  # of the screen: where the region is painted
 
 
@@ -24,6 +28,15 @@ def stone(tmp_path):
     pixels = np.where(inside[..., None], 90 + (x * y % 60)[..., None], 255) * np.ones(3)
     Image.fromarray(pixels.astype(np.uint8)).save(folder / "A 100% stone.png")
     return folder / "A 100% stone.png"
+
+
+@pytest.fixture(scope="module")
+def photograph(tmp_path_factory):
+    """A JPEG of 24 million pixels, as cameras write them: 6000 x 4000."""
+    small = np.random.default_rng(5).integers(0, 255, (400, 600, 3)).astype(np.uint8)
+    path = tmp_path_factory.mktemp("camera") / "photograph.jpg"
+    Image.fromarray(small).resize((6000, 4000), Image.Resampling.BICUBIC).save(path, quality=92)
+    return path
 
 
 def window_of(app):
@@ -59,3 +72,47 @@ def test_a_picture_dropped_on_the_canvas_is_opened(program, stone):
     Drag(app.display, window_of(app), stone).drop(600, 300)
     app.wait_for("painting 1 shown")
     assert not (app.folder / "data" / "inkfall" / "examples").exists()
+
+
+def longest(app, act):
+    """The longest time from one frame to the next while `act` is done and the pointer moves over the window, seconds:
+    by the clock, and of the processor for the window's thread."""
+    before, done = app.log.read_text().count("frame: "), threading.Event()
+    with ThreadPoolExecutor(1) as pool:
+        acting = pool.submit(act)
+        acting.add_done_callback(lambda _: done.set())
+        rest = MOVES
+        while rest:
+            app.do("mousemove", 500 + rest, 600 + rest % 2)
+            time.sleep(0.02)
+            rest -= done.is_set()
+        acting.result()
+    lines = [line.split() for line in app.log.read_text().splitlines() if line.startswith("frame: ")][before:]
+    assert len(lines) > 10
+    times = [[float(words[1]) / 1000, float(words[3]) / 1000] for words in lines]
+    return np.diff(times, axis=0).max(axis=0)
+
+
+def reading(path):
+    """Seconds of the processor that it takes to read a picture."""
+    start = time.process_time()
+    np.asarray(Image.open(path).convert("RGBA"))
+    return time.process_time() - start
+
+
+def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograph):
+    """Reading it takes as long as many frames; none is longer than those before, but for noise."""
+    app = program(trace="frames")
+    app.do("mousemove", 640, 300)
+    app.settled()
+    usual = longest(app, lambda: None)
+    most = np.maximum(3 * usual, (reading(photograph), 0.25 * reading(photograph)))
+    for place, key in PLACES.items():
+        if key:
+            app.do("mousemove", 640, 300)
+            app.keys(key)
+        app.settled(40.0)
+        found = longest(app, lambda: Drag(app.display, window_of(app), photograph).drop(600, 600))
+        assert (found < most).all(), f"{place}: {found} s, expected less than {most}; before it {usual}"
+    app.wait_for("painting 1 shown")
+    until(lambda: len(list((app.folder / "data" / "inkfall" / "examples").glob("*.toml"))) == 1)

@@ -11,10 +11,12 @@ from app import icons, tools
 from app.actions import ACTIONS
 from app.canvas.view import Place, View
 from app.cursor import apart
-from app.desk import example_state, example_use, own_example_files, palette, thumbnails
+from app.desk import example_state, example_use, example_work, own_example_files, palette, thumbnails
 from app.desk.desk import Desk
 from app.desk.example_state import Entry
+from app.desk.files import carried_out
 from app.desk.presets import Preset
+from app.desk.stock import TakeStock
 from app.input.events import PenEvent
 from app.panels import status
 from app.panels.examples.examples_panel import tile
@@ -44,7 +46,8 @@ def desk(own, posted):
     made = Desk(View(Place(0, 0, 0), 0, 0.0, 800, 600), posted.append)
     made.learn(ready=True)
     made.strip = "examples"
-    example_use.stock(made)
+    made.work = lambda work: carried_out(work).arrive(made)
+    made.work(TakeStock())
     return made
 
 
@@ -169,12 +172,12 @@ def test_settings_are_told_where_they_differ_and_are_used_on_demand(desk):
     usual = {"bundled": "felt", **asdict(entry.parameters)}
     assert dict(state.command(entry).arguments) == usual
     assert dict(state.command(entry, draft=True).arguments) == usual | {"kappa": 9.0}
-    example_use.use_settings(desk)
+    example_work.use_settings(desk)
     assert not state.tried(entry)
     assert desk.hand.needs[-1].arguments["kappa"] == 9.0
     state.reset(entry)
     assert state.tried(entry)
-    example_use.use_settings(desk)
+    example_work.use_settings(desk)
     assert dict(desk.hand.needs[-1].arguments) == usual
     assert not defined_by(desk.hand.needs[-1], "example", usual | {"kappa": 9.0})  # the painting gets it anew
 
@@ -198,43 +201,43 @@ def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, 
 
 
 def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp_path):
-    assert not example_use.dropped(desk, tmp_path / "a.ora")
-    assert example_use.dropped(desk, picture(tmp_path / "My rock.png"))
+    assert not example_work.dropped(desk, tmp_path / "a.ora")
+    assert example_work.dropped(desk, picture(tmp_path / "My rock.png"))
     assert {path.name for path in own.iterdir()} == {"My rock.png", "My rock.mask.png", "My rock.toml"}
     state = desk.examples
     assert (state.entry.own, state.entry.group, state.tab) == (True, example_state.OWN, "region")
     assert state.mask.inside[:, :20].all()
     assert not state.mask.inside[:, 20:].any()
     assert desk.hand.brush.example == "My rock"
-    example_use.add(desk, tmp_path / "My rock.png")
+    example_work.add(desk, tmp_path / "My rock.png")
     assert state.entry.name == "My rock 2"
     desk.strip = ""
-    assert not example_use.dropped(desk, tmp_path / "My rock.png")
+    assert not example_work.dropped(desk, tmp_path / "My rock.png")
 
 
 def test_what_is_no_picture_is_told_and_leaves_nothing(desk, own, tmp_path):
     (tmp_path / "bad.png").write_bytes(b"no picture")
-    example_use.add(desk, tmp_path / "bad.png")
+    example_work.add(desk, tmp_path / "bad.png")
     assert desk.message[1]
     assert not own.exists() or not list(own.iterdir())
 
 
 def test_a_large_picture_is_made_smaller(desk, tmp_path):
-    example_use.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
+    example_work.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
     assert desk.examples.mask.pixels.shape == (10, 1024, 4)
     assert "smaller" in desk.message[0]
     assert desk.examples.mask.way == "colour"  # it has no holes: its background is to be clicked
 
 
 def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
-    example_use.add(desk, picture(tmp_path / "rock.png"))
+    example_work.add(desk, picture(tmp_path / "rock.png"))
     state = desk.examples
     first = state.command(state.entry)
     assert parse(to_json(first)) == first
     known = {**first.arguments}
     assert defined_by(first, "example", known)
     state.mask.put(np.ones_like(state.mask.inside))
-    example_use.save_region(desk)
+    example_work.save_region(desk)
     second = state.command(state.entry)
     assert not defined_by(second, "example", known)
     assert own_example_files.opened(state.entry).inside.all()
@@ -244,77 +247,77 @@ def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
 def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     entry, state = named(desk, "felt"), desk.examples
     example_use.choose(desk, entry)
-    example_use.edit(desk)
+    example_work.edit(desk)
     state.mask.begin(3.0, 3.0)
     state.set(entry, "kappa", 9.0)
     state.mask.dirty = None
-    example_use.save_region(desk)
+    example_work.save_region(desk)
     assert state.mask.dirty == state.mask.whole  # the copy has no picture yet
     assert (state.entry.own, state.entry.name, state.entry.parameters.kappa) == (True, "felt", 9.0)
     assert "“Felt”" in desk.message[0]
     assert own_example_files.opened(state.entry).inside[3, 3]
     assert not own_example_files.opened(entry).inside[3, 3]
     state.mask.inside[:] = False
-    example_use.save_region(desk)
+    example_work.save_region(desk)
     assert desk.message[1]
     assert own_example_files.opened(state.entry).inside.any()
-    example_use.delete(desk, state.entry)
+    example_work.delete(desk, state.entry)
     assert not list(own.iterdir())
     assert state.entry is None
 
 
 def test_ones_own_is_renamed_and_stays_so(desk, tmp_path):
     """Its files stay where paintings and brushes look for them."""
-    example_use.add(desk, picture(tmp_path / "rock.png"))
-    example_use.add(desk, picture(tmp_path / "sand.png"))
+    example_work.add(desk, picture(tmp_path / "rock.png"))
+    example_work.add(desk, picture(tmp_path / "sand.png"))
     state, path = desk.examples, named(desk, "rock").picture
-    example_use.rename(desk, named(desk, "rock"), '  My "wet"\n rock ')
+    example_work.rename(desk, named(desk, "rock"), '  My "wet"\n rock ')
     assert named(desk, "rock").title == 'My "wet" rock'
     assert state.entry.name == "sand"  # which the brush goes on painting with
-    example_use.rename(desk, state.entry, 'my "WET" rock')
+    example_work.rename(desk, state.entry, 'my "WET" rock')
     assert (state.entry.title, desk.hand.brush.example) == ('my "WET" rock 2', 'my "WET" rock 2')
     assert [need.name for need in desk.hand.needs] == ['my "WET" rock 2']
-    example_use.rename(desk, state.entry, " \t")
+    example_work.rename(desk, state.entry, " \t")
     state.set(state.entry, "kappa", 9.0)
-    example_use.use_settings(desk)
-    example_use.stock(desk)
+    example_work.use_settings(desk)
+    desk.work(TakeStock())
     own = {entry.name: entry for entry in state.entries if entry.own}
     assert {name: entry.title for name, entry in own.items()} == {"rock": 'My "wet" rock', "sand": 'my "WET" rock 2'}
     assert own["rock"].picture == path
     assert own["sand"].parameters.kappa == 9.0
-    example_use.rename(desk, own["sand"], "x" * 99)
+    example_work.rename(desk, own["sand"], "x" * 99)
     assert len(state.entry.title) == example_state.NAME_CAP
 
 
 def test_who_paints_with_ones_own_is_told_and_keeps_on_painting_when_it_is_deleted(desk, tmp_path):
-    example_use.add(desk, picture(tmp_path / "rock.png"))
-    example_use.add(desk, picture(tmp_path / "sand.png"))
+    example_work.add(desk, picture(tmp_path / "rock.png"))
+    example_work.add(desk, picture(tmp_path / "sand.png"))
     rock, sand = named(desk, "rock"), named(desk, "sand")
-    assert example_use.users(desk, rock) == ""
+    assert example_work.users(desk, rock) == ""
     mine = Preset("Mine", desk.hand.brush, textures=palette.belonging(desk)[0])
     desk.learn(presets=(mine, Preset("Pen", Brush(radius=3.0))))
     desk.learn(scene=scene_with(("Rock", {"path": str(rock.picture), "sha": "1"})))
     example_use.gather(desk)
-    assert example_use.users(desk, rock) == "this painting"
-    assert example_use.users(desk, sand) == "the brush “Mine”"
-    example_use.delete(desk, sand)
+    assert example_work.users(desk, rock) == "this painting"
+    assert example_work.users(desk, sand) == "the brush “Mine”"
+    example_work.delete(desk, sand)
     assert (desk.hand.brush.mode, desk.hand.preset, desk.examples.chosen) == ("paint", "Pen", "")
     example_use.choose(desk, rock)
-    example_use.delete(desk, rock)
+    example_work.delete(desk, rock)
     assert (desk.hand.brush.example, desk.hand.needs) == ("Rock", ())
     assert desk.examples.entry.here is not None
 
 
 def test_ones_own_settings_are_kept_in_its_file(desk, tmp_path):
-    example_use.add(desk, picture(tmp_path / "rock.png"))
+    example_work.add(desk, picture(tmp_path / "rock.png"))
     state = desk.examples
     for name, value in (("kappa", 4.5), ("channels", "luminance"), ("feather", 0), ("neighbourhood", 5)):
         state.set(state.entry, name, value)
-    example_use.use_settings(desk)
+    example_work.use_settings(desk)
     (read,), faults = example_state.load(example_state.own_folder(), True)
     assert not faults
     assert read.parameters == replace(Parameters(), kappa=4.5, channels="luminance", feather=0, neighbourhood=5)
-    example_use.keep_settings(desk)
+    example_work.keep_settings(desk)
     assert state.entry.name == "rock 2"
     assert state.entry.parameters == read.parameters
 
@@ -350,7 +353,7 @@ def test_thumbnails_are_made_once_and_again_for_another_region(desk, tmp_path):
     for known in (
         entry,
         entry,
-        replace(entry, revision=1),
+        replace(entry, mask_sha="1"),
         Entry("no", "X", tmp_path / "no.png", None, Parameters(), True),
     ):
         made.ask((known,), 32)
@@ -378,7 +381,7 @@ def pen(kind, x, y, eraser=False):
 def region(desk):
     """A region on the screen, its corner at (100, 200), two pixels of the screen for each of its own."""
     example_use.choose(desk, named(desk, "felt"))
-    example_use.edit(desk)
+    example_work.edit(desk)
     desk.examples.spot = (100.0, 200.0, 2.0)
     return desk.examples.mask
 

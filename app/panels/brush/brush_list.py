@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
 from app.desk import example_use, palette, presets
-from app.desk.desk import Desk
+from app.desk.desk import Desk, FileWork
 from app.desk.presets import Preset
 from app.panels.controls import widgets as w
 from engine.studio.requests import Swatch
@@ -167,14 +168,23 @@ def _deletes(desk: Desk, preset: Preset) -> None:
     deleted = imgui.selectable(f"Delete “{preset.name}”", False)[0]
     w.named("Delete")
     if deleted:
-        try:
-            presets.delete(preset)
-        except OSError as error:
-            desk.say(f"The brush was not deleted: {error}", bad=True)
-        else:
-            desk.learn(presets=tuple(one for one in desk.known.presets if one is not preset))
-            desk.say(f"Deleted the brush “{preset.name}”")
+        desk.work(_Delete(preset))
     imgui.end_popup()
+
+
+@dataclass(frozen=True, slots=True)
+class _Delete(FileWork):
+    preset: Preset
+
+    def carry_out(self) -> None:
+        presets.delete(self.preset)
+
+    def arrive(self, desk: Desk, found: None) -> None:
+        desk.learn(presets=tuple(one for one in desk.known.presets if one is not self.preset))
+        desk.say(f"Deleted the brush “{self.preset.name}”")
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.say(f"The brush was not deleted: {fault}", bad=True)
 
 
 def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from imgui_bundle import imgui
 
 from app import icons
 from app.desk import palette, presets
-from app.desk.desk import Desk
+from app.desk.desk import Desk, FileWork
 from app.desk.presets import Preset
 from app.panels.brush.brush_list import ask_picture
 from app.panels.controls import widgets as w
@@ -53,18 +54,29 @@ class SaveBrush:
         imgui.end_popup()
 
 
+@dataclass(frozen=True, slots=True)
+class _Keep(FileWork):
+    """`stay`: the textures that only this painting has, which the file goes without."""
+
+    preset: Preset
+    stay: tuple[str, ...]
+
+    def carry_out(self) -> Path:
+        return presets.save(self.preset, presets.own_folder())
+
+    def arrive(self, desk: Desk, found: Path) -> None:
+        preset, name = replace(self.preset, path=found), self.preset.name
+        others = tuple(p for p in desk.known.presets if (p.name, p.group) != (name, presets.OWN))
+        desk.learn(presets=(*others, preset))
+        desk.hand.take(desk.hand.brush, name)
+        ask_picture(desk, preset)
+        without = f", without {' and '.join(self.stay)}, which only this painting has" if self.stay else ""
+        desk.say(f"Saved the brush “{name}”{without}", bad=bool(self.stay))
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.say(f"The brush was not saved: {fault}", bad=True)
+
+
 def _save(desk: Desk, name: str) -> None:
     textures, stay = palette.belonging(desk)
-    preset = Preset(name, desk.hand.dipped(), textures=textures)
-    try:
-        path = presets.save(preset, presets.own_folder())
-    except OSError as error:
-        desk.say(f"The brush was not saved: {error}", bad=True)
-        return
-    preset = replace(preset, path=path)
-    others = tuple(p for p in desk.known.presets if (p.name, p.group) != (name, presets.OWN))
-    desk.learn(presets=(*others, preset))
-    desk.hand.take(desk.hand.brush, name)
-    ask_picture(desk, preset)
-    without = f", without {' and '.join(stay)}, which only this painting has" if stay else ""
-    desk.say(f"Saved the brush “{name}”{without}", bad=bool(stay))
+    desk.work(_Keep(Preset(name, desk.hand.dipped(), textures=textures), stay))

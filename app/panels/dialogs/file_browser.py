@@ -14,7 +14,7 @@ from imgui_bundle import portable_file_dialogs as pfd
 from immutables import Map
 
 from app import icons, theme
-from app.desk import example_use, pictured
+from app.desk import example_work, pictured
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from engine.studio.requests import Export, Open, Save
@@ -191,7 +191,7 @@ def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
 
 def choosing_own(desk: Desk) -> SystemDialog | Browser:
     """For an example of the artist's own."""
-    return _chooser("Add an example", _folder(desk), PICTURES, False, example_use.add)
+    return _chooser("Add an example", _folder(desk), PICTURES, False, example_work.add)
 
 
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:

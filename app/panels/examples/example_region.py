@@ -11,7 +11,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import example_use
+from app.desk import example_work
 from app.desk.desk import Desk
 from app.desk.region_mask import RADII, Mask, smoothed
 from app.panels.controls import widgets as w
@@ -57,7 +57,7 @@ class RegionPanel:
         imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if mask.modified or not own else theme.RAISED))
         text, hint = ("Save", "Keep this region") if own else ("Save as my own", "It goes to a copy of your own")
         if w.text_button(f"{icons.DISK} {text}###save", hint, enabled=mask.modified, width=-1):
-            example_use.save_region(desk)
+            example_work.save_region(desk)
         imgui.pop_style_color()
         imgui.end_child()
 

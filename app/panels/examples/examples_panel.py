@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import example_state, example_use, thumbnails
+from app.desk import example_state, example_use, example_work, thumbnails
 from app.desk.desk import Desk
 from app.desk.example_state import Entry
 from app.panels.controls import widgets as w
@@ -35,7 +35,7 @@ class ExamplesPanel:
         state = desk.examples
         state.spot = None
         if state.tab == "region" and state.mask is None and _has_files(state.entry):
-            example_use.edit(desk)
+            example_work.edit(desk)
         if not _has_files(state.entry) or (state.tab == "region" and state.mask is None):
             state.tab = "palette"
         if state.tab == "region":

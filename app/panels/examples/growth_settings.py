@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import example_use
+from app.desk import example_work
 from app.desk.desk import Desk
 from app.desk.example_state import SAMPLE, Entry
 from app.panels.controls import widgets as w
@@ -119,7 +119,7 @@ class GrowthSettings:
         imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
         hint = "Paint with these settings" + (" from now on; the example keeps them" if entry.own else "")
         if w.text_button(f"{icons.BRUSH} Use", hint, enabled=tried, width=0.36 * (room - 2 * gap)):
-            example_use.use_settings(desk)
+            example_work.use_settings(desk)
         imgui.pop_style_color()
         imgui.same_line(0, gap)
         same = state.draft(entry) == entry.parameters
@@ -128,4 +128,4 @@ class GrowthSettings:
         imgui.same_line(0, gap)
         hint = "Save it with these settings as an example of your own"
         if w.text_button("Save a copy", hint, width=0.36 * (room - 2 * gap)):
-            example_use.keep_settings(desk)
+            example_work.keep_settings(desk)

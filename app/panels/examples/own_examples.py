@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app import icons
-from app.desk import example_state, example_use
+from app.desk import example_state, example_work
 from app.desk.desk import Desk
 from app.desk.example_state import Entry
 from app.panels.controls import widgets as w
@@ -24,10 +24,10 @@ class OwnExamples:
 
     def delete(self, desk: Desk, entry: Entry) -> None:
         """Takes it away, after asking if something is painted with it."""
-        if example_use.users(desk, entry):
+        if example_work.users(desk, entry):
             self._entry, self._opens = entry, "delete example"
         else:
-            example_use.delete(desk, entry)
+            example_work.delete(desk, entry)
 
     def menu(self, desk: Desk, entry: Entry) -> None:
         """What a right click on its thumbnail opens, and a double click."""
@@ -79,17 +79,17 @@ class OwnExamples:
         done = w.text_button("Rename", "Call it so from now on", enabled=bool(name), width=em * 6)
         imgui.same_line()
         if done or entered:
-            example_use.rename(desk, entry, self._name)
+            example_work.rename(desk, entry, self._name)
         if w.text_button("Cancel", "Leave its name", width=em * 6) or done or entered:
             imgui.close_current_popup()
 
     def _ask_delete(self, desk: Desk, entry: Entry) -> None:
         em = imgui.get_font_size()
-        imgui.text_unformatted(f"Delete “{entry.title}”? It is used by {example_use.users(desk, entry)}.")
+        imgui.text_unformatted(f"Delete “{entry.title}”? It is used by {example_work.users(desk, entry)}.")
         imgui.text_disabled("What is painted with it stays.")
         done = w.text_button("Delete", "Delete it; this cannot be taken back", width=em * 6)
         imgui.same_line()
         if done:
-            example_use.delete(desk, entry)
+            example_work.delete(desk, entry)
         if w.text_button("Cancel", "Keep it", width=em * 6) or done:
             imgui.close_current_popup()

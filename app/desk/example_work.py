@@ -1,0 +1,304 @@
+"""The artist's own examples: their files are made, changed and taken away on the files' thread, then the palette lists
+them as they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from immutables import Map
+
+from app.desk import example_state, own_example_files, palette, presets
+from app.desk.desk import Desk, FileWork
+from app.desk.example_state import Entry
+from app.desk.example_use import choose, gather, take
+from app.desk.region_mask import Mask
+from engine.texture.example.parameters import Parameters
+
+
+class Listing(NamedTuple):
+    """The artist's own as their files are, a line for each file that is at fault, and the name of one of them."""
+
+    entries: tuple[Entry, ...]
+    faults: tuple[str, ...]
+    name: str = ""
+
+
+def _listed(name: str) -> Listing:
+    entries, faults = example_state.load(example_state.own_folder(), True)
+    return Listing(tuple(entries), tuple(faults), name)
+
+
+def _relist(desk: Desk, listing: Listing) -> None:
+    """The palette lists the artist's own as their files are now; the brush takes the one that is named."""
+    state = desk.examples
+    others = (entry for entry in state.entries if not entry.own)
+    state.entries = tuple(example_state.arranged([*others, *listing.entries]))
+    for fault in listing.faults:
+        desk.say(fault, bad=True)
+    gather(desk)
+    entry = next((entry for entry in listing.entries if entry.name == listing.name), None)
+    if entry is not None:
+        if state.group not in (example_state.ALL, example_state.OWN):
+            state.group = example_state.ALL
+        choose(desk, entry)
+
+
+def dropped(desk: Desk, path: Path) -> bool:
+    """Takes a picture that was dropped on the window while the palette is open; False if it is none."""
+    if desk.strip != "examples" or not desk.panels or path.suffix.lower() not in example_state.PICTURES:
+        return False
+    add(desk, path)
+    return True
+
+
+# --- a picture of one's own ------------------------------------------------------------------------------------------
+
+
+class _Added(NamedTuple):
+    listing: Listing
+    smaller: bool
+    mask: Mask
+
+
+@dataclass(frozen=True, slots=True)
+class _Add(FileWork):
+    path: Path
+
+    def carry_out(self) -> _Added:
+        name, smaller = own_example_files.add(self.path)
+        listing = _listed(name)
+        entry = next(entry for entry in listing.entries if entry.name == name)
+        return _Added(listing, smaller, own_example_files.opened(entry))
+
+    def arrive(self, desk: Desk, found: _Added) -> None:
+        _relist(desk, found.listing)
+        _show_region(desk, desk.examples.chosen, found.mask)
+        if found.mask.opaque:
+            found.mask.way = "colour"  # what is to be cut out of a photograph is its background
+        size = f", made smaller: at most {own_example_files.SIDE} pixels" if found.smaller else ""
+        desk.say(f"Added the example “{_title(desk)}”{size}")
+
+
+def add(desk: Desk, path: Path) -> None:
+    """A picture becomes an example of the artist's own, whose region is to be painted."""
+    desk.say(f"Adding {path.name}")
+    desk.work(_Add(path))
+
+
+# --- the region ------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Edit(FileWork):
+    entry: Entry
+
+    def carry_out(self) -> Mask:
+        return own_example_files.opened(self.entry)
+
+    def arrive(self, desk: Desk, found: Mask) -> None:
+        _show_region(desk, self.entry.ident, found)
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.examples.opening = ""
+        desk.say(fault, bad=True)
+
+
+def edit(desk: Desk) -> None:
+    """Opens the chosen example's region."""
+    state, entry = desk.examples, desk.examples.entry
+    if entry is None or state.opening == entry.ident:
+        return
+    if state.mask is None:
+        state.opening = entry.ident
+        desk.work(_Edit(entry))
+    else:
+        state.tab = "region"
+
+
+def _show_region(desk: Desk, ident: str, mask: Mask) -> None:
+    state = desk.examples
+    state.opening = ""
+    state.masks.setdefault(ident, mask)
+    if state.chosen == ident:
+        state.tab = "region"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _SaveRegion(FileWork):
+    """`inside`: of the region, which is its `version`."""
+
+    entry: Entry
+    parameters: Parameters
+    inside: np.ndarray
+    version: int
+
+    def carry_out(self) -> Listing:
+        entry = self.entry
+        name = entry.name if entry.own else own_example_files.copy(entry, self.parameters)
+        own_example_files.write_region(name, self.inside)
+        return _listed(name)
+
+    def arrive(self, desk: Desk, found: Listing) -> None:
+        state = desk.examples
+        mask = state.masks.pop(self.entry.ident, None)
+        if mask is not None:
+            mask.saved, mask.dirty = self.version, mask.whole  # it is shown under another name from now on
+            state.masks[f"own {found.name}"] = mask
+        _relist(desk, found)
+        desk.say(f"Saved the region of “{_title(desk)}”" + ("" if self.entry.own else ", an example of your own now"))
+
+
+def save_region(desk: Desk) -> None:
+    """Writes the region that was painted; one of an example that comes along goes to a copy of the artist's own."""
+    state, entry, mask = desk.examples, desk.examples.entry, desk.examples.mask
+    if entry is None or mask is None:
+        return
+    if not mask.inside.any():
+        desk.say("The region is empty: paint something in first", bad=True)
+        return
+    desk.work(_SaveRegion(entry, state.draft(entry), mask.inside.copy(), mask.version))
+
+
+# --- settings and names ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _KeepParameters(FileWork):
+    entry: Entry
+    parameters: Parameters
+
+    def carry_out(self) -> Listing:
+        own_example_files.write_parameters(self.entry.name, self.parameters, self.entry.given)
+        return _listed(self.entry.name)
+
+    def arrive(self, desk: Desk, found: Listing) -> None:
+        _settle(desk, self.entry, self.parameters)
+        _relist(desk, found)
+
+
+def use_settings(desk: Desk) -> None:
+    """Paints with the settings as they are; the artist's own example keeps them."""
+    state, entry = desk.examples, desk.examples.entry
+    if entry is None:
+        return
+    if entry.own:
+        desk.work(_KeepParameters(entry, state.draft(entry)))
+        return
+    state.used[entry.ident] = state.drafts.get(entry.ident, state.used.get(entry.ident, Map()))
+    take(desk)
+
+
+def _settle(desk: Desk, entry: Entry, kept: Parameters) -> None:
+    """What was tried is in a file now, unless more has been tried since."""
+    if desk.examples.draft(entry) == kept:
+        desk.examples.drafts.pop(entry.ident, None)
+
+
+@dataclass(frozen=True, slots=True)
+class _Copy(FileWork):
+    entry: Entry
+    parameters: Parameters
+
+    def carry_out(self) -> Listing:
+        return _listed(own_example_files.copy(self.entry, self.parameters))
+
+    def arrive(self, desk: Desk, found: Listing) -> None:
+        _settle(desk, self.entry, self.parameters)
+        _relist(desk, found)
+        desk.say(f"Saved as “{_title(desk)}”, an example of your own")
+
+
+def keep_settings(desk: Desk) -> None:
+    """Makes an example of the artist's own with the settings as they are."""
+    entry = desk.examples.entry
+    if entry is not None:
+        desk.work(_Copy(entry, desk.examples.draft(entry)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Rename(FileWork):
+    entry: Entry
+    title: str
+
+    def carry_out(self) -> Listing:
+        own_example_files.write_parameters(self.entry.name, self.entry.parameters, self.title)
+        return _listed(self.entry.name)
+
+    def arrive(self, desk: Desk, found: Listing) -> None:
+        painting = desk.examples.chosen == self.entry.ident and desk.hand.brush.mode == "example"
+        kept = (need for need in desk.hand.needs if need.arguments.get("path") != str(self.entry.picture))
+        desk.hand.take(desk.hand.brush, needs=tuple(kept))
+        _relist(desk, found if painting else found._replace(name=""))
+        desk.say(f"“{self.entry.title}” is called “{self.title}” now")
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.say(f"The example was not renamed: {fault}", bad=True)
+
+
+def rename(desk: Desk, entry: Entry, text: str) -> None:
+    """Calls one of the artist's own something else; its files stay where brushes and paintings know them."""
+    title = example_state.renamed(text, entry, desk.examples.entries)
+    if title and title != entry.title:
+        desk.work(_Rename(entry, title))
+
+
+# --- deleted ---------------------------------------------------------------------------------------------------------
+
+
+def users(desk: Desk, entry: Entry) -> str:
+    """What is painted with one of the artist's own: the painting, brushes; empty if nothing is."""
+    scene, path = desk.known.scene, str(entry.picture)
+    found = ["this painting"] if scene is not None and example_state.in_painting(entry, scene.definitions) else []
+    found += [
+        f"the brush “{preset.name}”"
+        for preset in desk.known.presets
+        if any(need.arguments.get("path") == path for need in preset.textures)
+    ]
+    return " and ".join(found[:2]) + (" and more" if len(found) > 2 else "")
+
+
+@dataclass(frozen=True, slots=True)
+class _Delete(FileWork):
+    entry: Entry
+
+    def carry_out(self) -> None:
+        own_example_files.delete(self.entry.name)
+
+    def arrive(self, desk: Desk, found: None) -> None:
+        state, entry = desk.examples, self.entry
+        state.masks.pop(entry.ident, None)
+        state.entries = tuple(one for one in state.entries if one.ident != entry.ident)
+        if state.chosen == entry.ident:
+            state.chosen, state.tab = "", "palette"
+        gather(desk)
+        _without(desk, entry)
+        desk.say(f"Deleted the example “{entry.title}”")
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.say(f"The example was not deleted: {fault}", bad=True)
+
+
+def delete(desk: Desk, entry: Entry) -> None:
+    """Takes one of the artist's own away.  A painting that has it keeps it; a brush does not paint with it any more."""
+    desk.work(_Delete(entry))
+
+
+def _without(desk: Desk, entry: Entry) -> None:
+    """The brush that painted with it takes what the painting has of it, or is another one."""
+    need = next((need for need in desk.hand.needs if need.name == desk.hand.brush.example), None)
+    if desk.hand.brush.mode != "example" or need is None or need.arguments.get("path") != str(entry.picture):
+        return
+    same = (one for one in desk.examples.entries if one.here is not None and one.here.get("path") == str(entry.picture))
+    left = next(same, None)
+    if left is not None:
+        choose(desk, left)
+    else:
+        palette.take(desk, next((p for p in desk.known.presets if p.brush.mode == "paint"), presets.DEFAULT))
+
+
+def _title(desk: Desk) -> str:
+    """What the chosen example is called in the palette."""
+    return desk.examples.entry.title if desk.examples.entry is not None else ""

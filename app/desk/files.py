@@ -1,0 +1,82 @@
+"""The files that the window reads and writes: a thread of their own carries it out, and the window goes on drawing."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.desk.desk import Desk, FileWork
+from engine.files.fault import FileError, WriteError
+
+FAULTS = (FileError, WriteError, OSError)  # that work may raise: each a line for the artist
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """Work that was carried out, and what it found; or why it was not."""
+
+    work: FileWork
+    found: Any = None
+    fault: str = ""
+
+    def arrive(self, desk: Desk) -> None:
+        """Puts it on the desk; for the window's thread."""
+        if self.fault:
+            self.work.fail(desk, self.fault)
+        else:
+            self.work.arrive(desk, self.found)
+
+
+def carried_out(work: FileWork) -> Done:
+    """Does the first half of some work, on the thread that calls it."""
+    try:
+        return Done(work, work.carry_out())
+    except FAULTS as error:
+        return Done(work, fault=str(error))
+    except Exception as error:  # a fault of the program's own: the others' files are still to be written
+        traceback.print_exc()
+        return Done(work, fault=f"{type(error).__name__}: {error}")
+
+
+class Files:
+    """Carries out work in the order in which it is posted.  All calls come from the window's thread; `wake` is called
+    from the other one whenever something is done."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._posted: deque[FileWork | None] = deque()
+        self._done: deque[Done] = deque()
+        self._signal = threading.Semaphore(0)
+        self._thread = threading.Thread(target=self._run, name="inkfall files", daemon=True)
+        self._thread.start()
+
+    def post(self, work: FileWork) -> None:
+        """Leaves some work; returns at once."""
+        self._posted.append(work)
+        self._signal.release()
+
+    def take(self) -> list[Done]:
+        """Returns what was done since the last call, in order."""
+        found = []
+        while self._done:
+            found.append(self._done.popleft())
+        return found
+
+    def close(self) -> None:
+        """Ends the thread when all that was posted is carried out."""
+        self._posted.append(None)
+        self._signal.release()
+        self._thread.join()
+
+    def _run(self) -> None:
+        while True:
+            self._signal.acquire()
+            work = self._posted.popleft()
+            if work is None:
+                return
+            self._done.append(carried_out(work))
+            self._wake()

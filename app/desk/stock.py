@@ -1,0 +1,46 @@
+"""What the window begins with: brushes, papers and examples, read from their folders."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from app.desk import example_state, presets
+from app.desk.desk import Desk, FileWork
+from app.desk.example_state import Entry
+from app.desk.example_use import gather
+from app.desk.presets import Paper, Preset
+
+
+class Stock(NamedTuple):
+    """`faults`: a line for each file that is at fault."""
+
+    presets: tuple[Preset, ...]
+    papers: tuple[Paper, ...]
+    examples: tuple[Entry, ...]
+    faults: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TakeStock(FileWork):
+    """Reads all that comes along, and all of the artist's own."""
+
+    def carry_out(self) -> Stock:
+        bundled, faults = presets.load(presets.bundled_folder())
+        own, more = presets.load(presets.own_folder())
+        papers, torn = presets.load_papers(presets.papers_folder())
+        given, bad = example_state.load(example_state.bundled_folder(), False)
+        kept, lost = example_state.load(example_state.own_folder(), True)
+        examples = example_state.arranged([*given, *kept])
+        return Stock((*bundled, *own), tuple(papers), tuple(examples), (*faults, *more, *torn, *bad, *lost))
+
+    def arrive(self, desk: Desk, found: Stock) -> None:
+        desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers)
+        desk.examples.entries = found.examples
+        gather(desk)
+        for fault in found.faults:
+            desk.say(fault, bad=True)
+
+    def fail(self, desk: Desk, fault: str) -> None:
+        desk.learn(presets=(presets.DEFAULT,))
+        desk.say(fault, bad=True)
