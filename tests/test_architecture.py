@@ -37,6 +37,7 @@ ORDER = (
     ("app.loop",),
     ("app.cli",),
     ("app.__main__",),
+    ("app.inkfall_start",),
 )
 RANK = {unit: rank for rank, units in enumerate(ORDER) for unit in units}
 WINDOW = {"glfw", "moderngl", "imgui_bundle", "OpenGL"}
