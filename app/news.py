@@ -114,7 +114,7 @@ class News:
         brush = self.desk.examples.at_home(self.desk.hand.dipped())
         if brush != self._ink:
             self._ink, self._ink_since = brush, self._ink_since or max(now, self._ink_sent + SETTLE)
-        early = brush.mode == "example" and self.desk.known.preparing is not None
+        early = brush.row.grows and self.desk.known.preparing is not None
         if self._ink_since and now >= self._ink_since and self.worker and not early:
             self._ink_since, self._ink_sent = 0.0, now
             scale = self.desk.scale
@@ -139,7 +139,7 @@ class News:
     def _ask_examples(self, now: float) -> None:
         """Thumbnails, the sample stroke, and what was painted in the region, while they are to be seen."""
         desk, state = self.desk, self.desk.examples
-        if self.shelf is not None and (desk.hand.brush.mode == "example" or desk.strip == "examples"):
+        if self.shelf is not None and (desk.hand.brush.row.grows or desk.strip == "examples"):
             self.shelf.ask(state.entries, round(LARGE * desk.scale))
         if desk.strip != "examples" or not desk.panels:
             return
@@ -164,7 +164,7 @@ class News:
         self._begun = True
         trace("engine ready")
         if not desk.hand.preset:
-            first = next((p for p in desk.known.presets if p.brush.mode == "paint"), desk.known.presets[0])
+            first = next((p for p in desk.known.presets if p.brush.row.lays_ink), desk.known.presets[0])
             desk.hand.take(first.brush, first.name, first.textures)
         for preset in filter(ready_at_start, desk.known.presets):
             ask_picture(desk, preset)

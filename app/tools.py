@@ -63,7 +63,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     finally:
         desk.painting = False
         desk.post(Finish() if done else Abandon())
-    if brush.mode == "paint":
+    if brush.row.lays_ink:
         desk.hand.remember()
 
 

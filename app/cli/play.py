@@ -12,6 +12,7 @@ from app.cli.match_command import MOST, whole
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output, picture_of
 from app.cli.progress import Progress
+from engine.brush.modes import MODES
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -23,6 +24,10 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=seed, metavar="S", help="of the textures, instead of the recording's")
     parser.add_argument("--threads", type=whole(1, MOST), metavar="N", help="default: as many as there are cores")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    modes = [f"  {row.name:<8} {row.tooltip}" for row in MODES.values()]
+    where = "palettes/recording.md tells all that a recording may hold."
+    parser.epilog = "\n".join(["modes of a brush:", *modes, "", where])
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
 
 
 def run(options: argparse.Namespace) -> int:

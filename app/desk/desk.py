@@ -132,7 +132,6 @@ class Desk:
     def stroke_brush(self, eraser: bool) -> tuple[int, Brush]:
         """The level of a stroke begun now, and the brush with its radius in pixels of that level."""
         level = self.view.shown_level
-        held = self.hand.dipped()
-        mode = "erase" if (self.hand.erasing or eraser) and held.mode != "smooth" else held.mode
-        brush = replace(held, radius=held.radius / self.view.scale(level), mode=mode)
-        return level, self.examples.erasing(brush) if mode == "erase" else brush
+        held, mode = self.hand.dipped(), self.hand.stroke_mode(eraser)
+        brush = replace(held, radius=held.radius / self.view.scale(level), mode=mode.name)
+        return level, self.examples.erasing(brush) if mode.takes_away else brush

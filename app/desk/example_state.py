@@ -240,7 +240,7 @@ class ExampleState:
 
     def at_home(self, brush: Brush) -> Brush:
         """The brush as it paints a small picture at level 0."""
-        if brush.mode != "example":
+        if not brush.row.grows:
             return brush
         return replace(brush, example_level=-max(self.size, 0))
 

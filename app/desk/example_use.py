@@ -28,11 +28,7 @@ def prepare(desk: Desk, now: float) -> None:
     """Has the engine get ready for examples, once, when the palette is open or something is painted with one."""
     state = desk.examples
     given = () if desk.known.scene is None else desk.known.scene.texture_kinds
-    used = (
-        desk.hand.brush.mode == "example"
-        or desk.strip == "examples"
-        or any(kind == example_state.KIND for _, kind in given)
-    )
+    used = desk.hand.brush.row.grows or desk.strip == "examples" or any(kind == example_state.KIND for _, kind in given)
     if used and not state.prepared:
         state.prepared = True
         desk.learn(preparing=now)
@@ -43,9 +39,9 @@ def choose(desk: Desk, entry: Entry) -> None:
     """The brush paints with an example from now on, as large as its pixels are where the view is now."""
     state, level = desk.examples, desk.view.shown_level
     state.chosen = entry.ident
-    if desk.hand.brush.mode != "example" or abs(level - state.base) > NEAR:
+    if not desk.hand.brush.row.grows or abs(level - state.base) > NEAR:
         state.base = level
-    if desk.hand.brush.mode != "example":  # the tip and the width of a pencil, say, are not for this
+    if not desk.hand.brush.row.grows:  # the tip and the width of a pencil, say, are not for this
         desk.hand.take(Brush(radius=state.radius, hardness=1.0), "")
     take(desk)
 
@@ -67,7 +63,7 @@ def take(desk: Desk) -> None:
 def follow(desk: Desk) -> None:
     """The brush has the size and depth that are set."""
     state = desk.examples
-    if desk.hand.brush.mode == "example":
+    if desk.hand.brush.row.grows:
         members: dict[str, Any] = {**state.levels(), "depth": float(state.depth)}
         desk.hand.change(**members)
 
@@ -75,7 +71,7 @@ def follow(desk: Desk) -> None:
 def adopt(desk: Desk) -> None:
     """The panel shows what a brush has that came with an example of its own; its size fits what is seen."""
     state, brush = desk.examples, desk.hand.brush
-    if brush.mode != "example":
+    if not brush.row.grows:
         return
     need = next((need for need in desk.hand.needs if need.name == brush.example), None)
     told = None if need is None else need.arguments.get("bundled", need.arguments.get("path"))
@@ -94,7 +90,7 @@ def fit(desk: Desk) -> None:
 
 def reach(desk: Desk) -> None:
     """Before a stroke: the texture's size is fitted anew where the view is too far from where it was chosen."""
-    if desk.hand.brush.mode == "example" and not example_state.within_reach(desk.hand.brush, desk.view.shown_level):
+    if desk.hand.brush.row.grows and not example_state.within_reach(desk.hand.brush, desk.view.shown_level):
         fit(desk)
         desk.say("The texture’s size was set too far away: it fits this zoom now")
 

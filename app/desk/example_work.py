@@ -228,7 +228,7 @@ class _Rename(FileWork):
         return _listed(self.entry.name)
 
     def arrive(self, desk: Desk, found: Listing) -> None:
-        painting = desk.examples.chosen == self.entry.ident and desk.hand.brush.mode == "example"
+        painting = desk.examples.chosen == self.entry.ident and desk.hand.brush.row.grows
         kept = (need for need in desk.hand.needs if need.arguments.get("path") != str(self.entry.picture))
         desk.hand.take(desk.hand.brush, needs=tuple(kept))
         _relist(desk, found if painting else found._replace(name=""))
@@ -289,14 +289,14 @@ def delete(desk: Desk, entry: Entry) -> None:
 def _without(desk: Desk, entry: Entry) -> None:
     """The brush that painted with it takes what the painting has of it, or is another one."""
     need = next((need for need in desk.hand.needs if need.name == desk.hand.brush.example), None)
-    if desk.hand.brush.mode != "example" or need is None or need.arguments.get("path") != str(entry.picture):
+    if not desk.hand.brush.row.grows or need is None or need.arguments.get("path") != str(entry.picture):
         return
     same = (one for one in desk.examples.entries if one.here is not None and one.here.get("path") == str(entry.picture))
     left = next(same, None)
     if left is not None:
         choose(desk, left)
     else:
-        palette.take(desk, next((p for p in desk.known.presets if p.brush.mode == "paint"), presets.DEFAULT))
+        palette.take(desk, next((p for p in desk.known.presets if p.brush.row.lays_ink), presets.DEFAULT))
 
 
 def _title(desk: Desk) -> str:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from app.desk.colours import RGB, to_hex
+from engine.brush.modes import MODES, Mode
 from engine.brush.settings import Brush
 from engine.painting.commands import DefineTexture
 
@@ -59,6 +60,12 @@ class Hand:
     def erasing(self) -> bool:
         """Whether the brush erases; never with another tool."""
         return self._erasing
+
+    def stroke_mode(self, eraser: bool = False) -> Mode:
+        """What a stroke does: the row of the brush's mode, or of what erasing with it is; `eraser`: the pen's other end
+        touches the canvas."""
+        row = self._brush.row
+        return MODES[row.eraser] if self._erasing or eraser else row
 
     def dipped(self) -> Brush:
         """The brush with the colour on it."""

@@ -105,16 +105,17 @@ class LabState:
         """The artist's brush as it paints in the lab: its textures are those that every painting has (`built_in`).  It
         changes what is there if it can do so without colours and layers; otherwise it paints."""
         brush = only_with(brush, built_in)
-        mode = brush.mode if brush.mode in ("paint", "erase", "smooth") or _changes(brush) else "paint"
+        row = brush.row
+        fits = row.in_lab and (not row.uses_op or _changes(brush))
         colours = self.coloured and self.made.sheet == "amplitude"
         return replace(
             brush,
             radius=self.radius * self.made.size[0] / 256,
             opacity=self.strength,
             colour=colour if colours else WHITE,
-            mode="erase" if eraser or self.erasing else mode,
+            mode="erase" if eraser or self.erasing else row.name if fits else "paint",
             ink=brush.ink if colours else tuple(replace(part, colour=BLACK) for part in brush.ink),
-            op=brush.op if mode == "raster" else "toward",
+            op=brush.op if fits and row.uses_op else "toward",
             edge=None,
         )
 
@@ -145,9 +146,7 @@ class LabState:
 
 
 def _changes(brush: Brush) -> bool:
-    """Whether it is a raster-op that needs neither a colour nor a layer nor a texture that the brush has not."""
-    if brush.mode != "raster":
-        return False
+    """Whether its op needs neither a colour nor a layer nor a texture that the brush has not."""
     op = chosen(brush.op)
     if op.row is None:
         return True

@@ -86,7 +86,7 @@ def _all(folder: Path, read: Callable[[Path], Any]) -> tuple[list[Any], list[str
 
 def _order(preset: Preset) -> tuple[bool, str]:
     """Brushes that paint first, then by name."""
-    return preset.brush.mode != "paint", preset.name
+    return not preset.brush.row.lays_ink, preset.name
 
 
 def _object(path: Path, what: str) -> dict[str, Any]:

@@ -25,15 +25,15 @@ REST = (640, 790)  # on the status line: there the pointer covers nothing that i
 
 
 class Program:
-    """`python -m app` on a display, moved by xdotool, seen through pictures of its screen."""
+    """`python -m app` on a display, moved by xdotool, seen through pictures of its screen.  `module`: one beside this
+    file that starts the program in place of `app`."""
 
-    def __init__(self, display: str, folder: Path, *words: str, trace: str = "1") -> None:
-
+    def __init__(self, display: str, folder: Path, *words: str, trace: str = "1", module: str = "app") -> None:
         self.display, self.folder = display, folder
         environment = {
             **os.environ,
             "DISPLAY": display,
-            "PYTHONPATH": str(ROOT),
+            "PYTHONPATH": str(ROOT) if module == "app" else os.pathsep.join((str(ROOT), str(Path(__file__).parent))),
             "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_DATA_HOME": str(folder / "data"),
             "INKFALL_TRACE": trace,
@@ -43,7 +43,7 @@ class Program:
         self._read = 0
         self.log = folder / f"log-{time.monotonic_ns()}"
         with self.log.open("w") as log:
-            command = [sys.executable, "-W", "error::RuntimeWarning", "-m", "app", *words]
+            command = [sys.executable, "-W", "error::RuntimeWarning", "-m", module, *words]
             self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=log)
         self.wait_for("engine ready")
 
@@ -212,8 +212,8 @@ def display():
 def program(display, tmp_path):
     opened = []
 
-    def start(*words: str, on: str = display, trace: str = "1") -> Program:
-        opened.append(Program(on, tmp_path, *words, trace=trace))
+    def start(*words: str, on: str = display, trace: str = "1", module: str = "app") -> Program:
+        opened.append(Program(on, tmp_path, *words, trace=trace, module=module))
         return opened[-1]
 
     yield start

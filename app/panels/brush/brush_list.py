@@ -140,7 +140,7 @@ class BrushList:
 
 def ready_at_start(preset: Preset) -> bool:
     """Whether its picture is painted before it is in sight: an example would have to be analysed, and be held."""
-    return preset.brush.mode != "example"
+    return not preset.brush.row.grows
 
 
 def ask_picture(desk: Desk, preset: Preset) -> None:

@@ -20,16 +20,10 @@ from app.panels.brush.texturing import Texturing
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from app.tools import TOOLS
+from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
 from engine.studio.results import CurveRow
 
-_MODES = (
-    ("paint", "Paint", "Lays paint over what is there"),
-    ("erase", "Erase", "Takes paint away, at all depths"),
-    ("smooth", "Smooth", "Softens the paint and takes away the detail that zooming would show"),
-    ("raster", "Change", "Changes the paint that is there: darker, another hue, blurred, copied…"),
-    ("example", "Grow", "Grows a texture like an example where you paint, rim and all"),
-)
 _PRESSURES: dict[str, Any] = {
     "pressure": "pressure",
     "soft": ((0.0, 0.15), (0.35, 0.6), (1.0, 1.0)),
@@ -45,7 +39,7 @@ _PRESSURE_ROWS = (
         "firm", "Firm pen", "Light touches count for less", tuple(at(_PRESSURES["firm"], i / 20) for i in range(21))
     ),
 )
-_UNFELT = ("opacity", "flow")  # by what is grown
+_TALL = ("operations",)  # sections of a mode for which the list of presets makes no room
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 
 
@@ -55,6 +49,11 @@ class BrushPanel:
     def __init__(self) -> None:
         self._texturing, self._curves = Texturing(), CurveEditor()
         self._operations, self._saving, self._list = Operations(), SaveBrush(), BrushList()
+        self._sections: dict[str, Callable[[Desk], None]] = {
+            "eraser": example_section.draw_eraser,
+            "operations": self._operations.draw,
+            "example": example_section.draw,
+        }  # of a mode alone
         self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
 
     def draw(self, desk: Desk) -> None:
@@ -68,22 +67,14 @@ class BrushPanel:
         if w.section("Brush settings"):
             self._preview(desk)
             self._modes(desk)
-            special = _height_of(lambda: self._special(desk))
-            unfolded += special if desk.hand.brush.mode == "raster" else 0.0
+            section = desk.hand.stroke_mode().section
+            special = _height_of(lambda: self._sections[section](desk)) if section else 0.0
+            unfolded += special if section in _TALL else 0.0
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
             unfolded += _height_of(lambda: self._dynamics(desk))
         self._below = imgui.get_cursor_pos().y - top - unfolded
-
-    def _special(self, desk: Desk) -> None:
-        """What only this mode has."""
-        if desk.hand.erasing or desk.hand.brush.mode == "erase":
-            example_section.draw_eraser(desk)
-        elif desk.hand.brush.mode == "raster":
-            self._operations.draw(desk)
-        elif desk.hand.brush.mode == "example":
-            example_section.draw(desk)
 
     def _preview(self, desk: Desk) -> None:
         """A stroke of the brush as it is set now."""
@@ -115,26 +106,26 @@ class BrushPanel:
     def _modes(self, desk: Desk) -> None:
         """Buttons side by side, each as wide as its word asks for."""
         gap = 3 * desk.scale
-        words = [imgui.calc_text_size(label).x for _, label, _ in _MODES]
-        spare = (imgui.get_content_region_avail().x - sum(words) - gap * (len(_MODES) - 1)) / len(_MODES)
+        words = [imgui.calc_text_size(row.label).x for row in MODES.values()]
+        spare = (imgui.get_content_region_avail().x - sum(words) - gap * (len(MODES) - 1)) / len(MODES)
         imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(1, 4) * desk.scale)
-        for i, (mode, label, hint) in enumerate(_MODES):
+        for i, row in enumerate(MODES.values()):
             if i:
                 imgui.same_line(0, gap)
-            on = desk.hand.brush.mode == mode
+            on = desk.hand.brush.row is row
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
-            if w.text_button(label, hint, width=words[i] + spare):
+            if w.text_button(row.label, row.tooltip, width=words[i] + spare):
                 desk.hand.use("brush")
-                if mode == "example" and desk.hand.brush.example is None:
+                if row.grows and desk.hand.brush.example is None:
                     example_use.take(desk)
                 else:
-                    desk.hand.change(mode=mode)
+                    desk.hand.change(mode=row.name)
             imgui.pop_style_color()
         imgui.pop_style_var()
 
     def _settings(self, desk: Desk) -> None:
         for name, row in SETTINGS.items():
-            if desk.hand.brush.mode == "example" and not desk.hand.erasing and name in _UNFELT:
+            if name in desk.hand.stroke_mode().unfelt:
                 continue
             lo, hi = (SMALLEST, LARGEST) if name == "radius" else row.slider
             form = "%.1f px" if row.unit == "px" else "%.2f"

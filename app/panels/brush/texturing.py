@@ -41,9 +41,9 @@ class Texturing:
     def draw(self, desk: Desk) -> float:
         """The height of what is unfolded of them."""
         unfolded = 0.0
-        growing = desk.hand.brush.mode == "example" and not desk.hand.erasing
+        unfelt = desk.hand.stroke_mode().unfelt
         for name, title, hint, body in _SECTIONS:
-            if growing and name != "tip":  # it would not be felt
+            if name in unfelt:
                 continue
             held = getattr(desk.hand.brush, name)
             shown, on = w.switched_section(title, hint, held is not None)

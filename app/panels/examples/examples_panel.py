@@ -147,12 +147,7 @@ class ExamplesPanel:
             _in_middle("Getting ready…", corner, (room.x, tall))
         wide = (room.x - gap.x) / 2
         imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT))
-        painting = (
-            entry is not None
-            and desk.hand.brush.mode == "example"
-            and not desk.hand.erasing
-            and desk.hand.tool == "brush"
-        )
+        painting = entry is not None and desk.hand.stroke_mode().grows and desk.hand.tool == "brush"
         text = f"{icons.BRUSH} Painting" if painting else f"{icons.BRUSH} Paint"
         if w.text_button(f"{text}###paint", "Paint with this example", enabled=entry is not None, width=wide):
             example_use.take(desk)
