@@ -1,6 +1,7 @@
 """Recordings: the commands of a painting as a text file, one JSON object a line (feature L10).
 
-The first line is the header {"inkfall": 1, "frame": [X, Y, W, H], "seed": S}; every other line is one command.
+The first line is the header {"inkfall": V, "frame": [X, Y, W, H], "seed": S}; every other line is one command.
+V is the oldest version of the format that knows all that the recording tells.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ from engine.files.atomic import replacing
 from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, Fields, FormatError, dumps, loads
 from engine.numeric.address import Rect
-from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, Redo, Undo, parse, to_json
+from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Redo, Undo, parse, to_json
 
-VERSION = 1
+VERSION = 2  # that is read; older ones too
 TOTAL_CAP = 2 << 30  # bytes of a recording
 COMMANDS_CAP = 4_000_000
 SIDE_LIMIT = 1 << 40
@@ -39,7 +40,7 @@ class Header:
     def to_json(self) -> dict[str, Any]:
         """Tells the header as the first line of a recording does; `parse_header` is the inverse."""
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
-        return {"inkfall": VERSION, "frame": frame, "seed": self.seed, **thawed(self.extra)}
+        return {"inkfall": 1, "frame": frame, "seed": self.seed, **thawed(self.extra)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +65,14 @@ class Recording:
 
     def lines(self) -> Iterator[str]:
         """The file's lines, without their ends."""
-        yield dumps(self.header.to_json())
+        yield dumps({**self.header.to_json(), "inkfall": max(map(version_of, self.commands), default=1)})
         for command in self.commands:
             yield dumps(to_json(command))
+
+
+def version_of(command: Command) -> int:
+    """Returns the oldest version of the format that knows all members of a command."""
+    return 2 if isinstance(command, DefineTexture) and "region" in command.arguments else 1
 
 
 def read(path: str | os.PathLike[str]) -> Recording:
@@ -122,7 +128,7 @@ def parse_header(value: Any) -> Header:
         raise FormatError("header", "no member inkfall", '{"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')
     version = members.integer("inkfall", lo=1, hi=COMMANDS_CAP)
     if version > VERSION:
-        raise FormatError("header.inkfall", f"{version} (a newer Inkfall wrote this)", f"version {VERSION}")
+        raise FormatError("header.inkfall", f"{version} (a newer Inkfall wrote this)", f"a version up to {VERSION}")
     x, y, width, height = members.integers("frame", 4, (0, 0, 1024, 768), limit=PLACE_LIMIT)
     if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
         raise members.fault("frame", "a width and height from 1 to 2^40")

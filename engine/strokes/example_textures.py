@@ -26,6 +26,7 @@ from engine.painting import commands as c
 from engine.painting.capture import read_picture
 from engine.painting.textures import Around, Texture
 from engine.strokes.example_files import kept, read_mask, read_parameters
+from engine.strokes.example_region import STEPS_CAP, followed
 from engine.texture.example.exemplar import SIDE, Exemplar, shrunk
 from engine.texture.example.parameters import FIELDS, Parameters, changed
 from engine.texture.field_error import FieldError
@@ -53,8 +54,9 @@ def of_definition(command: c.DefineTexture, around: Around) -> Texture:
     """The texture that a command of the maker "example" defines.
 
     `path` of a picture or `bundled`, the name of one that comes along; `mask`, a picture that is light where the region
-    is (else it is where the picture is not transparent), and `mask_strokes`, painted on it; `params`, a TOML file, and
-    any of its fields.  FormatError, FieldError or BrushError name the member, FileError the file.
+    is (else it is where the picture is not transparent), `mask_strokes`, painted on it, and `region`, steps by which it
+    is changed; `params`, a TOML file, and any of its fields.  FormatError, FieldError or BrushError name the member,
+    FileError the file.
     """
     members = Fields(thawed(command.arguments), "")
     paths = _paths(members, around.folder)
@@ -125,7 +127,10 @@ def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, ar
     strokes = members.take("mask_strokes", [])
     if not isinstance(strokes, list) or len(strokes) > STROKES_CAP:
         raise members.fault("mask_strokes", f"a list of at most {STROKES_CAP} strokes")
-    if path is None and not strokes:
+    steps = members.take("region", [])
+    if not isinstance(steps, list) or len(steps) > STEPS_CAP:
+        raise members.fault("region", f"a list of at most {STEPS_CAP} steps")
+    if path is None and not strokes and not steps:
         return None
     if path is not None:
         _regular(path)
@@ -135,6 +140,8 @@ def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, ar
         inside = source.data[3] > 0.0
     for i, stroke in enumerate(strokes):
         inside = _with_stroke(inside, stroke, f"mask_strokes[{i}]")
+    if steps:
+        inside = _with_steps(inside, steps, source, path)
     found = ImageSource.of(name, np.repeat(inside[None].astype(np.float32), 4, axis=0))
     if sha is not None and sha != found.sha:
         raise FileError(path or name, _CHANGED)
@@ -153,6 +160,14 @@ def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
         if not part.empty:
             out[part.slices(whole)][taken[part.slices(rect)]] = not stroke.brush.row.takes_away
     return out
+
+
+def _with_steps(inside: np.ndarray, steps: list[Any], source: ImageSource, path: Path | None) -> np.ndarray:
+    assert source.data is not None
+    if inside.shape != source.data.shape[1:]:
+        height, width = source.data.shape[1:]
+        raise FileError(path or source.name, f"found a mask of another size, expected {width} x {height} pixels")
+    return followed(inside, steps, source.data)
 
 
 def _regular(path: Path) -> None:

@@ -204,6 +204,75 @@ class MatchUse:
     arguments: Map[str, Any]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class RegionOpen:
+    """The region of an example is to be painted.  `picture`: premultiplied RGBA, float32 (4, h, w); `first`: what the
+    region begins with, bool (h, w), both read-only; `steps`: those of `example_region` taken since.  What was painted
+    under this name before stays, and is shown."""
+
+    ident: str
+    picture: np.ndarray
+    first: np.ndarray
+    steps: tuple[Map[str, Any], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RegionBegin:
+    """A stroke in a region, which adds to it or takes from it (`op`: "add", "subtract"); the radius and the points in
+    pixels of the example."""
+
+    ident: str
+    op: str
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class RegionPoints:
+    """More of it, as Points."""
+
+    points: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class RegionEnd:
+    """The pen lifts; `kept` unless the stroke is to be dropped."""
+
+    kept: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class RegionDo:
+    """A step of `example_region` is taken; `instead` of the last one, which is as if it had not been."""
+
+    ident: str
+    step: Map[str, Any]
+    instead: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class RegionTravel:
+    """Takes back steps of a region (`count` < 0), or takes them again (> 0)."""
+
+    ident: str
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class RegionSaved:
+    """A region was written when it had these steps; it goes by another name from now on."""
+
+    ident: str
+    name: str
+    steps: tuple[Map[str, Any], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RegionClose:
+    """A region is not painted any more."""
+
+    ident: str
+
+
 @dataclass(frozen=True, slots=True)
 class GetReady:
     """Examples are going to be painted with: what that needs is loaded, or compiled, meanwhile."""
@@ -227,6 +296,9 @@ class Written:
     fault: str = ""
 
 
+RegionRequest = (
+    RegionOpen | RegionBegin | RegionPoints | RegionEnd | RegionDo | RegionTravel | RegionSaved | RegionClose
+)
 LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
 Request = (
     New
@@ -242,6 +314,7 @@ Request = (
     | Swatch
     | Pick
     | LabRequest
+    | RegionRequest
     | Analyse
     | MatchSet
     | MatchUse

@@ -115,6 +115,34 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
+class PicturePart:
+    """A part, uint8 (h, w, 3), read-only, of the picture `ident`, whose `size` is width, height."""
+
+    ident: str
+    size: tuple[int, int]
+    area: Rect
+    pixels: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RegionScene:
+    """The region of an example that is painted, whose picture is "region IDENT".
+
+    `size`: width, height; `steps`: taken so far; `inside`: bool (h, w), read-only; `modified`: whether there are others
+    than when it was saved; `opaque`: whether the example has no holes.
+    """
+
+    ident: str
+    size: tuple[int, int]
+    steps: tuple[Map[str, Any], ...]
+    inside: np.ndarray
+    can_undo: bool
+    can_redo: bool
+    modified: bool
+    opaque: bool
+
+
+@dataclass(frozen=True, slots=True)
 class LabScene:
     """What the lab's panel shows besides the pictures "lab spectrum", "lab texture", "lab stroke", "lab near".
 
@@ -222,6 +250,8 @@ Result = (
     | Pending
     | Writing
     | LabScene
+    | PicturePart
+    | RegionScene
     | Found
     | MatchScene
     | GotReady

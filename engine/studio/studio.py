@@ -23,6 +23,7 @@ from engine.studio.grower import Grower
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
 from engine.studio.ready import ready
+from engine.studio.region import Regions
 from engine.studio.warming import Warming
 from engine.studio.writers import Post, Send
 
@@ -36,7 +37,7 @@ class Studio(Owned):
     def __init__(self, send: Send, post: Post) -> None:
         self.easel = easel = Easel(send)
         self.filing, self.lab, self.examiner = Filing(easel, post), Lab(easel), Examiner(easel)
-        self.matcher, self.grower = Matcher(easel), Grower(easel)
+        self.matcher, self.grower, self.regions = Matcher(easel), Grower(easel), Regions(send)
         self._handlers: dict[type, Callable[[Any], None]] = {
             q.Do: lambda r: easel.carry_out(r.command),
             q.Begin: self._begin,
@@ -45,7 +46,7 @@ class Studio(Owned):
             q.Abandon: lambda r: easel.abandon(),
             q.Swatch: self._swatch,
         }
-        for part in (easel.viewer, self.filing, self.lab, self.examiner, self.matcher, Warming(send)):
+        for part in (easel.viewer, self.filing, self.lab, self.examiner, self.matcher, self.regions, Warming(send)):
             self._handlers |= part.handlers
         send(ready())
         easel.tell()
@@ -62,17 +63,19 @@ class Studio(Owned):
     @property
     def pending(self) -> int:
         """Pieces of open work."""
-        parts = (self.easel.viewer, self.grower, self.lab, self.examiner, self.matcher)
+        parts = (self.easel.viewer, self.regions, self.grower, self.lab, self.examiner, self.matcher)
         return self.easel.behind + sum(part.pending for part in parts)
 
     def step(self) -> bool:
-        """Does the most urgent piece of open work: what the pen just painted, then the lab's pictures, tiles, examples
-        being grown, textures being matched, analysis.  False when there is none."""
+        """Does the most urgent piece of open work: what the pen just painted, on the canvas or in a region, then the
+        lab's pictures, tiles, examples being grown, textures being matched, analysis.  False when there is none."""
         viewer = self.easel.viewer
         if self.easel.behind:
             self.easel.follow()
         elif viewer.fresh:
             viewer.send_fresh()
+        elif self.regions.pending:
+            self.regions.step()
         elif self.lab.pending:
             self.lab.step()
         elif viewer.pending:

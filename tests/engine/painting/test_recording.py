@@ -53,7 +53,10 @@ HOSTILE = {
     "empty": ("", "found no line"),
     "blank": ("\n\n", "found no line"),
     "no header": (STROKE, "line 1: header: found no member inkfall"),
-    "newer": ('{"inkfall": 2}', "line 1: header.inkfall: found 2 (a newer Inkfall wrote this), expected version 1"),
+    "newer": (
+        '{"inkfall": 3}',
+        "line 1: header.inkfall: found 3 (a newer Inkfall wrote this), expected a version up to 2",
+    ),
     "version a word": ('{"inkfall": "1"}', "header.inkfall: found"),
     "version nan": ('{"inkfall": NaN}', "line 1: found NaN"),
     "frame of three": ('{"inkfall": 1, "frame": [0, 0, 1]}', "header.frame: found"),
