@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 import io
 import os
-import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -16,9 +14,11 @@ from pathlib import Path
 from immutables import Map
 
 from engine.archive import grounds, maskpacks, pictures
+from engine.archive.grounds import GroundEntry
 from engine.archive.implied import TEXTURES, Coded, restored
 from engine.archive.imports import STACK, Opened, read_raster
 from engine.archive.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack, PictureEntry, parse_manifest
+from engine.archive.members import LOST, PIECE, WORKERS, Members, Stored
 from engine.archive.packing import unpack
 from engine.archive.plot_files import Mark, Nursery
 from engine.canvas import layers
@@ -37,17 +37,12 @@ from engine.texture.example.tiles import Tiles
 from engine.texture.image import ImageSource
 from engine.texture.table import from_key
 
-WORKERS = 2
 AHEAD = 4  # packs being unpacked at a time
-PIECE = 1 << 20
-UNREAD = ("mergedimage", "Thumbnails")  # members that are for other programs alone
-LOST = "deep detail is missing: this file was saved by another program"
 OTHER = "the textures of this version are not quite those it was saved with: the colour of {count} tiles differs{why}"
 REGROWN = (
     "what was painted with examples is grown anew, and may look otherwise than it did: this version grows them"
     " another way (revision {was}, now {now})"
 )
-CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
 NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is left out"
 
 
@@ -75,6 +70,9 @@ def open_painting(
         raise FileError(name, "not enough memory to open it") from error
 
 
+Masks = Callable[[str, int], Tiles]
+
+
 class _Opening:
     """One file being opened."""
 
@@ -85,18 +83,17 @@ class _Opening:
         self._cancelled = cancelled
         self._total = 1
         self._done = 0
-        self._reading = threading.Lock()  # the file has one position
-        self._held: dict[str, bytes] = {}  # pictures that layers began with
 
     def run(self) -> Opened:
         try:
             manifest, note = self._manifest()
-            if manifest is not None:
-                note = self._overtaken(manifest)
-            if manifest is None or note:
+            members = None if manifest is None else Members(self._archive, manifest, self._cancelled)
+            if members is not None:
+                note = members.overtaken()
+            if manifest is None or members is None or note:
                 found = read_raster(self._archive, self._limits, self._progress, self._cancelled)
                 return replace(found, notes=(*((note,) if note else ()), *found.notes))
-            return self._native(manifest)
+            return self._native(manifest, members)
         except (FormatError, LayerError) as error:
             raise FileError(self._archive.name, f"{MANIFEST}: {error}") from error
 
@@ -114,59 +111,18 @@ class _Opening:
             return None, NEWER
         return parse_manifest(value), ""
 
-    def _overtaken(self, manifest: Manifest) -> str:
-        """What another program changed or left out, or nothing.
-
-        A member that differs from the manifest but is whole, as its own checksum tells, was put there on purpose.
-        """
-        needed = [name for name in manifest.members if name.startswith("inkfall/")]
-        if any(name not in self._archive for name in needed):
-            return LOST
-        read = {name: entry for name, entry in manifest.members.items() if not name.startswith(UNREAD)}
-        for name, (size, _) in read.items():
-            if name not in self._archive or self._archive.members[name].size != size:
-                return CHANGED.format(what=shown(name))
-        summed = [name for name in read if not name.endswith(".tiles")]
-        kept = {found.member for found in manifest.grounds.values()}
-        with ThreadPoolExecutor(WORKERS, "sum") as pool:
-            for name, sha in zip(summed, pool.map(lambda name: self._sum(name, name in kept), summed), strict=True):
-                if sha != read[name][1]:
-                    return CHANGED.format(what=shown(name))
-        return ""
-
-    def _sum(self, name: str, kept: bool) -> str:
-        """The SHA-256 of a member, which is kept in memory where it will be needed."""
-        if kept:
-            check(self._cancelled)
-            with self._reading:
-                self._held[name] = self._archive.read(name, self._archive.members[name].size)
-            return hashlib.sha256(self._held[name]).hexdigest()
-        digest = hashlib.sha256()
-        with self._reading:
-            stream = self._archive.open(name)
-        while True:
-            check(self._cancelled)
-            with self._reading:
-                piece = stream.read(PIECE)
-            if not piece:
-                break
-            digest.update(piece)
-        with self._reading:
-            stream.finish()
-        return digest.hexdigest()
-
     # ---- our own ----
 
-    def _native(self, manifest: Manifest) -> Opened:
+    def _native(self, manifest: Manifest, members: Members) -> Opened:
         packs = [p for group in manifest.packs.values() for p in group]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
         most = self._total + manifest.grown_bytes()
         if most > memory_cap():
             raise FileError(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
-        sources = {sha: self._picture(entry, manifest) for sha, entry in manifest.pictures.items()}
-        root, other = self._layers(manifest, sources)
-        root, marks = self._grown(root, manifest, sources)
+        sources = {sha: self._picture(entry, members) for sha, entry in manifest.pictures.items()}
+        root, other = self._layers(manifest, members, sources)
+        root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
         recording, notes = self._recording()
@@ -178,7 +134,7 @@ class _Opening:
             marks = ()  # it is told already
         return Opened(painting, notes, True, recording, Map(sources), marks)
 
-    def _layers(self, manifest: Manifest, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
+    def _layers(self, manifest: Manifest, members: Members, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
         """The layers with what was painted, and how many tiles have another colour than when they were saved.
 
         The colour of a layer that ink implies is put back while the next layers are read.
@@ -191,12 +147,12 @@ class _Opening:
             ThreadPoolExecutor(WORKERS, "colour") as colours,
         ):
             laid: dict[int, Future] = {
-                number: pool.submit(self._ground, number, manifest) for number in manifest.grounds
+                number: pool.submit(self._ground, found, members) for number, found in manifest.grounds.items()
             }
             try:
                 for layer in list(layers.layers(root)):
                     check(self._cancelled)
-                    tiles = list(self._tiles(manifest.packs[layer.id], manifest, sources))
+                    tiles = list(self._tiles(manifest.packs[layer.id], members, sources))
                     ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
                     pyramid = grounds.with_tiles(ground, self._levels(tiles))
                     coloured.append(colours.submit(restored, pyramid, tiles, squares.map))
@@ -207,7 +163,7 @@ class _Opening:
                     future.cancel()
 
     def _grown(
-        self, root: Group, manifest: Manifest, sources: Mapping[str, ImageSource]
+        self, root: Group, manifest: Manifest, masks: Masks, sources: Mapping[str, ImageSource]
     ) -> tuple[Group, tuple[Mark, ...]]:
         """With what was painted with examples, which is still to be grown; and the marks of how it was."""
         marks: list[Mark] = []
@@ -216,29 +172,19 @@ class _Opening:
         for layer in list(layers.layers(root)):
             if layer.id in manifest.plots:
                 where = f"{self._archive.name}: layer {shown(layer.name)}"
-                grown, found = nursery.plots(manifest.plots[layer.id], partial(self._masks, manifest), where)
+                grown, found = nursery.plots(manifest.plots[layer.id], masks, where)
                 marks += found
                 root = layers.with_growth(root, layer.name, grown)
         return root, tuple(marks)
 
-    def _masks(self, manifest: Manifest, member: str, count: int) -> Tiles:
+    def _masks(self, members: Members, member: str, count: int) -> Tiles:
         check(self._cancelled)
-        data, sha = self._stored(member, manifest)
-        where = f"{self._archive.name}: member {shown(member)}"
-        if hashlib.sha256(data).hexdigest() != sha:
-            raise FileError(where, "its bytes are not those that the manifest names")
-        return maskpacks.unpack(data, where, count)
+        stored = members.stored(member)
+        return maskpacks.unpack(stored.checked(), stored.where, count)
 
-    def _ground(self, number: int, manifest: Manifest) -> Pyramid:
+    def _ground(self, found: GroundEntry, members: Members) -> Pyramid:
         """The picture that a layer began with, laid down again."""
-        found = manifest.grounds[number]
-        if found.member not in manifest.members:
-            raise FileError(self._archive.name, f"{MANIFEST}: {shown(found.member)} is not among the members")
-        png = self._held.get(found.member)
-        if png is None:
-            with self._reading:
-                png = self._archive.read(found.member, manifest.members[found.member][0])
-        return grounds.restored(found, png, f"{self._archive.name}: member {shown(found.member)}", self._limits)
+        return grounds.restored(found, members.ground(found.member), members.where(found.member), self._limits)
 
     def _levels(self, tiles: Sequence[Coded]) -> dict[int, dict[tuple[int, int], Record]]:
         levels: dict[int, dict[tuple[int, int], Record]] = {}
@@ -249,21 +195,19 @@ class _Opening:
             level[key.x, key.y] = record
         return levels
 
-    def _picture(self, entry: PictureEntry, manifest: Manifest) -> ImageSource:
-        parts = [(key, record) for key, record, _ in self._tiles(entry.packs, manifest, {})]
+    def _picture(self, entry: PictureEntry, members: Members) -> ImageSource:
+        parts = [(key, record) for key, record, _ in self._tiles(entry.packs, members, {})]
         return pictures.assembled(entry.name, entry.sha, entry.size, parts, self._archive.name)
 
-    def _tiles(
-        self, packs: tuple[Pack, ...], manifest: Manifest, sources: Mapping[str, ImageSource]
-    ) -> Iterator[Coded]:
+    def _tiles(self, packs: tuple[Pack, ...], members: Members, sources: Mapping[str, ImageSource]) -> Iterator[Coded]:
         """All tiles of some packs; the file is read here, unpacking goes on beside."""
         waiting: deque[tuple[Pack, Future]] = deque()
         with ThreadPoolExecutor(WORKERS, "open") as pool:
             try:
                 for pack in packs:
                     check(self._cancelled)
-                    stored = self._stored(pack.member, manifest)
-                    waiting.append((pack, pool.submit(self._unpack, pack, stored, sources)))
+                    stored = members.stored(pack.member)
+                    waiting.append((pack, pool.submit(_unpack, pack, stored, sources)))
                     if len(waiting) > AHEAD:
                         yield from self._next(waiting)
                 while waiting:
@@ -280,20 +224,6 @@ class _Opening:
             self._progress(self._done / self._total)
         return tiles
 
-    def _stored(self, member: str, manifest: Manifest) -> tuple[bytes, str]:
-        size, sha = manifest.members.get(member, (-1, ""))
-        if size < 0:
-            raise FileError(self._archive.name, f"{MANIFEST}: {shown(member)} is not among the members")
-        with self._reading:
-            return self._archive.read(member, size), sha
-
-    def _unpack(self, pack: Pack, stored: tuple[bytes, str], sources: Mapping[str, ImageSource]) -> list[Coded]:
-        data, sha = stored
-        where = f"{self._archive.name}: member {shown(pack.member)}"
-        if hashlib.sha256(data).hexdigest() != sha:
-            raise FileError(where, "its bytes are not those that the manifest names")
-        return unpack(data, where, lambda key: from_key(key, sources), (pack.tiles, pack.plain))
-
     def _recording(self) -> tuple[Recording | None, tuple[str, ...]]:
         """The commands that led here, and what to say if they are left out."""
         if RECORDING not in self._archive:
@@ -303,3 +233,8 @@ class _Opening:
             return None, (f"its recording of {size >> 20} MB is left out",)
         stream = io.BufferedReader(self._archive.open(RECORDING), PIECE)
         return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent), ()
+
+
+def _unpack(pack: Pack, stored: Stored, sources: Mapping[str, ImageSource]) -> list[Coded]:
+    data = stored.checked()
+    return unpack(data, stored.where, lambda key: from_key(key, sources), (pack.tiles, pack.plain))

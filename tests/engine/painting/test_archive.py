@@ -13,6 +13,7 @@ from sown import opened, rewritten
 
 from engine.archive import jobs, opening
 from engine.archive.manifest import FORMAT
+from engine.archive.members import LOST
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save, shown_level
 from engine.canvas import layers
@@ -284,7 +285,7 @@ def test_zipped_anew_it_is_still_ours(session, members, tmp_path):
 def test_members_that_are_gone_are_told(members, tmp_path, drop):
     found = opened(rewritten(members, drop=drop), tmp_path)
     assert not found.native
-    assert found.notes[0] == opening.LOST
+    assert found.notes[0] == LOST
     assert len(list(layers.layers(found.painting.root))) == 6
     assert found.painting.frame == Rect(0, 0, 300, 200)
 

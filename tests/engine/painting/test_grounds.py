@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from engine.archive import opening
 from engine.archive.imports import open_image
+from engine.archive.members import Members
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
@@ -92,7 +92,7 @@ def test_a_ground_that_was_changed_is_seen(picture, tmp_path, monkeypatch):
     found = open_painting(tmp_path / "b.ora")
     assert not found.native
     assert "another program changed" in found.notes[0]
-    monkeypatch.setattr(opening._Opening, "_overtaken", lambda self, manifest: "")
+    monkeypatch.setattr(Members, "overtaken", lambda self: "")
     members["inkfall/layers/1/ground.png"] = b"no picture"
     with zipfile.ZipFile(tmp_path / "c.ora", "w") as file:
         for name, data in members.items():

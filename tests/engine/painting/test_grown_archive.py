@@ -308,8 +308,8 @@ def test_a_region_is_as_if_it_had_been_painted(session):
 ROOT = Path(__file__).parents[3]
 CHILD = """
 import sys
-from engine.painting.archive import Snapshot, save
-from engine.painting.opening import open_painting
+from engine.archive.saving import Snapshot, save
+from engine.archive.opening import open_painting
 painting = open_painting(sys.argv[1]).painting
 print("opened", flush=True)
 for _ in range(100):

@@ -20,8 +20,9 @@ from sown import (
     session,
 )
 
-from engine.archive import maskpacks, opening
+from engine.archive import maskpacks
 from engine.archive import plot_files as files
+from engine.archive.members import LOST
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.files.fault import FileError
@@ -111,7 +112,7 @@ def test_a_mask_that_another_program_changed_leaves_the_pictures(members, tmp_pa
 def test_members_that_are_gone_are_told(members, tmp_path, drop):
     found = opened(rewritten(members, drop=[next(n for n in members if drop in n)]), tmp_path)
     assert not found.native
-    assert found.notes[0] == opening.LOST
+    assert found.notes[0] == LOST
 
 
 def test_flipped_bits_are_found(session, saved, tmp_path):

@@ -9,7 +9,8 @@ import pytest
 from PIL import Image
 
 from engine.archive.imports import Pasted, clean_name, open_image, pasted
-from engine.archive.opening import LOST, open_painting
+from engine.archive.members import LOST
+from engine.archive.opening import open_painting
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
 from engine.files.fault import FileError
