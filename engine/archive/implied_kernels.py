@@ -19,6 +19,7 @@ from engine.numeric.pyramid import blend_rows, expand_row
 _UNIT = np.float32(2.0**-16)
 _COUNT = np.float32(2.0**16)
 _THREE = np.float32(3.0)
+_ALPHA = np.int64(3)  # no plain 3: numba would compile what it is given to once more, for that number alone
 _SIXTEENTH = np.float32(1.0 / 16.0)
 _FAR = 21  # bits of what is implied, in units of 2^-16: snap holds below 64
 _RIDGE = 1e-10  # of the normal equations' trace: of terms that do the same, both get a part
@@ -156,7 +157,7 @@ def fit(data, parents, place, sources, own, seen, start, detail, stride):
     sums, x = np.zeros((3, m * (m + 3) // 2, width), np.float64), np.empty((m + 1, width), np.float64)
     alpha, line, target = np.empty((3, width), np.float32)
     for y in range(0, data.shape[1], stride):
-        _sampled(parents, 3, data, 3, place, y, stride, alpha)
+        _sampled(parents, _ALPHA, data, _ALPHA, place, y, stride, alpha)
         for i in range(width):
             x[0, i] = min(max(alpha[i], np.float32(0.0)), np.float32(1.0))
         for c in range(3):
@@ -231,8 +232,8 @@ def exchange(data, parents, place, sources, own, seen, start, detail, factors, s
     implied, whole = np.empty(width, np.float32), np.empty(width, np.int32)
     saved, widest, far = np.int64(0), np.int32(0), np.int32(0)
     for y in range(height):
-        _expanded(above, high, wide, 3, place, y, t, over)
-        _refined(alpha, old, height, 3, y)
+        _expanded(above, high, wide, _ALPHA, place, y, t, over)
+        _refined(alpha, old, height, _ALPHA, y)
         _clamped(alpha)
         for c in range(3):
             _expanded(above, high, wide, c, place, y, t, first)

@@ -6,11 +6,19 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.address import TILE
-from engine.numeric.grid import snap
+from engine.numeric.grid import SNAP, snap
+from engine.numeric.stand_in import or_plain
 
 _ONE = np.float32(1.0)
 
 
+def _keep_of(coverage: np.ndarray, keep: np.ndarray) -> bool:
+    """As `keep_of`, plainly."""
+    np.subtract(_ONE, (coverage + SNAP) - SNAP, out=keep)
+    return bool((keep < _ONE).any())
+
+
+@or_plain(_keep_of)
 @njit(cache=True, nogil=True)
 def keep_of(coverage, keep):
     """A = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w)."""
@@ -67,6 +75,13 @@ def glaze(weight, colours, add):
                 b[x] = snap(w[x] * p[x])
 
 
+def _lay(keep: np.ndarray, colour: np.ndarray, add: np.ndarray) -> None:
+    """As `lay`, plainly."""
+    add[3] = _ONE - keep
+    add[:3] = (add[3] * colour[:, None, None] + SNAP) - SNAP
+
+
+@or_plain(_lay)
 @njit(cache=True, nogil=True)
 def lay(keep, colour, add):
     """B of plain paint in one pass, as `weigh` and `wash` make it: with M = 1 - A, add[0:3] = snap(M colour), add[3] =

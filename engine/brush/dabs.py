@@ -10,6 +10,7 @@ from numba import njit
 from engine.brush.dynamics import FLOW, HARDNESS, OPACITY, RADIUS, SPACING, respond, response
 from engine.brush.samples import cleaned
 from engine.brush.settings import Brush
+from engine.numeric.stand_in import or_interpreted
 
 DAB = 6  # columns: x, y, radius, opacity, flow, hardness
 STEP_FLOOR = 0.25  # px
@@ -45,6 +46,8 @@ class Stroker:
 
     def walk(self, points: np.ndarray) -> np.ndarray:
         """As `add`, for points float64 (n, 6) that are known to be good (`cleaned` would leave them as they are)."""
+        points = points.view()
+        points.flags.writeable = False  # as those of a recording: so the kernel is compiled once
         dabs = np.empty((4 * len(points) + 64, DAB))
         before = self._state.copy()
         count = _walk(points, self._state, *self._response, dabs)
@@ -55,6 +58,7 @@ class Stroker:
         return dabs[:count]
 
 
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def _walk(points, state, values, lo, hi, inputs, outputs, counts, dabs):
     """Advances `state` over the points; writes the dabs that fit into `dabs` and returns how many there are."""
@@ -67,7 +71,7 @@ def _walk(points, state, values, lo, hi, inputs, outputs, counts, dabs):
             state[_X], state[_Y], state[_PRESSURE], state[_LEFT] = x, y, pressure, 0.0
             length = 0.0
         else:
-            length = math.sqrt((x - state[_X]) ** 2 + (y - state[_Y]) ** 2)
+            length = math.sqrt((x - state[_X]) * (x - state[_X]) + (y - state[_Y]) * (y - state[_Y]))
         floor = max(STEP_FLOOR, length / SEGMENT_CAP)
         at = state[_LEFT]
         while at <= length:  # what is left over is above 0, so a point on the spot of the last adds nothing

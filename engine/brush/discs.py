@@ -13,6 +13,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.address import TILE
+from engine.numeric.stand_in import or_interpreted
 
 CX, CY, ROUT, RIN2, SCALE, CEILING, RATE = range(7)  # a disc's columns; SCALE = 1/(Rout^2 - Rin^2)
 DISC = 7
@@ -29,6 +30,7 @@ _TWO = np.float32(2.0)
 _THREE = np.float32(3.0)
 
 
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def as_discs(dabs, shift_x, shift_y, bounds):
     """Dabs (n, 6) as discs (n, 7), moved by a shift in px; those without effect get RATE 0.
@@ -58,6 +60,7 @@ def as_discs(dabs, shift_x, shift_y, bounds):
     return discs
 
 
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def highest(discs):
     """The highest ceiling of discs (n, 7)."""
@@ -67,6 +70,15 @@ def highest(discs):
     return most
 
 
+@njit(inline="always")
+def _span(centre, tile):
+    """Along one axis, how far from `centre` the nearest and the farthest pixel centres of a tile are."""
+    low = tile * TILE + 0.5 - centre
+    high = low + (TILE - 1)
+    return max(0.0, max(low, -high)), max(high, -low)
+
+
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def list_pairs(discs, start, codes, which, inside):
     """The pairs (tile, disc) of the discs from `start` on, disc by disc, until the next might not fit.
@@ -113,6 +125,7 @@ def list_runs(
     return _join(codes, which, inside, count, runs), following
 
 
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def _join(codes, which, inside, count, runs):
     """The runs among `count` pairs, which are sorted on the way."""
@@ -134,14 +147,7 @@ def _join(codes, which, inside, count, runs):
     return made
 
 
-@njit(inline="always")
-def _span(centre, tile):
-    """Along one axis, how far from `centre` the nearest and the farthest pixel centres of a tile are."""
-    low = tile * TILE + 0.5 - centre
-    high = low + (TILE - 1)
-    return max(0.0, max(low, -high)), max(high, -low)
-
-
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def lay_flat(discs, which, inside, value, ceiling):
     """Lays discs on a tile whose coverage is one `value`, float32, for as long as it stays one.
@@ -163,6 +169,7 @@ def lay_flat(discs, which, inside, value, ceiling):
     return value, which.shape[0]
 
 
+@or_interpreted()
 @njit(cache=True, nogil=True)
 def wiped(discs, which, inside, ceiling):
     """Whether a disc among these fills the whole tile up to the ceiling."""
@@ -172,6 +179,22 @@ def wiped(discs, which, inside, ceiling):
     return False
 
 
+@njit(inline="always")
+def _lay_row(row, across, down, ceiling, rate):
+    for i in range(row.shape[0]):
+        v = _ONE - max(_ZERO, min(_ONE, across[i] + down))  # 1 - u
+        row[i] += max(_ZERO, ceiling - row[i]) * (rate * (v * v * (_THREE - _TWO * v)))
+
+
+def _lay_whole_row(
+    row: np.ndarray, across: np.ndarray, down: np.float32, ceiling: np.float32, rate: np.float32
+) -> None:
+    """As `_lay_row`, without a loop."""
+    v = _ONE - np.maximum(_ZERO, np.minimum(_ONE, across + down))
+    row += np.maximum(_ZERO, ceiling - row) * (rate * (v * v * (_THREE - _TWO * v)))
+
+
+@or_interpreted(_lay_row=_lay_whole_row)
 @njit(cache=True, nogil=True)
 def lay(coverage, discs, which, first, last, left, top):
     """Lays the discs which[first:last] into one tile, in order: M' = M + max(0, ceiling - M) * rate * d(r).
@@ -195,10 +218,3 @@ def lay(coverage, discs, which, first, last, left, top):
             if a < b:
                 down = np.float32((dy2 - disc[RIN2]) * scale)
                 _lay_row(coverage[y, a:b], across[a:b], down, ceiling, rate)
-
-
-@njit(inline="always")
-def _lay_row(row, across, down, ceiling, rate):
-    for i in range(row.shape[0]):
-        v = _ONE - max(_ZERO, min(_ONE, across[i] + down))  # 1 - u
-        row[i] += max(_ZERO, ceiling - row[i]) * (rate * (v * v * (_THREE - _TWO * v)))

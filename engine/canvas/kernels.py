@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from engine.canvas import plain as plainly
 from engine.numeric.grid import snap
 from engine.numeric.pyramid import blend_rows, expand_row
+from engine.numeric.stand_in import or_plain
 
 _UNIT = np.float32(2.0**-16)
 _COUNT = np.float32(2.0**16)
@@ -19,6 +21,7 @@ _LAG = np.float32(2.0 * 2.0**-16)
 _STEEPEST = np.float32(8.0)  # the residual up to which strokes can amplify detail, again and again
 
 
+@or_plain(plainly.any_nonzero)
 @njit(cache=True, nogil=True)
 def any_nonzero(data, first_plane, last_plane, first, last):
     """Whether any value of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) is not zero."""
@@ -33,6 +36,7 @@ def any_nonzero(data, first_plane, last_plane, first, last):
     return False
 
 
+@or_plain(plainly.clamp_alpha)
 @njit(cache=True, nogil=True)
 def clamp_alpha(out, first, last):
     """Alpha of rows [first, last) of `out` (C, h, w) into [0, 1], in place."""
@@ -42,6 +46,7 @@ def clamp_alpha(out, first, last):
             row[i] = min(max(row[i], _ZERO), _ONE)
 
 
+@or_plain(plainly.add_residual)
 @njit(cache=True, nogil=True)
 def add_residual(out, top, left, data, row, column, height, width, planes):
     """out[:, top:, left:] += data * 2^-16 over height x width; plane c comes from `data[planes[c]]`, -1 for none."""
@@ -84,6 +89,7 @@ def attenuate(data, keep, spares_alpha, out):
                 out[c, y, x] = np.int32(min(max(value, -_STEEPEST), _STEEPEST) * _COUNT)
 
 
+@or_plain(plainly.apply_stamp)
 @njit(cache=True, nogil=True)
 def apply_stamp(old, keep, add, planes, plain, spares_alpha, new, changed):
     """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
@@ -133,6 +139,7 @@ def _mark(old, keep, plain, new, changed):
     return found != 0
 
 
+@or_plain(plainly.halve)
 @njit(cache=True, nogil=True)
 def halve(fine, planes, out, top, left):
     """out[:, top:, left:] = snapped means of 2 x 2 pixels of `fine` (D, 2h, 2w); plane c of `out` takes
@@ -151,6 +158,7 @@ def halve(fine, planes, out, top, left):
                 row[i] = snap(total * _QUARTER)
 
 
+@or_plain(plainly.halve_marks)
 @njit(cache=True, nogil=True)
 def halve_marks(fine, out, top, left):
     """out[top:, left:] (uint8) = 1 where any of the 2 x 2 pixels of `fine` (2h, 2w) is marked."""
@@ -162,6 +170,7 @@ def halve_marks(fine, out, top, left):
             row[i] = upper[2 * i] | upper[2 * i + 1] | lower[2 * i] | lower[2 * i + 1]
 
 
+@or_plain(plainly.marked)
 @njit(cache=True, nogil=True)
 def marked(marks):
     """The extent y0, y1, x0, x1 of what is set in `marks`, uint8 (h, w)."""
@@ -181,6 +190,7 @@ def marked(marks):
     return y0, y1, x0, x1
 
 
+@or_plain(plainly.climb)
 @njit(cache=True, nogil=True)
 def climb(below_old, below_new, keep, parents, spares_alpha, old, new, changed):
     """Rule U: what a change of the level below does to this one.
@@ -220,6 +230,7 @@ def climb(below_old, below_new, keep, parents, spares_alpha, old, new, changed):
     return found != 0
 
 
+@or_plain(plainly.differs)
 @njit(cache=True, nogil=True)
 def differs(old, new, out):
     """out (h, w) uint8 = 1 where any plane of `old` and `new` (C, h, w) differs."""
@@ -232,6 +243,7 @@ def differs(old, new, out):
                 s[i] |= a[i] != b[i]
 
 
+@or_plain(plainly.spread)
 @njit(cache=True, nogil=True)
 def spread(parents, top, left, out):
     """out (2h, 2w) |= 1 where any of the four parents that expand reads is marked; out[0, 0] is the first child of
@@ -254,6 +266,7 @@ def spread(parents, top, left, out):
     return found != 0
 
 
+@or_plain(plainly.residual)
 @njit(cache=True, nogil=True)
 def residual(value, predicted, touched, top, left, out):
     """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched: `value`, `predicted` float32
@@ -271,6 +284,7 @@ def residual(value, predicted, touched, top, left, out):
     return changed != 0
 
 
+@or_plain(plainly.first_residual)
 @njit(cache=True, nogil=True)
 def first_residual(value, coarse, top, left, planes, touched, out, used):
     """The residual of a tile that had none, and what `extent` tells of it.
@@ -307,6 +321,7 @@ def first_residual(value, coarse, top, left, planes, touched, out, used):
     return _span(rows, columns)
 
 
+@or_plain(plainly.extent)
 @njit(cache=True, nogil=True)
 def extent(data, used):
     """Of int32 (C, h, w): the bits of all absolute values, and the extent y0, y1, x0, x1 of what is not zero.

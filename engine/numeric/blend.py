@@ -25,6 +25,8 @@ import numpy as np
 from numba import njit
 from numba.extending import register_jitable
 
+from engine.numeric.stand_in import or_plain
+
 ZERO, HALF, ONE, TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
 TINY = np.float32(1e-30)
 _FLOAT32 = np.dtype(np.float32)
@@ -40,6 +42,12 @@ _inlined = register_jitable(forceinline=True)  # a call left in the loop would k
 def _clamp(value, top):
     value = value if value > ZERO else ZERO  # in this order NaN becomes 0
     return value if value < top else top
+
+
+def clamped(values: np.ndarray, top: np.ndarray | np.float32) -> np.ndarray:
+    """`_clamp` of all values."""
+    values = np.where(values > ZERO, values, ZERO)
+    return np.where(values < top, values, top)
 
 
 @_inlined
@@ -306,6 +314,13 @@ _ROWS = (
 BLENDS: dict[str, Blend] = {row.name: row for row in _ROWS}
 
 
+def _place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
+    """As `place`, plainly."""
+    alpha = clamped(source[3], ONE)
+    target[:3], target[3] = opacity * clamped(source[:3], alpha), opacity * alpha
+
+
+@or_plain(_place)
 @njit(cache=True, nogil=True)
 def place(target, source, opacity):
     """Write `opacity` times the clamped source: what every mode with `alone` gives on an empty backdrop."""

@@ -12,8 +12,9 @@ import numpy as np
 from numba import njit
 from numba.extending import register_jitable
 
-from engine.numeric.blend import flat
+from engine.numeric.blend import clamped, flat
 from engine.numeric.grid import snap
+from engine.numeric.stand_in import or_plain
 
 # A pixel is packed into one integer, so that loads and stores vectorise.
 
@@ -70,6 +71,15 @@ def _straight16(planes, out):
         out[i] = (r << _R16) | (g << _G16) | (b << _B16) | (alpha << _A16)
 
 
+def _plainly_premultiplied8(planes: np.ndarray, out: np.ndarray) -> None:
+    """As `_premultiplied8`, plainly."""
+    alpha = clamped(planes[3], _ONE)
+    values = np.stack([*clamped(planes[:3], alpha), alpha])
+    r, g, b, a = (clamped(_TOP8 * values, _TOP8) + _HALF).astype(np.uint32)
+    out[:] = (r << _R8) | (g << _G8) | (b << _B8) | (a << _A8)
+
+
+@or_plain(_plainly_premultiplied8)
 @njit(cache=True, nogil=True, error_model="numpy")
 def _premultiplied8(planes, out):
     for i in range(out.size):

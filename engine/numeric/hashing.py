@@ -65,7 +65,7 @@ def hash_plane(key: int, x0: int, y0: int, width: int, height: int) -> np.ndarra
             i0, i1 = _run(x0, hx, width)
             folded = np.uint64(fold_key(key, hx, hy))
             low = np.uint64((x0 + i0) & MASK32), np.uint64((y0 + j0) & MASK32)
-            _fill_hash(out[j0:j1, i0:i1], folded, *low)
+            _fill_hash(out[j0:j1], i0, i1, folded, *low)
     return out
 
 
@@ -81,8 +81,8 @@ def _run(origin: int, high: int, size: int) -> tuple[int, int]:
 
 
 @njit(cache=True, nogil=True)
-def _fill_hash(out, key, x, y):
+def _fill_hash(out, first, last, key, x, y):
     for j in range(out.shape[0]):
-        row = out[j]
+        row = out[j, first:last]
         for i in range(row.size):
             row[i] = place64(key, x + np.uint64(i), y + np.uint64(j))

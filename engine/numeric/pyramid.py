@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from engine.numeric.grid import snap
+from engine.numeric.grid import SNAP, snap
+from engine.numeric.stand_in import or_plain
 
 _THREE = np.float32(3.0)
 _SIXTEENTH = np.float32(1.0 / 16.0)
@@ -34,6 +35,30 @@ def expand_row(t, out):
         out[2 * i + 1] = snap((_THREE * mid[i] + right[i]) * _SIXTEENTH)
 
 
+def expanded_rows(
+    coarse: np.ndarray, top: int, left: int, source: int, first: int, last: int, width: int
+) -> np.ndarray:
+    """Rows [first, last) of one plane of `expand_into`, plainly: float32 (last - first, width)."""
+    columns = slice(left, left + width // 2 + 2)
+    y = np.arange(first, last)
+    near = coarse[source, top + 1 + y // 2, columns]
+    far = coarse[source, top + 1 + y // 2 + 2 * (y & 1) - 1, columns]
+    t = _THREE * near + far
+    out = np.empty((last - first, width), np.float32)
+    out[:, ::2], out[:, 1::2] = _THREE * t[:, 1:-1] + t[:, :-2], _THREE * t[:, 1:-1] + t[:, 2:]
+    return (out * _SIXTEENTH + SNAP) - SNAP
+
+
+def _expand_into(
+    coarse: np.ndarray, top: int, left: int, planes: np.ndarray, out: np.ndarray, first: int, last: int
+) -> None:
+    """As `expand_into`, plainly."""
+    for c, source in enumerate(planes.tolist()):
+        rows = 0.0 if source < 0 else expanded_rows(coarse, top, left, source, first, last, out.shape[2])
+        out[c, first:last] = rows
+
+
+@or_plain(_expand_into)
 @njit(cache=True, nogil=True)
 def expand_into(coarse, top, left, planes, out, first, last):
     """Rows [first, last) of `out` (C, 2h, 2w) from `coarse` (D, H, W), both C-contiguous.
@@ -81,7 +106,8 @@ def _reduce_into(fine, out):
 
 def reduce(fine: np.ndarray) -> np.ndarray:
     """R: float32 (C, 2h, 2w) to the means of 2 x 2 pixels, (C, h, w)."""
-    fine = np.ascontiguousarray(fine, np.float32)
+    fine = np.ascontiguousarray(fine, np.float32).view()
+    fine.flags.writeable = False  # whatever is given: so the kernel is compiled once
     channels, height, width = fine.shape
     out = np.empty((channels, height // 2, width // 2), np.float32)
     _reduce_into(fine, out)

@@ -220,7 +220,7 @@ def _fill(out, phases, strips, filled, keys, numbers, mean, levels, within):
     x, y, columns, rows = layout.x, layout.y, layout.columns, layout.rows
     most = columns * rows * (int(noise[0]) + 1)
     places, weights, starts = np.empty((most, 2), np.int64), np.empty(most, np.float32), np.empty(rows + 1, np.int64)
-    count = 0
+    count = np.int64(0)  # no plain 0: numba would compile `_cell` for that number alone, too
     for j in range(rows):
         starts[j] = count
         for i in range(columns):

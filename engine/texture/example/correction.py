@@ -250,5 +250,5 @@ def correct_all(window, p, beyond, example, rules):
     found = np.empty(places.size, np.int32)
     for turn in range(SUBPASSES):
         count = wanted(window, p, turn, beyond, places)
-        correct(window, places, 0, count, p, example, rules, found)
+        correct(window, places, np.int64(0), count, p, example, rules, found)
         settle(window, places, count, found, p, turn, example)

@@ -38,7 +38,7 @@ def _begin(window, before, example):
     for y in range(height):
         for x in range(width):
             if window.was[y, x] and window.mask[y, x] and window.planes[0, y, x] != before[y, x]:
-                mark_readers(window, y, x, 0, turn_of(window, y, x))
+                mark_readers(window, y, x, np.int64(0), turn_of(window, y, x))
 
 
 @njit(inline="always")

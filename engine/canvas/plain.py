@@ -1,0 +1,171 @@
+"""The kernels of plain paint in NumPy, with the same bits: they stand in until those are compiled.
+
+Arguments and results are those of the functions of the same names in module `kernels`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.numeric.grid import SNAP
+from engine.numeric.pyramid import expanded_rows
+
+_UNIT = np.float32(2.0**-16)
+_COUNT = np.float32(2.0**16)
+_ZERO = np.float32(0.0)
+_ONE = np.float32(1.0)
+_QUARTER = np.float32(0.25)
+_LAG = np.float32(2.0 * 2.0**-16)
+
+Span = tuple[int, int, int, int, int]
+
+
+def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:
+    return bool(data[first_plane:last_plane, first:last].any())
+
+
+def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
+    out[3, first:last] = np.minimum(np.maximum(out[3, first:last], _ZERO), _ONE)
+
+
+def add_residual(
+    out: np.ndarray,
+    top: int,
+    left: int,
+    data: np.ndarray,
+    row: int,
+    column: int,
+    height: int,
+    width: int,
+    planes: np.ndarray,
+) -> None:
+    for c, source in enumerate(planes.tolist()):
+        if source >= 0:
+            part = data[source, row : row + height, column : column + width]
+            out[c, top : top + height, left : left + width] += part.astype(np.float32) * _UNIT
+
+
+def apply_stamp(
+    old: np.ndarray,
+    keep: np.ndarray,
+    add: np.ndarray,
+    planes: np.ndarray,
+    plain: bool,
+    spares_alpha: bool,
+    new: np.ndarray,
+    changed: np.ndarray,
+) -> bool:
+    for c, source in enumerate(planes.tolist()):
+        if c == 3 and spares_alpha:
+            new[c] = old[c]
+        else:
+            new[c] = (keep * old[c] + SNAP) - SNAP
+            if source >= 0:
+                new[c] += add[source]
+    clamp_alpha(new, 0, new.shape[1])
+    changed[...] = keep != _ONE
+    if not plain:
+        changed |= (old != new).any(axis=0)
+    return bool(changed.any())
+
+
+def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
+    height, width = fine.shape[1] // 2, fine.shape[2] // 2
+    for c, source in enumerate(planes.tolist()):
+        part = out[c, top : top + height, left : left + width]
+        if source < 0:
+            part[...] = _ZERO
+            continue
+        upper, lower = fine[source, 0 : 2 * height : 2], fine[source, 1 : 2 * height : 2]
+        total = (upper[:, : 2 * width : 2] + upper[:, 1::2]) + (lower[:, : 2 * width : 2] + lower[:, 1::2])
+        part[...] = (total * _QUARTER + SNAP) - SNAP
+
+
+def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
+    height, width = fine.shape[0] // 2, fine.shape[1] // 2
+    rows = fine[: 2 * height : 2] | fine[1 : 2 * height : 2]
+    out[top : top + height, left : left + width] = rows[:, : 2 * width : 2] | rows[:, 1 : 2 * width : 2]
+
+
+def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
+    return _span(marks.any(axis=1), marks.any(axis=0))[1:]
+
+
+def climb(
+    below_old: np.ndarray,
+    below_new: np.ndarray,
+    keep: np.ndarray,
+    parents: np.ndarray,
+    spares_alpha: bool,
+    old: np.ndarray,
+    new: np.ndarray,
+    changed: np.ndarray,
+) -> bool:
+    on = parents != 0
+    keep[~on] = _ONE
+    rest = old - below_old
+    rest[np.abs(rest) <= _LAG] = _ZERO
+    new[...] = np.where(on, below_new + ((keep * rest + SNAP) - SNAP), old)
+    if spares_alpha:
+        new[3] = old[3]
+    else:
+        clamp_alpha(new, 0, new.shape[1])
+    changed[...] = (keep != _ONE) | (new != old).any(axis=0)
+    return bool(changed.any())
+
+
+def differs(old: np.ndarray, new: np.ndarray, out: np.ndarray) -> None:
+    out[...] = (old != new).any(axis=0)
+
+
+def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
+    y = np.arange(out.shape[0])
+    row, columns = top + 1 + y // 2, slice(left, left + out.shape[1] // 2 + 2)
+    both = parents[row, columns] | parents[row + 2 * (y & 1) - 1, columns]
+    out[:, ::2] |= both[:, 1:-1] | both[:, :-2]
+    out[:, 1::2] |= both[:, 1:-1] | both[:, 2:]
+    return bool(out.any())
+
+
+def residual(
+    value: np.ndarray, predicted: np.ndarray, touched: np.ndarray, top: int, left: int, out: np.ndarray
+) -> bool:
+    height, width = touched.shape
+    part = out[:, top : top + height, left : left + width]
+    new = np.where(touched != 0, ((value - predicted) * _COUNT).astype(np.int32), part)
+    changed = bool((new != part).any())
+    part[...] = new
+    return changed
+
+
+def first_residual(
+    value: np.ndarray,
+    coarse: np.ndarray,
+    top: int,
+    left: int,
+    planes: np.ndarray,
+    touched: np.ndarray,
+    out: np.ndarray,
+    used: np.ndarray,
+) -> Span:
+    height, width = touched.shape
+    for c, source in enumerate(planes.tolist()):
+        predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
+        out[c] = np.where(touched != 0, ((value[c] - predicted) * _COUNT).astype(np.int32), 0)
+    return extent(out, used)
+
+
+def extent(data: np.ndarray, used: np.ndarray) -> Span:
+    sizes = np.abs(data)
+    rows = np.bitwise_or.reduce(sizes, axis=2)
+    used[...] = np.bitwise_or.reduce(rows, axis=1)
+    return _span(np.bitwise_or.reduce(rows, axis=0), np.bitwise_or.reduce(sizes, axis=(0, 1)))
+
+
+def _span(rows: np.ndarray, columns: np.ndarray) -> Span:
+    """The bits of all rows, and the extent y0, y1, x0, x1 of rows and columns that are not zero."""
+    ys, xs = np.flatnonzero(rows), np.flatnonzero(columns)
+    bits = int(np.bitwise_or.reduce(rows)) if len(rows) else 0
+    y0, y1 = (int(ys[0]), int(ys[-1]) + 1) if len(ys) else (len(rows), 0)
+    x0, x1 = (int(xs[0]), int(xs[-1]) + 1) if len(xs) else (len(columns), 0)
+    return bits, y0, y1, x0, x1

@@ -1,0 +1,103 @@
+"""What stands in for kernels that are not compiled gives the same bits."""
+
+import numpy as np
+import pytest
+
+from engine.brush.settings import Brush
+from engine.canvas import kernels
+from engine.canvas.composite import composite
+from engine.canvas.reading import layer_planes
+from engine.kernel_cache import NotCompiled
+from engine.numeric import stand_in
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_premul8
+from engine.numeric.stand_in import Kernel, or_interpreted, or_plain
+from engine.painting.value import Painting
+from engine.strokes.paint_stroke import LiveStroke
+
+STROKES = (
+    Brush(radius=12.0),
+    Brush(radius=90.0, hardness=0.2, opacity=0.6, flow=0.3, spacing=0.2, colour="#c86428"),
+    Brush(radius=5.0, hardness=1.0, colour="#10c0f0"),
+    Brush(radius=30.0, mode="erase", opacity=0.7),
+)
+
+
+@pytest.fixture
+def nothing_compiled(monkeypatch):
+    """Kernels that can do without being compiled are never found; the names of the plain forms called."""
+    called = set()
+
+    def call(kernel, *arguments):
+        called.add(kernel.compiled.py_func.__name__)
+        return kernel.plain(*arguments)
+
+    monkeypatch.setattr(Kernel, "__call__", call)
+    return called
+
+
+def painted():
+    """Pictures of four strokes that cross, as they grow and when they are done."""
+    painting, seen = Painting(), []
+    t = np.linspace(0.0, 1.0, 12)
+    for number, brush in enumerate(STROKES):
+        live = LiveStroke(painting, -number % 2, (7, -3), brush)
+        for k in range(4):
+            part = t[3 * k : 3 * k + 3]
+            live.add(np.column_stack([40 + 260 * part, 60 + 30 * number + 90 * part * part, 0.2 + 0.8 * part]))
+            seen.append(live.preview(Rect(0, 0, 256, 256)).data.copy())
+        painting = live.commit()
+    for level in (-2, 0, 1):
+        picture = composite(painting.root, level, Rect(-20, -20, 300, 280), layer_planes)
+        seen += [picture, to_premul8(picture)]
+    return seen
+
+
+def test_plain_strokes_are_the_same_bits(request):
+    compiled = painted()
+    called = request.getfixturevalue("nothing_compiled")
+    plain = painted()
+    assert {"_walk", "as_discs", "list_pairs", "_join", "lay_flat", "lay", "keep_of", "apply_stamp", "place"} <= called
+    assert {"climb", "halve", "spread", "first_residual", "residual", "extent", "expand_into", "marked"} <= called
+    for one, other in zip(compiled, plain, strict=True):
+        assert one.dtype == other.dtype
+        assert np.array_equal(one, other)
+
+
+def test_marked_and_span_of_nothing():
+    for marks in (np.zeros((6, 9), np.uint8), np.eye(6, 9, 2, dtype=np.uint8)):
+        assert kernels.marked.compiled(marks) == kernels.marked.plain(marks)
+    for data in (np.zeros((2, 5, 7), np.int32), np.arange(-35, 35, dtype=np.int32).reshape(2, 5, 7)):
+        used = np.empty((2, 2), np.int32)
+        assert kernels.extent.compiled(data, used[0]) == kernels.extent.plain(data, used[1])
+        assert np.array_equal(used[0], used[1])
+
+
+def test_a_kernel_is_looked_for_again_after_a_while(monkeypatch):
+    now, missing = [100.0], [True]
+    monkeypatch.setattr(stand_in.time, "monotonic", lambda: now[0])
+    asked = []
+
+    def compiled(value):
+        asked.append(value)
+        if missing[0]:
+            raise NotCompiled("it")
+        return "compiled"
+
+    kernel = or_plain(lambda value: "plain")(compiled)
+    assert [kernel(1), kernel(2)] == ["plain", "plain"]
+    assert asked == [1]
+    missing[0] = False
+    assert kernel(3) == "plain"
+    now[0] += stand_in.REST
+    assert [kernel(4), kernel(5)] == ["compiled", "compiled"]
+    assert asked == [1, 4, 5]
+
+
+def test_the_text_of_a_kernel_is_interpreted_with_those_it_calls():
+    from engine.brush import discs
+
+    kernel = or_interpreted()(discs.lay_flat.compiled)
+    rows = np.array([[0.0, 0.0, 9.0, 1.0, 0.1, 0.75, 0.5]] * 3)
+    told = kernel.plain(rows, np.arange(3), np.array([True, True, False]), np.float32(0.25), 0.75)
+    assert told == discs.lay_flat.compiled(rows, np.arange(3), np.array([True, True, False]), np.float32(0.25), 0.75)
