@@ -19,9 +19,10 @@ from numba.core.dispatcher import Dispatcher
 from PIL import Image
 from plantings import blob, texture
 from test_easel import Window
-from engine.brush.record import Brush
+from engine.brush.settings import Brush
 from engine.numeric.address import Rect
-from engine.painting import commands as c, requests as q, results
+from engine.painting import commands as c
+from engine.studio import requests as q, results
 
 folder = Path(sys.argv[2])
 platformdirs.user_cache_path = lambda name: folder / "cache" / name
@@ -30,7 +31,8 @@ def known():
     return {
         (f.py_func.__module__, f.py_func.__name__, str(signature))
         for module in list(sys.modules.values()) if module.__name__.startswith("engine.")
-        for f in vars(module).values() if isinstance(f, Dispatcher)
+        for named in list(vars(module).values())
+        for f in [getattr(named, "compiled", named)] if isinstance(f, Dispatcher)
         for signature in f.overloads
     }
 
