@@ -88,7 +88,8 @@ def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
 
 
 def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
-    return _span(marks.any(axis=1), marks.any(axis=0))[1:]
+    used = marks != 0
+    return _span(np.atleast_1d(used.any(axis=1)), np.atleast_1d(used.any(axis=0)))[1:]
 
 
 def climb(
