@@ -140,7 +140,7 @@ class Program:
 
     def canvas(self, calm: int = 4) -> np.ndarray:
         """The middle of the settled screen, with the pointer parked so that no cursor or tooltip covers it."""
-        self.do("mousemove", *REST)
+        self.park()
         time.sleep(0.2)
         return self.settled(calm=calm)[60:740, 270:970].astype(int)
 
@@ -165,6 +165,9 @@ class Program:
         while not good(screen := self.parked(pointer)):
             assert time.monotonic() < end
         return screen
+
+    def park(self) -> None:
+        self.do("mousemove", *REST)
 
     def parked(self, pointer: Point = REST) -> np.ndarray:
         """The settled screen, int (800, 1280, 3), with the pointer there, so that no cursor or tooltip covers it."""

@@ -8,11 +8,12 @@ import pytest
 from PIL import Image
 
 from app.loop import _told
+from app.panels.dialogs.dialogs import EXPORT_LEVELS
 from engine.studio import results
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
-LEVEL_4 = (670, 393)  # on the slider of the dialog
+LEVEL_4 = (4 - EXPORT_LEVELS[0] + 0.5) / (EXPORT_LEVELS[1] - EXPORT_LEVELS[0] + 1)  # its part of the slider's width
 SIZE = (16384, 12288)
 
 
@@ -22,11 +23,6 @@ def shown(app):
     return subprocess.run(command, env={**os.environ, "DISPLAY": app.display}, capture_output=True).returncode == 0
 
 
-def dialog(app):
-    """Waits until one is there: it darkens what is behind it."""
-    app.until(lambda screen: screen[60:760, 1000:1270].mean() < 50, (640, 790))
-
-
 def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkeypatch):
     monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", None)
     app = program()
@@ -34,22 +30,20 @@ def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkey
     app.canvas()
     assert shown(app)
     app.keys("ctrl+e")
-    dialog(app)
-    app.click(LEVEL_4)
-    first = app.settled()
+    app.click(app.at("Level", LEVEL_4))
+    app.settled()
     app.do("keydown", "Return")
     time.sleep(0.7)  # longer than it takes until a key repeats
     app.do("keyup", "Return")
-    second = app.settled()
-    assert (first != second).any(), "no dialog of files"
+    app.box("name", "Export picture")
+    app.settled()
     app.keys("ctrl+a")
     app.type(str(tmp_path / "large.png"))
     app.keys("Return")
-    app.until(lambda screen: screen[60:760, 1000:1270].mean() > 50, (640, 790))
+    app.until_gone("name")
     assert not list(tmp_path.rglob("untitled*")), "a held key chose a file"
     app.keys("ctrl+q")
-    dialog(app)
-    app.click((676, 432))  # the changes are not saved
+    app.click("Don’t save")
     end = time.monotonic() + 2.0
     while shown(app):
         assert time.monotonic() < end, "the window is still there"

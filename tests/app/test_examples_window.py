@@ -12,13 +12,8 @@ from screens import changed
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
-OWN = {"a": "wash-indigo", "b": "felt"}  # copies, which are listed first
-FIRST, SECOND = (292, 526), (368, 526)
-REGION_TAB, SWAP, PAINT_OUT, SAVE = (830, 437), (925, 755), (868, 491), (867, 755)
-DELETE = (972, 470)
-PICTURE = (slice(459, 766), slice(348, 655))
+OWN = {"my-wash": "wash-indigo", "my-felt": "felt"}  # copies under names of their own
 CANVAS = (slice(60, 400), slice(280, 960))
-THUMBNAIL, SAMPLE = (slice(500, 550), slice(345, 390)), (slice(500, 730), slice(740, 980))
 BUNDLED = Path(__file__).parents[2] / "palettes" / "examples"
 LINE = [(400 + 16 * i, 200 + (30 if i % 8 < 4 else -30)) for i in range(16)]
 GROWS, GROWN = "something grows", "all has grown"
@@ -47,7 +42,7 @@ def until(good, seconds=60.0):
 
 
 def shown(app):
-    app.do("mousemove", 640, 790)
+    app.park()
     return app.settled(calm=3)[CANVAS].astype(int)
 
 
@@ -70,16 +65,18 @@ def opened(app):
     app.do("mousemove", 640, 300)
     app.keys("p")
     until(lambda: "examples ready" in app.log.read_text(), 150.0)  # at the first start kernels are compiled
-    until(lambda: app.screen()[THUMBNAIL].std() > 20)
+    thumbnail = app.part("My felt")
+    until(lambda: app.screen()[thumbnail].std() > 20)
     return app
 
 
-def choose(app, at):
-    before = app.screen()[SAMPLE].astype(int)
-    app.click(at)
+def choose(app, title):
+    sample = app.part("sample")
+    before = app.screen()[sample].astype(int)
+    app.click(title)
 
     def is_shown():
-        now = app.screen()[SAMPLE].astype(int)
+        now = app.screen()[sample].astype(int)
         return changed(now, before) > 2000 and now.mean() > 128  # not dark, as while it is of another one
 
     until(is_shown)
@@ -87,17 +84,18 @@ def choose(app, at):
 
 def with_palette(program, *words):
     app = opened(program(*words))
-    choose(app, FIRST)
+    choose(app, "My wash")
     return app
 
 
 def region_of(folder):
-    return np.asarray(Image.open(folder / "a.mask.png").convert("L")) > 127
+    return np.asarray(Image.open(folder / "my-wash.mask.png").convert("L")) > 127
 
 
 def shown_region(app):
-    app.do("mousemove", 640, 790)
-    return app.settled(calm=3)[PICTURE].astype(int)
+    picture = app.part("region")
+    app.park()
+    return app.settled(calm=3)[picture].astype(int)
 
 
 def until_unlike(app, picture):
@@ -127,10 +125,10 @@ def test_a_stroke_grows_and_can_be_taken_back_and_swapped(program, folder):
     until(lambda: np.array_equal(shown(app), first))
 
     # Another example for what is there; with Escape nothing happens.
-    choose(app, SECOND)
-    app.click(SWAP)
+    choose(app, "My felt")
+    app.click("Swap")
     app.keys("Escape")
-    app.click(SWAP)
+    app.click("Swap")
     done = app.log.read_text().count(GROWN)
     app.click(LINE[8])
     swapped = at_rest(app, done)
@@ -150,7 +148,7 @@ def test_saved_and_killed_while_it_grows(program, tmp_path, folder):
     first = at_rest(app)
 
     # Killed while another stroke grows and is saved: the file is the one before, or all of the new one.
-    choose(app, SECOND)
+    choose(app, "My felt")
     app.stroke(*[(x + 430, y) for x, y in LINE[:6]])
     until(lambda: changed(now(app), first) > 1500)
     app.keys("ctrl+s")
@@ -168,19 +166,21 @@ def test_saved_and_killed_while_it_grows(program, tmp_path, folder):
 def test_a_region_is_painted_and_saved(program, folder):
     app = with_palette(program)
     before = region_of(folder)
-    app.click(REGION_TAB)
-    until(lambda: app.screen()[PICTURE].std() > 20)
+    app.click("Region")
+    picture = app.part("region")
+    until(lambda: app.screen()[picture].std() > 20)
     seen = shown_region(app)
-    app.stroke((351, 465), (373, 480), (381, 510))
+    app.stroke(*(app.at("region", *part) for part in ((0.01, 0.02), (0.08, 0.07), (0.11, 0.17))))
     until_unlike(app, seen)
-    app.stroke((501, 569), (516, 584))  # in already: a step that changes nothing
-    app.do("mousemove", 501, 569)
+    middle = app.at("region", 0.5, 0.36)
+    app.stroke(middle, app.at("region", 0.55, 0.41))  # in already: a step that changes nothing
+    app.do("mousemove", *middle)
     app.keys("ctrl+z")
-    app.click(PAINT_OUT)
+    app.click("Paint out")
     painted = shown_region(app)
-    app.stroke((501, 569), (516, 599))
+    app.stroke(middle, app.at("region", 0.55, 0.46))
     until_unlike(app, painted)
-    app.click(SAVE)
+    app.click("Save")
     until(lambda: not np.array_equal(region_of(folder), before))
     after = region_of(folder)
     assert after.shape == before.shape
@@ -191,12 +191,12 @@ def test_a_region_is_painted_and_saved(program, folder):
 
 def test_ones_own_is_renamed_by_a_double_click_and_deleted(program, folder):
     app = opened(program())
-    app.do("mousemove", *FIRST)
+    app.do("mousemove", *app.at("My wash"))
     app.do("click", "--repeat", 2, "--delay", 80, 1)
     time.sleep(0.8)
     app.type("Zebra")
     app.keys("Return")
-    until(lambda: 'title = "Zebra"' in (folder / "a.toml").read_text())
-    app.click(DELETE)
-    until(lambda: not list(folder.glob("a.*")))
-    assert len(list(folder.glob("b.*"))) == 3
+    until(lambda: 'title = "Zebra"' in (folder / "my-wash.toml").read_text())
+    app.click("delete")
+    until(lambda: not list(folder.glob("my-wash.*")))
+    assert len(list(folder.glob("my-felt.*"))) == 3

@@ -132,9 +132,9 @@ def test_what_the_window_system_lost_is_drawn_again(program):
 
 def test_hovering_shows_in_a_panel_that_was_at_rest(program):
     app = program()
-    app.parked((640, 790))
+    app.parked()
     time.sleep(1.5)  # frames linger
-    still = app.parked((640, 790))
-    over = app.parked((96, 46))  # the eraser
+    still = app.parked()
+    over = app.parked(app.at("eraser"))
     assert differing(still, over) > 100
-    assert np.array_equal(app.parked((640, 790)), still)
+    assert np.array_equal(app.parked(), still)

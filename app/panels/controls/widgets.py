@@ -35,7 +35,7 @@ def named(label: str) -> None:
 def placed(label: str, corner: ImVec2, end: ImVec2) -> None:
     """Tells tests what of the present window lies there, as far as it is in sight: by the text that it shows, without
     signs, or by what stands after ## where it shows none."""
-    if not trace.TRACED:
+    if not trace.TRACED or not label:
         return
     text, _, hidden = label.partition("##")
     text = "".join(letter for letter in text if not "\ue000" <= letter <= "\uf8ff").strip(" +")

@@ -105,7 +105,8 @@ class ExportDepth:
         imgui.set_next_item_width(em * 20)
         flags = imgui.SliderFlags_.always_clamp
         _, desk.asked.export_level = imgui.slider_int("Level", desk.asked.export_level, *EXPORT_LEVELS, flags=flags)
-        w.named("Level")
+        low = imgui.get_item_rect_min()
+        w.placed("Level", low, ImVec2(low.x + em * 20, imgui.get_item_rect_max().y))
         w.tooltip("0: one pixel of the frame becomes one of the picture; 2: sixteen")
         size = desk.known.frame.zoomed(desk.asked.export_level)
         imgui.text_disabled(f"{size.width:,} × {size.height:,} pixels")

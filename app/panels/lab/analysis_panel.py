@@ -46,7 +46,7 @@ class AnalysisPanel:
             if i:
                 imgui.same_line()
             imgui.begin_group()
-            w.picture(self._picture(desk, name), (side, side), hint)
+            w.picture(self._picture(desk, name), (side, side), hint, name=title)
             imgui.text_disabled(title)
             imgui.end_group()
         tall = imgui.get_content_region_avail().y
