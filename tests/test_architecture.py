@@ -1,15 +1,13 @@
 """The architecture as a test: imports go only down the list of design units; late imports count."""
 
-import ast
 import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
+from sources import ROOT, imported, modules, unit
 
 # From the bottom to the top.  A unit may import those in the rows above its own here, and itself; units of one row
 # do not know one another.
@@ -45,42 +43,11 @@ WINDOW = {"glfw", "moderngl", "imgui_bundle", "OpenGL"}
 LIGHT = {"app", "app.__main__"}
 
 
-def sources() -> dict[str, Path]:
-    """Every module of the program by its dotted name."""
-    found = {}
-    for package in ("engine", "app"):
-        for path in sorted((ROOT / package).rglob("*.py")):
-            parts = path.relative_to(ROOT).with_suffix("").parts
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
+SOURCES = modules()
 
 
-SOURCES = sources()
-
-
-def imported(name: str) -> set[str]:
-    """Dotted names that a module imports anywhere in it: at the top, late, for types, or through import_module."""
-    tree = ast.parse(SOURCES[name].read_text())
-    package = name.split(".") if SOURCES[name].name == "__init__.py" else name.split(".")[:-1]
-    out: set[str] = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            out.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = node.module or ""
-            if node.level:
-                base = ".".join([*package[: len(package) - node.level + 1], *([base] if base else [])])
-            out.update(f"{base}.{alias.name}" if f"{base}.{alias.name}" in SOURCES else base for alias in node.names)
-        elif isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) in (
-            "import_module",
-            "__import__",
-        ):
-            out.update(a.value for a in node.args[:1] if isinstance(a, ast.Constant) and isinstance(a.value, str))
-    return out
-
-
-def unit(name: str) -> str:
-    return ".".join(name.split(".")[:2])
+def names_imported(name: str) -> set[str]:
+    return imported(SOURCES[name], SOURCES)
 
 
 def test_every_module_has_its_place_in_the_order():
@@ -91,7 +58,7 @@ def test_every_module_has_its_place_in_the_order():
 @pytest.mark.parametrize("name", sorted(SOURCES))
 def test_imports_go_down_the_list(name):
     own = unit(name)
-    for target in imported(name):
+    for target in names_imported(name):
         if target.split(".")[0] not in ("engine", "app") or target in ("engine", "app"):
             continue
         other = unit(target)
@@ -99,7 +66,7 @@ def test_imports_go_down_the_list(name):
 
 
 def test_no_ring_of_modules():
-    graph = {name: {t for t in imported(name) if t in SOURCES} for name in SOURCES}
+    graph = {name: {t for t in names_imported(name) if t in SOURCES} for name in SOURCES}
     done: set[str] = set()
     trail: list[str] = []
 
@@ -119,24 +86,24 @@ def test_no_ring_of_modules():
 
 @pytest.mark.parametrize("name", sorted(name for name in SOURCES if name.startswith("engine")))
 def test_the_engine_knows_no_window(name):
-    assert not {target.split(".")[0] for target in imported(name)} & (WINDOW | {"app"})
+    assert not {target.split(".")[0] for target in names_imported(name)} & (WINDOW | {"app"})
 
 
 @pytest.mark.parametrize("name", sorted(name for name in SOURCES if name.startswith("app.cli")))
 def test_the_headless_commands_import_no_window_toolkit(name):
-    assert not {target.split(".")[0] for target in imported(name)} & WINDOW
+    assert not {target.split(".")[0] for target in names_imported(name)} & WINDOW
 
 
 UNPICKLES = {"engine.kernel_cache"}  # as numba does: what the user's own processes compiled, in a folder of theirs
 
 
 def test_nothing_is_unpickled():
-    for name, path in SOURCES.items():
+    for name, module in SOURCES.items():
         if name in UNPICKLES:
             continue
-        found = {target.split(".")[0] for target in imported(name)} & {"pickle", "marshal", "shelve", "dill"}
+        found = {target.split(".")[0] for target in names_imported(name)} & {"pickle", "marshal", "shelve", "dill"}
         assert not found, f"{name} imports {found}"
-        assert "allow_pickle=True" not in path.read_text(), name
+        assert "allow_pickle=True" not in module.text, name
 
 
 def loaded_by(*words: str) -> set[str]:
