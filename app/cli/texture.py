@@ -138,18 +138,17 @@ def _defined(name: str, given: argparse.Namespace) -> Texture:
     from immutables import Map
 
     from engine.canvas import layers
-    from engine.files.strict_json import FormatError
+    from engine.checks.field_error import FieldError
     from engine.makers.makers import define
     from engine.painting.commands import DefineTexture
     from engine.painting.textures import Around
-    from engine.texture.table import TextureError
 
     told = {option: getattr(given, option) for option in MAKERS[name].options}
     arguments = {option: value for option, value in told.items() if value is not None and value is not False}
     command = DefineTexture(name, name, Map({"path": given.picture, "seed": given.seed, **arguments}))
     try:
         return define(command, layers.EMPTY, Around())
-    except (FormatError, TextureError) as error:
+    except FieldError as error:
         where = f"--{error.place}" if error.place in told or error.place == "seed" else given.picture or "the picture"
         raise Refused(f"{where}: found {error.found}, expected {error.expected}") from None
 

@@ -19,12 +19,12 @@ from immutables import Map
 
 from app.desk.region_mask import Mask
 from engine.brush.settings import Brush
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
 from engine.studio.requests import Request, Swatch
 from engine.texture.example.parameters import Parameters, changed, read_toml
-from engine.texture.field_error import FieldError
 
 OWN = "Own"  # the group of the artist's own
 HERE = "In this painting"  # the group of those that only the painting has

@@ -13,10 +13,11 @@ from immutables import Map
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.layers import Layer
 from engine.canvas.store import Level, Pyramid, Record
+from engine.checks.field_error import FieldError
 from engine.files.limits import Limits
 from engine.files.png_reader import PngReader
 from engine.files.png_writer import write_png
-from engine.files.strict_json import Fields, FormatError
+from engine.files.strict_json import Fields
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
@@ -107,7 +108,7 @@ def to_json(found: GroundEntry) -> dict[str, Any]:
 
 
 def parse(value: Any, where: str) -> GroundEntry:
-    """FormatError names the member that is wrong."""
+    """FieldError names the member that is wrong."""
     members = Fields(value, where)
     x, y = members.integers("at", 2, limit=PLACE_LIMIT)
     gone = members.take("gone", expected="a list")
@@ -120,5 +121,5 @@ def _keys(gone: list[Any], where: str) -> Iterable[TileKey]:
     for key in gone:
         sound = isinstance(key, list) and len(key) == 3 and all(type(v) is int for v in key)
         if not sound or abs(key[0]) > LEVEL_LIMIT + 256 or max(abs(key[1]), abs(key[2])) > PLACE_LIMIT:
-            raise FormatError(f"{where}.gone", "another form", "[level, x, y] each")
+            raise FieldError(f"{where}.gone", "another form", "[level, x, y] each")
         yield TileKey(*key)

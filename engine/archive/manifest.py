@@ -19,7 +19,8 @@ from engine.brush.checks import frozen, thawed
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.store import Pyramid
-from engine.files.strict_json import Fields, FormatError
+from engine.checks.field_error import FieldError
+from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.recording import SIDE_LIMIT
@@ -78,22 +79,22 @@ class Manifest:
     synthesis: int = SYNTHESIS  # and of what examples grow into
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
-        """The named textures; FormatError if one cannot be made."""
+        """The named textures; FieldError if one cannot be made."""
         made = {}
         for name, (kind, parameters, *shas) in self.textures.items():
             if any(sha is not None and sha not in pictures for sha in shas):
-                raise FormatError(f"textures.{name}", "no picture", "one of those in the file")
+                raise FieldError(f"textures.{name}", "no picture", "one of those in the file")
             source, mask = (None if sha is None else ImageSource(name, sha, pictures[sha].data) for sha in shas)
             made[name] = Texture(kind, parameters, source, mask)
             plot_files.check_texture(f"textures.{name}", made[name])
             try:
                 made[name].instance({}, 0, 0)
             except TextureError as error:
-                raise FormatError(f"textures.{name}.{error.place}", error.found, error.expected) from None
+                raise FieldError(f"textures.{name}.{error.place}", error.found, error.expected) from None
         return Map(made)
 
     def grown_bytes(self) -> int:
-        """What all that was painted with examples takes in memory, about; FormatError if an example cannot be."""
+        """What all that was painted with examples takes in memory, about; FieldError if an example cannot be."""
         sizes = {sha: entry.size for sha, entry in self.pictures.items()}
         return plot_files.cost(self.examples, (plot for plots in self.plots.values() for plot in plots), sizes)
 
@@ -174,11 +175,11 @@ def _node_json(
 
 
 def parse_manifest(value: Any) -> Manifest:
-    """The manifest that a JSON value tells.  FormatError names the member; LayerError if the tree cannot be."""
+    """The manifest that a JSON value tells.  FieldError names the member; LayerError if the tree cannot be."""
     members = Fields(value, "manifest")
     version = members.integer("inkfall", lo=1, hi=1 << 30)
     if version > FORMAT:
-        raise FormatError("manifest.inkfall", f"{version} (a newer Inkfall wrote this)", f"version {FORMAT}")
+        raise FieldError("manifest.inkfall", f"{version} (a newer Inkfall wrote this)", f"version {FORMAT}")
     for name, expected in _CONSTANTS.items():
         if members.take(name, expected="a value") != expected:
             raise members.fault(name, repr(expected))
@@ -286,5 +287,5 @@ def _picture(sha: str, value: Any) -> PictureEntry:
 
 def _member(value: Any, where: str) -> tuple[int, str]:
     if not (isinstance(value, list) and len(value) == 2 and type(value[0]) is int and isinstance(value[1], str)):
-        raise FormatError(where, "another form", "[size, SHA-256]")
+        raise FieldError(where, "another form", "[size, SHA-256]")
     return value[0], value[1]

@@ -18,9 +18,10 @@ from immutables import Map
 from isal import isal_zlib
 
 from engine.archive.packfault import PackFault, need
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.inflate import DeflateError, Inflated
-from engine.files.strict_json import FormatError, dumps, loads
+from engine.files.strict_json import dumps, loads
 from engine.painting.commands import PLACE_LIMIT
 from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
 
@@ -60,7 +61,7 @@ def unpack(data: bytes, name: str, count: int) -> Tiles:
     `name` is the file's and the member's."""
     try:
         return _unpacked(data, count)
-    except (FormatError, DeflateError, PackFault) as error:
+    except (FieldError, DeflateError, PackFault) as error:
         raise FileError(name, str(error)) from error
 
 

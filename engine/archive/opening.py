@@ -24,10 +24,11 @@ from engine.archive.plot_files import Mark, Nursery
 from engine.canvas import layers
 from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError, shown
 from engine.files.limits import LIMITS, Limits, memory_cap
 from engine.files.stack_xml import parse_stack
-from engine.files.strict_json import FormatError, loads
+from engine.files.strict_json import loads
 from engine.files.zip_reader import ZipArchive
 from engine.painting.recording import Recording, read_from
 from engine.painting.rendering import Stop, check
@@ -94,7 +95,7 @@ class _Opening:
                 found = read_raster(self._archive, self._limits, self._progress, self._cancelled)
                 return replace(found, notes=(*((note,) if note else ()), *found.notes))
             return self._native(manifest, members)
-        except (FormatError, LayerError) as error:
+        except (FieldError, LayerError) as error:
             raise FileError(self._archive.name, f"{MANIFEST}: {error}") from error
 
     # ---- whose file it is ----

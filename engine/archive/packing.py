@@ -23,9 +23,10 @@ from engine.archive import packs_of_format_1, tilecode
 from engine.archive.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.archive.packfault import PackFault, need
 from engine.canvas.store import Record
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.inflate import DeflateError, Inflated
-from engine.files.strict_json import FormatError, dumps, loads
+from engine.files.strict_json import dumps, loads
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.texture.planes import COLOURS
@@ -120,7 +121,7 @@ def unpack(
     """
     try:
         return _unpack(data, ink_of, announced)
-    except (FormatError, PackFault, ValueError) as error:
+    except (FieldError, PackFault, ValueError) as error:
         raise FileError(name, str(error)) from error
 
 

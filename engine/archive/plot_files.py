@@ -21,8 +21,9 @@ from engine.brush.settings import DEEPEST
 from engine.canvas import layers
 from engine.canvas.growth import Growth, Plot
 from engine.canvas.layers import Group
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError, shown
-from engine.files.strict_json import Fields, FormatError
+from engine.files.strict_json import Fields
 from engine.numeric.halving import halved_region
 from engine.painting.commands import LEVEL_LIMIT, SEED_LIMIT
 from engine.painting.textures import Texture
@@ -34,7 +35,6 @@ from engine.texture.example.exemplar import Exemplar
 from engine.texture.example.parameters import FIELDS, Parameters, changed
 from engine.texture.example.region import Region
 from engine.texture.example.tiles import NONE, SIDE, Tiles
-from engine.texture.field_error import FieldError
 from engine.texture.image import ImageSource
 
 GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels, about
@@ -134,7 +134,7 @@ def _example_json(entry: ExampleEntry) -> dict[str, Any]:
 
 
 def parse_plot(value: Any, where: str) -> PlotEntry:
-    """FormatError names the member that is wrong."""
+    """FieldError names the member that is wrong."""
     members = Fields(value, where)
     masks = members.take("masks", expected="a list")
     sound = isinstance(masks, list) and masks and all(isinstance(m, list) and len(m) == 2 for m in masks)
@@ -153,15 +153,12 @@ def parse_plot(value: Any, where: str) -> PlotEntry:
 
 
 def parse_example(value: Any, where: str) -> ExampleEntry:
-    """FormatError names the member that is wrong."""
+    """FieldError names the member that is wrong."""
     members = Fields(value, where)
     told = members.take("parameters", expected="an object")
     if not isinstance(told, dict):
         raise members.fault("parameters", "an object")
-    try:
-        parameters = changed(Parameters(), told, f"{where}.parameters.")
-    except FieldError as error:
-        raise FormatError(error.place, error.found, error.expected) from None
+    parameters = changed(Parameters(), told, f"{where}.parameters.")
     detail = members.integer("detail", lo=0, hi=DETAIL_CAP)
     return ExampleEntry(members.text("picture"), members.text("mask", None), parameters, detail)
 
@@ -172,34 +169,32 @@ def _called(name: str) -> str:
 
 
 def parse_examples(told: Mapping[str, Any]) -> dict[str, ExampleEntry]:
-    """Reads the examples of a manifest by their keys.  FormatError names what is wrong, or that there are too many."""
+    """Reads the examples of a manifest by their keys.  FieldError names what is wrong, or that there are too many."""
     if len(told) > EXAMPLES_CAP:
-        raise FormatError("manifest.examples", f"{len(told)}", f"at most {EXAMPLES_CAP}")
+        raise FieldError("manifest.examples", f"{len(told)}", f"at most {EXAMPLES_CAP}")
     return {name: parse_example(value, f"examples.{_called(name)}") for name, value in told.items()}
 
 
 def _check_sizes(where: str, size: tuple[int, int], masked: tuple[int, int] | None) -> None:
-    """FormatError unless an example of that (width, height), and its mask if it has one, can be painted with."""
+    """FieldError unless an example of that (width, height), and its mask if it has one, can be painted with."""
     if max(size) > EXAMPLE_SIDE:
-        raise FormatError(
-            f"{where}.picture", "{} x {} pixels".format(*size), f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}"
-        )
+        raise FieldError(f"{where}.picture", "{} x {} pixels".format(*size), f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
     if masked is not None and masked != size:
-        raise FormatError(f"{where}.mask", "{} x {} pixels".format(*masked), "{} x {} as the picture".format(*size))
+        raise FieldError(f"{where}.mask", "{} x {} pixels".format(*masked), "{} x {} as the picture".format(*size))
 
 
 def check_texture(where: str, texture: Texture) -> None:
-    """FormatError unless a texture that may be an example is one that can be painted with."""
+    """FieldError unless a texture that may be an example is one that can be painted with."""
     if texture.kind != KIND:
         return
     if texture.source is None:
-        raise FormatError(where, "no picture", "one of those in the file")
+        raise FieldError(where, "no picture", "one of those in the file")
     mask = None if texture.mask is None else (texture.mask.width, texture.mask.height)
     _check_sizes(where, (texture.source.width, texture.source.height), mask)
     try:
         parameters_of(texture)
     except FieldError as error:
-        raise FormatError(f"{where}.parameters.{error.place}", error.found, error.expected) from None
+        raise FieldError(f"{where}.parameters.{error.place}", error.found, error.expected) from None
 
 
 def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes: Mapping[str, tuple[int, int]]) -> int:
@@ -208,7 +203,7 @@ def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes
     for name, entry in examples.items():
         for sha in (entry.picture, entry.mask):
             if sha is not None and sha not in sizes:
-                raise FormatError(f"examples.{_called(name)}", f"picture {shown(sha, 12)}", "one of those in the file")
+                raise FieldError(f"examples.{_called(name)}", f"picture {shown(sha, 12)}", "one of those in the file")
         masked = None if entry.mask is None else sizes[entry.mask]
         _check_sizes(f"examples.{_called(name)}", sizes[entry.picture], masked)
         width, height = sizes[entry.picture]
@@ -226,19 +221,19 @@ class Nursery:
     def of(
         cls, entries: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], pictures: Mapping[str, ImageSource]
     ) -> Nursery:
-        """Those that plots are of; FormatError if there is nothing to learn from one."""
+        """Those that plots are of; FieldError if there is nothing to learn from one."""
         found: dict[str, tuple[str, Exemplar]] = {}
         for plot in plots:
             if plot.example in found:
                 continue
             if plot.example not in entries:
-                raise FormatError(f"plot {shown(plot.name)}.example", shown(plot.example), "one of those in the file")
+                raise FieldError(f"plot {shown(plot.name)}.example", shown(plot.example), "one of those in the file")
             entry = entries[plot.example]
             texture = _texture(entry, plot.name, pictures)
             try:
                 found[plot.example] = key_of(texture, entry.detail), exemplar_of(texture, entry.detail)
             except FieldError as error:
-                raise FormatError(f"examples.{_called(plot.example)}", error.found, error.expected) from None
+                raise FieldError(f"examples.{_called(plot.example)}", error.found, error.expected) from None
         return cls(found)
 
     def plots(

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import math
 import re
 from collections.abc import Mapping
 from typing import Any
 
 from immutables import Map
 
+from engine.checks.field_error import FieldError
+from engine.checks.values import described, is_within
 from engine.numeric.curves import KNOTS_CAP
-from engine.texture.field_error import FieldError
 
 TEXT_CAP = 256  # characters of a name
 OUTPUT_CAP = 16.0  # the largest factor by which a curve may multiply a setting
@@ -26,58 +25,36 @@ class BrushError(FieldError):
     """A brush, a pen point or a stroke that cannot be used: `str()` is one line."""
 
 
-def shown(value: Any, limit: int = 48) -> str:
-    """A JSON value as a message shows it: ASCII, on one line, cut at `limit`."""
-    if isinstance(value, Mapping):
-        return "an object"
-    if isinstance(value, list | tuple) and len(value) > 6:
-        return f"a list of {len(value)}"
-    if isinstance(value, int) and value.bit_length() > 200:
-        return f"an integer of about {int(value.bit_length() * 0.30103)} digits"
-    try:
-        text = json.dumps(value)
-    except (TypeError, ValueError, RecursionError):
-        text = ascii(type(value).__name__)
-    return text if len(text) <= limit else text[:limit] + "..."
-
-
-def is_number(value: Any) -> bool:
-    """An int or float (not a bool) that is finite."""
-    return (isinstance(value, int) and not isinstance(value, bool)) or (
-        isinstance(value, float) and math.isfinite(value)
-    )
-
-
 def number(value: Any, place: str, lo: float, hi: float) -> float:
     """A finite number of [lo, hi], as float."""
-    if not is_number(value) or not lo <= value <= hi:
-        raise BrushError(place, shown(value), f"a number from {lo:g} to {hi:g}")
+    if not is_within(value, lo, hi):
+        raise BrushError(place, described(value), f"a number from {lo:g} to {hi:g}")
     return float(value) + 0.0  # no negative zero
 
 
 def integer(value: Any, place: str, lo: int, hi: int) -> int:
     """An integer of [lo, hi]."""
-    if not is_number(value) or not lo <= value <= hi or value != int(value):
-        raise BrushError(place, shown(value), f"an integer from {lo} to {hi}")
+    if not is_within(value, lo, hi, whole=True):
+        raise BrushError(place, described(value), f"an integer from {lo} to {hi}")
     return int(value)
 
 
 def text(value: Any, place: str, what: str = "a name", cap: int = TEXT_CAP) -> str:
     if not isinstance(value, str) or not 0 < len(value) <= cap or _UNPRINTABLE.search(value):
-        raise BrushError(place, shown(value), f"{what}, a text of 1 to {cap} printable characters")
+        raise BrushError(place, described(value), f"{what}, a text of 1 to {cap} printable characters")
     return value
 
 
 def one_of(value: Any, place: str, names: tuple[str, ...]) -> str:
     if not isinstance(value, str) or value not in names:
-        raise BrushError(place, shown(value), f"one of {', '.join(names)}")
+        raise BrushError(place, described(value), f"one of {', '.join(names)}")
     return value
 
 
 def colour(value: Any, place: str) -> str:
     """`#rrggbb`, in lower case."""
     if not isinstance(value, str) or not _COLOUR.fullmatch(value):
-        raise BrushError(place, shown(value), 'a colour "#rrggbb"')
+        raise BrushError(place, described(value), 'a colour "#rrggbb"')
     return value.lower()
 
 
@@ -90,15 +67,15 @@ def rgb(value: str) -> tuple[float, float, float]:
 def knots(value: Any, place: str, most: float = OUTPUT_CAP) -> Knots:
     """[[in, out], ...]: 1 to 64 pairs, inputs rising strictly within 0..1, outputs within 0..`most`."""
     if not isinstance(value, list | tuple) or not 1 <= len(value) <= KNOTS_CAP:
-        raise BrushError(place, shown(value), f"a list of 1 to {KNOTS_CAP} knots [in, out]")
+        raise BrushError(place, described(value), f"a list of 1 to {KNOTS_CAP} knots [in, out]")
     pairs: list[tuple[float, float]] = []
     for i, pair in enumerate(value):
         at = f"{place}[{i}]"
         if not isinstance(pair, list | tuple) or len(pair) != 2:
-            raise BrushError(at, shown(pair), "a knot [in, out]")
+            raise BrushError(at, described(pair), "a knot [in, out]")
         knot = number(pair[0], at, 0.0, 1.0), number(pair[1], at, 0.0, most)
         if pairs and knot[0] <= pairs[-1][0]:
-            raise BrushError(at, shown(pair), f"an input above {pairs[-1][0]:g}, that of the knot before")
+            raise BrushError(at, described(pair), f"an input above {pairs[-1][0]:g}, that of the knot before")
         pairs.append(knot)
     return tuple(pairs)
 

@@ -17,6 +17,7 @@ from immutables import Map
 
 from engine.brush import checks
 from engine.brush.checks import BrushError
+from engine.checks.values import described
 from engine.numeric.formula import FORMULA_CAP, FormulaError, Tree, parse
 
 STOPS_CAP = 8
@@ -188,7 +189,7 @@ def read(value: Any, place: str) -> OpValue:
         _missing(op, {}, place)
         return value
     if not isinstance(value, Mapping) or ("formula" in value) == ("name" in value):
-        raise BrushError(place, checks.shown(value), 'a name, {"name": NAME, ...} or {"formula": "..."}')
+        raise BrushError(place, described(value), 'a name, {"name": NAME, ...} or {"formula": "..."}')
     if "formula" in value:
         _formula(value["formula"], f"{place}.formula")
         return checks.frozen(value)
@@ -222,7 +223,7 @@ def _missing(op: Op, given: Mapping[str, Any], place: str) -> None:
 def _formula(value: Any, place: str) -> Tree:
     text = value
     if not isinstance(text, str) or not 0 < len(text) <= FORMULA_CAP:
-        raise BrushError(place, checks.shown(value), f"a formula, a text of 1 to {FORMULA_CAP} characters")
+        raise BrushError(place, described(value), f"a formula, a text of 1 to {FORMULA_CAP} characters")
     try:
         return parse(text)
     except FormulaError as error:
@@ -231,23 +232,23 @@ def _formula(value: Any, place: str) -> Tree:
 
 def _ramp(value: Any, place: str) -> tuple[tuple[float, str], ...]:
     if not isinstance(value, list | tuple) or not 2 <= len(value) <= STOPS_CAP:
-        raise BrushError(place, checks.shown(value), f"a list of 2 to {STOPS_CAP} stops [place, colour]")
+        raise BrushError(place, described(value), f"a list of 2 to {STOPS_CAP} stops [place, colour]")
     stops: list[tuple[float, str]] = []
     for i, stop in enumerate(value):
         at = f"{place}[{i}]"
         if not isinstance(stop, list | tuple) or len(stop) != 2:
-            raise BrushError(at, checks.shown(stop), "a stop [place, colour]")
+            raise BrushError(at, described(stop), "a stop [place, colour]")
         where = checks.number(stop[0], f"{at}[0]", 0.0, 1.0)
         if stops and where <= stops[-1][0]:
-            raise BrushError(f"{at}[0]", checks.shown(stop[0]), f"a place above {stops[-1][0]:g}, that before")
+            raise BrushError(f"{at}[0]", described(stop[0]), f"a place above {stops[-1][0]:g}, that before")
         stops.append((where, checks.colour(stop[1], f"{at}[1]")))
     return tuple(stops)
 
 
 def _offset(value: Any, place: str) -> tuple[int, int]:
     if not isinstance(value, list | tuple) or len(value) != 2:
-        raise BrushError(place, checks.shown(value), "a pair [dx, dy] of whole numbers")
+        raise BrushError(place, described(value), "a pair [dx, dy] of whole numbers")
     for i, part in enumerate(value):
         if checks.number(part, f"{place}[{i}]", -OFFSET_CAP, OFFSET_CAP) % 1:
-            raise BrushError(f"{place}[{i}]", checks.shown(part), "a whole number")
+            raise BrushError(f"{place}[{i}]", described(part), "a whole number")
     return int(value[0]), int(value[1])

@@ -14,6 +14,7 @@ from immutables import Map
 
 from engine.brush import checks
 from engine.brush.checks import BrushError
+from engine.checks.values import described
 from engine.numeric.curves import CURVES, EDGES, Shape
 
 COMPONENTS_CAP = 8
@@ -88,13 +89,13 @@ class Tip:
 
 def ink(value: Any, place: str) -> tuple[Component, ...]:
     if not isinstance(value, list | tuple) or len(value) > COMPONENTS_CAP:
-        raise BrushError(place, checks.shown(value), f"a list of at most {COMPONENTS_CAP} components")
+        raise BrushError(place, described(value), f"a list of at most {COMPONENTS_CAP} components")
     return tuple(_component(part, f"{place}[{i}]") for i, part in enumerate(value))
 
 
 def _component(value: Any, place: str) -> Component:
     if not isinstance(value, Mapping):
-        raise BrushError(place, checks.shown(value), 'an object {"texture": NAME, ...}')
+        raise BrushError(place, described(value), 'an object {"texture": NAME, ...}')
     return Component(
         checks.text(value.get("texture"), f"{place}.texture", "a texture's name"),
         checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0),
@@ -122,7 +123,7 @@ def _shape(value: Any, place: str, names: tuple[str, ...]) -> Shape:
     if isinstance(value, list | tuple):
         return checks.knots(value, place, 1.0)
     if not isinstance(value, str):
-        raise BrushError(place, checks.shown(value), "a curve's name or knots [in, out]")
+        raise BrushError(place, described(value), "a curve's name or knots [in, out]")
     return checks.one_of(value, place, names)
 
 
@@ -131,7 +132,7 @@ def surface(value: Any, place: str) -> Surface:
     if isinstance(value, str):
         return Surface(checks.text(value, place, "a texture's name"))
     if not isinstance(value, Mapping):
-        raise BrushError(place, checks.shown(value), 'a texture\'s name or {"texture": NAME, ...}')
+        raise BrushError(place, described(value), 'a texture\'s name or {"texture": NAME, ...}')
     return Surface(
         checks.text(value.get("texture"), f"{place}.texture", "a texture's name"),
         checks.number(value.get("amount", 1.0), f"{place}.amount", 0.0, 1.0),
@@ -150,7 +151,7 @@ def surface_json(part: Surface) -> Any:
 
 def _level(value: Any, place: str) -> int:
     if not isinstance(value, int) or isinstance(value, bool) or abs(value) > LEVEL_LIMIT:
-        raise BrushError(place, checks.shown(value), f"an integer from -{LEVEL_LIMIT} to {LEVEL_LIMIT}")
+        raise BrushError(place, described(value), f"an integer from -{LEVEL_LIMIT} to {LEVEL_LIMIT}")
     return value
 
 
@@ -180,7 +181,7 @@ def tip(value: Any, place: str) -> Tip:
     if isinstance(value, str):
         return Tip(checks.text(value, place, "a texture's name"))
     if not isinstance(value, Mapping):
-        raise BrushError(place, checks.shown(value), 'a texture\'s name or {"texture": NAME, ...}')
+        raise BrushError(place, described(value), 'a texture\'s name or {"texture": NAME, ...}')
     return Tip(
         checks.text(value.get("texture"), f"{place}.texture", "a texture's name"),
         checks.one_of(value.get("from", "sample"), f"{place}.from", TIPS),
@@ -197,7 +198,7 @@ def tip_json(part: Tip) -> Any:
 
 def flag(value: Any, place: str) -> bool:
     if not isinstance(value, bool):
-        raise BrushError(place, checks.shown(value), "true or false")
+        raise BrushError(place, described(value), "true or false")
     return value
 
 

@@ -16,6 +16,7 @@ from engine.brush import checks, ops, parts
 from engine.brush.checks import BrushError, Knots
 from engine.brush.modes import MODES, Mode
 from engine.brush.parts import COMPONENTS_CAP, Component, Edge, Surface, Tip
+from engine.checks.values import described
 from engine.numeric.curves import Shape
 
 __all__ = ["COMPONENTS_CAP", "SETTINGS", "Brush", "Component", "Curve", "Setting", "from_json", "to_json"]
@@ -149,7 +150,7 @@ class Brush:
 def from_json(data: Any, where: str = "brush") -> Brush:
     """The brush that a JSON object describes.  BrushError names the field, what was found and what was expected."""
     if not isinstance(data, Mapping):
-        raise BrushError(where, checks.shown(data), "an object")
+        raise BrushError(where, described(data), "an object")
     known = {name: read(data[name], f"{where}.{name}") for name, read in _READERS.items() if name in data}
     return Brush(**known, extra=checks.frozen({name: v for name, v in data.items() if name not in _READERS}))
 
@@ -198,7 +199,7 @@ def _optional(read: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
 def _dynamics(value: Any, place: str) -> Map[str, Any]:
     """Given dynamics replace the default ones; a null curve is none."""
     if not isinstance(value, Mapping):
-        raise BrushError(place, checks.shown(value), 'an object {"opacity": "pressure", ...}')
+        raise BrushError(place, described(value), 'an object {"opacity": "pressure", ...}')
     curves = {}
     for name, curve in value.items():
         at = f"{place}.{name}"

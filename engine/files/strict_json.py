@@ -15,6 +15,8 @@ from typing import Any
 from immutables import Map
 
 from engine.brush.checks import frozen
+from engine.checks.field_error import FieldError
+from engine.checks.values import described, is_integer, is_within
 from engine.files.fault import shown
 
 BYTES_CAP = 8 << 20  # of one line or document
@@ -24,35 +26,26 @@ _LONE = re.compile("[\ud800-\udfff]")
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ufffe\uffff]")
 
 
-class FormatError(ValueError):
-    """Content that its format does not allow: the place, what was found there, what was expected."""
-
-    def __init__(self, place: str, found: str, expected: str) -> None:
-        self.place, self.found, self.expected = place, found, expected
-        lead = f"{place}: " if place else ""
-        super().__init__(f"{lead}found {found}, expected {expected}")
-
-
 def loads(data: bytes | str, cap: int = BYTES_CAP) -> Any:
-    """The value that `data`, one JSON document, holds.  FormatError tells the column where it is wrong."""
+    """The value that `data`, one JSON document, holds.  FieldError tells the column where it is wrong."""
     if len(data) > cap:
-        raise FormatError("", f"more than {cap >> 20} MiB", "less")
+        raise FieldError("", f"more than {cap >> 20} MiB", "less")
     try:
         text = data.decode("utf-8-sig") if isinstance(data, bytes) else data
     except UnicodeDecodeError as error:
-        raise FormatError(f"byte {error.start + 1}", "bytes that are not UTF-8", "UTF-8 text") from None
+        raise FieldError(f"byte {error.start + 1}", "bytes that are not UTF-8", "UTF-8 text") from None
     try:
         value = _DECODER.decode(text)
     except json.JSONDecodeError as error:
-        raise FormatError(_place(text, error.pos), _excerpt(text, error.pos), f"JSON ({error.msg})") from None
+        raise FieldError(_place(text, error.pos), _excerpt(text, error.pos), f"JSON ({error.msg})") from None
     except RecursionError:
-        raise FormatError("", "brackets nested too deeply", "a few levels") from None
-    except FormatError:
+        raise FieldError("", "brackets nested too deeply", "a few levels") from None
+    except FieldError:
         raise
     except ValueError:
-        raise FormatError("", "a number of more than 4300 digits", "a shorter number") from None
+        raise FieldError("", "a number of more than 4300 digits", "a shorter number") from None
     if "\\u" in text and _LONE.search(json.dumps(value, ensure_ascii=False)):
-        raise FormatError("", "half of a surrogate pair", "whole characters")
+        raise FieldError("", "half of a surrogate pair", "whole characters")
     return value
 
 
@@ -73,13 +66,13 @@ def _excerpt(text: str, position: int) -> str:
 
 
 def _constant(name: str) -> float:
-    raise FormatError("", name, "a finite number")
+    raise FieldError("", name, "a finite number")
 
 
 def _finite(digits: str) -> float:
     value = float(digits)
     if not math.isfinite(value):
-        raise FormatError("", shown(digits), "a number within the range of a 64-bit float")
+        raise FieldError("", shown(digits), "a number within the range of a 64-bit float")
     return value
 
 
@@ -88,32 +81,11 @@ def _members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(members) < len(pairs):
         seen: set[str] = set()
         twice = next(name for name, _ in pairs if name in seen or seen.add(name))  # type: ignore[func-returns-value]
-        raise FormatError("", f"{shown(twice)} given twice", "each name once")
+        raise FieldError("", f"{shown(twice)} given twice", "each name once")
     return members
 
 
 _DECODER = json.JSONDecoder(parse_constant=_constant, parse_float=_finite, object_pairs_hook=_members)
-
-
-def described(value: Any) -> str:
-    """A JSON value as a message shows it: short, printable, on one line."""
-    match value:
-        case dict():
-            return "an object"
-        case list():
-            return f"a list of {len(value)}" if len(value) > 6 else shown_json(value)
-        case _:
-            return shown_json(value)
-
-
-def shown_json(value: Any, limit: int = 60) -> str:
-    if isinstance(value, int) and value.bit_length() > 200:
-        return f"an integer of about {int(value.bit_length() * 0.30103)} digits"
-    try:
-        text = json.dumps(value)
-    except ValueError:
-        return "a list with very long numbers"
-    return text if len(text) <= limit else text[:limit] + "..."
 
 
 class _Missing:
@@ -128,7 +100,7 @@ class Fields:
 
     def __init__(self, value: Any, place: str) -> None:
         if not isinstance(value, Mapping):
-            raise FormatError(place, described(value), "an object")
+            raise FieldError(place, described(value), "an object")
         self.place = place
         self._members = value
         self._asked: set[str] = set()
@@ -143,9 +115,9 @@ class Fields:
     def at(self, name: str) -> str:
         return f"{self.place}.{name}" if self.place else name
 
-    def fault(self, name: str, expected: str) -> FormatError:
+    def fault(self, name: str, expected: str) -> FieldError:
         found = described(self._members[name]) if name in self._members else "nothing"
-        return FormatError(self.at(name), found, expected)
+        return FieldError(self.at(name), found, expected)
 
     def take(self, name: str, default: Any = REQUIRED, expected: str = "a value") -> Any:
         """The member as it stands.  A missing one is `default`; without default it is an error."""
@@ -169,7 +141,7 @@ class Fields:
         value = self.take(name, default, expected)
         if name not in self._members:
             return value
-        if not (is_number(value) and lo <= value <= hi):
+        if not is_within(value, lo, hi):
             raise self.fault(name, expected)
         return float(value) + 0.0  # no negative zero
 
@@ -203,14 +175,6 @@ class Fields:
         """The members that were not read, frozen: kept, so that what a newer version wrote survives."""
         out: Map[str, Any] = frozen({name: value for name, value in self._members.items() if name not in self._asked})
         return out
-
-
-def is_integer(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool)
-
-
-def is_number(value: Any) -> bool:
-    return is_integer(value) or (isinstance(value, float) and math.isfinite(value))
 
 
 def is_name(value: Any, cap: int = NAME_CAP) -> bool:

@@ -14,7 +14,8 @@ from immutables import Map
 
 from engine.brush import settings
 from engine.brush.settings import Brush
-from engine.files.strict_json import FormatError, described
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
 from engine.painting import commands
 from engine.painting.commands import DefineTexture, parse
 
@@ -30,16 +31,16 @@ Known = Mapping[str, tuple[str, Mapping[str, Any]]]  # textures of a painting: n
 def read(value: Any, place: str, folder: Path | None = None) -> tuple[DefineTexture, ...]:
     """The definitions of a list [{"name": ..., "maker": ..., ...}, ...]; paths in them start from `folder`.
 
-    FormatError names the member.
+    FieldError names the member.
     """
     if not isinstance(value, list) or len(value) > COUNT_CAP:
-        raise FormatError(place, described(value), f"a list of at most {COUNT_CAP} textures")
+        raise FieldError(place, described(value), f"a list of at most {COUNT_CAP} textures")
     found: list[DefineTexture] = []
     for i, member in enumerate(value):
         given = {"do": "texture", **_grounded(member, folder)} if isinstance(member, dict) else member
         command = parse(given, f"{place}[{i}]")
         if not isinstance(command, DefineTexture) or any(command.name == other.name for other in found):
-            raise FormatError(f"{place}[{i}]", described(member), "a texture with a name of its own")
+            raise FieldError(f"{place}[{i}]", described(member), "a texture with a name of its own")
         found.append(command)
     return tuple(found)
 

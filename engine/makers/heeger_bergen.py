@@ -16,9 +16,9 @@ import numpy as np
 from immutables import Map
 
 from engine.brush import parts
-from engine.brush.checks import BrushError
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
-from engine.files.strict_json import Fields, FormatError
+from engine.files.strict_json import Fields
 from engine.makers.lewis import SAMPLE_CAP, Sample, flattened
 from engine.numeric.colour_axes import axes_of
 from engine.numeric.grid import snapped
@@ -100,7 +100,7 @@ class Pictures(Protocol):
 
 
 def read(maker: str, members: Fields, place: Pictures) -> Plan:
-    """What a command `match` or `mix` asks for, its pictures read.  FormatError names the member."""
+    """What a command `match` or `mix` asks for, its pictures read.  FieldError names the member."""
     shas = _known(members)
     given = [_example(members, "path", place, shas[0])]
     stages, how, mix = 1, "palette", Mix()
@@ -112,7 +112,7 @@ def read(maker: str, members: Fields, place: Pictures) -> Plan:
         mix = Mix(members.number("weight", 0.5, lo=0.0, hi=1.0), members.integer("split", 2, lo=0, hi=16))
         stages = members.integer("stages", 1, lo=1, hi=STAGES_CAP)
         if stages > 1 and how != "average":
-            raise FormatError(members.at("how"), f'"{how}"', 'average: only of it there are several "stages"')
+            raise FieldError(members.at("how"), f'"{how}"', 'average: only of it there are several "stages"')
     start = _example(_other(members, "start"), "start", place).planes if "start" in members else None
     size = _size(members, (start if start is not None else given[-1].planes).shape[1:], stages)
     if start is not None:
@@ -203,7 +203,7 @@ def _example(members: Fields, name: str, place: Pictures, known: Any = None) -> 
     """A picture.  One that is `known` by the sha that it had without its alpha is the one without: it was recorded
     before alpha counted."""
     if "path" not in members and "rect" not in members:
-        raise FormatError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
+        raise FieldError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
     given = place.picture(members)
     opaque = flattened(given)
     found = _looked_at(opaque if (given[3] == 1.0).all() else given)
@@ -211,7 +211,7 @@ def _example(members: Fields, name: str, place: Pictures, known: Any = None) -> 
         without = _looked_at(opaque)
         return without if known == without.sha else found
     if len(found.planes) == 4 and not found.planes[3].any():
-        raise FormatError(members.at("rect" if "rect" in members else "path"), "nothing but transparency", "a picture")
+        raise FieldError(members.at("rect" if "rect" in members else "path"), "nothing but transparency", "a picture")
     return found
 
 
@@ -249,10 +249,7 @@ def _bands(members: Fields) -> tuple[Band, ...]:
 
 
 def _band(members: Fields) -> Band:
-    try:
-        shaping = parts.shaping(members.take("shaping", None), members.at("shaping"))
-    except BrushError as error:
-        raise FormatError(error.place, error.found, error.expected) from None
+    shaping = parts.shaping(members.take("shaping", None), members.at("shaping"))
     level = members.integer("level", lo=-1, hi=16)
     orientation = members.integer("orientation", None, lo=0, hi=15)
     return Band(level, orientation, members.number("gain", 1.0, lo=0.0, hi=GAIN_CAP), shaping)

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 from immutables import Map
 
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
-from engine.files.strict_json import Fields, FormatError
+from engine.files.strict_json import Fields
 from engine.makers import spectrum
 from engine.numeric import impulse, spectra
 from engine.numeric.grid import snapped
@@ -114,7 +115,7 @@ def _phases(members: Fields, place: Place, size: tuple[int, int]) -> np.ndarray:
     """The phases that a picture tells, 0..1 for -pi..pi, 1/2 where it is transparent: float32 (1, h, w)."""
     given = place.picture(Fields({"path": members.text("phase", cap=4096)}, ""))
     if given.shape[1:] != size:
-        raise FormatError(
+        raise FieldError(
             "phase", f"a picture of {given.shape[2]} x {given.shape[1]}", f"{size[1]} x {size[0]}, as the amplitudes"
         )
     out: np.ndarray = given[:3].mean(axis=0, keepdims=True) + np.float32(0.5) * (1.0 - given[3:])

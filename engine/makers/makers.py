@@ -14,8 +14,9 @@ import numpy as np
 
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
-from engine.files.strict_json import Fields, FormatError
+from engine.files.strict_json import Fields
 from engine.makers import heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, USUAL, kind_of
 from engine.painting.capture import Place, captured, read_picture
@@ -31,11 +32,11 @@ NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one i
 def define(command: DefineTexture, root: Group, around: Around) -> Texture:
     """The texture that a command defines over a painting with the layers `root`.
 
-    FormatError, FieldError or LayerError name what is wrong with it, FileError the picture that cannot be read.
+    FieldError or LayerError names what is wrong with it, FileError the picture that cannot be read.
     """
     make = MAKERS.get(command.maker)
     if make is None:
-        raise FormatError("maker", f"{command.maker!a}", f"one of {', '.join(MAKERS)}")
+        raise FieldError("maker", f"{command.maker!a}", f"one of {', '.join(MAKERS)}")
     texture = make(command, root, around)
     texture.instance({}, 0, 0)  # its parameters are checked where it is defined, not where it is used
     return texture

@@ -19,7 +19,9 @@ from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.canvas.ground import laid
 from engine.canvas.layers import Layer
-from engine.files.strict_json import Fields, FormatError, described
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
+from engine.files.strict_json import Fields
 from engine.numeric import shapes, spectra
 from engine.numeric.address import Rect
 from engine.numeric.grid import snapped
@@ -73,7 +75,7 @@ class Design:
 
 
 def read(arguments: Any) -> Design:
-    """The design that a texture command describes; members of others are ignored.  FormatError names what is wrong."""
+    """The design that a texture command describes; members of others are ignored.  FieldError names what is wrong."""
     members = Fields(thawed(arguments), "")
     size = members.integers("size", 2, Design().size, limit=SIDES[1])
     if min(size) < SIDES[0]:
@@ -127,13 +129,13 @@ def _shape(value: Any, where: str) -> dict[str, Any]:
 def _stroke(value: Any, where: str) -> c.Stroke:
     command = c.parse({"do": "stroke", **value} if isinstance(value, dict) else value, where)
     if not isinstance(command, c.Stroke):
-        raise FormatError(where, "another command", "a stroke")
+        raise FieldError(where, "another command", "a stroke")
     if command.level != 0:
-        raise FormatError(f"{where}.level", str(command.level), "0")
+        raise FieldError(f"{where}.level", str(command.level), "0")
     if max(map(abs, command.origin)) > FURTHEST:
-        raise FormatError(f"{where}.origin", described(list(command.origin)), f"two integers within {FURTHEST}")
+        raise FieldError(f"{where}.origin", described(list(command.origin)), f"two integers within {FURTHEST}")
     if command.layer not in (None, *SHEETS):
-        raise FormatError(f"{where}.layer", repr(command.layer), f"one of {', '.join(SHEETS)}")
+        raise FieldError(f"{where}.layer", repr(command.layer), f"one of {', '.join(SHEETS)}")
     return command
 
 
@@ -184,7 +186,7 @@ def begun(design: Design, look: Look | None = None) -> Sheets:
     for shape in design.shapes:
         if shape["shape"] in PICTURED:
             if look is None:
-                raise FormatError("shapes", repr(shape["shape"]), f"one of {', '.join(shapes.SHAPES)}")
+                raise FieldError("shapes", repr(shape["shape"]), f"one of {', '.join(shapes.SHAPES)}")
             picture = look(shape)
             one = of_picture(picture, (height, width)) * np.float32(shape.get("strength", 1.0))
             phase = phase_of_picture(picture, (height, width)) if design.phase == "own" else phase

@@ -15,9 +15,10 @@ import numpy as np
 from immutables import Map
 
 from engine.brush import settings
-from engine.brush.checks import BrushError, thawed
+from engine.brush.checks import thawed
 from engine.brush.settings import Brush
-from engine.files.strict_json import Fields, FormatError
+from engine.checks.field_error import FieldError
+from engine.files.strict_json import Fields
 from engine.painting.points import plain, points_array, points_json
 
 LEVEL_LIMIT = 4096  # a level beyond this has more digits than a painting needs
@@ -181,7 +182,7 @@ Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap
 
 
 def parse(value: Any, where: str = "") -> Command:
-    """The command that a JSON object tells; FormatError names the member, what was found and what was expected."""
+    """The command that a JSON object tells; FieldError names the member, what was found and what was expected."""
     members = Fields(value, where)
     name = members.take("do", expected="the command's name")
     row = COMMANDS.get(name) if isinstance(name, str) else None
@@ -207,10 +208,7 @@ def _read_stroke(members: Fields) -> Stroke:
 
 
 def _read_brush(members: Fields) -> Brush:
-    try:
-        return settings.from_json(members.take("brush", {}), members.at("brush"))
-    except BrushError as error:
-        raise FormatError(error.place, error.found, error.expected) from None
+    return settings.from_json(members.take("brush", {}), members.at("brush"))
 
 
 def _write_stroke(stroke: Stroke) -> dict[str, Any]:
@@ -277,7 +275,7 @@ _SETTABLE: tuple[tuple[str, Callable[[Fields, str], Any]], ...] = (
 def _settings(members: Fields) -> dict[str, Any]:
     settings = {name: read(members, name) for name, read in _SETTABLE if name in members}
     if not settings:
-        raise FormatError(members.place, "nothing to set", f"any of {', '.join(row[0] for row in _SETTABLE)}")
+        raise FieldError(members.place, "nothing to set", f"any of {', '.join(row[0] for row in _SETTABLE)}")
     return settings
 
 
@@ -296,7 +294,7 @@ _VERBS = {form.record: verb for verb, form in LAYER_FORMS.items()}
 def _read_layer(members: Fields) -> Command:
     verbs = [verb for verb in LAYER_FORMS if verb in members]
     if len(verbs) != 1:
-        raise FormatError(members.place, " and ".join(verbs) or "none", f"exactly one of {', '.join(LAYER_FORMS)}")
+        raise FieldError(members.place, " and ".join(verbs) or "none", f"exactly one of {', '.join(LAYER_FORMS)}")
     name = members.text(verbs[0])
     form = LAYER_FORMS[verbs[0]]
     out: Command = form.record(name, **form.read(members), extra=members.rest())

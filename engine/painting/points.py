@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from engine.files.strict_json import FormatError, described
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
 
 POINTS_CAP = 1_000_000  # of one stroke
 REACH = float(1 << 24)  # pixels from a stroke's origin to its points
@@ -32,25 +33,25 @@ def points_array(rows: Any, place: str) -> np.ndarray:
     """A list of lists of 2 to 6 numbers as float64 (n, 6), read-only; what is left out has its default."""
     if not isinstance(rows, list) or not 1 <= len(rows) <= POINTS_CAP:
         found = f"{len(rows)} points" if isinstance(rows, list) else described(rows)
-        raise FormatError(place, found, f"a list of 1 to {POINTS_CAP} points")
+        raise FieldError(place, found, f"a list of 1 to {POINTS_CAP} points")
     for i, row in enumerate(rows):
         if type(row) is not list or not 2 <= len(row) <= 6 or not _NUMERIC.issuperset(map(type, row)):
             names = ", ".join(column[0] for column in POINT_COLUMNS)
-            raise FormatError(f"{place}[{i}]", described(row), f"2 to 6 numbers [{names}]")
+            raise FieldError(f"{place}[{i}]", described(row), f"2 to 6 numbers [{names}]")
     try:
         return checked_points(np.array([(*row, *_TAILS[len(row)]) for row in rows], np.float64), place)
     except OverflowError:
         i = next(i for i, row in enumerate(rows) if any(abs(value) > 1e300 for value in row))
-        raise FormatError(f"{place}[{i}]", described(rows[i]), "numbers near the origin") from None
+        raise FieldError(f"{place}[{i}]", described(rows[i]), "numbers near the origin") from None
 
 
 def checked_points(table: np.ndarray, place: str) -> np.ndarray:
-    """The points themselves, read-only, if all are within their columns' bounds; else FormatError for the first."""
+    """The points themselves, read-only, if all are within their columns' bounds; else FieldError for the first."""
     good = (table >= _LOWEST) & (table <= _HIGHEST)
     if not good.all():
         i, column = (int(v) for v in np.argwhere(~good)[0])
         name, _, lo, hi = POINT_COLUMNS[column]
-        raise FormatError(f"{place}[{i}][{column}]", f"{table[i, column]:g}", f"{name} from {lo:g} to {hi:g}")
+        raise FieldError(f"{place}[{i}][{column}]", f"{table[i, column]:g}", f"{name} from {lo:g} to {hi:g}")
     table += 0.0  # no negative zeros
     table.flags.writeable = False
     return table

@@ -15,9 +15,10 @@ from typing import Any, BinaryIO
 from immutables import Map
 
 from engine.brush.checks import thawed
+from engine.checks.field_error import FieldError
 from engine.files.atomic import replacing
 from engine.files.fault import FileError
-from engine.files.strict_json import BYTES_CAP, Fields, FormatError, dumps, loads
+from engine.files.strict_json import BYTES_CAP, Fields, dumps, loads
 from engine.numeric.address import Rect
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Redo, Undo, parse, to_json
 
@@ -97,7 +98,7 @@ def read_from(file: BinaryIO, name: str, folder: Path | None = None) -> Recordin
             else:
                 commands.append(parse(value))
                 places.append(number)
-        except FormatError as error:
+        except FieldError as error:
             raise FileError(name, f"line {number}: {error}") from None
         if len(commands) > COMMANDS_CAP:
             raise FileError(name, f"line {number}: found more than {COMMANDS_CAP} commands, expected fewer")
@@ -122,13 +123,13 @@ def _lines(file: BinaryIO, name: str) -> Iterator[tuple[int, bytes]]:
 
 
 def parse_header(value: Any) -> Header:
-    """Reads the first line of a recording.  FormatError names the member that is wrong."""
+    """Reads the first line of a recording.  FieldError names the member that is wrong."""
     members = Fields(value, "header")
     if "inkfall" not in members:
-        raise FormatError("header", "no member inkfall", '{"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')
+        raise FieldError("header", "no member inkfall", '{"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')
     version = members.integer("inkfall", lo=1, hi=COMMANDS_CAP)
     if version > VERSION:
-        raise FormatError("header.inkfall", f"{version} (a newer Inkfall wrote this)", f"a version up to {VERSION}")
+        raise FieldError("header.inkfall", f"{version} (a newer Inkfall wrote this)", f"a version up to {VERSION}")
     x, y, width, height = members.integers("frame", 4, (0, 0, 1024, 768), limit=PLACE_LIMIT)
     if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
         raise members.fault("frame", "a width and height from 1 to 2^40")

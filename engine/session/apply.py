@@ -11,18 +11,17 @@ from typing import Any
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, LayerError
-from engine.files.strict_json import FormatError
+from engine.checks.field_error import FieldError
 from engine.makers.makers import define
 from engine.painting import commands as c
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, with_node
 from engine.strokes.example_stroke import kind_of, swapped
-from engine.texture.field_error import FieldError
 
 __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
 
 NOWHERE = Around()
-_CAUSES = (LayerError, FieldError, FormatError)
+_CAUSES = (LayerError, FieldError)
 
 
 def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> Painting:

@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
+from engine.checks.field_error import FieldError
 from engine.files.atomic import replacing
 from engine.files.fault import FileError, WriteError
 from engine.files.images import read_image
 from engine.texture.example.exemplar import ExampleLevel, Exemplar, analysed
 from engine.texture.example.parameters import Parameters, read_toml
-from engine.texture.field_error import FieldError
 
 VERSION = 2  # of the analysis: another one, another hash
 KEPT = 64  # analyses at most; the ones unused for longest go first

@@ -14,7 +14,9 @@ import numpy as np
 from engine.brush.checks import thawed
 from engine.brush.footprint import Footprint
 from engine.brush.settings import Brush
-from engine.files.strict_json import Fields, FormatError, described
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
+from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 
@@ -40,7 +42,7 @@ def round_brush(radius: float) -> Brush:
 
 def followed(inside: np.ndarray, steps: Iterable[Any], picture: np.ndarray, place: str = "region") -> np.ndarray:
     """Returns a region, bool (h, w), after steps.  `picture`: the example, premultiplied RGBA, float32 (4, h, w) on the
-    grid.  FormatError names the step and the member by `place`; BrushError what is wrong with a stroke."""
+    grid.  FieldError names the step and the member by `place`; BrushError what is wrong with a stroke."""
     for i, step in enumerate(steps):
         inside = _after(inside, thawed(step), picture, f"{place}[{i}]")
     return inside
@@ -48,10 +50,10 @@ def followed(inside: np.ndarray, steps: Iterable[Any], picture: np.ndarray, plac
 
 def _after(inside: np.ndarray, step: Any, picture: np.ndarray, place: str) -> np.ndarray:
     if not isinstance(step, Mapping):
-        raise FormatError(place, described(step), "an object")
+        raise FieldError(place, described(step), "an object")
     named = [name for name in (*_TAKEN, *_CHANGED) if name in step]
     if len(named) != 1:
-        raise FormatError(place, described(sorted(step)), f"one of {', '.join((*_TAKEN, *_CHANGED))}")
+        raise FieldError(place, described(sorted(step)), f"one of {', '.join((*_TAKEN, *_CHANGED))}")
     members = Fields(step, place)
     if named[0] in _CHANGED:
         return _CHANGED[named[0]](inside) if members.flag(named[0]) else inside
@@ -79,13 +81,13 @@ def lay(taken: np.ndarray, footprint: Footprint, points: np.ndarray, value: bool
 def _stroke(members: Fields, picture: np.ndarray) -> np.ndarray:
     value, place = members.take("stroke"), members.at("stroke")
     if not isinstance(value, Mapping):
-        raise FormatError(place, described(value), "a stroke")
+        raise FieldError(place, described(value), "a stroke")
     stroke = c.parse({**value, "do": "stroke"}, place)
     assert isinstance(stroke, c.Stroke)
     if stroke.level != 0:
-        raise FormatError(f"{place}.level", str(stroke.level), "0")
+        raise FieldError(f"{place}.level", str(stroke.level), "0")
     if max(map(abs, stroke.origin)) > FURTHEST:
-        raise FormatError(f"{place}.origin", described(list(stroke.origin)), f"two integers within {FURTHEST}")
+        raise FieldError(f"{place}.origin", described(list(stroke.origin)), f"two integers within {FURTHEST}")
     _, height, width = picture.shape
     taken = np.zeros((height, width), np.bool_)
     lay(taken, Footprint(stroke.brush, stroke.origin, within=Rect(0, 0, width, height)), stroke.points)

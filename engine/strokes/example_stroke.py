@@ -8,12 +8,13 @@ from functools import partial
 import numpy as np
 
 from engine.brush import tip
-from engine.brush.checks import BrushError, shown
+from engine.brush.checks import BrushError
 from engine.brush.footprint import Footprint
 from engine.brush.settings import Brush
 from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
+from engine.checks.values import described
 from engine.numeric.address import Rect
 from engine.painting.commands import Swap
 from engine.painting.value import Painting, Refusal, layer_for
@@ -110,7 +111,7 @@ def _grid(brush: Brush, level: int) -> int:
     grid = brush.example_level
     if abs(grid - level) > FURTHEST:
         raise BrushError(
-            "brush.example_level", shown(grid), f"from {level - FURTHEST} to {level + FURTHEST} at level {level}"
+            "brush.example_level", described(grid), f"from {level - FURTHEST} to {level + FURTHEST} at level {level}"
         )
     return grid
 

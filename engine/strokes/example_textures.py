@@ -18,8 +18,10 @@ import numpy as np
 
 from engine.brush.checks import BrushError, thawed
 from engine.brush.footprint import Footprint
+from engine.checks.field_error import FieldError
+from engine.checks.values import described
 from engine.files.fault import FileError
-from engine.files.strict_json import Fields, FormatError, described
+from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba16
 from engine.painting import commands as c
@@ -29,7 +31,6 @@ from engine.strokes.example_files import kept, read_mask, read_parameters
 from engine.strokes.example_region import STEPS_CAP, followed
 from engine.texture.example.exemplar import SIDE, Exemplar, shrunk
 from engine.texture.example.parameters import FIELDS, Parameters, changed
-from engine.texture.field_error import FieldError
 from engine.texture.image import ImageSource
 
 KIND = "example"
@@ -55,7 +56,7 @@ def of_definition(command: c.DefineTexture, around: Around) -> Texture:
 
     `path` of a picture or `bundled`, the name of one that comes along; `mask`, a picture that is light where the region
     is (else it is where the picture is not transparent), `mask_strokes`, painted on it, and `region`, steps by which it
-    is changed; `params`, a TOML file, and any of its fields.  FormatError, FieldError or BrushError name the member,
+    is changed; `params`, a TOML file, and any of its fields.  FieldError names the member,
     FileError the file.
     """
     members = Fields(thawed(command.arguments), "")
@@ -104,7 +105,7 @@ def _picture(name: str, members: Fields, path: Path | None, around: Around) -> I
     if sha is not None and sha in around.pictures:
         return replace(around.pictures[sha], name=name)
     if path is None:
-        raise FormatError("path", "nothing", "path, a picture, or bundled, the name of an example")
+        raise FieldError("path", "nothing", "path, a picture, or bundled, the name of an example")
     source = ImageSource.of(name, read_picture(str(path), None))
     if sha is not None and sha != source.sha:
         raise FileError(path, _CHANGED)
@@ -151,7 +152,7 @@ def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, ar
 def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
     """The region with what a stroke takes, or without it if the stroke erases."""
     if not isinstance(value, Mapping):
-        raise FormatError(where, described(value), "a stroke")
+        raise FieldError(where, described(value), "a stroke")
     stroke = c.parse({"do": "stroke", **value}, where)
     assert isinstance(stroke, c.Stroke)
     out, whole = inside.copy(), Rect(0, 0, inside.shape[1], inside.shape[0])

@@ -17,9 +17,10 @@ import numpy as np
 
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
+from engine.checks.field_error import FieldError
 from engine.checks.owned import Owned
 from engine.files.fault import FileError
-from engine.files.strict_json import Fields, FormatError
+from engine.files.strict_json import Fields
 from engine.makers import heeger_bergen
 from engine.makers.heeger_bergen import Plan
 from engine.numeric.colour_axes import ColourAxes
@@ -76,7 +77,7 @@ class Matcher(Owned):
                 self._define(work)
             else:
                 self._advance(work)
-        except (FormatError, FileError) as error:
+        except (FieldError, FileError) as error:
             self._drop(work)
             self._easel.send(results.MatchScene(fault=str(error)))
         except Exception as error:

@@ -6,13 +6,13 @@ One row makes the sliders, the entries of a brush's ink, the checks and the form
 from __future__ import annotations
 
 import itertools
-import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from engine.checks.field_error import FieldError
+from engine.checks.values import described, is_within
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
-from engine.texture.field_error import FieldError
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.matched import Matched, MatchedCover, series, series_cover
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
@@ -43,13 +43,10 @@ class Parameter:
 
     def checked(self, value: Any) -> float | int:
         """The value as a float (or int); TextureError if it is no number or out of range."""
-        if isinstance(value, int | float) and not isinstance(value, bool) and self.lo <= value <= self.hi:
-            if not self.whole:
-                return float(value) + 0.0  # -0.0 becomes 0.0: one key for one texture
-            if value == int(value):
-                return int(value)
+        if is_within(value, self.lo, self.hi, self.whole):
+            return int(value) if self.whole else float(value) + 0.0  # -0.0 becomes 0.0: one key for one texture
         kind = "an integer" if self.whole else "a number"
-        raise TextureError(self.name, _shown(value), f"{kind} from {self.lo:g} to {self.hi:g}")
+        raise TextureError(self.name, described(value), f"{kind} from {self.lo:g} to {self.hi:g}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +154,7 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     An image that is not among them keeps its key and is transparent.  TextureError names the part of the key.
     """
     if not isinstance(key, list | tuple) or len(key) < 2:
-        raise TextureError("key", _shown(key), "[kind, base level, parameters ...]")
+        raise TextureError("key", described(key), "[kind, base level, parameters ...]")
     if key[0] == "shaped":
         return _shaped_from_key(key, images)
     row = (_COVERS.get(key[0]) if isinstance(key[0], str) else None) or _row(key[0])
@@ -171,7 +168,7 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     name, sha = key[-2:]
     for field, text in (("name", name), ("sha", sha)):
         if not isinstance(text, str):
-            raise TextureError(field, _shown(text), "a string")
+            raise TextureError(field, described(text), "a string")
     known = images.get(sha)
     return row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
 
@@ -182,11 +179,13 @@ def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> I
     while isinstance(inner, list | tuple) and len(inner) == 4 and inner[0] == "shaped":
         inner, deep = inner[3], deep + 1
     if not 0 < deep <= SHAPED_CAP:
-        raise TextureError("key", _shown(key), f'["shaped", base level, curve, key], nested {SHAPED_CAP} times at most')
+        raise TextureError(
+            "key", described(key), f'["shaped", base level, curve, key], nested {SHAPED_CAP} times at most'
+        )
     made = from_key(key[3], images)
     _check_level(key[1])
     if made.base != key[1]:
-        raise TextureError("level", _shown(key[1]), f"{made.base}, that of the texture itself")
+        raise TextureError("level", described(key[1]), f"{made.base}, that of the texture itself")
     return Shaped(made, _curve(key[2]))
 
 
@@ -198,36 +197,21 @@ def _curve(value: Any) -> Shape:
     knots = tuple((float(k[0]), float(k[1])) for k in pairs if _is_knot(k))
     rising = all(a[0] < b[0] for a, b in itertools.pairwise(knots))
     if not knots or len(knots) < len(pairs) or not rising:
-        raise TextureError("curve", _shown(value), f"1 to {KNOTS_CAP} knots [in, out] of 0..1, or a curve's name")
+        raise TextureError("curve", described(value), f"1 to {KNOTS_CAP} knots [in, out] of 0..1, or a curve's name")
     return knots
 
 
 def _is_knot(value: Any) -> bool:
-    return (
-        isinstance(value, list | tuple)
-        and len(value) == 2
-        and all(isinstance(v, int | float) and not isinstance(v, bool) and 0.0 <= v <= 1.0 for v in value)
-    )
+    return isinstance(value, list | tuple) and len(value) == 2 and all(is_within(v, 0.0, 1.0) for v in value)
 
 
 def _row(kind: object) -> Kind:
     row = KINDS.get(kind) if isinstance(kind, str) else None
     if row is None:
-        raise TextureError("texture", _shown(kind), "one of " + ", ".join(KINDS))
+        raise TextureError("texture", described(kind), "one of " + ", ".join(KINDS))
     return row
 
 
 def _check_level(level: object) -> None:
     if not isinstance(level, int) or isinstance(level, bool) or abs(level) > DEEPEST:
-        raise TextureError("level", _shown(level), f"an integer from -{DEEPEST} to {DEEPEST}")
-
-
-def _shown(value: object) -> str:
-    """A value as a message shows it: ASCII, on one line, not long."""
-    if isinstance(value, int) and value.bit_length() > 200:
-        return f"an integer of about {int(value.bit_length() * 0.30103)} digits"
-    try:
-        text = json.dumps(value)
-    except (TypeError, ValueError, RecursionError):
-        text = ascii(type(value).__name__)
-    return text if len(text) <= 48 else text[:48] + "..."
+        raise TextureError("level", described(level), f"an integer from -{DEEPEST} to {DEEPEST}")

@@ -10,7 +10,7 @@ from immutables import Map
 from app import icons
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
-from engine.brush.checks import is_number
+from engine.checks.values import is_number
 from engine.makers import definitions
 from engine.painting.commands import DefineTexture
 

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from engine.checks.field_error import FieldError
 from engine.numeric.colour import to_rgba16
 from engine.numeric.halving import halved, halved_region
 from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
 from engine.texture.example.parameters import MOST_LEVELS, Parameters
-from engine.texture.field_error import FieldError
 
 PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
 SIDE = 1024  # pixels along an example, at most

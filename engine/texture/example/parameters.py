@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
-from engine.texture.field_error import FieldError
+from engine.checks.field_error import FieldError
+from engine.checks.values import is_integer, is_within
 
 METHODS = ("correction", "scanline")
 CHANNELS = ("colour", "luminance")
@@ -61,14 +62,14 @@ def _clipped(text: str) -> str:
 
 def _number(low: float, high: float) -> Field:
     def fits(value: Any) -> bool:
-        return isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
+        return is_within(value, low, high)
 
     return Field(f"a number from {low:g} to {high:g}", fits)
 
 
 def _whole(low: int, high: int) -> Field:
     def fits(value: Any) -> bool:
-        return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
+        return is_integer(value) and low <= value <= high
 
     return Field(f"a whole number from {low} to {high}", fits)
 

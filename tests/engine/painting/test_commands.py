@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from engine.brush.checks import frozen
 from engine.brush.settings import Brush, Component
-from engine.files.strict_json import FormatError, dumps, loads
+from engine.checks.field_error import FieldError
+from engine.files.strict_json import dumps, loads
 from engine.painting import commands as c
 from engine.painting.points import POINT_COLUMNS, points_array
 
@@ -177,7 +178,7 @@ HOSTILE = {
 
 @pytest.mark.parametrize(("value", "message"), HOSTILE.values(), ids=HOSTILE)
 def test_what_is_wrong_is_named(value, message):
-    with pytest.raises(FormatError) as caught:
+    with pytest.raises(FieldError) as caught:
         c.parse(value)
     assert message in str(caught.value)
     assert "expected" in str(caught.value)
@@ -197,6 +198,6 @@ def test_what_is_wrong_is_named(value, message):
 def test_nothing_else_is_raised(value):
     try:
         command = c.parse(value)
-    except FormatError:
+    except FieldError:
         return
     assert c.parse(c.to_json(command)) == command

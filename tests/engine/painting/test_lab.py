@@ -8,8 +8,8 @@ from immutables import Map
 
 from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
-from engine.files.strict_json import FormatError
 from engine.numeric.address import Rect
 from engine.numeric.spectra import opposite
 from engine.painting import commands as c
@@ -222,7 +222,7 @@ def test_a_picture_that_is_not_there_is_told_once(desk, shape):
     desk.ask(RING)
     before = desk.picture("lab texture")
     desk.studio.do(q.LabSet((64, 64), (Map(shape),)))
-    with pytest.raises((FileError, FormatError)):
+    with pytest.raises((FileError, FieldError)):
         desk.studio.step()
     assert not desk.studio.pending
     desk.ask(RING)

@@ -10,8 +10,8 @@ from PIL import Image
 from plantings import blob, meadow, texture
 
 from engine.brush.footprint import Footprint
+from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
-from engine.files.strict_json import FormatError
 from engine.painting import recording
 from engine.painting.points import rounded
 from engine.painting.recording import Header, Recording
@@ -127,7 +127,7 @@ def test_smoothing_takes_specks_and_pinholes_and_keeps_the_rest():
     ],
 )
 def test_what_is_no_step_is_told(step, told):
-    with pytest.raises(FormatError) as fault:
+    with pytest.raises(FieldError) as fault:
         followed(NONE, [step], picture())
     assert str(fault.value).replace('"', "'").startswith(told)
     assert "\n" not in str(fault.value)

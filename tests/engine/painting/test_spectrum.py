@@ -11,7 +11,7 @@ from immutables import Map
 from scipy import ndimage
 
 from engine.brush.settings import Brush, Component
-from engine.files.strict_json import FormatError
+from engine.checks.field_error import FieldError
 from engine.makers import spectrum
 from engine.makers.spectrum import Design
 from engine.numeric.spectra import opposite, power
@@ -139,7 +139,7 @@ def test_with_its_own_phases_the_sample_looks_like_the_picture(size):
 
 def test_a_shape_that_is_a_picture_needs_one():
     design = Design((32, 32), (Map({"shape": "image", "path": "a.png"}),))
-    with pytest.raises(FormatError):
+    with pytest.raises(FieldError):
         spectrum.drawn(design)
     seen = spectrum.drawn(design, lambda shape: np.ones((4, 40, 40), np.float32) * (shape["path"] == "a.png"))
     assert not seen.amplitude.any()
@@ -167,14 +167,14 @@ def test_a_shape_that_is_a_picture_needs_one():
     ],
 )
 def test_bad_designs_are_told_in_one_line(arguments):
-    with pytest.raises((FormatError, TextureError)) as told:
+    with pytest.raises((FieldError, TextureError)) as told:
         spectrum.read(arguments)
     assert "\n" not in str(told.value)
     assert next(iter(arguments)).rstrip("s") in str(told.value)
 
 
 def test_the_level_of_a_stroke_is_named_with_what_was_found():
-    with pytest.raises(FormatError) as told:
+    with pytest.raises(FieldError) as told:
         spectrum.read({"strokes": [{"points": [[0, 0]]}, {"level": 3, "points": [[0, 0]]}]})
     assert str(told.value) == "strokes[1].level: found 3, expected 0"
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.files.strict_json import Fields, FormatError, dumps, loads
+from engine.checks.field_error import FieldError
+from engine.files.strict_json import Fields, dumps, loads
 
 REFUSED = {
     "nan": "NaN",
@@ -41,7 +42,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("text", REFUSED.values(), ids=REFUSED)
 def test_refused_with_one_line(text):
-    with pytest.raises(FormatError) as caught:
+    with pytest.raises(FieldError) as caught:
         loads(text)
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 300
@@ -49,7 +50,7 @@ def test_refused_with_one_line(text):
 
 
 def test_too_long_is_refused_before_it_is_read():
-    with pytest.raises(FormatError, match="more than 1 MiB"):
+    with pytest.raises(FieldError, match="more than 1 MiB"):
         loads(b" " * ((1 << 20) + 1), cap=1 << 20)
 
 
@@ -72,7 +73,7 @@ def test_what_is_written_is_read_back(value):
         text = dumps(value)
         text.encode()
     except UnicodeEncodeError:
-        with pytest.raises(FormatError):
+        with pytest.raises(FieldError):
             loads(json.dumps(value))
         return
     assert loads(text) == value
@@ -82,7 +83,7 @@ def test_what_is_written_is_read_back(value):
 @settings(deadline=None, max_examples=200)
 @given(st.binary(max_size=60) | st.text(alphabet='{}[]",:0123456789.eE+-\\u nultrefasINy', max_size=40))
 def test_garbage_raises_nothing_else(data):
-    with contextlib.suppress(FormatError):
+    with contextlib.suppress(FieldError):
         loads(data)
 
 
@@ -108,7 +109,7 @@ FIELD_FAULTS = [
 
 @pytest.mark.parametrize(("value", "read"), FIELD_FAULTS)
 def test_fields_name_place_found_and_expected(value, read):
-    with pytest.raises(FormatError) as caught:
+    with pytest.raises(FieldError) as caught:
         read(Fields(value, "top"))
     assert str(caught.value).startswith("top")
     assert ": found " in str(caught.value)

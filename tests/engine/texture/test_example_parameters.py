@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from engine.checks.field_error import FieldError
 from engine.texture.example.parameters import Parameters, read_toml
-from engine.texture.field_error import FieldError
 
 BUNDLED = sorted((Path(__file__).parents[3] / "palettes" / "examples").glob("*.toml"))
 

@@ -1,12 +1,15 @@
 """What is wrong with a value that somebody gave: the place, what was found there, what was expected."""
 
+from __future__ import annotations
+
 
 class FieldError(ValueError):
-    """`str()` is one line."""
+    """A value that its field does not allow.  `str()` is one line; `place` is "" where there is only one."""
 
     def __init__(self, place: str, found: str, expected: str) -> None:
         self.place, self.found, self.expected = place, found, expected
-        super().__init__(f"{place}: found {found}, expected {expected}")
+        lead = f"{place}: " if place else ""
+        super().__init__(f"{lead}found {found}, expected {expected}")
 
-    def __reduce__(self) -> tuple[object, ...]:
+    def __reduce__(self) -> tuple[type[FieldError], tuple[str, str, str]]:
         return type(self), (self.place, self.found, self.expected)
