@@ -60,13 +60,14 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """A row of the table.  `finer`, `coarser`: what becomes of the detail of finer levels, and what coarser levels
-    show.  `kernel`: what computes it: one of `op_paint.KERNELS` for an op that `lays` or takes paint, else
-    one of `op_targets.KERNELS`.  `coloured`: it uses the brush's colour.  `whole`: it has to see the whole stroke
-    before it knows any pixel."""
+    """A row of the table.  `group`: under which heading it is listed.  `finer`, `coarser`: what becomes of the detail
+    of finer levels, and what coarser levels show.  `kernel`: what computes it: one of `op_paint.KERNELS` for an op that
+    `lays` or takes paint, else one of `op_targets.KERNELS`.  `coloured`: it uses the brush's colour.  `whole`: it has
+    to see the whole stroke before it knows any pixel."""
 
     name: str
     label: str
+    group: str
     tooltip: str
     finer: str
     kernel: str
@@ -92,78 +93,80 @@ _GONE = "Finer detail fades as the stroke covers it"
 OPS: dict[str, Op] = {
     row.name: row
     for row in (
-        Op("toward", "Towards colour", "Sprays the brush's colour through its texture: a textured airbrush",
+        Op("toward", "Towards colour", "With the colour",
+           "Sprays the brush's colour through its texture: a textured airbrush",
            f"{_GONE}, as under paint; the texture goes on where the paint was opaque.", "toward",
            coloured=True, lays=True),
-        Op("multiply", "Multiply", "Darkens by the brush's colour, like ink on glass",
+        Op("multiply", "Multiply", "With the colour", "Darkens by the brush's colour, like ink on glass",
            f"{_SLOPE}, which is the brush's colour.", "multiply", coloured=True),
-        Op("screen", "Screen", "Lightens by the brush's colour, like a second projector",
+        Op("screen", "Screen", "With the colour", "Lightens by the brush's colour, like a second projector",
            f"{_SLOPE}, which is what the colour lacks to white.", "screen", coloured=True),
-        Op("overlay", "Overlay", "Multiplies the dark and screens the light, which raises contrast",
+        Op("overlay", "Overlay", "With the colour", "Multiplies the dark and screens the light, which raises contrast",
            f"{_SLOPE}, up to twice as strong.", "overlay", coloured=True),
-        Op("dodge", "Dodge", "Brightens towards burnt-out light, the brighter the brush's colour",
+        Op("dodge", "Dodge", "With the colour", "Brightens towards burnt-out light, the brighter the brush's colour",
            f"{_SLOPE}: stronger, and gone where it burns out.", "dodge", coloured=True),
-        Op("burn", "Burn", "Darkens towards black, the darker the brush's colour",
+        Op("burn", "Burn", "With the colour", "Darkens towards black, the darker the brush's colour",
            f"{_SLOPE}: stronger, and gone where it is black.", "burn", coloured=True),
-        Op("add", "Add", "Adds the brush's colour as light",
+        Op("add", "Add", "With the colour", "Adds the brush's colour as light",
            "Finer detail stays as it is, and goes where it burns out.", "add", coloured=True),
-        Op("subtract", "Subtract", "Takes the brush's colour away",
+        Op("subtract", "Subtract", "With the colour", "Takes the brush's colour away",
            "Finer detail stays as it is, and goes where it is black.", "subtract", coloured=True),
-        Op("difference", "Difference", "How far the picture is from the brush's colour",
+        Op("difference", "Difference", "With the colour", "How far the picture is from the brush's colour",
            "Finer detail stays, turned round where the picture is darker than the colour.", "difference",
            coloured=True),
-        Op("invert", "Invert", "Turns light into dark, each colour into its opposite",
-           "Finer detail is turned round: its light becomes its dark.", "invert"),
-        Op("lighten", "Lighten", "Moves colours towards white",
+        Op("lighten", "Lighten", "Tones", "Moves colours towards white",
            f"{_SLOPE}: weaker by the amount.", "lighten", (_amount(0.5, "How far of the way to white"),)),
-        Op("darken", "Darken", "Moves colours towards black",
+        Op("darken", "Darken", "Tones", "Moves colours towards black",
            f"{_SLOPE}: weaker by the amount.", "darken", (_amount(0.5, "How far of the way to black"),)),
-        Op("gamma", "Gamma", "Brightens or darkens the middle tones, black and white stay", f"{_SLOPE}.", "gamma",
+        Op("gamma", "Gamma", "Tones", "Brightens or darkens the middle tones, black and white stay",
+           f"{_SLOPE}.", "gamma",
            (Parameter("gamma", "Gamma", 0.5, "Below 1 brightens, above 1 darkens", lo=0.1, hi=10.0,
                       slider=(0.2, 5.0), logarithmic=True),)),
-        Op("contrast", "Contrast", "Spreads tones apart around a middle one, or draws them together",
+        Op("contrast", "Contrast", "Tones", "Spreads tones apart around a middle one, or draws them together",
            f"{_SLOPE}: by the gain, at most twice as strong.", "contrast",
            (Parameter("gain", "Gain", 1.5, "Above 1 for more contrast, below for less", hi=4.0, slider=(0.0, 4.0)),
             Parameter("pivot", "Pivot", 0.5, "The tone that stays"))),
-        Op("posterise", "Posterise", "Leaves a few levels of each channel, with hard steps between", f"{_GONE}.",
-           "posterise",
+        Op("invert", "Invert", "Tones", "Turns light into dark, each colour into its opposite",
+           "Finer detail is turned round: its light becomes its dark.", "invert"),
+        Op("posterise", "Posterise", "Tones", "Leaves a few levels of each channel, with hard steps between",
+           f"{_GONE}.", "posterise",
            (Parameter("levels", "Levels", 4.0, "How many tones are left of each channel", lo=2.0, hi=64.0,
                       slider=(2.0, 16.0), whole=True),)),
-        Op("saturate", "Saturate", "Makes colours stronger, or paler; their brightness stays",
+        Op("saturate", "Saturate", "Hues", "Makes colours stronger, or paler; their brightness stays",
            "Finer light and dark stay; the colours in them stay as they are.", "saturate",
            (_amount(1.5, "0 is grey, 1 leaves colours as they are", 0.0, 4.0),)),
-        Op("hue", "Turn hue", "Turns colours round the colour circle; their brightness stays",
+        Op("hue", "Turn hue", "Hues", "Turns colours round the colour circle; their brightness stays",
            "Finer light and dark stay; the colours in them stay as they are.", "hue",
            (Parameter("turn", "Turn", 60.0, "How far round the circle", lo=-360.0, hi=360.0, slider=(-180.0, 180.0),
                       unit="degrees"),)),
-        Op("gradient", "Gradient map", "Colours from a ramp, by brightness or by the texture: a colour wash",
+        Op("gradient", "Gradient map", "Hues", "Colours from a ramp, by brightness or by the texture: a colour wash",
            f"{_SLOPE} of the ramp; by texture it fades, and the texture's own detail takes its place.", "gradient",
            (Parameter("ramp", "Ramp", _WASH, "Two to eight stops [place, colour], places rising from 0 to 1", "ramp"),
             Parameter("by", "By", _BY[0], "What runs along the ramp", "choice", choices=_BY))),
-        Op("smooth", "Smooth", "Evens colours out, keeping what is transparent as it is", f"{_GONE}.", "smooth",
-           (_reach("How far on each side it looks"),)),
-        Op("sharpen", "Sharpen", "Strengthens what differs from its surroundings",
+        Op("smooth", "Smooth", "Forms", "Evens colours out, keeping what is transparent as it is",
+           f"{_GONE}.", "smooth", (_reach("How far on each side it looks"),)),
+        Op("sharpen", "Sharpen", "Forms", "Strengthens what differs from its surroundings",
            "Finer detail is strengthened by the amount, at most twice.", "sharpen",
            (_amount(1.0, "How much of the difference is added", 0.0, 4.0), _reach("How wide surroundings are"))),
-        Op("displace", "Displace", "Shifts paint, along an angle or down the slopes of the texture", f"{_GONE}.",
-           "displace",
+        Op("displace", "Displace", "Forms", "Shifts paint, along an angle or down the slopes of the texture",
+           f"{_GONE}.", "displace",
            (Parameter("distance", "Distance", 8.0, "How far paint moves", lo=0.0, hi=SHIFT_CAP,
                       slider=(0.0, SHIFT_CAP), unit="px"),
             Parameter("angle", "Angle", 0.0, "Where it moves to: 0 right, 90 down; turns slopes too",
                       lo=-360.0, hi=360.0, slider=(-180.0, 180.0), unit="degrees"),
             Parameter("by", "By", "angle", "What tells the way", "choice", choices=("angle", "texture"))), lays=True),
-        Op("predict", "Continue", "Continues what the stroke begins on out of what is painted around it",
+        Op("predict", "Continue", "Forms", "Continues what the stroke begins on out of what is painted around it",
            f"{_GONE}.", "predict",
            (Parameter("reach", "Memory", 4.0, "How far back a pixel looks at those before it", "number", 1.0, 8.0,
                       (1.0, 8.0), "px"),
             Parameter("window", "Sample", 64.0, "Width of the square, around where the stroke begins, that is learnt",
                       "number", 16.0, 256.0, (16.0, 256.0), "px", True)), lays=True, whole=True),
-        Op("clone", "Clone", "Copies what lies on a layer, of the same level, from some way off",
+        Op("clone", "Clone", "Other", "Copies what lies on a layer, of the same level, from some way off",
            f"{_GONE}; textures of what is copied go on, strokes finer than this level are not copied.", "clone",
            (Parameter("layer", "Layer", None, "The layer that is copied; it may be the one painted on", "layer"),
             Parameter("offset", "Offset", (0, 0), "From here to what is copied, in pixels", "offset", unit="px")),
            lays=True),
-        Op("erase", "Erase", "Takes paint away through the texture", f"{_GONE}.", "erase", lays=True),
+        Op("erase", "Erase", "Other", "Takes paint away through the texture", f"{_GONE}.", "erase", lays=True),
     )
 }  # fmt: skip
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from itertools import groupby
 from typing import Any
 
 from imgui_bundle import ImVec2, imgui
@@ -20,13 +21,6 @@ BESIDE = (64, 0)  # pixels: what a clone of the layer itself begins with; withou
 OFFSETS = (-512.0, 512.0)  # that the sliders offer
 REST = 0.4  # seconds without typing before a formula is taken: each is compiled
 ECHO = 13  # characters of a formula shown on each side of its mistake
-GROUPS = (
-    ("With the colour", ("toward", "multiply", "screen", "overlay", "dodge", "burn", "add", "subtract", "difference")),
-    ("Tones", ("lighten", "darken", "gamma", "contrast", "invert", "posterise")),
-    ("Hues", ("saturate", "hue", "gradient")),
-    ("Forms", ("smooth", "sharpen", "displace", "predict")),
-    ("Other", ("clone", "erase")),
-)
 FORMULAS = (
     ("Towards the colour", "colour - pic"),
     ("Towards its opposite", "1 - 2 * pic"),
@@ -80,17 +74,13 @@ class Operations:
             w.tooltip(_told(rows[name]) if name in rows else "What a stroke does to the colours that are there")
             return None
         picked = None
-        listed = {op for _, ops in GROUPS for op in ops}
-        rest = ("More", tuple(op for op in rows if op not in listed))
-        for title, ops in (*GROUPS, rest):
-            if any(op in rows for op in ops):
-                imgui.text_disabled(title)
-            for op in ops:
-                if op in rows and imgui.selectable(f"   {rows[op].label}##{op}", op == name)[0]:
-                    picked = op
-                if op in rows:
-                    w.named(rows[op].label)
-                    w.tooltip(_told(rows[op]))
+        for group, listed in groupby(rows.values(), lambda row: row.group):
+            imgui.text_disabled(group)
+            for row in listed:
+                if imgui.selectable(f"   {row.label}##{row.name}", row.name == name)[0]:
+                    picked = row.name
+                w.named(row.label)
+                w.tooltip(_told(row))
         imgui.separator()
         if imgui.selectable("Formula…", name == "formula")[0]:
             picked = "formula"
