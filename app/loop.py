@@ -19,6 +19,7 @@ import imgui_bundle  # before glfw, so that both use one libglfw
 import glfw  # isort: skip
 
 from app.file_guard import guard_files
+from app.log import LOGGER, log_file, open_log
 from app.trace import trace
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
     window = opened()
     window.frame()
     trace("first frame")
+    open_log()
     guard_files()
     sys.setswitchinterval(SWITCH)
     worker = _worker(window)
@@ -50,6 +52,9 @@ def run(path: str | None = None, play: str | None = None) -> int:
     try:
         while not window.closed():
             window.wait(window.frame())
+    except Exception as error:
+        LOGGER.critical("a fault of the window, which ends it", exc_info=error)
+        raise
     finally:
         try:
             window.hide()
@@ -63,9 +68,9 @@ def _told(worker: Any) -> int:
     """Tells the terminal what went wrong when no window was there any more to show it; the exit status."""
     from engine.studio.results import Note
 
-    faults = [result.text for result in worker.results() if isinstance(result, Note) and result.bad]
-    for text in faults:
-        print(f"inkfall: {text}", file=sys.stderr)
+    faults = [result for result in worker.results() if isinstance(result, Note) and result.bad]
+    for fault in faults:
+        print(f"inkfall: {fault.text}{f': {log_file()} tells more' if fault.fault else ''}", file=sys.stderr)
     return 1 if faults else 0
 
 

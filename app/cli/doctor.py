@@ -15,6 +15,7 @@ from typing import Any
 import platformdirs
 
 from app.cli.outcome import DONE
+from app.log import log_file
 
 PACKAGES = ("numpy", "numba", "Pillow", "glfw", "moderngl", "imgui-bundle")
 INPUT_DEVICES = Path("/proc/bus/input/devices")
@@ -69,6 +70,7 @@ def examination() -> dict[str, Any]:
         "tablets": tablets() or "none seen",
         "config": platformdirs.user_config_dir("inkfall"),
         "cache": platformdirs.user_cache_dir("inkfall"),
+        "log": str(log_file()),
         "kernels": os.environ.get("NUMBA_CACHE_DIR") or str(Path(platformdirs.user_cache_dir("inkfall")) / "kernels"),
     }
 

@@ -18,6 +18,7 @@ from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
+from app.log import log_file
 from engine.brush.settings import Brush
 from engine.studio.requests import Request, Save
 from engine.studio.results import Note
@@ -90,7 +91,8 @@ class Desk:
         self.message = text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
 
     def told(self, note: Note) -> None:
-        self.say(note.text, note.bad)
+        """Shows what the engine tells."""
+        self.say(f"{note.text}: {log_file()} tells more" if note.fault else note.text, note.bad)
         if note.bad:
             self.asked.give_up()
 

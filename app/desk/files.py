@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
-import traceback
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from app.desk.desk import Desk, FileWork
+from app.log import LOGGER, log_file
 from engine.files.fault import FileError, WriteError
 
 FAULTS = (FileError, WriteError, OSError)  # that work may raise: each a line for the artist
@@ -38,8 +38,8 @@ def carried_out(work: FileWork) -> Done:
     except FAULTS as error:
         return Done(work, fault=str(error))
     except Exception as error:  # a fault of the program's own: the others' files are still to be written
-        traceback.print_exc()
-        return Done(work, fault=f"{type(error).__name__}: {error}")
+        LOGGER.error("a fault, while the window's files were read or written", exc_info=error)
+        return Done(work, fault=f"A fault in Inkfall: {log_file()} tells more")
 
 
 class Files:

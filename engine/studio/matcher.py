@@ -26,8 +26,8 @@ from engine.makers.heeger_bergen import Plan
 from engine.numeric.colour_axes import ColourAxes
 from engine.painting import commands as c
 from engine.painting.capture import Place
+from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.studio import results
 from engine.studio.easel import Easel
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
@@ -82,7 +82,7 @@ class Matcher(Owned):
             self._easel.send(results.MatchScene(fault=str(error)))
         except Exception as error:
             self._drop(work)  # it would fail again
-            self._easel.send(results.MatchScene(fault=str(error).partition("\n")[0] or type(error).__name__))
+            self._easel.send(results.MatchScene(fault=faults.words(error)))
             raise
 
     def _set(self, request: q.MatchSet) -> None:

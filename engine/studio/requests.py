@@ -13,6 +13,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.studio.results import Note
 
 if TYPE_CHECKING:
     from engine.brush.settings import Brush
@@ -289,11 +290,10 @@ class FileGrown:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """The file number `file` is written, or cannot be: `fault` says why, on one line; posted by the thread that wrote
-    it."""
+    """The file number `file` is written, or cannot be: `fault` says why; posted by the thread that wrote it."""
 
     file: int
-    fault: str = ""
+    fault: Note | None = None
 
 
 RegionRequest = (

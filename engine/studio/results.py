@@ -93,10 +93,11 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A line for the artist; `bad` when something did not work."""
+    """A line for the artist; `bad` when something did not work, `fault` when that is told in the log."""
 
     text: str
     bad: bool = False
+    fault: bool = False
 
 
 @dataclass(frozen=True, slots=True)

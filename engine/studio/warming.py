@@ -24,8 +24,8 @@ from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.strokes.example_stroke import kind_of
 from engine.strokes.example_textures import KIND
+from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.studio import results
 from engine.texture.example.parameters import Parameters
 from engine.texture.image import ImageSource
 
@@ -49,8 +49,8 @@ class Warming:
     def _run(self) -> None:
         try:
             paint()
-        except Exception as error:  # painting will say it again
-            self._send(results.Note(str(error).partition("\n")[0] or type(error).__name__, bad=True))
+        except Exception as error:
+            self._send(faults.told(error, "while painting with examples was made ready"))
         finally:
             self._send(results.GotReady())
 

@@ -7,6 +7,7 @@ so that anything newer is seen after at most one tile; in turns with the window 
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 import time
@@ -52,6 +53,7 @@ class Bench(Protocol):
         ...
 
 
+LOGGER = logging.getLogger("inkfall")
 PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
 PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
 Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
@@ -185,7 +187,8 @@ class Worker:
         try:
             bench = self._make(self._send, self.post)
         except Exception as error:
-            self._send(Note(f"The paint engine did not load: {error}", bad=True))
+            LOGGER.error("the paint engine did not load", exc_info=error)
+            self._send(Note("The paint engine did not load", bad=True, fault=True))
             return
         self._work(bench)
         bench.close()
@@ -197,7 +200,7 @@ class Worker:
             try:
                 work()
             except Exception as error:  # the painting is a value: whatever failed left it as it was
-                self._send(Note(_line(error), bad=True))
+                self._send(_told(error))
             self._tell(bench)
 
     def _tell(self, bench: Bench) -> None:
@@ -208,7 +211,8 @@ class Worker:
             self._send(Pending(pending))
 
 
-def _line(error: Exception) -> str:
-    """An error as one line for people."""
-    text = str(error).strip().splitlines()
-    return text[0] if text else type(error).__name__
+def _told(error: Exception) -> Note:
+    """Returns what the window is told of an error."""
+    from engine.studio.faults import told  # here, on the thread: it loads what the errors are of
+
+    return told(error, "on the engine's thread")

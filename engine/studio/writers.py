@@ -14,8 +14,8 @@ from typing import Any
 from engine.checks.owned import Owned
 from engine.painting.grown import settled
 from engine.painting.value import Painting
+from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.studio import results
 
 TELL = 0.1  # seconds between two posts about one file, at least
 Send = Callable[[results.Result], None]
@@ -64,8 +64,8 @@ class Writers(Owned):
 
     def _written(self, request: q.Written) -> None:
         file = self._files.pop(request.file)
-        if request.fault:
-            self._send(results.Note(request.fault, bad=True))
+        if request.fault is not None:
+            self._send(request.fault)
         else:
             file.done()
         self._tell()
@@ -90,6 +90,6 @@ def _run(file: int, write: Write, painting: Painting, post: Post) -> None:
     try:
         write(settled(painting, tell=tell))
     except Exception as error:
-        post(q.Written(file, str(error).partition("\n")[0] or type(error).__name__))
+        post(q.Written(file, faults.told(error, "while a file was written")))
     else:
         post(q.Written(file))

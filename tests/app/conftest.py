@@ -36,6 +36,7 @@ class Program:
             "PYTHONPATH": str(ROOT) if module == "app" else os.pathsep.join((str(ROOT), str(Path(__file__).parent))),
             "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_DATA_HOME": str(folder / "data"),
+            "XDG_STATE_HOME": str(folder / "state"),
             "INKFALL_TRACE": trace,
             "INKFALL_TRACEBACK": "1",
         }
@@ -196,8 +197,11 @@ class Program:
             time.sleep(0.05)
 
     def close(self) -> None:
+        """Ends it; fails if it has told a fault, which a test that provokes one takes out of `log`."""
         self.process.terminate()
         self.process.wait(10)
+        words = self.log.read_text(errors="replace")
+        assert "Traceback (most recent call last)" not in words, words
         told = [line for line in self.log.read_text(errors="replace").splitlines() if line.startswith(TOLD)]
         assert not told, "\n".join(told)
 

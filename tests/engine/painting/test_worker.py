@@ -6,6 +6,7 @@ import time
 import pytest
 
 from engine.numeric.address import Rect
+from engine.painting.value import Refusal
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.worker import Worker
@@ -25,7 +26,9 @@ class Bench:
         self.gate.wait(5)
         self.did.append(request)
         if isinstance(request, q.Export):
-            raise ValueError("it did not work\nand more that nobody wants to read")
+            raise Refusal("it did not work\nand more that nobody wants to read")
+        if isinstance(request, q.Save):
+            raise KeyError("missing key")
 
     def look(self, request):
         self.open = list(request.tiles)
@@ -140,6 +143,18 @@ def test_an_error_becomes_one_line_and_the_thread_goes_on(worker):
     assert notes == [results.Note("it did not work", bad=True)]
 
 
+def test_a_fault_is_no_refusal_and_leaves_its_trace(worker, faults):
+    worker.post(q.Save("somewhere.ora"))
+    worker.post(q.Finish())
+    until(lambda: q.Finish() in worker.bench.did)
+    notes = [r for r in worker.results() if isinstance(r, results.Note)]
+    assert notes == [results.Note("A fault in Inkfall", bad=True, fault=True)]
+    fault = faults.pop()
+    assert fault.threadName == "inkfall engine"
+    assert fault.exc_info[0] is KeyError
+    assert not faults
+
+
 def test_only_the_newest_swatch_of_a_name_is_painted(worker):
     worker.bench.gate.clear()
     worker.post(q.Finish())
@@ -191,7 +206,7 @@ def test_something_that_plays_goes_on_by_itself(worker):
     until(lambda: "play" in worker.bench.did)
 
 
-def test_an_engine_that_does_not_load_is_told(capfd):
+def test_an_engine_that_does_not_load_is_told(faults):
     woken = threading.Event()
 
     def broken(send, post):
@@ -199,7 +214,8 @@ def test_an_engine_that_does_not_load_is_told(capfd):
 
     worker = Worker(woken.set, broken)
     woken.wait(5)
-    assert worker.results() == [results.Note("The paint engine did not load: no numba here", bad=True)]
+    assert worker.results() == [results.Note("The paint engine did not load", bad=True, fault=True)]
+    assert "no numba here" in str(faults.pop().exc_info[1])
     worker.close()
 
 

@@ -1,0 +1,73 @@
+"""The log of faults: a file in the user's state folder to which every unexpected error goes with its traceback.
+
+Nothing is opened before the first frame is on the screen; until then faults go to standard error alone.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import logging
+import sys
+import threading
+from io import TextIOWrapper
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import platformdirs
+
+SIZE, OLD = 1 << 20, 3  # bytes of the log at most, and how many full ones are kept
+LOGGER = logging.getLogger("inkfall")
+
+
+def log_file() -> Path:
+    """Returns where the log lies, whether it exists or not."""
+    return platformdirs.user_log_path("inkfall") / "inkfall.log"
+
+
+class _Log(RotatingFileHandler):
+    """The open file also takes what a crash of the interpreter leaves behind."""
+
+    def _open(self) -> TextIOWrapper:
+        stream = super()._open()
+        faulthandler.enable(stream)
+        return stream
+
+    def close(self) -> None:
+        faulthandler.enable()  # standard error: the file's number may become another file's
+        super().close()
+
+
+def open_log() -> None:
+    """Has faults of all threads told on standard error and in the log; a log that cannot be written is done without."""
+    form = logging.Formatter("%(asctime)s %(levelname)s %(threadName)s: %(message)s")
+    handlers: list[logging.Handler] = [logging.StreamHandler()]
+    try:
+        log_file().parent.mkdir(parents=True, exist_ok=True)
+        handlers.append(_Log(log_file(), maxBytes=SIZE, backupCount=OLD, encoding="utf-8"))
+    except OSError as error:
+        print(f"inkfall: {log_file()}: no log is kept: {error.strerror}", file=sys.stderr)
+    for handler in handlers:
+        handler.setFormatter(form)
+        LOGGER.addHandler(handler)
+    LOGGER.propagate = False
+    sys.excepthook = _uncaught
+    threading.excepthook = _in_thread
+    sys.unraisablehook = _unraisable
+
+
+def _uncaught(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    if issubclass(kind, KeyboardInterrupt):
+        sys.__excepthook__(kind, error, trace)
+    else:
+        LOGGER.critical("a fault that ends the program", exc_info=(kind, error, trace))
+
+
+def _in_thread(args: threading.ExceptHookArgs) -> None:
+    if args.exc_value is not None and not isinstance(args.exc_value, SystemExit):
+        LOGGER.error("a fault that ends a thread", exc_info=args.exc_value)
+
+
+def _unraisable(args: Any) -> None:
+    LOGGER.error("%s: %r", args.err_msg or "a fault that nobody could be told", args.object, exc_info=args.exc_value)
