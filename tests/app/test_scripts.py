@@ -1,13 +1,14 @@
 """The one-line scripts: valid shell, and a plain word where a machine lacks what they need."""
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SCRIPTS = ["app/start", "tests/run", "tests/environment.sh", ".ci/run"]
+SCRIPTS = ["app/start", "tests/run", "app/environment.sh", ".ci/run"]
 
 
 @pytest.mark.parametrize("name", SCRIPTS)
@@ -22,29 +23,70 @@ def test_the_readme_names_the_scripts():
 
 
 def in_environment(line, tmp_path, **variables):
-    command = f"set -euo pipefail; source {ROOT}/tests/environment.sh; {line}"
+    command = f"set -euo pipefail; source {ROOT}/app/environment.sh; {line}"
     environment = {"PATH": os.environ["PATH"], "HOME": str(tmp_path), **variables}
     return subprocess.run(["bash", "-c", command], env=environment, cwd=tmp_path, capture_output=True, text=True)
 
 
-def test_without_python_the_script_says_what_to_install(tmp_path):
+def lent(tmp_path, **programs):
+    """A folder of programs: those named here, and of the system's what the scripts themselves need."""
     (tmp_path / "bin").mkdir()
-    for name in ("bash", "id"):
-        (tmp_path / "bin" / name).symlink_to(Path("/bin") / name if name == "bash" else Path("/usr/bin") / name)
-    done = in_environment("make_environment there", tmp_path, PATH=str(tmp_path / "bin"))
+    for name in ("bash", "id", "mktemp", "cat", "rm", "sleep", "tail", "tr", "cut", "env"):
+        (tmp_path / "bin" / name).symlink_to(shutil.which(name))
+    for name, text in programs.items():
+        path = tmp_path / "bin" / name.replace("_", "-")
+        path.write_text(f"#!/bin/bash\n{text}\n")
+        path.chmod(0o755)
+    return {"PATH": str(tmp_path / "bin")}
+
+
+def test_without_python_the_script_says_the_line_to_run(tmp_path):
+    done = in_environment("make_environment there", tmp_path, **lent(tmp_path))
     assert done.returncode != 0
-    assert "found no Python of version 3.11 or newer" in done.stderr
+    assert "please run:  sudo apt install python3 python3-venv" in done.stderr
     assert not (tmp_path / "there").exists()
 
 
 def test_a_python_without_venv_is_told_apart(tmp_path):
     """On Debian the package python3-venv is missing; here apt-get is not to be had either."""
-    (tmp_path / "bin").mkdir()
-    python = tmp_path / "bin" / "python3"
-    python.write_text('#!/bin/bash\ncase "$*" in *ensurepip*) exit 1;; *) exit 0;; esac\n')
-    python.chmod(0o755)
-    for name, path in {"bash": "/bin/bash", "id": "/usr/bin/id"}.items():
-        (tmp_path / "bin" / name).symlink_to(path)
-    done = in_environment("make_environment there", tmp_path, PATH=str(tmp_path / "bin"))
+    python = 'case "$*" in *ensurepip*) exit 1;; *) exit 0;; esac'
+    done = in_environment("make_environment there", tmp_path, **lent(tmp_path, python3=python))
     assert done.returncode != 0
-    assert "sudo apt install python3-venv" in done.stderr
+    assert "Python's venv is missing" in done.stdout
+    assert "please run:  sudo apt install python3 python3-venv" in done.stderr
+
+
+def test_python_is_installed_by_those_who_may(tmp_path):
+    """An apt-get that brings a python3; it asks for the lists first, as on a machine that has none yet."""
+    python = f'echo "$@" >> {tmp_path}/asked; case "$1" in -m) : > {tmp_path}/made;; esac'
+    apt = f"""case "$*" in
+        update*) : > {tmp_path}/lists;;
+        *) [ -f {tmp_path}/lists ] || exit 100
+           echo '{python}' > {tmp_path}/bin/python3; {shutil.which("chmod")} +x {tmp_path}/bin/python3;;
+    esac"""
+    path = lent(tmp_path, apt_get=apt, sudo='shift; exec "$@"')
+    done = in_environment("make_environment there", tmp_path, **path)
+    assert done.returncode == 0, done.stderr
+    assert "installing the Debian packages python3 python3-venv ..." in done.stdout
+    assert "making a virtual environment in there ..." in done.stdout
+    assert (tmp_path / "asked").read_text().splitlines()[-1] == "-m venv there"
+
+
+def test_long_work_tells_how_it_goes(tmp_path):
+    done = in_environment('told "waiting" bash -c "echo half; sleep 6; echo end"', tmp_path)
+    first, *others = done.stdout.splitlines()
+    assert first == "waiting ..."
+    assert others[0] == "  5 s: half"
+    assert others[-1].startswith("  done in ")
+
+
+def test_failed_work_shows_all_that_it_said(tmp_path):
+    done = in_environment('told "trying" bash -c "echo one; echo two >&2; exit 3" || exit $?', tmp_path)
+    assert done.returncode == 3
+    assert done.stdout == "trying ...\n"
+    assert done.stderr == "one\ntwo\n"
+
+
+def test_the_start_reads_no_file_of_the_tests():
+    assert not [line for line in (ROOT / "app" / "start").read_text().splitlines() if "tests/" in line]
+    assert "tests/" not in (ROOT / "app" / "environment.sh").read_text().partition("\n")[2]
