@@ -2,6 +2,9 @@
 
 Done here: grey and RGB of 8 or 16 bits, with or without alpha, uncompressed or deflated, in strips or tiles, both
 byte orders.  `Layout.ours` is False for everything else.
+
+tifffile, which writes ours, does not read them: without imagecodecs it inflates a strip to whatever its bytes hold
+before it looks at how large the strip may be.  Here no more is held than the checked size.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ import io
 import os
 import struct
 import sys
+import tracemalloc
+import zlib
 
 import numpy as np
 import pytest
@@ -279,3 +281,21 @@ def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(path)
     with pytest.raises(FileError, match=r"pipe\.png: not a regular file"):
         read_image(path)
+
+
+def test_a_strip_that_holds_far_more_than_it_may_takes_no_memory():
+    """200 MB of zeros behind 64 x 64 pixels of grey."""
+    data = zlib.compress(bytes(200 << 20), 9)
+    told = {256: 64, 257: 64, 258: 8, 259: 8, 262: 1, 273: 0, 277: 1, 278: 64, 279: len(data)}
+    told[273] = 8 + 2 + 12 * len(told) + 4
+    table = b"".join(struct.pack("<HHII", tag, 4, 1, value) for tag, value in told.items())
+    file = struct.pack("<2sHIH", b"II", 42, 8, len(told)) + table + bytes(4) + data
+    tracemalloc.start()
+    try:
+        picture, _ = read_image(file, "a.tif")
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert picture.shape == (64, 64, 4)
+    assert not picture[:, :, :3].any()
+    assert most < 16 << 20
