@@ -17,7 +17,7 @@ import numpy as np
 
 from app.canvas.view import View
 from engine.numeric.address import Rect
-from engine.studio.requests import SIDE
+from engine.studio.requests import SCREEN_TILE
 from engine.studio.results import Patch
 
 FADE = 0.13  # seconds
@@ -70,8 +70,8 @@ def cells(view: View, level: int) -> list[ScreenTile]:
     r = view.visible(level)
     return [
         ScreenTile(level, x, y)
-        for y in range(r.y0 // SIDE, (r.y1 - 1) // SIDE + 1)
-        for x in range(r.x0 // SIDE, (r.x1 - 1) // SIDE + 1)
+        for y in range(r.y0 // SCREEN_TILE, (r.y1 - 1) // SCREEN_TILE + 1)
+        for x in range(r.x0 // SCREEN_TILE, (r.x1 - 1) // SCREEN_TILE + 1)
     ]
 
 
@@ -79,7 +79,9 @@ def near_first(view: View, tiles: list[ScreenTile], x: float, y: float) -> list[
     """Ordered by the distance of their middles to a screen point."""
 
     def far(tile: ScreenTile) -> float:
-        cx, cy = view.pixel_to_screen(tile.level, tile.x * SIDE + SIDE // 2, tile.y * SIDE + SIDE // 2)
+        cx, cy = view.pixel_to_screen(
+            tile.level, tile.x * SCREEN_TILE + SCREEN_TILE // 2, tile.y * SCREEN_TILE + SCREEN_TILE // 2
+        )
         return math.hypot(cx - x, cy - y)
 
     return sorted(tiles, key=far)
@@ -131,10 +133,10 @@ class Screen:
 
     def _allocate(self, view: View) -> None:
         """Room for the visible tiles at the smallest scale, their ancestors and some places visited before."""
-        across = [math.ceil(n / (SIDE * 0.7)) + 2 for n in (view.width, view.height)]
+        across = [math.ceil(n / (SCREEN_TILE * 0.7)) + 2 for n in (view.width, view.height)]
         most = self.ctx.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]
         layers = min(most, max(192, 3 * across[0] * across[1]))
-        self._array = self.ctx.texture_array((SIDE, SIDE, layers), 4)
+        self._array = self.ctx.texture_array((SCREEN_TILE, SCREEN_TILE, layers), 4)
         self._array.repeat_x = self._array.repeat_y = False
         self._free = list(range(layers))[::-1]
 
@@ -152,7 +154,7 @@ class Screen:
             self._allocate(view)
         tile, area = ScreenTile(*patch.tile), patch.area
         held = self._held.get(tile)
-        whole = area.width == SIDE and area.height == SIDE
+        whole = area.width == SCREEN_TILE and area.height == SCREEN_TILE
         if held is None:
             if not whole:
                 return
@@ -268,10 +270,10 @@ def _free(view: View, insets: Insets) -> tuple[int, int, int, int]:
 
 
 def _corner(view: View, tile: ScreenTile, snap: bool) -> tuple[float, float, float]:
-    x, y = view.pixel_to_screen(tile.level, tile.x * SIDE, tile.y * SIDE)
+    x, y = view.pixel_to_screen(tile.level, tile.x * SCREEN_TILE, tile.y * SCREEN_TILE)
     if snap:  # at a whole zoom, tile pixels fall on screen pixels
         x, y = round(x), round(y)
-    return x, y, SIDE * view.scale(tile.level)
+    return x, y, SCREEN_TILE * view.scale(tile.level)
 
 
 def _ancestor_part(tile: ScreenTile, up: int) -> tuple[float, float, float]:

@@ -69,10 +69,10 @@ def rect_of(at: Rectangle) -> tuple[int, Rect]:
 
 def picture_of(painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8) -> Picture:
     """A rectangle of a painting, or its frame, as a picture to export."""
-    from engine.archive.export import SIDE, Picture
+    from engine.archive.export import PICTURE_SIDE, Picture
 
     if at is None:
         return Picture(painting, layer=layer, depth=depth)
-    if max(at.width, at.height) > SIDE:
-        raise Refused(f"--rect: found {at.width} x {at.height} pixels, expected at most {SIDE} each way")
+    if max(at.width, at.height) > PICTURE_SIDE:
+        raise Refused(f"--rect: found {at.width} x {at.height} pixels, expected at most {PICTURE_SIDE} each way")
     return Picture(painting, *rect_of(at), layer, depth)

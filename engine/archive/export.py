@@ -21,7 +21,7 @@ from engine.painting.grown import settled_root
 from engine.painting.rendering import folded, strips
 from engine.painting.value import Painting
 
-SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
+PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +70,10 @@ def export(
     if picture.depth not in (8, 16):
         raise WriteError(path, f"found {picture.depth} bits, expected 8 or 16")
     area = picture.area
-    if area.empty or max(area.width, area.height) > SIDE:
-        raise WriteError(path, f"found a picture of {area.width} x {area.height}, expected 1 to {SIDE} each way")
+    if area.empty or max(area.width, area.height) > PICTURE_SIDE:
+        raise WriteError(
+            path, f"found a picture of {area.width} x {area.height}, expected 1 to {PICTURE_SIDE} each way"
+        )
     root = picture.painting.root
     if picture.layer is not None:
         root = layers.alone(layers.find(root, picture.layer))

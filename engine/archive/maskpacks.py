@@ -23,16 +23,16 @@ from engine.files.fault import FileError
 from engine.files.inflate import DeflateError, Inflated
 from engine.files.strict_json import dumps, loads
 from engine.painting.commands import PLACE_LIMIT
-from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
+from engine.texture.example.tiles import NONE, TILE_SIDE, Key, Tiles
 
 MAGIC = b"inkmask\x01"
 TILES = 1 << 14  # in a pack
-PLAIN = SIDE * SIDE // 8  # bytes of a tile in the stream
+PLAIN = TILE_SIDE * TILE_SIDE // 8  # bytes of a tile in the stream
 HEAD_CAP = 24 << 20  # bytes of the head
 DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of a row or column, with its sign
 LEVEL = 1
 _ADDRESS = re.compile("-?[0-9a-f]+")
-_FULL = np.ones((1, SIDE, SIDE), np.uint8)  # most tiles are: they are one array
+_FULL = np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)  # most tiles are: they are one array
 _FULL.flags.writeable = False
 
 
@@ -106,7 +106,7 @@ def _address(text: Any) -> int:
 def _mask(bits: np.ndarray) -> np.ndarray:
     if (bits == 255).all():
         return _FULL
-    mask = np.unpackbits(bits).reshape(1, SIDE, SIDE)
+    mask = np.unpackbits(bits).reshape(1, TILE_SIDE, TILE_SIDE)
     mask.flags.writeable = False
     return mask
 

@@ -30,11 +30,10 @@ from engine.painting.textures import Texture
 from engine.strokes.example_stroke import FURTHEST
 from engine.strokes.example_textures import KIND, Origin, exemplar_of, key_of, parameters_of
 from engine.texture.example import region as regions
-from engine.texture.example.exemplar import SIDE as EXAMPLE_SIDE
-from engine.texture.example.exemplar import Exemplar
+from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar
 from engine.texture.example.parameters import FIELDS, Parameters, changed
 from engine.texture.example.region import Region
-from engine.texture.example.tiles import NONE, SIDE, Tiles
+from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles
 from engine.texture.image import ImageSource
 
 GROWN = 1 << 17  # bytes in memory of a tile that is grown, with all its levels, about
@@ -301,13 +300,13 @@ def region_of(exemplar: Exemplar, seed: int, masks: Tiles) -> Region:
 def _coarser(fine: Tiles) -> Tiles:
     """A pixel is taken if any of its four finer ones is."""
     found = NONE.mutate()
-    wide = np.empty((2 * SIDE, 2 * SIDE), np.uint8)
+    wide = np.empty((2 * TILE_SIDE, 2 * TILE_SIDE), np.uint8)
     for row, column in sorted({(y >> 1, x >> 1) for y, x in fine}):
         wide[:] = 0
         for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)):
             part = fine.get((2 * row + y, 2 * column + x))
             if part is not None:
-                wide[y * SIDE : (y + 1) * SIDE, x * SIDE : (x + 1) * SIDE] = part[0]
+                wide[y * TILE_SIDE : (y + 1) * TILE_SIDE, x * TILE_SIDE : (x + 1) * TILE_SIDE] = part[0]
         tile = halved_region(wide)[None]
         tile.flags.writeable = False
         found[row, column] = tile

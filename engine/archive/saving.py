@@ -48,7 +48,7 @@ from engine.painting.rendering import Stop, check, folded, reach, sheets, strips
 from engine.painting.value import Painting
 
 MIMETYPE = b"image/openraster"
-SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
+MERGED_SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
 THUMBNAIL = 256
 MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
 IN_MEMORY = 256 << 20  # bytes of all pictures that are kept in memory before they go into the file
@@ -327,7 +327,7 @@ def shown_level(frame: Rect) -> int:
     level = 0
     while True:
         seen = frame.zoomed(level)
-        if max(seen.width, seen.height) <= SIDE and seen.area <= LIMITS.pixels:
+        if max(seen.width, seen.height) <= MERGED_SIDE and seen.area <= LIMITS.pixels:
             return level
         level -= 1
 

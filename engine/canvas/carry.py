@@ -9,7 +9,7 @@ import numpy as np
 from engine.canvas.shown import keys_within
 from engine.numeric.address import Rect
 from engine.texture.example import tiles
-from engine.texture.example.tiles import SIDE, Tiles
+from engine.texture.example.tiles import TILE_SIDE, Tiles
 
 _SPARSE = 4  # times the pixels of the tiles that are there: a larger rectangle is dealt with tile by tile
 
@@ -33,7 +33,7 @@ def carried(rect: Rect, mask: np.ndarray, finer: int, where: Tiles) -> Iterator[
         there = there.union(tiles.rect_of(key))
     there = there.intersect(whole)
     parts = [there]
-    if there.area > _SPARSE * len(keys) * SIDE * SIDE:
+    if there.area > _SPARSE * len(keys) * TILE_SIDE * TILE_SIDE:
         parts = [tiles.rect_of(key).intersect(whole) for key in sorted(keys)]
     for part in parts:
         found = mask[np.ix_(_above(part.y0, part.y1, finer, rect.y0), _above(part.x0, part.x1, finer, rect.x0))]

@@ -341,7 +341,7 @@ def _changed(one: Plot | None, other: Plot | None, finer: bool) -> list[Rect]:
 
 def _fewer(rects: list[Rect]) -> list[Rect]:
     """Those that lie near one another joined, until few are left."""
-    side = tiles.SIDE
+    side = tiles.TILE_SIDE
     while len(rects) > _MOST_RECTS:
         side *= 2
         joined: dict[tuple[int, int], Rect] = {}

@@ -21,11 +21,11 @@ from engine.numeric.pyramid import reduce
 from engine.texture.example import show, tiles
 from engine.texture.example.region import Region
 from engine.texture.example.region_window import OUTSIDE
-from engine.texture.example.tiles import NONE, SIDE, Key, Tiles
+from engine.texture.example.tiles import NONE, TILE_SIDE, Key, Tiles
 
-Shown = tuple[Tiles, ...]  # float32 (4, SIDE, SIDE) tiles, from the region's own level to coarser ones
+Shown = tuple[Tiles, ...]  # float32 (4, TILE_SIDE, TILE_SIDE) tiles, from the region's own level to coarser ones
 FEW = 4  # tiles: with no more of them, a level is coarse enough to be the last that is kept
-_HALF = SIDE // 2
+_HALF = TILE_SIDE // 2
 _RUN = 16  # tiles between two pauses
 _SHARED = 8  # rectangles that threads are given ahead
 _NOWHERE = Rect(0, 0, 0, 0)
@@ -66,7 +66,7 @@ def _runs(stale: dict[Key, Rect]) -> Iterator[Rect]:
     for key in sorted(stale):
         part = stale[key]
         joins = part == tiles.rect_of(key) and (part.x0, part.y0) == (run.x1, run.y0)
-        if joins and run.height == SIDE and run.width % SIDE == 0 and run.width < _RUN * SIDE:
+        if joins and run.height == TILE_SIDE and run.width % TILE_SIDE == 0 and run.width < _RUN * TILE_SIDE:
             run = run.union(part)
             continue
         if not run.empty:
@@ -149,15 +149,15 @@ def _altered(drawn: Region | None, region: Region) -> Iterator[tuple[int, Rect]]
         )
         for one, other, empty, reach in pairs:
             for area in tiles.changed_rects(one, other, empty):
-                key = area.y0 // SIDE, area.x0 // SIDE
+                key = area.y0 // TILE_SIDE, area.x0 // TILE_SIDE
                 areas[key] = areas.get(key, _NOWHERE).union(area.grown(reach))
         yield from ((n, area.zoomed(n)) for area in areas.values())
 
 
 def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:
     """The tiles of some maps that meet a rectangle, of any size."""
-    rows = range(area.y0 // SIDE, (area.y1 - 1) // SIDE + 1)
-    columns = range(area.x0 // SIDE, (area.x1 - 1) // SIDE + 1)
+    rows = range(area.y0 // TILE_SIDE, (area.y1 - 1) // TILE_SIDE + 1)
+    columns = range(area.x0 // TILE_SIDE, (area.x1 - 1) // TILE_SIDE + 1)
     found: set[Key] = set()
     if area.empty:
         return found
@@ -196,7 +196,7 @@ def _lay(
     """Lays `new` on the part `place` of the tile `old`, and holds it if that changes it."""
     if not new.any() if old is None else np.array_equal(old[:, *place], new):
         return
-    tile = np.zeros((4, SIDE, SIDE), np.float32) if old is None else old.copy()
+    tile = np.zeros((4, TILE_SIDE, TILE_SIDE), np.float32) if old is None else old.copy()
     tile[:, *place] = new
     tile.flags.writeable = False
     held[key] = tile

@@ -14,7 +14,7 @@ from engine.numeric.prediction import Predictor, fit
 from engine.numeric.regions import colour_count, false_colours, packed, region_count
 from engine.numeric.spectra import radial_mean, radial_window
 
-SIDE = 1024  # pixels: of what is larger, the middle is looked at
+ANALYSED_SIDE = 1024  # pixels: of what is larger, the middle is looked at
 REACH = 4
 _WEIGHTS = (0.2126, 0.7152, 0.0722)
 
@@ -47,8 +47,8 @@ class Analysis:
 
     @cached_property
     def grey(self) -> np.ndarray:
-        """The brightness of the middle, at most SIDE x SIDE pixels of it: float32 (h, w)."""
-        return brightness(middle(self.pixels, SIDE))
+        """The brightness of the middle, at most ANALYSED_SIDE x ANALYSED_SIDE pixels of it: float32 (h, w)."""
+        return brightness(middle(self.pixels, ANALYSED_SIDE))
 
     @cached_property
     def power(self) -> np.ndarray:

@@ -29,7 +29,7 @@ from engine.painting.capture import read_picture
 from engine.painting.textures import Around, Texture
 from engine.strokes.example_files import kept, read_mask, read_parameters
 from engine.strokes.example_region import STEPS_CAP, followed
-from engine.texture.example.exemplar import SIDE, Exemplar, shrunk
+from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar, shrunk
 from engine.texture.example.parameters import FIELDS, Parameters, changed
 from engine.texture.image import ImageSource
 
@@ -206,7 +206,7 @@ def _analysed(source: ImageSource, mask: ImageSource | None, parameters: Paramet
     if detail:
         return replace(shrunk(_analysed(source, mask, parameters, 0), detail), origin=origin)
     _, height, width = source.data.shape
-    if max(height, width) > SIDE:
-        raise FieldError("example", f"{width} x {height} pixels", f"at most {SIDE} x {SIDE}")
+    if max(height, width) > EXAMPLE_SIDE:
+        raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
     inside = None if mask is None or mask.data is None else mask.data[3] > _WHITE
     return replace(kept(to_rgba16(source.data), inside, parameters), origin=origin)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from engine.painting.commands import Command, DefineTexture
 
 NOTHING: Map[str, Any] = Map()
-SIDE = 256  # pixels along a side of a screen tile
+SCREEN_TILE = 256  # pixels along a side of a screen tile
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,4 +92,4 @@ class Sight(Owned):
 
 def tile_rect(key: Key) -> Rect:
     _, x, y = key
-    return Rect.at(x * q.SIDE, y * q.SIDE, q.SIDE, q.SIDE)
+    return Rect.at(x * q.SCREEN_TILE, y * q.SCREEN_TILE, q.SCREEN_TILE, q.SCREEN_TILE)

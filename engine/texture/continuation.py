@@ -25,7 +25,7 @@ from engine.texture import sample
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern, Shape, analysed, noise
 
-SIDE = 256  # pixels of an octave's tile each way
+OCTAVE_SIDE = 256  # pixels of an octave's tile each way
 LOOKED_AT = 1024  # pixels of a picture each way that are looked at
 # Slopes, amplitude of an octave to that of the one before.  Octaves that are as strong as one another, as those of
 # 1/f noise, would add up to ever more contrast.
@@ -60,14 +60,14 @@ def octave_of(source: ImageSource) -> Octave:
     picture = np.ascontiguousarray(source.data[channels, :LOOKED_AT, :LOOKED_AT])
     pattern = analysed(picture, _SHAPE)
     if not pattern.shape.levels or not pattern.bands:
-        return Octave(np.zeros((count + 1, SIDE, SIDE), np.float32), _USUAL)
+        return Octave(np.zeros((count + 1, OCTAVE_SIDE, OCTAVE_SIDE), np.float32), _USUAL)
     finest, slope = measured(pattern)
     axes = pattern.colours
     assert isinstance(axes, ColourAxes)
     planes = _filtered(_noise(pattern, finest, slope))
     tile = 2.0 * np.einsum("cr,rhw->chw", axes.axes, planes)
     tile -= tile.mean((1, 2), keepdims=True)
-    tile = np.concatenate([tile, np.zeros((count + 1 - len(tile), SIDE, SIDE))]).astype(np.float32)
+    tile = np.concatenate([tile, np.zeros((count + 1 - len(tile), OCTAVE_SIDE, OCTAVE_SIDE))]).astype(np.float32)
     tile.flags.writeable = False
     return Octave(tile, slope)
 
@@ -112,7 +112,7 @@ def _slope(strengths: list[float]) -> float:
 def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
     """Planes (R, 256, 256) along the axes, whose subbands are distributed as the finest ones of the pattern; those of
     lower octaves stronger, as the slope tells."""
-    made = steerable.filters(SIDE, SIDE, _OCTAVES, _SHAPE.orientations)
+    made = steerable.filters(OCTAVE_SIDE, OCTAVE_SIDE, _OCTAVES, _SHAPE.orientations)
     rise = max(slope, _LOUDEST)
     rest = _rest(made, rise)
 
@@ -135,7 +135,7 @@ def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
             else:
                 histograms.match(plane, targets[place][axis])
 
-    planes = noise(len(pattern.bands), (SIDE, SIDE), 0)
+    planes = noise(len(pattern.bands), (OCTAVE_SIDE, OCTAVE_SIDE), 0)
     for _ in range(_ITERATIONS):
         planes = steerable.finished(steerable.changed(planes, made, change))
     return planes
@@ -143,8 +143,8 @@ def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
 
 def _rest(made: steerable.Filters, slope: float) -> float:
     """How strong the high-pass residue is to one subband of the finest level, in noise of that slope."""
-    v, u = np.fft.fftfreq(SIDE)[:, None], np.fft.rfftfreq(SIDE)[None]
-    f = np.maximum(np.hypot(u, v), 1.0 / SIDE)
+    v, u = np.fft.fftfreq(OCTAVE_SIDE)[:, None], np.fft.rfftfreq(OCTAVE_SIDE)[None]
+    f = np.maximum(np.hypot(u, v), 1.0 / OCTAVE_SIDE)
     power = f ** (-2.0 * (1.0 - math.log2(slope)))
     high = float((np.square(made.high) * power).sum())
     return math.sqrt(high / float((np.square(made.bands[0]) * power).sum() / made.orientations))
@@ -152,9 +152,9 @@ def _rest(made: steerable.Filters, slope: float) -> float:
 
 def _filtered(planes: np.ndarray) -> np.ndarray:
     """Without what expand lets pass of a coarser level: the part 1 - e^2 of the power stays."""
-    e = _response(np.fft.fftfreq(SIDE))[:, None] * _response(np.fft.rfftfreq(SIDE))[None]
+    e = _response(np.fft.fftfreq(OCTAVE_SIDE))[:, None] * _response(np.fft.rfftfreq(OCTAVE_SIDE))[None]
     part = np.sqrt(np.maximum(1.0 - e * e, 0.0)).astype(np.float32)
-    return steerable.image(steerable.spectrum(planes) * part, (SIDE, SIDE), True)
+    return steerable.image(steerable.spectrum(planes) * part, (OCTAVE_SIDE, OCTAVE_SIDE), True)
 
 
 def _response(f: np.ndarray) -> np.ndarray:

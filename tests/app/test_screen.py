@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.canvas.screen import DARK, FADE, LIGHT, SIDE, Screen, ScreenTile, cells, near_first
+from app.canvas.screen import DARK, FADE, LIGHT, SCREEN_TILE, Screen, ScreenTile, cells, near_first
 from app.canvas.view import Place, View
 from engine.numeric.address import Rect
 from engine.studio.results import Patch
@@ -23,7 +23,7 @@ def view(level=0, fraction=0.0, centre=Place(0, 0, 0)):  # noqa: B008  # frozen
 
 
 def patch(tile, colour, revision=1, area=None):
-    area = area or Rect(0, 0, SIDE, SIDE)
+    area = area or Rect(0, 0, SCREEN_TILE, SCREEN_TILE)
     pixels = np.empty((area.height, area.width, 4), np.uint8)
     pixels[:] = colour
     return Patch(tile, area, pixels, revision)
@@ -45,7 +45,7 @@ def test_a_tile_lies_where_its_pixels_do(screen):
     at = view()
     screen.upload(patch((0, 0, 0), RED), at, 0.0)
     picture, moving = shown(screen, at)
-    assert (picture[240 : 240 + 200, 320 : 320 + SIDE] == RED[:3]).all()
+    assert (picture[240 : 240 + 200, 320 : 320 + SCREEN_TILE] == RED[:3]).all()
     assert (picture[:239, :319, 0] != 255).any()
     assert tuple(picture[239, 319]) != RED[:3]
     assert not moving
@@ -159,7 +159,7 @@ def test_forgetting_drops_all(screen):
 def test_a_thousand_levels_deep_the_tile_is_where_it_should_be(screen):
     centre = Place((1 << 1000) + 128, 128, 1000)
     at = view(1000, centre=centre)
-    tile = (1000, (1 << 1000) // SIDE, 0)
+    tile = (1000, (1 << 1000) // SCREEN_TILE, 0)
     screen.upload(patch(tile, RED), at, 0.0)
     picture, _ = shown(screen, at)
     assert (picture[240 - 127 : 240 + 127, 320 - 127 : 320 + 127] == RED[:3]).all()

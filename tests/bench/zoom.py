@@ -18,7 +18,7 @@ from engine.painting.recording import read
 from engine.session.apply import Painting, apply
 from engine.session.replay import replay
 from engine.session.session import Session
-from engine.studio.requests import SIDE, Look
+from engine.studio.requests import SCREEN_TILE, Look
 from engine.studio.results import Patch
 from engine.studio.studio import Studio
 
@@ -84,7 +84,9 @@ def engine(painting: Painting, place: Place, levels: int) -> list[float]:
     times = []
     for level in range(levels + 1):
         seen = View(place, level, 0.0, WIDTH, HEIGHT).visible(level)
-        columns, rows = (range(a // SIDE, (b - 1) // SIDE + 1) for a, b in ((seen.x0, seen.x1), (seen.y0, seen.y1)))
+        columns, rows = (
+            range(a // SCREEN_TILE, (b - 1) // SCREEN_TILE + 1) for a, b in ((seen.x0, seen.x1), (seen.y0, seen.y1))
+        )
         wanted = tuple((level, x, y, -1) for y in rows for x in columns)
         patches = 0
         start = time.perf_counter()

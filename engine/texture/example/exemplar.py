@@ -19,7 +19,7 @@ from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
 from engine.texture.example.parameters import MOST_LEVELS, Parameters
 
 PAD = RADIUS + 1  # a neighbourhood and one pixel more, to fill the register
-SIDE = 1024  # pixels along an example, at most
+EXAMPLE_SIDE = 1024  # pixels along an example, at most
 COUNTS = 50  # of region pixels among 7 x 7
 # Pixels along the shorter side of the coarsest level, at least.  With a rim some more: neighbourhoods that lie
 # wholly inside have to be left, and the fewer levels there are, the less changes when a region grows.
@@ -138,8 +138,8 @@ def _pyramid(exemplar: Exemplar, count: int) -> list[tuple[np.ndarray, np.ndarra
 
 def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters) -> np.ndarray:
     height, width = pixels.shape[:2]
-    if max(height, width) > SIDE:
-        raise FieldError("example", f"{width} x {height} pixels", f"at most {SIDE} x {SIDE}")
+    if max(height, width) > EXAMPLE_SIDE:
+        raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
     if mask is not None and mask.shape != (height, width):
         raise FieldError("mask", f"{mask.shape[1]} x {mask.shape[0]} pixels", f"{width} x {height} as the example")
     found = pixels[..., 3] > 0 if mask is None else mask.astype(bool)

@@ -11,9 +11,9 @@ from numba import njit
 
 from engine.numeric.address import Rect
 
-SIDE = 64  # pixels along a tile
+TILE_SIDE = 64  # pixels along a tile
 Key = tuple[int, int]  # row and column of a tile, of any size
-Tiles = Map[Key, np.ndarray]  # read-only arrays (planes, SIDE, SIDE); a tile that is not there is empty
+Tiles = Map[Key, np.ndarray]  # read-only arrays (planes, TILE_SIDE, TILE_SIDE); a tile that is not there is empty
 NONE: Tiles = Map()
 _LAST = slice(-1, None)
 
@@ -22,14 +22,14 @@ def keys_of(rect: Rect) -> Iterator[Key]:
     """The tiles that meet a rectangle, row by row."""
     if rect.empty:
         return
-    for row in range(rect.y0 // SIDE, (rect.y1 - 1) // SIDE + 1):
-        for column in range(rect.x0 // SIDE, (rect.x1 - 1) // SIDE + 1):
+    for row in range(rect.y0 // TILE_SIDE, (rect.y1 - 1) // TILE_SIDE + 1):
+        for column in range(rect.x0 // TILE_SIDE, (rect.x1 - 1) // TILE_SIDE + 1):
             yield row, column
 
 
 def rect_of(key: Key) -> Rect:
     """Gives the pixels that a tile covers."""
-    return Rect.at(key[1] * SIDE, key[0] * SIDE, SIDE, SIDE)
+    return Rect.at(key[1] * TILE_SIDE, key[0] * TILE_SIDE, TILE_SIDE, TILE_SIDE)
 
 
 def hull(tiles: Tiles) -> Rect:
@@ -37,20 +37,22 @@ def hull(tiles: Tiles) -> Rect:
     if not tiles:
         return Rect(0, 0, 0, 0)
     rows, columns = zip(*tiles, strict=True)
-    return Rect(min(columns) * SIDE, min(rows) * SIDE, (max(columns) + 1) * SIDE, (max(rows) + 1) * SIDE)
+    return Rect(
+        min(columns) * TILE_SIDE, min(rows) * TILE_SIDE, (max(columns) + 1) * TILE_SIDE, (max(rows) + 1) * TILE_SIDE
+    )
 
 
 def _shared(rect: Rect) -> Iterator[tuple[Key, tuple[slice, slice], tuple[slice, slice]]]:
     """The tiles that meet a rectangle, and where what they share lies in the rectangle and in the tile."""
     if rect.empty:
         return
-    for row in range(rect.y0 // SIDE, -(-rect.y1 // SIDE)):
-        top = row * SIDE
-        y0, y1 = max(top, rect.y0), min(top + SIDE, rect.y1)
+    for row in range(rect.y0 // TILE_SIDE, -(-rect.y1 // TILE_SIDE)):
+        top = row * TILE_SIDE
+        y0, y1 = max(top, rect.y0), min(top + TILE_SIDE, rect.y1)
         outer, inner = slice(y0 - rect.y0, y1 - rect.y0), slice(y0 - top, y1 - top)
-        for column in range(rect.x0 // SIDE, -(-rect.x1 // SIDE)):
-            left = column * SIDE
-            x0, x1 = max(left, rect.x0), min(left + SIDE, rect.x1)
+        for column in range(rect.x0 // TILE_SIDE, -(-rect.x1 // TILE_SIDE)):
+            left = column * TILE_SIDE
+            x0, x1 = max(left, rect.x0), min(left + TILE_SIDE, rect.x1)
             yield (row, column), (outer, slice(x0 - rect.x0, x1 - rect.x0)), (inner, slice(x0 - left, x1 - left))
 
 
@@ -88,7 +90,7 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
         if old is None and blank:
             continue
         altered = True
-        tile = np.full((len(values), SIDE, SIDE), empty, values.dtype) if old is None else old.copy()
+        tile = np.full((len(values), TILE_SIDE, TILE_SIDE), empty, values.dtype) if old is None else old.copy()
         tile[:, *inner] = new
         tile.flags.writeable = False
         if blank and (tile == empty).all():
@@ -128,7 +130,7 @@ def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> 
             one, other = (nothing, there) if one is None else (there, nothing)
         y0, y1, x0, x1 = _differing(one[planes], other[planes])
         if y1 > y0:
-            x, y = key[1] * SIDE, key[0] * SIDE
+            x, y = key[1] * TILE_SIDE, key[0] * TILE_SIDE
             yield Rect(x + x0, y + y0, x + x1, y + y1)
 
 
@@ -152,14 +154,14 @@ def bounds(planes):
 
 @njit(cache=True, nogil=True)
 def _differing(one, other):
-    """Rows [0, 1) and columns [2, 3) within which two arrays (planes, SIDE, SIDE) differ; none if they do not."""
-    y0, y1, x0, x1 = SIDE, 0, SIDE, 0
+    """Rows [0, 1) and columns [2, 3) within which two arrays (planes, h, w) of tiles differ; none if they do not."""
+    y0, y1, x0, x1 = TILE_SIDE, 0, TILE_SIDE, 0
     for c in range(one.shape[0]):
-        for y in range(SIDE):
-            first, last = 0, SIDE
-            while first < SIDE and one[c, y, first] == other[c, y, first]:
+        for y in range(TILE_SIDE):
+            first, last = 0, TILE_SIDE
+            while first < TILE_SIDE and one[c, y, first] == other[c, y, first]:
                 first += 1
-            if first == SIDE:
+            if first == TILE_SIDE:
                 continue
             while one[c, y, last - 1] == other[c, y, last - 1]:
                 last -= 1

@@ -352,7 +352,8 @@ def test_tiles_cannot_be_written_to(stack):
     for plot in stack:
         for level in plot.shown:
             assert all(
-                not tile.flags.writeable and tile.shape == (4, tiles.SIDE, tiles.SIDE) for tile in level.values()
+                not tile.flags.writeable and tile.shape == (4, tiles.TILE_SIDE, tiles.TILE_SIDE)
+                for tile in level.values()
             )
 
 

@@ -31,10 +31,10 @@ class Window:
     def take(self, result):
         if isinstance(result, results.Patch):
             assert not result.pixels.flags.writeable
-            whole = result.area.width == q.SIDE and result.area.height == q.SIDE
+            whole = result.area.width == q.SCREEN_TILE and result.area.height == q.SCREEN_TILE
             if result.tile not in self.tiles:
                 assert whole, "a part of a tile that the window never had"
-                self.tiles[result.tile] = np.zeros((q.SIDE, q.SIDE, 4), np.uint8)
+                self.tiles[result.tile] = np.zeros((q.SCREEN_TILE, q.SCREEN_TILE, 4), np.uint8)
             a = result.area
             self.tiles[result.tile][a.y0 : a.y1, a.x0 : a.x1] = result.pixels
             self.revisions[result.tile] = result.revision

@@ -12,7 +12,7 @@ from isal import isal_zlib
 
 from engine.archive import maskpacks
 from engine.files.fault import FileError
-from engine.texture.example.tiles import SIDE
+from engine.texture.example.tiles import TILE_SIDE
 
 
 @given(st.sets(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1), st.integers(0, 1 << 70), st.randoms())
@@ -22,7 +22,9 @@ def test_masks_come_back(places, far, rng):
     tiles = {}
     for row, column in places:
         tile = (
-            np.ones((1, SIDE, SIDE), np.uint8) if rng.random() < 0.5 else rng.integers(0, 2, (1, SIDE, SIDE), np.uint8)
+            np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)
+            if rng.random() < 0.5
+            else rng.integers(0, 2, (1, TILE_SIDE, TILE_SIDE), np.uint8)
         )
         tiles[row - far, column + far] = tile
     keys = next(maskpacks.grouped(Map(tiles)))
@@ -33,7 +35,7 @@ def test_masks_come_back(places, far, rng):
 
 def test_many_tiles_are_cut_into_packs(monkeypatch):
     monkeypatch.setattr(maskpacks, "TILES", 3)
-    tile = np.ones((1, SIDE, SIDE), np.uint8)
+    tile = np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)
     masks = Map({(0, n): tile for n in range(7)})
     parts = [maskpacks.unpack(maskpacks.pack(masks, keys), "a", len(keys)) for keys in maskpacks.grouped(masks)]
     assert [len(part) for part in parts] == [3, 3, 1]
