@@ -10,16 +10,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
 from app.desk.asked import Asked, Then
-from app.desk.example_state import ExampleState
+from app.desk.example_state import Entry, ExampleState
 from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from app.log import log_file
 from engine.brush.settings import Brush
+from engine.numeric.address import Rect
 from engine.studio.requests import Request, Save
 from engine.studio.results import Note
 
@@ -45,6 +48,14 @@ class FileWork:
 
 def _nowhere(_work: FileWork) -> None:
     raise RuntimeError("no thread for files yet")
+
+
+def _no_thumbnails(_entries: tuple[Entry, ...], _side: int) -> None:
+    """Makes none: there is no thread for them yet."""
+
+
+def _no_picture(_name: str, _size: tuple[int, int], _box: Rect, _pixels: np.ndarray) -> None:
+    """Draws nothing: there is no screen yet."""
 
 
 @dataclass(slots=True)
@@ -81,6 +92,8 @@ class Desk:
     examples: ExampleState = field(default_factory=ExampleState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
+    thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square
+    touch: Callable[[str, tuple[int, int], Rect, np.ndarray], None] = _no_picture  # as Gallery.touch
 
     def learn(self, **known: Any) -> None:
         """Takes over what has become known: other values for members of `known`."""
@@ -137,3 +150,6 @@ class Desk:
         held, mode = self.hand.dipped(), self.hand.stroke_mode(eraser)
         brush = replace(held, radius=held.radius / self.view.scale(level), mode=mode.name)
         return level, self.examples.erasing(brush) if mode.takes_away else brush
+
+
+Hear = Callable[[Desk, Any, float], None]  # takes a result of the engine, and when it came

@@ -17,6 +17,7 @@ import numpy as np
 import platformdirs
 from immutables import Map
 
+from app.desk.following import Following
 from app.desk.region_mask import Mask
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
@@ -160,9 +161,7 @@ class ExampleState:
     sampling: str = ""  # the entry whose picture of a stroke was asked for last
     seen: str = ""  # and the one whose picture is there
     _hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
-    _asked: Any = None
-    _since: float = 0.0
-    _sent: float = 0.0
+    _sampling: Following = field(default_factory=lambda: Following(SETTLE))
 
     @property
     def entry(self) -> Entry | None:
@@ -249,13 +248,9 @@ class ExampleState:
         entry = self.entry
         drafted = self.tab == "settings"
         wanted = None if entry is None else (*self.needs(entry, drafted), self.sampled, self.size, entry.here)
-        if wanted != self._asked:
-            self._asked, self._since = wanted, self._since or max(now, self._sent + SETTLE)
-        if self._since and now >= self._since:
-            self._since, self._sent = 0.0, now
-            if wanted is not None and min(self.sampled) > 0:
-                self.sampling = self.chosen
-                post(sample(*wanted[:4]))
+        if self._sampling.due(wanted, now) and wanted is not None and min(self.sampled) > 0:
+            self.sampling = self.chosen
+            post(sample(*wanted[:4]))
 
     def ask_thumbnails(self, post: Callable[[Request], None], side: int) -> None:
         """Posts the pictures of those that only the painting has: a stroke each, pixels of the framebuffer square."""

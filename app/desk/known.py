@@ -13,7 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
-from engine.studio.results import Found, Growing, Ready, Result, Scene, Writing
+from engine.studio.results import Growing, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 
@@ -23,7 +23,7 @@ class Known:
     """`ready`: whether the engine is loaded; `tables`: its rows, of textures, operations and so on; `scene`: the
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
-    does; `found`: by the analysis, so far.  Times are seconds of time.monotonic()."""
+    does.  Times are seconds of time.monotonic()."""
 
     ready: bool = False
     tables: Ready = Ready()  # noqa: RUF009  # it is frozen
@@ -35,7 +35,6 @@ class Known:
     growing: Growing | None = None
     grows: float = 0.0
     preparing: float | None = None
-    found: Found | None = None
 
     @property
     def frame(self) -> Rect:
@@ -53,8 +52,8 @@ class Known:
         return self.scene.path if self.scene else None
 
 
-def told(known: Known, result: Result, now: float) -> Known:
-    """What is known after a result of the engine that came at a time; the same if it tells nothing of this."""
+def told(known: Known, result: object, now: float) -> Known:
+    """What is known after a result that came at a time; the same if it tells nothing of this."""
     teller = _TELLERS.get(type(result))
     return known if teller is None else replace(known, **teller(known, result, now))
 
@@ -69,7 +68,6 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Scene: lambda known, r, now: {"scene": r},
     results.Pending: lambda known, r, now: {"pending": r.tiles},
     results.Writing: lambda known, r, now: {"writing": r},
-    results.Found: lambda known, r, now: {"found": r},
     results.GotReady: lambda known, r, now: {"preparing": None},
     results.Growing: _growing,
 }

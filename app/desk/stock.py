@@ -1,4 +1,4 @@
-"""What the window begins with: brushes, papers and examples, read from their folders."""
+"""What the window begins with: brushes, papers and examples, read from their folders, and a brush in the hand."""
 
 from __future__ import annotations
 
@@ -38,9 +38,19 @@ class TakeStock(FileWork):
         desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers)
         desk.examples.entries = found.examples
         gather(desk)
+        _first(desk)
         for fault in found.faults:
             desk.say(fault, bad=True)
 
     def fail(self, desk: Desk, fault: str) -> None:
         desk.learn(presets=(presets.DEFAULT,))
+        _first(desk)
         desk.say(fault, bad=True)
+
+
+def _first(desk: Desk) -> None:
+    """Takes a brush that paints, unless there is one in the hand."""
+    if not desk.hand.preset:
+        listed = desk.known.presets
+        first = next((preset for preset in listed if preset.brush.row.lays_ink), listed[0])
+        desk.hand.take(first.brush, first.name, first.textures)

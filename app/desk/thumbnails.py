@@ -15,11 +15,17 @@ from engine.studio.results import Picture
 
 PAPER = (214, 209, 200)  # sRGB
 MARGIN = 0.06  # of a thumbnail's side
+LARGE = 104.0  # its side where there is room, points
 
 
 def ident(entry: Entry) -> str:
     """What its picture is called."""
     return f"example {entry.ident}"
+
+
+def side(scale: float) -> int:
+    """The side of a thumbnail, pixels, where a point is `scale` of them."""
+    return round(LARGE * scale)
 
 
 class Shelf:

@@ -6,7 +6,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme, trace
 from app.actions import ACTIONS, MENUS, Action, perform
-from app.desk.desk import Desk
+from app.desk.desk import Desk, Hear
 from app.panels import status
 from app.panels.brush.brush_panel import BrushPanel
 from app.panels.colour.colour_panel import ColourPanel
@@ -14,7 +14,8 @@ from app.panels.colour.ink_mixer import InkPanel
 from app.panels.controls import widgets as w
 from app.panels.dialogs.dialogs import Dialogs
 from app.panels.layers.layers_panel import LayersPanel
-from app.panels.strip import Painting, StripPanel
+from app.panels.panel import Painting
+from app.panels.strip import StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
 NARROW = 640.0  # points: a strip needs more
@@ -52,6 +53,17 @@ class Layout:
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
         """The stroke that a press there begins in a panel; None if it begins none."""
         return None if self._popup else self.strip.stroke(desk, x, y)
+
+    def hearers(self, kind: type) -> list[Hear]:
+        """Returns who of the panels hears results of a type."""
+        return self.strip.hearers(kind)
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """Posts what the panels lack that are to be seen; called once the engine is there."""
+        if desk.panels:
+            self.brush.wants(desk, now)
+            self.ink.wants(desk, now)
+            self.strip.wants(desk, now)
 
     def draw(self, desk: Desk, pointer_name: str) -> None:
         self._covered = []

@@ -1,57 +1,56 @@
-"""What opens below the canvas, between the panels: the texture lab, textures matched to examples, the analysis."""
+"""What opens below the canvas, between the panels: the texture lab, textures matched to examples, the analysis.
+
+A panel of this kind is a row in STRIPS, and one in app.actions.ACTIONS under the same name, which opens it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from pathlib import Path
+from typing import NamedTuple
 
 from imgui_bundle import imgui
 
 from app import icons, theme
 from app.actions import ACTIONS, Action
-from app.desk.desk import Desk
-from app.input.events import PenEvent
+from app.desk.desk import Desk, Hear
 from app.panels.controls import widgets as w
 from app.panels.examples.examples_panel import ExamplesPanel
 from app.panels.lab.analysis_panel import AnalysisPanel
 from app.panels.lab.lab_panel import LabPanel
 from app.panels.match.match_panel import MatchingPanel
-from app.tools import Gesture, paint_lab, paint_region
-from engine.studio.requests import LabStep
+from app.panels.panel import Painting, Panel
 
-Painting = Callable[[Desk, PenEvent], Gesture]
-
-
-class Panel(Protocol):
-    def draw(self, desk: Desk) -> None: ...
-
-    def bar(self, desk: Desk) -> None: ...
+PART, HIGHEST = 0.4, 640.0  # of the window's height; points
 
 
 class Strip(NamedTuple):
+    """`height`: at least, points."""
+
     title: str
     icon: str
     hint: str
-    height: float  # points
+    panel: Callable[[], Panel]
+    height: float = 356.0
 
 
-GROW = 1.15  # of a brush, by a key
-PART, HIGHEST = 0.4, 640.0  # of the window's height; points
 STRIPS = {
-    "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", 356.0),
-    "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", 356.0),
-    "examples": Strip("Examples", icons.EXAMPLES, "Textures that grow where you paint, rim and all", 356.0),
-    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", 320.0),
+    "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", LabPanel),
+    "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", MatchingPanel),
+    "examples": Strip("Examples", icons.EXAMPLES, "Textures that grow where you paint, rim and all", ExamplesPanel),
+    "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", AnalysisPanel, 320.0),
 }
 
 
 class StripPanel:
-    """Draws the one that is open."""
+    """Draws the one that is open, and passes on what is for it."""
 
     def __init__(self) -> None:
-        self.lab = LabPanel()
-        self._panels: dict[str, Panel] = {"lab": self.lab, "analysis": AnalysisPanel(), "match": MatchingPanel()}
-        self._panels["examples"] = ExamplesPanel()
+        self._panels = {name: row.panel() for name, row in STRIPS.items()}
+
+    def hearers(self, kind: type) -> list[Hear]:
+        """Returns who hears results of a type."""
+        return [panel.hears[kind] for panel in self._panels.values() if kind in panel.hears]
 
     def height(self, desk: Desk) -> float:
         """What it takes of the screen, framebuffer pixels: the same whatever it shows, or the canvas would jump."""
@@ -61,40 +60,39 @@ class StripPanel:
 
     def draw(self, desk: Desk) -> None:
         """Into the present window."""
-        row = STRIPS[desk.strip]
+        row, panel = STRIPS[desk.strip], self._panels[desk.strip]
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.vec((0.78,) * 3), f"{row.icon}  {row.title}")
         imgui.same_line(0, 14 * desk.scale)
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(self.lab.hint(desk) if desk.strip == "lab" else row.hint)
-        self._panels[desk.strip].bar(desk)
+        imgui.text_disabled(panel.hint(desk) or row.hint)
+        panel.bar(desk)
         imgui.same_line(imgui.get_window_width() - imgui.get_frame_height() - imgui.get_style().window_padding.x)
         closed = w.icon_button("close", icons.CLOSE, f"Close  ({ACTIONS[desk.strip].keys[0]})")
-        self._panels[desk.strip].draw(desk)
+        panel.draw(desk)
         if closed:
             desk.strip = ""
 
+    def wants(self, desk: Desk, now: float) -> None:
+        """Posts what the open one lacks."""
+        panel = self._open(desk)
+        if panel is not None:
+            panel.wants(desk, now)
+
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
-        """The stroke that a press there begins: in the lab's spectrum, or in an example's region."""
-        if not desk.panels:
-            return None
-        if desk.strip == "lab" and desk.lab.over(x, y):
-            return paint_lab
-        return paint_region if desk.strip == "examples" and desk.examples.over(x, y) else None
+        """The stroke that a press there begins: in the lab's spectrum, say, or in an example's region."""
+        panel = self._open(desk)
+        return None if panel is None else panel.stroke(desk, x, y)
 
     def takes(self, desk: Desk, action: Action) -> bool:
         """Undo and redo over what is painted in a panel are the panel's; so is the size of its brush."""
-        steps = {ACTIONS["undo"]: -1, ACTIONS["redo"]: 1}
-        sizes = {ACTIONS["smaller"]: 1 / GROW, ACTIONS["larger"]: GROW}
-        painted = self.stroke(desk, desk.pointer.x, desk.pointer.y)
-        if painted is paint_lab and action in steps:
-            desk.post(LabStep(steps[action]))
-            return True
-        mask = desk.examples.mask
-        if painted is not paint_region or mask is None or action not in {**steps, **sizes}:
-            return False
-        if action in steps:
-            mask.step(steps[action])
-        else:
-            mask.resize(sizes[action])
-        return True
+        panel = self._open(desk)
+        return panel is not None and panel.takes(desk, action)
+
+    def dropped(self, desk: Desk, path: Path, x: float, y: float) -> bool:
+        """Gives a file that was dropped to the open one; False if that does not take it."""
+        panel = self._open(desk)
+        return panel is not None and panel.dropped(desk, path, x, y)
+
+    def _open(self, desk: Desk) -> Panel | None:
+        return self._panels[desk.strip] if desk.strip and desk.panels else None

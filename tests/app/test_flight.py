@@ -4,7 +4,7 @@ import pytest
 
 from app.canvas.glide import Glide
 from app.canvas.view import SUBPIXEL, Place, View
-from app.news import _middle
+from app.desk.flight import middle
 from engine.numeric.address import Rect
 
 
@@ -37,12 +37,12 @@ def test_a_flight_without_zoom_is_a_jump():
 
 def test_the_middle_of_a_recorded_view_is_exact_at_depth():
     origin = (1 << 90) + 7
-    assert _middle(origin, 100, 0.0) == (origin << SUBPIXEL) + (50 << SUBPIXEL)
-    assert _middle(10.5, 4, 0.0) == round(12.5 * (1 << SUBPIXEL))
-    assert _middle(1024, 0, 0.5) == pytest.approx(1024 / 2**0.5 * (1 << SUBPIXEL), abs=2)
+    assert middle(origin, 100, 0.0) == (origin << SUBPIXEL) + (50 << SUBPIXEL)
+    assert middle(10.5, 4, 0.0) == round(12.5 * (1 << SUBPIXEL))
+    assert middle(1024, 0, 0.5) == pytest.approx(1024 / 2**0.5 * (1 << SUBPIXEL), abs=2)
 
 
 def test_the_screen_shows_the_rectangle_that_was_looked_at():
-    view = View(Place(_middle(300, 200, 0.0), _middle(100, 100, 0.0), SUBPIXEL), 2, 0.0, 1280, 800)
+    view = View(Place(middle(300, 200, 0.0), middle(100, 100, 0.0), SUBPIXEL), 2, 0.0, 1280, 800)
     seen = view.visible(0)
     assert Rect(360, 110, 440, 190).intersect(seen) == Rect(360, 110, 440, 190)

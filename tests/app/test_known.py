@@ -6,7 +6,7 @@ import pytest
 
 from app.desk.known import Known, told
 from engine.numeric.address import Rect
-from engine.studio.results import Found, GotReady, Growing, Note, Pending, Ready, Scene, Writing
+from engine.studio.results import GotReady, Growing, Note, Pending, Ready, Scene, Writing
 
 SCENE = Scene(Rect(0, 0, 64, 48), (), None, False, False, modified=True, path=None)
 PLACE = ((0, Rect(0, 0, 8, 8)),)
@@ -22,7 +22,7 @@ def test_it_is_replaced_never_changed():
 
 @pytest.mark.parametrize(
     ("result", "name", "value"),
-    [(SCENE, "scene", SCENE), (Writing(2), "writing", Writing(2)), (Found({}), "found", Found({}))],
+    [(SCENE, "scene", SCENE), (Writing(2), "writing", Writing(2))],
 )
 def test_what_the_engine_tells_is_known(result, name, value):
     assert getattr(told(Known(), result, 1.0), name) == value

@@ -45,7 +45,7 @@ def main(blocks: int) -> dict[str, Any]:
     sys.setswitchinterval(SWITCH)
     worker = Worker(window.pace.told)
     window.connect(worker)
-    window.mouse = hand = Hand()
+    window.pointers.mouse = hand = Hand()
     found: dict[str, list[Pan]] = {"alone": [], "growing": []}
     try:
         _prepare(window, hand)

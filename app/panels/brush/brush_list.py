@@ -27,8 +27,22 @@ class BrushList:
     def __init__(self) -> None:
         self._group, self._find = EVERY, ""
         self._seen = ""  # the brush chosen when the list was last drawn
-        self._asked: set[str] = set()  # brushes whose pictures were asked for when they came into sight
+        self._asked: dict[str, Preset] = {}  # by name, those whose pictures were asked for
         self._reveal = 0  # frames in which the list still scrolls to it: how long a list is, is known a frame late
+
+    def wants(self, desk: Desk) -> None:
+        """The pictures of all brushes but those that grow examples, before they are in sight: an example would have to
+        be analysed, and be held."""
+        for preset in desk.known.presets:
+            if not preset.brush.row.grows:
+                self._ask(desk, preset)
+
+    def _ask(self, desk: Desk, preset: Preset) -> None:
+        """Has a stroke of a brush painted, once."""
+        if desk.known.ready and self._asked.get(preset.name) is not preset:
+            self._asked[preset.name] = preset
+            size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
+            desk.post(Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
 
     def draw(self, desk: Desk, below: float) -> None:
         """`below`: the height that what follows needs."""
@@ -117,9 +131,7 @@ class BrushList:
             take(desk, preset)
         if not imgui.is_item_visible():  # most are scrolled away
             return taken
-        if not ready_at_start(preset) and preset.name not in self._asked:
-            self._asked.add(preset.name)
-            ask_picture(desk, preset)
+        self._ask(desk, preset)
         hovered, chosen = imgui.is_item_hovered(), desk.hand.preset == preset.name
         own = preset.path is not None and preset.path.parent == presets.own_folder()
         w.tooltip(f"{preset.name}\nShift keeps the present size" + ("\nRight click to delete it" if own else ""))
@@ -136,17 +148,6 @@ class BrushList:
             painter.add_image_rounded(picture, *inner, zero, one, white, 3 * desk.scale)
         _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
         return taken
-
-
-def ready_at_start(preset: Preset) -> bool:
-    """Whether its picture is painted before it is in sight: an example would have to be analysed, and be held."""
-    return not preset.brush.row.grows
-
-
-def ask_picture(desk: Desk, preset: Preset) -> None:
-    """Has a stroke of it painted."""
-    size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
-    desk.post(Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
 
 
 def take(desk: Desk, preset: Preset) -> None:

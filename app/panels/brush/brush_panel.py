@@ -8,8 +8,9 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import actions, icons, theme
-from app.desk import example_use
+from app.desk import example_use, palette, thumbnails
 from app.desk.desk import Desk
+from app.desk.following import Following
 from app.desk.hand import LARGEST, SMALLEST
 from app.desk.knots import at
 from app.panels.brush import example_section
@@ -22,6 +23,7 @@ from app.panels.controls.curve_editor import CurveEditor
 from app.tools import TOOLS
 from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
+from engine.studio.requests import Swatch
 from engine.studio.results import CurveRow
 
 _PRESSURES: dict[str, Any] = {
@@ -54,7 +56,21 @@ class BrushPanel:
             "operations": self._operations.draw,
             "example": example_section.draw,
         }  # of a mode alone
+        self._following = Following()
         self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """The stroke of the brush as it is set, pictures of the presets, and those of examples where one is shown."""
+        self._list.wants(desk)
+        brush, lab = desk.examples.at_home(desk.hand.dipped()), desk.lab.scene
+        grows = brush.row.grows
+        if grows:
+            example_use.prepare(desk, now)
+            desk.thumbnails(desk.examples.entries, thumbnails.side(desk.scale))
+        free = not grows or desk.known.preparing is None  # or the engine would wait for it, and strokes for the engine
+        if self._following.due((brush, 0 if lab is None else lab.version), now, free):
+            size = (int(PREVIEW[0] * desk.scale), int(PREVIEW[1] * desk.scale))
+            desk.post(Swatch("brush", brush, size, textures=palette.lacking(desk), soon=True))
 
     def draw(self, desk: Desk) -> None:
         self._tools(desk)

@@ -11,7 +11,6 @@ from app import icons
 from app.desk import palette, presets
 from app.desk.desk import Desk, FileWork
 from app.desk.presets import Preset
-from app.panels.brush.brush_list import ask_picture
 from app.panels.controls import widgets as w
 
 
@@ -69,7 +68,6 @@ class _Keep(FileWork):
         others = tuple(p for p in desk.known.presets if (p.name, p.group) != (name, presets.OWN))
         desk.learn(presets=(*others, preset))
         desk.hand.take(desk.hand.brush, name)
-        ask_picture(desk, preset)
         without = f", without {' and '.join(self.stay)}, which only this painting has" if self.stay else ""
         desk.say(f"Saved the brush “{name}”{without}", bad=bool(self.stay))
 

@@ -7,16 +7,18 @@ from dataclasses import replace
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import pictured
+from app.desk import palette, pictured
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
+from app.desk.following import Following
 from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
-from engine.brush.settings import COMPONENTS_CAP, Component
+from engine.brush.settings import COMPONENTS_CAP, Brush, Component
+from engine.studio.requests import Swatch
 
 DEEPER = 4  # levels: how far the second half of the picture is zoomed in
-SWATCH_HEIGHT = 56
+SWATCH_WIDTH, SWATCH_HEIGHT = 135, 56  # of each half, points
 _COLOURS = {"white": "#ffffff", "rock": "#7a6f63", "stripes": "#20242c", "sawtooth": "#f0e2c0", "squares": "#f2f2f2"}
 
 
@@ -24,7 +26,16 @@ class InkPanel:
     """Ink is the brush's colour plus textures, each with an amount and a colour of its own."""
 
     def __init__(self) -> None:
-        self._curves = CurveEditor()
+        self._curves, self._following = CurveEditor(), Following()
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """The ink as painted, and much nearer."""
+        brush, lab = desk.hand.dipped(), desk.lab.scene
+        plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
+        if self._following.due((plain, 0 if lab is None else lab.version), now):
+            lacking, size = palette.lacking(desk), (int(SWATCH_WIDTH * desk.scale), int(SWATCH_HEIGHT * desk.scale))
+            desk.post(Swatch("ink", plain, size, "fill", textures=lacking, soon=True))
+            desk.post(Swatch("ink near", plain, size, "fill", DEEPER, lacking, soon=True))
 
     def draw(self, desk: Desk) -> None:
         if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):

@@ -11,12 +11,14 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
+from app.actions import ACTIONS, Action
 from app.desk import example_work
 from app.desk.desk import Desk
-from app.desk.region_mask import RADII, Mask, smoothed
+from app.desk.region_mask import RADII, Mask, shown, smoothed
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 
+GROW = 1.15  # of the brush, by a key
 SIDE = 232.0  # width of the tools, points
 _WAYS = (
     ("in", "Paint in", "A stroke adds to the region"),
@@ -61,6 +63,27 @@ class RegionPanel:
         imgui.pop_style_color()
         imgui.end_child()
 
+    def show(self, desk: Desk) -> None:
+        """Draws into the picture what has changed."""
+        mask = desk.examples.mask
+        if mask is not None and mask.dirty is not None:
+            height, width = mask.inside.shape
+            desk.touch(f"region {desk.examples.chosen}", (width, height), mask.dirty, shown(mask, mask.dirty))
+            mask.dirty = None
+
+    def takes(self, desk: Desk, action: Action) -> bool:
+        """Steps through what was painted, or makes the brush larger or smaller; False for other actions."""
+        steps = {ACTIONS["undo"]: -1, ACTIONS["redo"]: 1}
+        sizes = {ACTIONS["smaller"]: 1 / GROW, ACTIONS["larger"]: GROW}
+        mask = desk.examples.mask
+        if mask is None or action not in {**steps, **sizes}:
+            return False
+        if action in steps:
+            mask.step(steps[action])
+        else:
+            mask.resize(sizes[action])
+        return True
+
     def _picture(self, desk: Desk, mask: Mask) -> None:
         """As large as there is room for; its place is remembered for the strokes."""
         state, room = desk.examples, imgui.get_content_region_avail()
@@ -72,9 +95,9 @@ class RegionPanel:
         painter = imgui.get_window_draw_list()
         painter.add_rect_filled(corner, ImVec2(corner.x + room.x, corner.y + room.y), theme.packed(theme.FIELD), 4)
         w.placed("region", at, end)
-        shown = desk.pictures.get(f"region {state.chosen}")
-        if shown is not None:
-            painter.add_image(shown, at, end)
+        picture = desk.pictures.get(f"region {state.chosen}")
+        if picture is not None:
+            painter.add_image(picture, at, end)
         free = not imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
         state.spot = (at.x, at.y, scale) if free else None
         if state.over(desk.pointer.x, desk.pointer.y) and mask.way != "colour":

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
+from app.actions import Action
 from app.desk import example_state, example_use, example_work, thumbnails
 from app.desk.desk import Desk
 from app.desk.example_state import Entry
@@ -13,8 +18,11 @@ from app.panels.controls.widgets import Col
 from app.panels.examples.example_region import RegionPanel
 from app.panels.examples.growth_settings import GrowthSettings
 from app.panels.examples.own_examples import OwnExamples
+from app.panels.panel import Painting, Panel
+from app.tools import paint_region
+from engine.studio.results import Picture, Scene
 
-TILE, LARGE = 68.0, 104.0  # side of a thumbnail, points: at least, and where there is room
+TILE = 68.0  # side of a thumbnail, points, at least
 NAME = 0.82  # of the font's size
 SIDE = 250.0  # width of what is told of the one chosen, points
 _STILL = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
@@ -25,11 +33,43 @@ _TABS = (
 )
 
 
-class ExamplesPanel:
+class ExamplesPanel(Panel):
     """Draws the strip."""
 
     def __init__(self) -> None:
         self._region, self._settings, self._own = RegionPanel(), GrowthSettings(), OwnExamples()
+        self._defined: Sequence[Any] | None = None  # what the painting defined when it was last listed
+        self.hears = {Scene: self._heard, Picture: _sampled}
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """Thumbnails, the sample stroke, and what was painted in the region."""
+        state, side = desk.examples, thumbnails.side(desk.scale)
+        example_use.prepare(desk, now)
+        desk.thumbnails(state.entries, side)
+        if desk.known.preparing is None:  # or the engine would wait for it, and strokes for the engine
+            state.ask(desk.post, now)
+        state.ask_thumbnails(desk.post, side)
+        self._region.show(desk)
+
+    def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
+        """A stroke in the region."""
+        return paint_region if desk.examples.over(x, y) else None
+
+    def takes(self, desk: Desk, action: Action) -> bool:
+        """Undo and redo over the region are its own, and so is the size of its brush."""
+        at = desk.pointer
+        return desk.examples.over(at.x, at.y) and self._region.takes(desk, action)
+
+    def dropped(self, desk: Desk, path: Path, x: float, y: float) -> bool:
+        """A picture is an example of the artist's own."""
+        return example_work.dropped(desk, path)
+
+    def _heard(self, desk: Desk, scene: Scene, now: float) -> None:
+        """Lists the painting's own examples when it has others."""
+        if self._defined != scene.definitions:
+            self._defined = scene.definitions
+            example_use.gather(desk)
+            example_use.prepare(desk, now)
 
     def draw(self, desk: Desk) -> None:
         state = desk.examples
@@ -160,6 +200,12 @@ class ExamplesPanel:
         imgui.pop_style_color()
 
 
+def _sampled(desk: Desk, picture: Picture, _now: float) -> None:
+    """The picture of a stroke is of the example that it was asked for with."""
+    if picture.ident == example_state.SAMPLE:
+        desk.examples.seen = desk.examples.sampling
+
+
 def _has_files(entry: Entry | None) -> bool:
     """Whether it has a region and settings that may be changed: only the palette's own have."""
     return entry is not None and entry.here is None
@@ -172,7 +218,7 @@ def _below(desk: Desk) -> float:
 
 def tile(count: int, room: tuple[float, float], gap: float, name: float, scale: float) -> float:
     """The side of thumbnails: as large as lets all be seen at once, between two bounds."""
-    side = int(LARGE * scale)
+    side = int(thumbnails.LARGE * scale)
     while side > TILE * scale:
         across = max(1, int((room[0] + gap) / (side + gap)))
         if -(-count // across) * (side + name + gap) <= room[1]:

@@ -10,8 +10,10 @@ from app import icons, theme
 from app.desk import pictured
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
+from app.panels.panel import Panel
 from engine.numeric.address import Rect
 from engine.studio.requests import Analyse
+from engine.studio.results import Found
 
 _PICTURES = (
     ("analysis power", "Power spectrum", "How strong each frequency is; zero in the middle, strongest is light"),
@@ -25,11 +27,13 @@ _PICTURES = (
 )
 
 
-class AnalysisPanel:
+class AnalysisPanel(Panel):
     """Draws the strip; the engine finds the facts one after the other, at first of what is in view."""
 
     def __init__(self) -> None:
         self._asked = False
+        self._found: Found | None = None  # so far
+        self.hears = {Found: self._heard}
 
     def draw(self, desk: Desk) -> None:
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
@@ -54,11 +58,11 @@ class AnalysisPanel:
             self._rings(desk, imgui.get_content_region_avail().x, tall)
         imgui.end_child()
 
-    def bar(self, desk: Desk) -> None:
-        """Nothing in the strip's title line."""
+    def _heard(self, _desk: Desk, found: Found, _now: float) -> None:
+        self._found = found
 
     def _picture(self, desk: Desk, name: str) -> object | None:
-        return desk.pictures.get(name) if desk.known.found is not None and name in desk.known.found.pictures else None
+        return desk.pictures.get(name) if self._found is not None and name in self._found.pictures else None
 
     def _ask(self, desk: Desk) -> None:
         wide = (imgui.get_content_region_avail().x - 2 * desk.scale) / 2
@@ -71,25 +75,24 @@ class AnalysisPanel:
             self._look(desk, desk.view.shown_level, pictured.seen(desk))
 
     def _look(self, desk: Desk, level: int, area: Rect) -> None:
-        self._asked = True
-        desk.learn(found=None)
+        self._asked, self._found = True, None
         desk.post(Analyse(level, area))
 
     def _facts(self, desk: Desk) -> None:
         imgui.spacing()
-        if desk.known.found is None:
+        if self._found is None:
             imgui.text_disabled(f"{icons.WAIT} looking…")
             return
-        for name, value in sorted(desk.known.found.lines.items(), key=lambda line: _ORDER.index(line[0])):
+        for name, value in sorted(self._found.lines.items(), key=lambda line: _ORDER.index(line[0])):
             imgui.text_disabled(name)
             imgui.same_line(6.5 * imgui.get_font_size())
             imgui.text_unformatted(value)
-        if not desk.known.found.done:
+        if not self._found.done:
             imgui.text_disabled(f"{icons.WAIT} looking…")
 
     def _rings(self, desk: Desk, wide: float, tall: float) -> None:
         """Power by frequency, both logarithmic; over it the model's."""
-        rows = desk.known.found.rings if desk.known.found is not None else ()
+        rows = self._found.rings if self._found is not None else ()
         corner = w.picture(None, (wide, tall), "Power by frequency, coarse to fine: the picture, and the model over it")
         strongest = max((power for _, power, _ in rows), default=0.0)
         if strongest <= 0.0 or len(rows) < 2:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
+from app.actions import ACTIONS, Action
 from app.desk import pictured
 from app.desk.desk import Desk
-from app.desk.lab_state import with_texture
+from app.desk.lab_state import only_with, with_texture
 from app.panels.controls import widgets as w
 from app.panels.lab.lab_settings import LabSettings
+from app.panels.panel import Painting, Panel
+from app.tools import paint_lab
 from engine.studio.requests import LabStep
+from engine.studio.results import LabScene
 
 FIELD = 360  # pixels of an endless field that the preview shows along a side
 HALF = 0.564  # of the radial window's width: within it, it is more than half as strong as in the middle
@@ -25,11 +30,31 @@ _USES = (
 )
 
 
-class LabPanel:
+class LabPanel(Panel):
     """Draws the strip; strokes in the spectrum come from `tools.paint_lab`."""
 
     def __init__(self) -> None:
         self._settings = LabSettings()
+        self.hears = {LabScene: _heard}
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """What was set, and when it rests a stroke with the texture."""
+        known = {row.name for row in desk.known.tables.kinds if not row.pictured}
+        known |= set(desk.known.scene.textures if desk.known.scene else ())
+        brush = only_with(replace(desk.hand.dipped(), ink=()), frozenset(known))
+        desk.lab.ask(desk.post, now, replace(brush, radius=16.0, opacity=1.0, flow=1.0, mode="paint"))
+
+    def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
+        """A stroke in the spectrum."""
+        return paint_lab if desk.lab.over(x, y) else None
+
+    def takes(self, desk: Desk, action: Action) -> bool:
+        """Undo and redo over the spectrum are the lab's."""
+        steps = {ACTIONS["undo"]: -1, ACTIONS["redo"]: 1}
+        if action not in steps or not desk.lab.over(desk.pointer.x, desk.pointer.y):
+            return False
+        desk.post(LabStep(steps[action]))
+        return True
 
     def draw(self, desk: Desk) -> None:
         line, gap = imgui.get_frame_height_with_spacing(), imgui.get_style().item_spacing.x
@@ -62,32 +87,15 @@ class LabPanel:
         painter = imgui.get_window_draw_list()
         painter.push_clip_rect(corner, ImVec2(corner.x + side, corner.y + side), True)
         over = lab.over(desk.pointer.x, desk.pointer.y)
-        self._axes(desk, corner, side, over)
+        _axes(desk, corner, side, over)
         if over:
             self._outline(desk, corner, side)
         if lab.scene is not None and lab.scene.silent and lab.made.sheet == "amplitude":
             made = lab.made
             flat = made.part == "imaginary" and made.phase != "random" and not made.forward
             text = "Only random phases have\nan imaginary part" if flat else "Silent: paint here"
-            self._invitation(corner, side, text)
+            _invite(corner, side, text)
         painter.pop_clip_rect()
-
-    def _axes(self, desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
-        """The zero frequency in the middle, and rings at periods that say how large the features are."""
-        painter = imgui.get_window_draw_list()
-        middle = ImVec2(corner.x + side / 2, corner.y + side / 2)
-        faint = theme.packed((1.0, 1.0, 1.0), 0.10)
-        painter.add_line(ImVec2(corner.x, middle.y), ImVec2(corner.x + side, middle.y), faint)
-        painter.add_line(ImVec2(middle.x, corner.y), ImVec2(middle.x, corner.y + side), faint)
-        if desk.lab.made.forward:
-            return
-        for period in _PERIODS:
-            radius = side / period
-            painter.add_circle(middle, radius + 1, theme.packed((0.0, 0.0, 0.0), 0.22), 64)
-            painter.add_circle(middle, radius, theme.packed((1.0, 1.0, 1.0), 0.2), 64)
-            if period <= 8:
-                at = ImVec2(middle.x + 0.71 * radius + 2, middle.y + 0.71 * radius - 2)
-                _label(at, f"{period} px", 0.9 if over else 0.6)
 
     def _outline(self, desk: Desk, corner: ImVec2, side: float) -> None:
         """The brush at the pointer, and where symmetry paints too."""
@@ -105,11 +113,6 @@ class LabPanel:
         if far > 0.004:
             text = f"{1 / far:.1f} px  {math.degrees(math.atan2(down, across)) % 180:.0f}°"
             _label(ImVec2(corner.x + 6, corner.y + side - imgui.get_font_size() - 4), text)
-
-    def _invitation(self, corner: ImVec2, side: float, text: str) -> None:
-        size = imgui.calc_text_size(text)
-        at = ImVec2(corner.x + (side - size.x) / 2, corner.y + side * 0.62)
-        imgui.get_window_draw_list().add_text(at, theme.packed(theme.TEXT, 0.8), text)
 
     def _brush(self, desk: Desk) -> None:
         """The brush that paints in the spectrum, and its undo."""
@@ -140,7 +143,7 @@ class LabPanel:
         made = desk.lab.made
         if made.sheet == "phase":
             return "Paint its phases: warm one way, cold the other"
-        return "Paint a pattern: the texture is its transform" if made.forward else PAINT_GRAIN
+        return "Paint a pattern: the texture is its transform" if made.forward else ""
 
     def bar(self, desk: Desk) -> None:
         """The texture in use, and the lab's undo, in the strip's title line."""
@@ -220,6 +223,34 @@ class LabPanel:
         desk.hand.use("brush")
 
 
+def _heard(desk: Desk, scene: LabScene, _now: float) -> None:
+    desk.lab.scene = scene
+
+
+def _axes(desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
+    """The zero frequency in the middle, and rings at periods that say how large the features are."""
+    painter = imgui.get_window_draw_list()
+    middle = ImVec2(corner.x + side / 2, corner.y + side / 2)
+    faint = theme.packed((1.0, 1.0, 1.0), 0.10)
+    painter.add_line(ImVec2(corner.x, middle.y), ImVec2(corner.x + side, middle.y), faint)
+    painter.add_line(ImVec2(middle.x, corner.y), ImVec2(middle.x, corner.y + side), faint)
+    if desk.lab.made.forward:
+        return
+    for period in _PERIODS:
+        radius = side / period
+        painter.add_circle(middle, radius + 1, theme.packed((0.0, 0.0, 0.0), 0.22), 64)
+        painter.add_circle(middle, radius, theme.packed((1.0, 1.0, 1.0), 0.2), 64)
+        if period <= 8:
+            at = ImVec2(middle.x + 0.71 * radius + 2, middle.y + 0.71 * radius - 2)
+            _label(at, f"{period} px", 0.9 if over else 0.6)
+
+
+def _invite(corner: ImVec2, side: float, text: str) -> None:
+    size = imgui.calc_text_size(text)
+    at = ImVec2(corner.x + (side - size.x) / 2, corner.y + side * 0.62)
+    imgui.get_window_draw_list().add_text(at, theme.packed(theme.TEXT, 0.8), text)
+
+
 def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float) -> None:
     """The radial window of a copy over the field: where it ends, and where it is half as strong as in the middle."""
     middle, painter = ImVec2(corner.x + size[0] / 2, corner.y + size[1] / 2), imgui.get_window_draw_list()
@@ -240,5 +271,4 @@ def _label(at: ImVec2, text: str, alpha: float = 1.0) -> None:
     painter.add_text(at, theme.packed(theme.TEXT, alpha), text)
 
 
-PAINT_GRAIN = "Paint its grain: coarse in the middle, fine at the rim"
 _LIVE = "A texture in use changes with the lab, and the next stroke paints with it"

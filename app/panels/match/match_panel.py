@@ -7,6 +7,7 @@ what it does.
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 from imgui_bundle import ImVec2, imgui
 
@@ -18,6 +19,8 @@ from app.desk.match_state import SIZES, SMALLEST, title
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.match.match_settings import MatchSettings
+from app.panels.panel import Panel
+from engine.studio.results import MatchScene
 
 REPEATS = 1.35  # tiles of 256 pixels that the preview shows along a side
 _USES = (
@@ -33,11 +36,20 @@ _HINTS = (
 )
 
 
-class MatchingPanel:
+class MatchingPanel(Panel):
     """Draws the strip."""
 
     def __init__(self) -> None:
         self._settings = MatchSettings()
+        self.hears = {MatchScene: _heard}
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """The texture as it is set."""
+        desk.match.ask(desk.post)
+
+    def dropped(self, desk: Desk, path: Path, x: float, y: float) -> bool:
+        """A picture is an example."""
+        return desk.match.dropped(path, x, y)
 
     def draw(self, desk: Desk) -> None:
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
@@ -190,6 +202,10 @@ class MatchingPanel:
                 brush = replace(brush, ink=(part,), dynamics=dynamics)
             desk.hand.take(brush)
             desk.hand.use("brush")
+
+
+def _heard(desk: Desk, scene: MatchScene, _now: float) -> None:
+    desk.match.scene = scene
 
 
 def _stem(desk: Desk) -> str:

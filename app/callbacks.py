@@ -1,0 +1,85 @@
+"""What GLFW calls the window for, besides pointers: keys, text, focus, drops, and that it has to be drawn anew."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from imgui_bundle import imgui  # before glfw, so that both use one libglfw
+
+import glfw  # isort: skip
+from imgui_bundle.imgui import backends
+
+from app.panels.layout import Layout
+from app.router import Router
+
+Drop = Callable[[Path], None]
+
+
+class Callbacks:
+    """Keys and text go to imgui at once, and to the router when the frame asks for them.
+
+    `event` is called whenever anything happens, `drop` with a file that was dropped on the window.
+    """
+
+    def __init__(
+        self, window: Any, address: int, router: Router, layout: Layout, event: Callable[[], None], drop: Drop
+    ) -> None:
+        self._address, self._router, self._layout = address, router, layout
+        self._event, self._drop = event, drop
+        self.exposed = True  # the window system has lost what the window showed, or never had it
+        self._keys: list[tuple[int, int, int, int]] = []
+        self._characters: list[int] = []
+        glfw.set_key_callback(window, self._key)
+        glfw.set_char_callback(window, self._typed)
+        glfw.set_window_focus_callback(window, self._focus)
+        glfw.set_cursor_enter_callback(window, self._entered)
+        glfw.set_window_refresh_callback(window, self._refresh)
+        glfw.set_framebuffer_size_callback(window, lambda *_: event())
+        dropped: Any = self._dropped  # gets a list of names
+        glfw.set_drop_callback(window, dropped)
+
+    def deliver(self) -> None:
+        """Gives the router what was pressed and typed since the last call."""
+        keys, self._keys = self._keys, []
+        for key in keys:
+            self._router.key(*key)
+        characters, self._characters = self._characters, []
+        for character in characters if self._router.typing else ():
+            backends.glfw_char_callback(self._address, character)
+
+    def _key(self, _w: Any, key: int, scancode: int, action: int, mods: int) -> None:
+        self._event()
+        typing = imgui.get_io().want_text_input or self._layout.dialogs.open
+        if key != glfw.KEY_TAB or typing:  # Tab would put the focus into a field, which then took all keys
+            backends.glfw_key_callback(self._address, key, scancode, action, mods)
+        self._keys.append((key, scancode, action, mods))
+
+    def _typed(self, _w: Any, character: int) -> None:
+        """What may be a key of the canvas waits for what the pointer did: a press may have given the focus to a field,
+        and a field that opens later must not get it."""
+        if self._router.typing:
+            backends.glfw_char_callback(self._address, character)
+        else:
+            self._characters.append(character)
+
+    def _focus(self, _w: Any, focused: int) -> None:
+        self._event()
+        backends.glfw_window_focus_callback(self._address, focused)
+        if not focused:
+            self._router.lost_focus()
+
+    def _refresh(self, _w: Any) -> None:
+        self._event()
+        self.exposed = True
+
+    def _entered(self, _w: Any, entered: int) -> None:
+        self._event()
+        if not entered:
+            self._router.left()
+
+    def _dropped(self, _w: Any, paths: Any) -> None:
+        self._event()
+        if paths:
+            self._drop(Path(paths[0]))

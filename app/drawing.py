@@ -1,0 +1,41 @@
+"""The picture in the window: the canvas, and the panels over it; drawn when it is another one than on the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+from typing import Any
+
+import imgui_bundle  # before glfw, so that both use one libglfw
+
+import glfw  # isort: skip
+from imgui_bundle import imgui
+
+from app.canvas.overlay import Overlay
+from app.canvas.screen import Plan, Screen
+from app.desk.desk import Desk
+
+assert imgui_bundle
+
+
+class Drawing:
+    """All calls from the thread that owns the window's context.  `drawn`: whether the last frame was drawn."""
+
+    def __init__(self, window: Any, screen: Screen, overlay: Overlay) -> None:
+        self._window, self._screen, self._overlay = window, screen, overlay
+        self._plan: Plan | None = None  # of the canvas, as it was last drawn
+        self.drawn = False
+
+    def draw(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
+        """Draws what imgui shows over the canvas, if anything is to be seen that is not on the screen, or if that was
+        `exposed`; True while something fades.  `fresh`: the textures that show something else now."""
+        data = imgui.get_draw_data()
+        plan = self._screen.plan(desk.view, desk.known.frame, now, desk.insets)
+        told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
+        self.drawn = told or plan != self._plan or exposed
+        if self.drawn:
+            self._plan = plan
+            self._overlay.redraw(data)
+            self._screen.draw(plan)
+            self._overlay.draw(data)
+            glfw.swap_buffers(self._window)
+        return plan.moving
