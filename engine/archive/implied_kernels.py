@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.grid import snap
+from engine.numeric.inner import inner
 from engine.numeric.pyramid import blend_rows, expand_row
 
 _UNIT = np.float32(2.0**-16)
@@ -39,7 +40,7 @@ def lies(values, plane, top, left, height, width):
     return False
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _expanded(flat, height, width, plane, place, y, t, line):
     """Row `y` of a plane of the expanded parents, from the even column on; `flat`, all parents of height x width.
 
@@ -55,7 +56,7 @@ def _expanded(flat, height, width, plane, place, y, t, line):
     expand_row(t, line)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _refined(line, flat, height, plane, y):
     """line += row `y` of a plane of residuals, if there is one; `flat`, all planes of `height` rows."""
     if plane >= 0:
@@ -65,7 +66,7 @@ def _refined(line, flat, height, plane, y):
             line[i] += np.float32(d[i]) * _UNIT
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _clamped(line):
     for i in range(line.size):
         line[i] = min(max(line[i], np.float32(0.0)), np.float32(1.0))
@@ -78,7 +79,7 @@ def _textured(line, amplitude, detail):
         line[i] += snap(amplitude[i] * detail[i])
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _solve(a, b):
     """The solution of the positive definite a x = b, in place, by elimination."""
     n = b.size
@@ -94,7 +95,7 @@ def _solve(a, b):
         b[i] /= a[i, i]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _sampled(parents, plane, data, own, place, y, stride, line):
     """Every `stride`-th pixel of a row, the parents expanded and the residual added, into `line` float32."""
     if plane < 0:
@@ -115,7 +116,7 @@ def _sampled(parents, plane, data, own, place, y, stride, line):
             line[i] += np.float32(d[stride * i]) * _UNIT
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _gather(sums, x):
     """Adds to `sums` (m (m + 3) / 2, w) the products of the rows of `x` (m + 1, w), column by column."""
     m, r = x.shape[0] - 1, 0
@@ -128,7 +129,7 @@ def _gather(sums, x):
             r += 1
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _solution(sums, m):
     """What has the smallest squares: float64 (m,), from the sums of products."""
     a, b, r, trace = np.zeros((m, m), np.float64), np.zeros(m, np.float64), 0, 0.0
@@ -185,7 +186,7 @@ def fit(data, parents, place, sources, own, seen, start, detail, stride):
     return b
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _add(line, alpha, amplitude, s, p, q, r, first):
     """line += p alpha + q amplitude + (amplitude + r alpha) s, or that alone if `first`."""
     if first:
@@ -196,7 +197,7 @@ def _add(line, alpha, amplitude, s, p, q, r, first):
             line[i] += (p * alpha[i] + q * amplitude[i]) + (amplitude[i] + r * alpha[i]) * s[i]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _exchanged(row, implied, below, sign, whole):
     """A row of `exchange`, into `whole` int32: all bits of what is implied, of the row before and after.
 
@@ -257,7 +258,7 @@ def exchange(data, parents, place, sources, own, seen, start, detail, factors, s
     return saved
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _bits(value):
     count = 0
     while value:

@@ -12,10 +12,12 @@ from collections.abc import Sequence
 import numpy as np
 from numba import njit
 
+from engine.numeric.inner import inner
+
 MAGIC = b"inkfall\x01"
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _whole_row(raw, start, size, row):
     """One row of differences from its bytes, which lie `size` apart from `start` on."""
     width = row.size

@@ -19,6 +19,8 @@ from collections.abc import Sequence
 import numpy as np
 from numba import njit
 
+from engine.numeric.inner import inner
+
 STREAMS = 7
 _CODES = 6  # widths of a row
 _KINDS = 4  # of differences
@@ -32,7 +34,7 @@ def _abs(value):
     return np.int32(np.int32(value ^ sign) - sign)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _small(plane):
     """Whether all values are -2 to 1: then they are roundings, and differences would make more of them."""
     for y in range(plane.shape[0]):
@@ -46,7 +48,7 @@ def _small(plane):
     return True
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _kind(plane):
     """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values on every `SAMPLED`-th row;
     0 if all are -2 to 1."""
@@ -63,7 +65,7 @@ def _kind(plane):
     return np.argmin(sums)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _sums(row, before):
     """The sums of a row's absolute differences, of each kind.
 
@@ -84,7 +86,7 @@ def _sums(row, before):
     return none, left, above, both
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _difference(plane, y, kind, line):
     """Row `y` of a plane less what `kind` names, wrapping, into `line`."""
     row = plane[y]
@@ -106,7 +108,7 @@ def _difference(plane, y, kind, line):
             rest[i] = here[i] - beside[i]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _zigzag(line, z):
     """`line` (w,) zigzag-coded into `z` uint32 (>= w,); all its bits together."""
     bits = np.uint32(0)
@@ -117,7 +119,7 @@ def _zigzag(line, z):
     return bits
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _put(z, width, bits, streams, at):
     """Appends a row to its stream, `at` (STREAMS,) being where each ends; the code of its width."""
     if bits == 0:
@@ -217,7 +219,7 @@ def _take(raw, at, code, z):
             at[3 + b] += width
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _add_before(row, before, kind, first):
     """A row of differences to the row itself, wrapping."""
     if kind == 1 or kind == 3:

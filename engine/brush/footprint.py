@@ -21,6 +21,7 @@ from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
 from engine.brush.settings import Brush
 from engine.brush.tip import Pattern
 from engine.numeric.address import TILE, Rect
+from engine.numeric.inner import inner
 
 WIDEST = 2048.0  # px: radius of a dab
 TILES_CAP = 1 << 12  # of one stroke
@@ -144,7 +145,7 @@ def _groups(boxes: np.ndarray) -> Iterator[tuple[int, int, Rect]]:
         yield first, len(boxes), around
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _half(ceiling):
     """The u at which a dab of that ceiling covers half: ceiling (1 - u)^2 (1 + 2u) = 1/2; 1/2 but for the tiniest."""
     low, high = 0.0, 0.5

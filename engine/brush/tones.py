@@ -14,6 +14,7 @@ from numba import njit
 from numba.extending import register_jitable
 
 from engine.numeric.grid import snap
+from engine.numeric.inner import inner
 
 _ZERO, _ONE, _TWO, _HALF = np.float32(0), np.float32(1), np.float32(2), np.float32(0.5)
 _TINY = np.float32(1e-6)
@@ -232,7 +233,7 @@ def change(old, planes, weight, free, c, t, s, along, gains, keep, add):
         _inks(old, planes, free, gains, y, t, s, along, a, add)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _inks(old, planes, free, gains, y, t, s, along, a, add):
     """B of the ink planes of a row: the op's own texture goes on in them, to one half at most; none passes 2."""
     f, alpha = free[y], old[3, y]

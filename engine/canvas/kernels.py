@@ -7,6 +7,7 @@ from numba import njit
 
 from engine.canvas import plain as plainly
 from engine.numeric.grid import snap
+from engine.numeric.inner import inner
 from engine.numeric.pyramid import blend_rows, expand_row
 from engine.numeric.stand_in import or_plain
 
@@ -119,7 +120,7 @@ def apply_stamp(old, keep, add, planes, plain, spares_alpha, new, changed):
     return _mark(old, keep, plain, new, changed)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _mark(old, keep, plain, new, changed):
     """`changed` of `apply_stamp`, and whether any is set."""
     marks = np.empty(keep.shape[1], np.int32)

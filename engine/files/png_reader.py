@@ -19,6 +19,7 @@ from engine.files.inflate import DeflateError, Inflated
 from engine.files.limits import LIMITS, Limits
 from engine.files.png_chunks import Chunks
 from engine.files.png_writer import SIGNATURE
+from engine.numeric.inner import inner
 
 CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
@@ -53,7 +54,7 @@ class Header:
         return (width * self.depth * CHANNELS[self.colour] + 7) // 8
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _add_paeth(row, above, step):
     """Adds the Paeth predictor (section 9.4) to a row in place."""
     for i in range(min(step, row.size)):

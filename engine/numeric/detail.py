@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.address import Rect
+from engine.numeric.inner import inner
 
 # Below a sixteenth of the grid's step a difference is the rounding of float32, not detail.
 FLOOR = np.float32(2.0**-20)
@@ -24,14 +25,14 @@ def parents(rect: Rect) -> Rect:
     return rect.zoomed(-1).grown(1)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def blend_rows(near, far, out):
     """The vertical half of E: 3 near + far, to be divided by 4."""
     for i in range(out.size):
         out[i] = _THREE * near[i] + far[i]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _subtract_row(t, out):
     """out (2n,) -= E of `t` (n + 2,), differences below FLOOR to zero; how many are left."""
     n = out.size // 2

@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from engine.numeric.inner import inner
+
 BINS = 256
 
 _DIGIT = 11  # bits that one pass of the radix sort looks at
@@ -112,7 +114,7 @@ def _match_rows(rows, lows, highs, ordered, counts):
         _look_up(row, low, scale, start, step)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _count(row, low, scale, counts):
     """counts[0] = how many values fall into each bin.  Four tables by turns: equal neighbours would wait for one
     another's sum."""
@@ -131,7 +133,7 @@ def _count(row, low, scale, counts):
         first[k] += second[k] + third[k] + fourth[k]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _fill_table(start, step, counts, total, ordered):
     """start[k] = the example's value where as large a part of it lies below as of the values below bin k; step[k] = the
     way from there to start[k + 1], rounded so that no bin ends above the next one's start."""
@@ -149,7 +151,7 @@ def _fill_table(start, step, counts, total, ordered):
         step[k] = way
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _look_up(row, low, scale, start, step):
     last = np.int32(start.size - 1)
     for i in range(row.size):
@@ -187,7 +189,7 @@ def _values(keys: np.ndarray) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _starts(keys):
     """Where each digit's run begins, for the three passes of the sort: int64 (3, 2^11)."""
     starts = np.zeros((3, _SIZE), np.int64)

@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.grid import SNAP, snap
+from engine.numeric.inner import inner
 from engine.numeric.stand_in import or_plain
 
 _THREE = np.float32(3.0)
@@ -18,7 +19,7 @@ _SIXTEENTH = np.float32(1.0 / 16.0)
 _QUARTER = np.float32(0.25)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def blend_rows(near, far, out):
     """3 near + far: a row halfway between two coarse rows, times 4."""
     for i in range(out.size):
@@ -91,7 +92,7 @@ def expand(coarse: np.ndarray) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _reduce_row(upper, lower, out):
     for i in range(out.size):
         out[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * _QUARTER)

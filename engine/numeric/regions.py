@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.hashing import mix64
+from engine.numeric.inner import inner
 
 _MASK24 = np.uint32(0xFFFFFF)
 
@@ -51,7 +52,7 @@ def false_colours(colours: np.ndarray) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _root(parents, i):
     while parents[i] != i:
         parents[i] = parents[parents[i]]

@@ -18,6 +18,7 @@ from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.hashing import MASK32, fold_key, mix64, place64
+from engine.numeric.inner import inner
 from engine.numeric.strips import NO_ROWS, NO_STRIPS, in_strips, lay_strips
 
 ALIKE = -1  # for `levels`: all points weigh 1
@@ -170,7 +171,7 @@ def _weight(h, levels):
     return (np.float32(k) - np.float32(0.5) * np.float32(levels - 1)) * step
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _stamp(out, response, top, left, weight):
     """out += weight * response (c, h, w), whose first pixel lies at (top, left) of `out`, inside or not."""
     y0, y1 = max(0, top), min(out.shape[1], top + response.shape[1])
@@ -189,7 +190,7 @@ def _counts(within, x, y):
     return 0 <= y < within.shape[0] and 0 <= x < within.shape[1] and within[y, x] != 0
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _cell(h, corner, layout, noise, within, places, weights, count):
     """Lists the points of one cell, whose hash is `h` and whose corner lies at (x, y), from `count` on; the new count.
 

@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from engine.numeric.inner import inner
+
 WIDE = 16  # pixels across a strip
 _BLOCK = 128  # pixels along a side of a block of the result
 _MARGIN = 8  # rows of zeros below a strip: runs are of whole groups of four rows
@@ -56,7 +58,7 @@ def _add(into, p, copied, q, n, weight):
         into[p + i] += weight * copied[q + i]
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _near(places, weights, first, last, block, shape, at, found):
     """Lists the copies `first` to `last` that touch a block: (top row, displacement on its first strip) in `at`,
     weights in `found`; how many.  block = (y, x, height, width), shape = (rows of a copy, its displacements)."""
@@ -71,7 +73,7 @@ def _near(places, weights, first, last, block, shape, at, found):
     return count
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _lay(strip, copied, rows, shape, at, found):
     """Sums the listed copies on a strip, the `s`-th of a block: shape = (s, channel, its rows, a copy's displacements
     and rows)."""
@@ -89,7 +91,7 @@ def _lay(strip, copied, rows, shape, at, found):
                 _add(strip, p, copied, q, length, found[n])
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _unpack(out, strip, channel, y0, x0):
     """Copies a strip to rows and columns from (y0, x0) on of `out`."""
     height, wide = min(_BLOCK, out.shape[1] - y0), np.uintp(min(WIDE, out.shape[2] - x0))

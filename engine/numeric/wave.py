@@ -17,6 +17,7 @@ import numpy as np
 from numba import njit
 
 from engine.numeric.address import Rect
+from engine.numeric.inner import inner
 
 UNIT = 1 << 24  # units in a pixel
 # A cell longer than this cannot show two of its ends in one rectangle (fewer than 2^20 pixels across); the far end is
@@ -167,7 +168,7 @@ def _within(t, cell, per_cell):
     return m, d
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _square_short(row, r, odd, cell, ux, shadow):
     """A block of the square wave whose cells are at most _SHORT: any number of edges."""
     start, step, size = np.int32(r + _lift(ux, cell)), np.int32(ux), np.int32(cell)
@@ -181,7 +182,7 @@ def _square_short(row, r, odd, cell, ux, shadow):
         row[i] = value if np.int32(m ^ flip) & 1 == 0 else -value
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _square_edge(row, distance, sign, ux, shadow):
     """A block with one edge, `distance` units before its first pixel's centre; `sign` holds after the edge."""
     start, step = np.int32(distance), np.int32(ux)
@@ -192,7 +193,7 @@ def _square_edge(row, distance, sign, ux, shadow):
         row[i] = value if d >= 0 else -value
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _square_long(row, r, odd, cell, ux, shadow):
     """A block of the square wave whose cells are longer than _SHORT: at most one edge."""
     span = ux * (row.size - 1)
@@ -224,7 +225,7 @@ def _square_rows(out, r, odd, cell, ux, uy, shadow):
         r, odd = _stepped(r, odd, down, downs, cell)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _saw_short(row, r, cell, ux, shadow):
     """A block of the sawtooth whose period is at most _SHORT: any number of jumps."""
     start, step, size = np.int32(r + _lift(ux, cell)), np.int32(ux), np.int32(cell)
@@ -236,7 +237,7 @@ def _saw_short(row, r, cell, ux, shadow):
         row[i] = _ONE - _TWO * (np.float32(d) * per_cell + near - far)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _saw_long(row, r, cell, ux, shadow):
     """A block of the sawtooth with one jump at most; the ramp in float64."""
     slope = 2.0 / cell

@@ -35,6 +35,7 @@ from numba import njit
 from engine.numeric.address import Rect
 from engine.numeric.detail import blend_rows, cut, expand_row
 from engine.numeric.hashing import MASK32, fold_key, place64
+from engine.numeric.inner import inner
 
 FIRST = 10  # the depth down to which octaves keep their amplitudes, at least
 PEAK = 8  # the age of the strongest octave in the end: features of 2^8 pixels
@@ -164,7 +165,7 @@ def _keys(seed: int, base: int, level: int, high: tuple[int, int], ages: int) ->
     return out
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _noise_run(upper, lower, key, x, y, factor):
     """Adds an octave's noise to two rows, `x`, `y` (uint64) being the low halves of the first pixel's place.
 
@@ -181,7 +182,7 @@ def _noise_run(upper, lower, key, x, y, factor):
         lower[2 * i + 1] += (c - b) - a
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _noise_rows(upper, lower, x, y, keys, high, factor):
     """`_noise_run` from the place (x, y), cut where x passes a multiple of 2^32; high = (x, y) >> 32 of keys[1, 1]."""
     row = keys[(y >> 32) - high[1] + 1]
@@ -195,7 +196,7 @@ def _noise_rows(upper, lower, x, y, keys, high, factor):
         i = stop
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _ancestors(x, y, height, width, ages):
     """Even rectangles x, y, height, width (ages, 4): the first is given, each next holds what E needs for the last."""
     places = np.empty((ages, 4), np.int64)

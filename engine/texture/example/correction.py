@@ -21,7 +21,18 @@ from engine.numeric.neighbourhood import (
     others_apart,
     others_apart_within,
 )
-from engine.texture.example.region_window import MARGIN, OUTSIDE, SUBPASSES, first_of, inner, kernel, mark_readers
+from engine.texture.example.region_window import (
+    MARGIN,
+    OUTSIDE,
+    SUBPASSES,
+    Example,
+    Rules,
+    Window,
+    first_of,
+    inner,
+    kernel,
+    mark_readers,
+)
 
 REACH = SUBPASSES * RADIUS  # pixels that a change can spread in a pass
 
@@ -212,15 +223,23 @@ def _alike(starts, count):
     return np.int64(starts[low]), np.int64(starts[high + 1])
 
 
-@inner
+@kernel
 def _correct(window, places, first, last, p, example, rules, found, tried):
     width = window.mask.shape[1]
     for i in range(first, last):
         found[i] = _corrected(window, places[i] // width, places[i] % width, p, example, rules, tried)
 
 
-@njit(cache=True, nogil=True)
-def correct(window, places, first, last, p, example, rules, found):
+def correct(
+    window: Window,
+    places: np.ndarray,
+    first: int,
+    last: int,
+    p: int,
+    example: Example,
+    rules: Rules,
+    found: np.ndarray,
+) -> None:
     """Finds the sources of the pixels places[first:last]."""
     _correct(window, places, first, last, p, example, rules, found, np.empty(9, np.int32))
 
@@ -243,12 +262,11 @@ def settle(window, places, count, found, p, turn, example):
                 _show(window, example.compared, example.region.shape[1], y, x, plane[y, x])
 
 
-@njit(cache=True, nogil=True)
-def correct_all(window, p, beyond, example, rules):
+def correct_all(window: Window, p: int, beyond: int, example: Example, rules: Rules) -> None:
     """All of a pass."""
     places = np.empty(window.mask.size // 4 + window.mask.shape[0] + window.mask.shape[1] + 1, np.int32)
     found = np.empty(places.size, np.int32)
     for turn in range(SUBPASSES):
         count = wanted(window, p, turn, beyond, places)
-        correct(window, places, np.int64(0), count, p, example, rules, found)
+        correct(window, places, 0, count, p, example, rules, found)
         settle(window, places, count, found, p, turn, example)

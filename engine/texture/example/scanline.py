@@ -16,6 +16,7 @@ from numba import njit
 
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
+from engine.numeric.inner import inner
 from engine.numeric.neighbourhood import (
     FULL,
     RADIUS,
@@ -182,7 +183,7 @@ def _data(own: Layer, above: Layer, window: np.ndarray, two: bool) -> Data:
     return Data(cKDTree((vectors - mean) @ axes), names[inner], mean, axes, names[rims][order], starts)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _energy(y, x, name, levels, least):
     """Of two-level neighbourhoods, or some number from `least` on."""
     own, coarser, made, above, window, penalty = levels
@@ -196,7 +197,7 @@ def _energy(y, x, name, levels, least):
     return _apart(above, py, px, coarser, prow, pcolumn, window, SIDE * ROW, e, least)
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _apart(made, y, x, own, row, column, window, first, e, least):
     if e >= least:
         return e

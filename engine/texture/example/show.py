@@ -13,6 +13,7 @@ from numba import njit
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.numeric.grid import snapped
+from engine.numeric.inner import inner
 from engine.texture.example import tiles
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
@@ -229,7 +230,7 @@ def _alone(around, y, x, reach, source):
     return True
 
 
-@njit(cache=True, nogil=True)
+@inner
 def _mean(around, y, x, colours, region, weights, out):
     """The mean of what the neighbours' sources continue with."""
     reach = weights.shape[0] // 2

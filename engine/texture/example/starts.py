@@ -1,5 +1,7 @@
 """What a level begins with before its corrections: what lies below the coarser level's sources, or, at the coarsest
 level, patches of the example.
+
+Kernels are called one after another from Python: one that called them would be compiled with all of them in it again.
 """
 
 from __future__ import annotations
@@ -9,14 +11,24 @@ from numba import njit
 
 from engine.numeric.hashing import mix64
 from engine.numeric.neighbourhood import RADIUS, ones
-from engine.texture.example.region_window import OUTSIDE, inner, mark_readers, shape_at, turn_of
+from engine.texture.example.region_window import (
+    OUTSIDE,
+    Example,
+    Rules,
+    Window,
+    inner,
+    kernel,
+    mark_readers,
+    shape_at,
+    turn_of,
+)
 
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
-@inner
+@kernel
 def _begin(window, before, example):
     """The starts in planes[0], `before` (int32 (h, w)) having been those until now, go into the window."""
     height, width = window.mask.shape
@@ -52,7 +64,7 @@ def _child(parent, y, x, region):
     return np.int32(OUTSIDE)
 
 
-@inner
+@kernel
 def _children(mask, parents, odd_y, odd_x, region, out):
     """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
     for y in range(mask.shape[0]):
@@ -63,8 +75,7 @@ def _children(mask, parents, odd_y, odd_x, region, out):
                 row[x] = _child(above[(x + odd_x) >> 1], (y + odd_y) & 1, (x + odd_x) & 1, region)
 
 
-@njit(cache=True, nogil=True)
-def start_finer(window, parents, before, example):
+def start_finer(window: Window, parents: np.ndarray, before: np.ndarray, example: Example) -> None:
     """Starts from the sources one level coarser: int32 arrays of the pixels above the window's, now and before."""
     _children(window.mask, parents, window.y, window.x, example.region, window.planes[0])
     old = np.empty_like(window.planes[0])
@@ -73,8 +84,15 @@ def start_finer(window, parents, before, example):
     _begin(window, old, example)
 
 
-@njit(cache=True, nogil=True)
-def start_coarsest(window, patches, corners, block, offset, example, rules):
+def start_coarsest(
+    window: Window,
+    patches: np.ndarray,
+    corners: np.ndarray,
+    block: int,
+    offset: tuple[int, int],
+    example: Example,
+    rules: Rules,
+) -> None:
     """Starts from patches of the example, or from pixels whose neighbourhoods have the shape.
 
     `patches`: uint64 hashes of the patches that meet the window, `offset`: (row, column) of its first pixel in the
@@ -85,7 +103,7 @@ def start_coarsest(window, patches, corners, block, offset, example, rules):
     _begin(window, old, example)
 
 
-@inner
+@kernel
 def _draw(window, patches, corners, block, offset, example, rules):
     """Puts the starts that are new, or whose neighbourhoods are, into planes[0]."""
     height, width = window.mask.shape
