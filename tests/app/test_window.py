@@ -87,7 +87,6 @@ def test_the_keys_for_the_view_and_the_panels(program):
     assert app.comes_to(before)
 
 
-@pytest.mark.serial
 def test_an_idle_window_sleeps(program):
     app = program()
     app.settled()
