@@ -70,6 +70,8 @@ def test_the_brush_panel_shows_it_and_what_is_painted_is_played_to_the_same_pixe
     app = program(module="veil_mode")
     empty = app.canvas()
     app.click("Veil")
+    rows, columns = app.part("Veil")
+    app.until(lambda screen: np.median(screen[rows, columns, 2] - screen[rows, columns, 0]) > 10)  # it is chosen: blue
     app.stroke((420, 300), (700, 420))
     app.canvas_unlike(empty)
     saved, script, pictures = tmp_path / "a.ora", tmp_path / "a.jsonl", (tmp_path / "a.png", tmp_path / "b.png")
