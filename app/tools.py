@@ -20,7 +20,19 @@ from app.desk.match_state import SMALLEST
 from app.input.events import PenEvent
 from engine.brush.smoothing import Smoother
 from engine.numeric.address import Rect
-from engine.studio.requests import Abandon, Begin, Finish, LabBegin, LabEnd, LabPoints, Pick, Points
+from engine.studio.requests import (
+    Abandon,
+    Begin,
+    Finish,
+    LabBegin,
+    LabEnd,
+    LabPoints,
+    Pick,
+    Points,
+    RegionBegin,
+    RegionEnd,
+    RegionPoints,
+)
 
 Gesture = Generator[None, PenEvent, None]
 
@@ -93,7 +105,7 @@ def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
         desk.post(LabEnd(done))
 
 
-def _post(desk: Desk, points: np.ndarray, form: type[Points] | type[LabPoints] = Points) -> None:
+def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | RegionPoints] = Points) -> None:
     if len(points):
         points.flags.writeable = False
         desk.post(form(points))
@@ -183,26 +195,30 @@ def mark(desk: Desk, first: PenEvent) -> Gesture:
 
 
 def paint_region(desk: Desk, first: PenEvent) -> Gesture:
-    """A stroke in the region of an example; as all strokes it may be dropped."""
-    mask = desk.examples.mask
-    if mask is None:
+    """A stroke in the region of an example; as all strokes it may be dropped.  A click takes a colour out of it."""
+    state, region = desk.examples, desk.examples.region
+    if region is None:
         return
-    way = mask.way
-    mask.way = "out" if first.eraser else way
-    mask.begin(*desk.examples.place(first.x, first.y))
+    event = first
+    if region.way == "colour" and not first.eraser:
+        x, y = state.place(first.x, first.y)
+        region.pick(desk.post, int(x // 1), int(y // 1))
+        while event.kind != "up":
+            event = yield
+        return
+    op = "add" if region.way == "in" and not first.eraser else "subtract"
+    desk.post(RegionBegin(region.scene.ident, op, region.radius))
     done = False
     try:
         while True:
-            event = yield
-            if event.kind in ("move", "up"):
-                mask.to(*desk.examples.place(event.x, event.y))
+            if event.kind in ("down", "move", "up"):
+                _post(desk, np.array([[*state.place(event.x, event.y), 1.0, 0.0, 0.0, 0.0]]), RegionPoints)
             if event.kind == "up":
                 break
+            event = yield
         done = True
     finally:
-        if not done:
-            mask.abandon()
-        mask.way = way
+        desk.post(RegionEnd(done))
 
 
 def swap(desk: Desk, first: PenEvent) -> Gesture:

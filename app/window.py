@@ -62,7 +62,6 @@ class Window:
         backends.opengl3_init("#version 330")
         self.screen = Screen(self.ctx)
         self.tiles, self.gallery = Tiles(self.screen), Gallery(self.ctx, self.desk.pictures)
-        self.desk.touch = self.gallery.touch
         self._drawing, self._decoration = Drawing(handle, self.screen, Overlay(self.ctx)), Decoration(handle)
         self.news = News(self.desk, self._hearers, self.layout.hearers)
         self._files: Files | None = None
@@ -75,6 +74,8 @@ class Window:
         """Those of its parts who hear results of a type."""
         if kind is results.Picture:
             return [lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels)]
+        if kind is results.PicturePart:
+            return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
         return [self.tiles.hears[kind]] if kind in self.tiles.hears else []
 
     def _dropped(self, path: Path) -> None:

@@ -10,8 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
-
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
 from app.desk.asked import Asked, Then
@@ -22,7 +20,6 @@ from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from app.log import log_file
 from engine.brush.settings import Brush
-from engine.numeric.address import Rect
 from engine.studio.requests import Request, Save
 from engine.studio.results import Note
 
@@ -52,10 +49,6 @@ def _nowhere(_work: FileWork) -> None:
 
 def _no_thumbnails(_entries: tuple[Entry, ...], _side: int) -> None:
     """Makes none: there is no thread for them yet."""
-
-
-def _no_picture(_name: str, _size: tuple[int, int], _box: Rect, _pixels: np.ndarray) -> None:
-    """Draws nothing: there is no screen yet."""
 
 
 @dataclass(slots=True)
@@ -93,7 +86,6 @@ class Desk:
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square
-    touch: Callable[[str, tuple[int, int], Rect, np.ndarray], None] = _no_picture  # as Gallery.touch
 
     def learn(self, **known: Any) -> None:
         """Takes over what has become known: other values for members of `known`."""

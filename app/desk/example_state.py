@@ -1,7 +1,8 @@
 """Examples to paint with: those that come along, the artist's own, and what the panel knows of them.
 
 An example is a picture, NAME.png, the region of it that is grown, NAME.mask.png, and NAME.toml, which tells how
-(Ritter et al. 2006, section 3).
+(Ritter et al. 2006, section 3).  Where the region was painted here, NAME.region.json tells by which steps, and
+NAME.base.png what they began with if that was a mask.
 """
 
 from __future__ import annotations
@@ -18,10 +19,12 @@ import platformdirs
 from immutables import Map
 
 from app.desk.following import Following
-from app.desk.region_mask import Mask
+from app.desk.region_state import RegionState
+from engine.brush.checks import frozen
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
+from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
 from engine.studio.requests import Request, Swatch
@@ -32,6 +35,7 @@ HERE = "In this painting"  # the group of those that only the painting has
 ALL = ""  # the group of every example
 _RANK = {OWN: 0, HERE: 1, "Watercolour": 2, "Paper": 3}  # others follow, by name
 MASK, PICTURE, PARAMETERS = ".mask.png", ".png", ".toml"
+STEPS, BASE = ".region.json", ".base.png"
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 SIZES = (-2, -1, 0, 1, 2)  # octaves by which a texture is larger than the canvas pixels seen when it was chosen
 REACH = 8  # levels from a stroke's to that of the example's pixels
@@ -47,8 +51,9 @@ KIND = "example"  # of textures
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """An example.  `mask_sha`: of the artist's own region as its file is; `here`: the parameters of a texture that only
-    the painting has, which has no files; `given`: what its file says it is called."""
+    """An example.  `mask_sha`: of the artist's own region as its file is; `steps`: by which it was painted, of
+    `engine.strokes.example_region`, on the mask `base`, or on what is not transparent; `here`: the parameters of a
+    texture that only the painting has, which has no files; `given`: what its file says it is called."""
 
     name: str
     group: str
@@ -59,6 +64,8 @@ class Entry:
     mask_sha: str = ""
     here: Mapping[str, Any] | None = None
     given: str = ""
+    steps: tuple[Map[str, Any], ...] = ()
+    base: Path | None = None
 
     @property
     def ident(self) -> str:
@@ -88,7 +95,7 @@ def own_folder() -> Path:
 def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
     """The examples of a folder by group and name, and a line for each file of parameters, or mask, that is none."""
     found, faults = [], []
-    pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith(MASK)) if folder.is_dir() else ()
+    pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith((MASK, BASE))) if folder.is_dir() else ()
     for path in sorted(pictures):
         names, parameters, fault = _told(path.with_suffix(PARAMETERS))
         faults += [f"{path.stem}{PARAMETERS}: {fault}"] if fault else []
@@ -100,7 +107,8 @@ def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
             faults.append(str(error))
             there = None
         group, title = names.get("group", "Other"), names.get("title", "")
-        found.append(Entry(path.stem, OWN if own else group, path, there, parameters, own, sha, given=title))
+        entry = Entry(path.stem, OWN if own else group, path, there, parameters, own, sha, given=title)
+        found.append(_painted(entry) if sha else entry)
     return arranged(found), faults
 
 
@@ -114,6 +122,21 @@ def label(entry: Entry, entries: Iterable[Entry]) -> str:
     first, _, rest = entry.title.partition(" ")
     same = sum(other.group == entry.group and other.title.partition(" ")[0] == first for other in entries)
     return rest[:1].upper() + rest[1:] if rest and same > 2 and entry.group not in (OWN, HERE) else entry.title
+
+
+def _painted(entry: Entry) -> Entry:
+    """The example with the steps of its region, if these are what made the mask that is there now."""
+    try:
+        with open(entry.picture.with_name(entry.name + STEPS), "rb") as file:
+            told = loads(file.read(BYTES_CAP))
+        if not isinstance(told, dict) or told.get("mask_sha") != entry.mask_sha:
+            return entry
+        steps = frozen(told.get("steps"))
+    except (OSError, ValueError):
+        return entry
+    base = entry.picture.with_name(entry.name + BASE)
+    held = isinstance(steps, tuple) and all(isinstance(step, Map) for step in steps)
+    return replace(entry, steps=steps, base=base if told.get("base") is True else None) if held else entry
 
 
 def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
@@ -138,7 +161,7 @@ def within_reach(brush: Brush, level: int) -> bool:
 class ExampleState:
     """`chosen`: the entry that is painted with or looked at, by its ident; `size`: one of SIZES; `base`: the level that
     was shown when it was chosen; `eraser`: the depth that the eraser takes away, None for everything; `drafts`: by
-    ident, parameters that are being tried; `used`: those that are painted with; `masks`: regions that are being
+    ident, parameters that are being tried; `used`: those that are painted with; `regions`: those that are being
     painted; `spot`: where the region is on the screen, corner and pixels of the screen per pixel of it."""
 
     entries: tuple[Entry, ...] = ()
@@ -154,7 +177,7 @@ class ExampleState:
     prepared: bool = False  # whether the engine was asked to get ready
     drafts: dict[str, Map[str, Any]] = field(default_factory=dict)
     used: dict[str, Map[str, Any]] = field(default_factory=dict)
-    masks: dict[str, Mask] = field(default_factory=dict)
+    regions: dict[str, RegionState] = field(default_factory=dict)
     opening: str = ""  # the entry whose region is being read
     spot: tuple[float, float, float] | None = None
     sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
@@ -168,9 +191,9 @@ class ExampleState:
         return next((entry for entry in self.entries if entry.ident == self.chosen), None)
 
     @property
-    def mask(self) -> Mask | None:
+    def region(self) -> RegionState | None:
         """The region that is being painted."""
-        return self.masks.get(self.chosen)
+        return self.regions.get(self.chosen)
 
     def groups(self) -> list[str]:
         return list(dict.fromkeys(entry.group for entry in self.entries))
@@ -182,10 +205,10 @@ class ExampleState:
 
     def over(self, x: float, y: float) -> bool:
         """Whether a point of the screen is on the region."""
-        if self.spot is None or self.mask is None or self.tab != "region":
+        if self.spot is None or self.region is None or self.tab != "region":
             return False
         u, v = self.place(x, y)
-        height, width = self.mask.inside.shape
+        width, height = self.region.scene.size
         return 0.0 <= u < width and 0.0 <= v < height
 
     def place(self, x: float, y: float) -> tuple[float, float]:
@@ -270,7 +293,10 @@ def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
     if not entry.own:
         return DefineTexture(entry.title, KIND, Map(given | {"bundled": entry.name}))
     given["path"] = str(entry.picture)
-    if entry.mask is not None:
+    if entry.steps:
+        given |= {"region": entry.steps, "mask_sha": entry.mask_sha}
+        given |= {} if entry.base is None else {"mask": str(entry.base)}
+    elif entry.mask is not None:
         given |= {"mask": str(entry.mask), "mask_sha": entry.mask_sha}
     return DefineTexture(entry.title, KIND, Map(given))
 
@@ -321,7 +347,12 @@ def mask_sha(path: Path, _changed: int) -> str:
     """What a definition calls the region that a file holds now: with another region it defines another texture.
     FileError if it is no picture.  `_changed`: when the file was, in nanoseconds."""
     from engine.strokes.example_files import read_mask  # here: it loads much that the window's start need not wait for
+
+    return sha_of(read_mask(path))
+
+
+def sha_of(inside: np.ndarray) -> str:
+    """What a definition calls a region, bool (h, w)."""
     from engine.texture.image import ImageSource
 
-    inside = read_mask(path)
-    return ImageSource.of(path.stem, np.repeat(inside[None].astype(np.float32), 4, axis=0)).sha
+    return ImageSource.of("", np.repeat(inside[None].astype(np.float32), 4, axis=0)).sha

@@ -3,18 +3,19 @@ them as they are."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 from immutables import Map
 
 from app.desk import example_state, own_example_files, palette, presets
 from app.desk.desk import Desk, FileWork
 from app.desk.example_state import Entry
 from app.desk.example_use import choose, gather, take
-from app.desk.region_mask import Mask
+from app.desk.region_state import RegionState
+from engine.studio.requests import RegionClose, RegionOpen, RegionSaved
+from engine.studio.results import RegionScene
 from engine.texture.example.parameters import Parameters
 
 
@@ -60,7 +61,7 @@ def dropped(desk: Desk, path: Path) -> bool:
 class _Added(NamedTuple):
     listing: Listing
     smaller: bool
-    mask: Mask
+    region: RegionOpen
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +76,8 @@ class _Add(FileWork):
 
     def arrive(self, desk: Desk, found: _Added) -> None:
         _relist(desk, found.listing)
-        _show_region(desk, desk.examples.chosen, found.mask)
-        if found.mask.opaque:
-            found.mask.way = "colour"  # what is to be cut out of a photograph is its background
+        desk.examples.opening = found.region.ident
+        desk.post(found.region)
         size = f", made smaller: at most {own_example_files.SIDE} pixels" if found.smaller else ""
         desk.say(f"Added the example “{_title(desk)}”{size}")
 
@@ -95,11 +95,11 @@ def add(desk: Desk, path: Path) -> None:
 class _Edit(FileWork):
     entry: Entry
 
-    def carry_out(self) -> Mask:
+    def carry_out(self) -> RegionOpen:
         return own_example_files.opened(self.entry)
 
-    def arrive(self, desk: Desk, found: Mask) -> None:
-        _show_region(desk, self.entry.ident, found)
+    def arrive(self, desk: Desk, found: RegionOpen) -> None:
+        desk.post(found)
 
     def fail(self, desk: Desk, fault: str) -> None:
         desk.examples.opening = ""
@@ -111,55 +111,55 @@ def edit(desk: Desk) -> None:
     state, entry = desk.examples, desk.examples.entry
     if entry is None or state.opening == entry.ident:
         return
-    if state.mask is None:
+    if state.region is None:
         state.opening = entry.ident
         desk.work(_Edit(entry))
     else:
         state.tab = "region"
 
 
-def _show_region(desk: Desk, ident: str, mask: Mask) -> None:
-    state = desk.examples
-    state.opening = ""
-    state.masks.setdefault(ident, mask)
-    if state.chosen == ident:
-        state.tab = "region"
+def told(desk: Desk, scene: RegionScene) -> None:
+    """Takes over what the engine tells of a region; one that was just opened is shown."""
+    state, known = desk.examples, desk.examples.regions.get(scene.ident)
+    if known is not None:
+        known.scene = scene
+    elif any(entry.ident == scene.ident for entry in state.entries):  # not deleted meanwhile
+        state.regions[scene.ident] = RegionState.of(scene)
+    if state.opening == scene.ident:
+        state.opening = ""
+        if state.chosen == scene.ident:
+            state.tab = "region"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class _SaveRegion(FileWork):
-    """`inside`: of the region, which is its `version`."""
-
     entry: Entry
     parameters: Parameters
-    inside: np.ndarray
-    version: int
+    scene: RegionScene
 
     def carry_out(self) -> Listing:
-        entry = self.entry
-        name = entry.name if entry.own else own_example_files.copy(entry, self.parameters)
-        own_example_files.write_region(name, self.inside)
-        return _listed(name)
+        return _listed(own_example_files.save_region(self.entry, self.parameters, self.scene))
 
     def arrive(self, desk: Desk, found: Listing) -> None:
-        state = desk.examples
-        mask = state.masks.pop(self.entry.ident, None)
-        if mask is not None:
-            mask.saved, mask.dirty = self.version, mask.whole  # it is shown under another name from now on
-            state.masks[f"own {found.name}"] = mask
+        state, name = desk.examples, f"own {found.name}"
+        known = state.regions.pop(self.entry.ident, None)
+        if known is not None:
+            known.scene = replace(known.scene, ident=name)
+            state.regions[name] = known
+            desk.post(RegionSaved(self.entry.ident, name, self.scene.steps))
         _relist(desk, found)
         desk.say(f"Saved the region of “{_title(desk)}”" + ("" if self.entry.own else ", an example of your own now"))
 
 
 def save_region(desk: Desk) -> None:
     """Writes the region that was painted; one of an example that comes along goes to a copy of the artist's own."""
-    state, entry, mask = desk.examples, desk.examples.entry, desk.examples.mask
-    if entry is None or mask is None:
+    state, entry, region = desk.examples, desk.examples.entry, desk.examples.region
+    if entry is None or region is None:
         return
-    if not mask.inside.any():
+    if not region.scene.inside.any():
         desk.say("The region is empty: paint something in first", bad=True)
         return
-    desk.work(_SaveRegion(entry, state.draft(entry), mask.inside.copy(), mask.version))
+    desk.work(_SaveRegion(entry, state.draft(entry), region.scene))
 
 
 # --- settings and names ----------------------------------------------------------------------------------------------
@@ -269,7 +269,8 @@ class _Delete(FileWork):
 
     def arrive(self, desk: Desk, found: None) -> None:
         state, entry = desk.examples, self.entry
-        state.masks.pop(entry.ident, None)
+        if state.regions.pop(entry.ident, None) is not None:
+            desk.post(RegionClose(entry.ident))
         state.entries = tuple(one for one in state.entries if one.ident != entry.ident)
         if state.chosen == entry.ident:
             state.chosen, state.tab = "", "palette"

@@ -1,33 +1,59 @@
-"""The files of the artist's own examples: a picture, its region, and its parameters, each whole or not there."""
+"""The files of the artist's own examples: a picture, its region, and its parameters, each whole or not there.
+
+Any of these functions may raise one of `files.FAULTS`.
+"""
 
 from __future__ import annotations
 
 import json
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from immutables import Map
 
 from app.desk import example_state
-from app.desk.example_state import MASK, NAME_CAP, PARAMETERS, PICTURE, Entry
-from app.desk.region_mask import Mask
+from app.desk.example_state import BASE, MASK, NAME_CAP, PARAMETERS, PICTURE, STEPS, Entry, sha_of
+from engine.brush.checks import thawed
 from engine.files.atomic import replacing
-from engine.files.fault import FileError, WriteError
+from engine.studio.requests import RegionOpen
+from engine.studio.results import RegionScene
 from engine.texture.example.parameters import Parameters
 
 SIDE = 1024  # pixels along an example, at most
-FAULTS = (FileError, WriteError, OSError)  # that any of these functions may raise
+STEPS_CAP, STEPS_BYTES = 4096, 1 << 21  # in the definition of a texture, which is one line of a recording
+Steps = tuple[Map[str, Any], ...]
 
 
-def opened(entry: Entry) -> Mask:
-    """An example's region, to be painted."""
-    from engine.strokes.example_files import read_mask  # here: the engine is loaded by now
+def opened(entry: Entry) -> RegionOpen:
+    """What the engine needs for painting an example's region."""
+    from engine.painting.capture import read_picture  # here: the engine is loaded by now
 
+    picture = read_picture(str(entry.picture), None)
+    first = _first(entry, picture[3] > 0.0)
+    picture.flags.writeable = first.flags.writeable = False
+    return RegionOpen(entry.ident, picture, first, entry.steps)
+
+
+def _first(entry: Entry, opaque: np.ndarray) -> np.ndarray:
+    """What the steps of its region begin with, bool (h, w)."""
+    base = entry.base if entry.steps else entry.mask
+    found = opaque if base is None else _masked(base)
+    return found if found.shape == opaque.shape else opaque
+
+
+def _masked(path: Path) -> np.ndarray:
+    from engine.strokes.example_files import read_mask
+
+    return read_mask(path)
+
+
+def cut_out(entry: Entry) -> tuple[np.ndarray, np.ndarray]:
+    """An example's picture, uint8 RGBA (h, w, 4), not premultiplied, and its region, bool (h, w)."""
     pixels = pixels_of(entry.picture)
-    inside = pixels[..., 3] > 0 if entry.mask is None else read_mask(entry.mask)
-    if inside.shape != pixels.shape[:2]:
-        inside = pixels[..., 3] > 0
-    return Mask(pixels, inside, radius=max(2.0, round(max(inside.shape) / 20)))
+    inside = pixels[..., 3] > 0 if entry.mask is None else _masked(entry.mask)
+    return pixels, inside if inside.shape == pixels.shape[:2] else pixels[..., 3] > 0
 
 
 def pixels_of(path: Path) -> np.ndarray:
@@ -50,16 +76,42 @@ def add(path: Path) -> tuple[str, bool]:
 
 def copy(entry: Entry, parameters: Parameters) -> str:
     """Makes an example of the artist's own of any, with other parameters: its name."""
-    mask, name = opened(entry), free_name(entry.given or entry.name)
-    _write(_place(name, PICTURE), mask.pixels)
-    write_region(name, mask.inside)
+    (pixels, inside), name = cut_out(entry), free_name(entry.given or entry.name)
+    _write(_place(name, PICTURE), pixels)
+    base = None if entry.base is None else _masked(entry.base)
+    write_region(name, inside, entry.steps, base)
     write_parameters(name, parameters)
     return name
 
 
-def write_region(name: str, inside: np.ndarray) -> None:
-    """`inside`: bool (h, w); it is white in the file."""
+def save_region(entry: Entry, parameters: Parameters, scene: RegionScene) -> str:
+    """Writes the region of an example as it was painted, that of a copy if it is not the artist's own: the name."""
+    pixels, _ = cut_out(entry)
+    first = _first(entry, pixels[..., 3] > 0)
+    base = None if np.array_equal(first, pixels[..., 3] > 0) else first
+    name = entry.name if entry.own else copy(entry, parameters)
+    write_region(name, scene.inside, scene.steps, base)
+    return name
+
+
+def write_region(name: str, inside: np.ndarray, steps: Steps = (), base: np.ndarray | None = None) -> None:
+    """`inside`: bool (h, w); it is white in the file.  `steps`: those that made it of `base`, bool (h, w), or of what
+    is not transparent.
+
+    Steps count only with the mask that they made: if some of the files are not written, the mask alone stands.  More of
+    them than a definition may have are not kept.
+    """
+    told = {"mask_sha": sha_of(inside), "base": base is not None, "steps": thawed(steps)}
+    data = json.dumps(told, separators=(",", ":")).encode()
+    steps = steps if len(steps) <= STEPS_CAP and len(data) <= STEPS_BYTES else ()
+    if steps and base is not None:
+        _write(_place(name, BASE), (base * 255).astype(np.uint8)[..., None])
+    if steps:
+        with replacing(_place(name, STEPS)) as file:
+            file.write(data)
     _write(_place(name, MASK), (inside * 255).astype(np.uint8)[..., None])
+    for ending in (STEPS, BASE) if not steps else (BASE,) if base is None else ():
+        _place(name, ending).unlink(missing_ok=True)
 
 
 def write_parameters(name: str, parameters: Parameters, title: str = "") -> None:
@@ -77,7 +129,7 @@ def write_parameters(name: str, parameters: Parameters, title: str = "") -> None
 
 def delete(name: str) -> None:
     """Takes the files of one of the artist's own away."""
-    for ending in (PARAMETERS, MASK, PICTURE):
+    for ending in (PARAMETERS, STEPS, MASK, BASE, PICTURE):
         _place(name, ending).unlink(missing_ok=True)
 
 
@@ -86,7 +138,7 @@ def free_name(stem: str) -> str:
     plain = "".join(c if c.isalnum() or c in " -_" else "-" for c in stem).strip(" -")[:NAME_CAP].strip() or "example"
     taken = {path.name.lower() for path in example_state.own_folder().glob("*")}
     name, number = plain, 1
-    while any(f"{name}{ending}".lower() in taken for ending in (PICTURE, MASK, PARAMETERS)):
+    while any(f"{name}{ending}".lower() in taken for ending in (PICTURE, MASK, PARAMETERS, STEPS, BASE)):
         number += 1
         name = f"{plain} {number}"
     return name

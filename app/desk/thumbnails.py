@@ -11,6 +11,7 @@ import numpy as np
 
 from app.desk import own_example_files
 from app.desk.example_state import Entry
+from app.desk.files import FAULTS
 from engine.studio.results import Picture
 
 PAPER = (214, 209, 200)  # sRGB
@@ -59,7 +60,7 @@ class Shelf:
     def _work(self) -> None:
         while self._wanted:
             entry, side = self._wanted.popleft()
-            with suppress(*own_example_files.FAULTS):  # a picture that cannot be read has no thumbnail
+            with suppress(*FAULTS):  # a picture that cannot be read has no thumbnail
                 self._ready.append(Picture(ident(entry), thumbnail(entry, side)))
                 self._wake()
 
@@ -68,8 +69,7 @@ def thumbnail(entry: Entry, side: int) -> np.ndarray:
     """An example's region on paper, uint8 RGBA (side, side, 4), opaque."""
     from PIL import Image  # here: it takes its time to load
 
-    mask = own_example_files.opened(entry)
-    pixels, inside = mask.pixels, mask.inside
+    pixels, inside = own_example_files.cut_out(entry)
     alpha = (pixels[..., 3:] * inside[..., None]).astype(np.uint32)
     flat = ((pixels[..., :3] * alpha + np.array(PAPER, np.uint32) * (255 - alpha) + 127) // 255).astype(np.uint8)
     rows, columns = (np.flatnonzero(inside.any(axis=axis)) for axis in (1, 0))

@@ -124,6 +124,20 @@ class _Painted:
             box = box.grown(1).intersect(self.whole)  # the edge lies outside
             self.dirty = box if self.dirty is None else self.dirty.union(box)
 
+    def scene(self, ident: str) -> results.RegionScene:
+        """What the panel shows of it."""
+        return results.RegionScene(
+            ident,
+            (self.whole.width, self.whole.height),
+            self.now.steps,
+            results.frozen(self.inside.copy()),
+            float(self.inside.mean()),
+            bool(self.past),
+            bool(self.future),
+            self.now.steps != self.saved,
+            bool(self.picture[3].min() > 0.0),
+        )
+
     def _keep(self) -> None:
         self.past.append(self.now)
         if len(self.past) > KEPT:
@@ -220,13 +234,7 @@ class Regions(Owned):
             pixels = results.frozen(shown(held.flat, held.inside, box))
             self._send(results.PicturePart(f"region {self._ident}", size, box, pixels))
         if held.live is None:
-            steps = held.now.steps
-            self._send(
-                results.RegionScene(
-                    self._ident, size, steps, results.frozen(held.inside.copy()), bool(held.past), bool(held.future),
-                    steps != held.saved, bool(held.picture[3].min() > 0.0),
-                )
-            )  # fmt: skip
+            self._send(held.scene(self._ident))
 
 
 def _around(changed: np.ndarray) -> Rect:

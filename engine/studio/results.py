@@ -129,7 +129,8 @@ class PicturePart:
 class RegionScene:
     """The region of an example that is painted, whose picture is "region IDENT".
 
-    `size`: width, height; `steps`: taken so far; `inside`: bool (h, w), read-only; `modified`: whether there are others
+    `size`: width, height; `steps`: taken so far; `inside`: bool (h, w), read-only, `share` of
+    all pixels, 0..1; `modified`: whether there are others
     than when it was saved; `opaque`: whether the example has no holes.
     """
 
@@ -137,6 +138,7 @@ class RegionScene:
     size: tuple[int, int]
     steps: tuple[Map[str, Any], ...]
     inside: np.ndarray
+    share: float
     can_undo: bool
     can_redo: bool
     modified: bool

@@ -16,6 +16,7 @@ from app.desk.desk import Desk
 from app.desk.example_state import Entry
 from app.desk.files import carried_out
 from app.desk.presets import Preset
+from app.desk.region_state import EVERYTHING, INVERTED, SMOOTHED
 from app.desk.stock import TakeStock
 from app.input.events import PenEvent
 from app.panels import status
@@ -25,8 +26,10 @@ from engine.brush.settings import Brush
 from engine.makers.definitions import defined_by
 from engine.numeric.address import Rect
 from engine.painting.commands import Swap, parse, to_json
-from engine.studio.requests import Do, GetReady, Swatch
-from engine.studio.results import Growing, Scene, Writing
+from engine.session.session import Session
+from engine.studio.region import Regions
+from engine.studio.requests import Do, GetReady, RegionClose, Swatch
+from engine.studio.results import Growing, RegionScene, Scene, Writing
 from engine.texture.example.parameters import Parameters
 
 
@@ -44,6 +47,18 @@ def posted():
 @pytest.fixture
 def desk(own, posted):
     made = Desk(View(Place(0, 0, 0), 0, 0.0, 800, 600), posted.append)
+    regions = Regions(lambda r: example_work.told(made, r) if isinstance(r, RegionScene) else None)
+
+    def post(request):
+        """Regions are painted at once; all else that is asked for is only noted."""
+        if type(request) not in regions.handlers:
+            posted.append(request)
+            return
+        regions.handlers[type(request)](request)
+        while regions.pending:
+            regions.step()
+
+    made.post = post
     made.learn(ready=True)
     made.strip = "examples"
     made.work = lambda work: carried_out(work).arrive(made)
@@ -206,8 +221,8 @@ def test_a_dropped_picture_is_an_example_and_its_region_is_opened(desk, own, tmp
     assert {path.name for path in own.iterdir()} == {"My rock.png", "My rock.mask.png", "My rock.toml"}
     state = desk.examples
     assert (state.entry.own, state.entry.group, state.tab) == (True, example_state.OWN, "region")
-    assert state.mask.inside[:, :20].all()
-    assert not state.mask.inside[:, 20:].any()
+    assert state.region.scene.inside[:, :20].all()
+    assert not state.region.scene.inside[:, 20:].any()
     assert desk.hand.brush.example == "My rock"
     example_work.add(desk, tmp_path / "My rock.png")
     assert state.entry.name == "My rock 2"
@@ -224,9 +239,9 @@ def test_what_is_no_picture_is_told_and_leaves_nothing(desk, own, tmp_path):
 
 def test_a_large_picture_is_made_smaller(desk, tmp_path):
     example_work.add(desk, picture(tmp_path / "wide.jpg", (2048, 20), "RGB"))
-    assert desk.examples.mask.pixels.shape == (10, 1024, 4)
+    assert desk.examples.region.scene.size == (1024, 10)
     assert "smaller" in desk.message[0]
-    assert desk.examples.mask.way == "colour"  # it has no holes: its background is to be clicked
+    assert desk.examples.region.way == "colour"  # it has no holes: its background is to be clicked
 
 
 def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
@@ -236,31 +251,105 @@ def test_another_region_makes_another_texture_of_the_same_files(desk, tmp_path):
     assert parse(to_json(first)) == first
     known = {**first.arguments}
     assert defined_by(first, "example", known)
-    state.mask.put(np.ones_like(state.mask.inside))
+    state.region.do(desk.post, EVERYTHING)
+    assert state.region.scene.modified
     example_work.save_region(desk)
     second = state.command(state.entry)
     assert not defined_by(second, "example", known)
-    assert own_example_files.opened(state.entry).inside.all()
-    assert not state.mask.modified
+    assert own_example_files.cut_out(state.entry)[1].all()
+    assert not state.region.scene.modified
+    assert second.arguments["region"] == (EVERYTHING,)
+    assert "mask" not in second.arguments  # it is told without the file
+    assert parse(to_json(second)) == second
+
+
+def made_of(entry, state):
+    """The region that the example's definition means, to whoever carries it out."""
+    session = Session()
+    session.do(state.command(entry))
+    (texture,) = session.painting.textures.values()
+    return texture.mask.data[3] > 0.5
+
+
+def read_again(desk):
+    """As if the window were opened anew."""
+    for ident in list(desk.examples.regions):
+        desk.examples.regions.pop(ident)
+        desk.post(RegionClose(ident))
+    desk.work(TakeStock())
+
+
+def test_a_region_that_was_painted_is_told_as_its_steps_and_made_again_of_them(desk, own, tmp_path):
+    """What the definition means is what was saved; a mask that another program wrote since counts as it is."""
+    example_work.add(desk, picture(tmp_path / "rock.png"))
+    state = desk.examples
+    for step in (EVERYTHING, Map({"op": "subtract", "stroke": Map({"points": ((20, 15), (30, 15))})}), SMOOTHED):
+        state.region.do(desk.post, step)
+    saved = state.region.scene
+    assert 0.2 < saved.share < 0.9
+    example_work.save_region(desk)
+    assert np.array_equal(made_of(state.entry, state), saved.inside)
+    # Read again, the steps can be taken back; a copy has them too.
+    read_again(desk)
+    example_work.keep_settings(desk)
+    assert state.entry.name == "rock 2"
+    assert state.entry.steps == saved.steps
+    example_work.edit(desk)
+    assert np.array_equal(state.region.scene.inside, saved.inside)
+    state.region.travel(desk.post, -3)
+    assert np.array_equal(state.region.scene.inside, np.broadcast_to(np.arange(40) < 20, (30, 40)))
+    Image.fromarray(np.full((30, 40), 255, np.uint8)).save(own / "rock.mask.png")
+    read_again(desk)
+    assert named(desk, "rock").steps == ()
+    assert "mask" in state.command(named(desk, "rock")).arguments
+
+
+def test_a_mask_that_was_there_first_is_kept_for_the_steps_to_begin_with(desk, own, tmp_path):
+    """As an example has it that was made before steps were told."""
+    example_work.add(desk, picture(tmp_path / "rock.png"))
+    first = np.zeros((30, 40), bool)
+    first[5:25, 3:19] = True
+    Image.fromarray((first * 255).astype(np.uint8)).save(own / "rock.mask.png")
+    state = desk.examples
+    for steps in (1, 2):
+        read_again(desk)
+        example_use.choose(desk, named(desk, "rock"))
+        example_work.edit(desk)
+        state.region.do(desk.post, INVERTED)
+        example_work.save_region(desk)
+        assert len(state.entry.steps) == steps
+        assert np.array_equal(made_of(state.entry, state), first if steps == 2 else ~first)
+    state.region.travel(desk.post, -2)
+    assert np.array_equal(state.region.scene.inside, first)
+    example_work.save_region(desk)
+    assert {path.name for path in own.iterdir()} == {"rock.png", "rock.mask.png", "rock.toml"}
+
+
+def test_more_steps_than_a_definition_may_have_are_not_told(desk, own, tmp_path):
+    example_work.add(desk, picture(tmp_path / "rock.png"))
+    own_example_files.write_region("rock", np.ones((30, 40), bool), (INVERTED,) * 5000)
+    read_again(desk)
+    assert named(desk, "rock").steps == ()
+    assert own_example_files.cut_out(named(desk, "rock"))[1].all()
 
 
 def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     entry, state = named(desk, "felt"), desk.examples
     example_use.choose(desk, entry)
     example_work.edit(desk)
-    state.mask.begin(3.0, 3.0)
+    state.region.do(desk.post, Map({"op": "add", "stroke": Map({"points": ((3, 3),)})}))
     state.set(entry, "kappa", 9.0)
-    state.mask.dirty = None
     example_work.save_region(desk)
-    assert state.mask.dirty == state.mask.whole  # the copy has no picture yet
+    assert state.region.scene.ident == "own felt"
     assert (state.entry.own, state.entry.name, state.entry.parameters.kappa) == (True, "felt", 9.0)
     assert "“Felt”" in desk.message[0]
-    assert own_example_files.opened(state.entry).inside[3, 3]
-    assert not own_example_files.opened(entry).inside[3, 3]
-    state.mask.inside[:] = False
+    assert own_example_files.cut_out(state.entry)[1][3, 3]
+    assert not own_example_files.cut_out(entry)[1][3, 3]
+    state.region.do(desk.post, EVERYTHING)
+    state.region.do(desk.post, INVERTED)
     example_work.save_region(desk)
     assert desk.message[1]
-    assert own_example_files.opened(state.entry).inside.any()
+    assert own_example_files.cut_out(state.entry)[1].any()
     example_work.delete(desk, state.entry)
     assert not list(own.iterdir())
     assert state.entry is None
@@ -383,43 +472,42 @@ def region(desk):
     example_use.choose(desk, named(desk, "felt"))
     example_work.edit(desk)
     desk.examples.spot = (100.0, 200.0, 2.0)
-    return desk.examples.mask
+    return desk.examples.region
 
 
 def test_a_stroke_in_the_region_paints_there_and_a_pens_eraser_paints_out(desk, region):
-    before = region.inside.copy()
+    before = region.scene.inside.copy()
     gesture = tools.paint_region(desk, pen("down", 110.0, 210.0))
     next(gesture)
     with pytest.raises(StopIteration):
         gesture.send(pen("up", 130.0, 210.0))
-    assert region.inside[5, 5:15].all()
+    assert region.scene.inside[5, 5:15].all()
     gesture = tools.paint_region(desk, pen("down", 110.0, 210.0, eraser=True))
     next(gesture)
     with pytest.raises(StopIteration):
         gesture.send(pen("up", 130.0, 210.0))
-    assert not region.inside[5, 5:15].any()
+    assert not region.scene.inside[5, 5:15].any()
     assert region.way == "in"
-    region.step(-1)
-    region.step(-1)
-    assert (region.inside == before).all()
+    region.travel(desk.post, -2)
+    assert (region.scene.inside == before).all()
 
 
 def test_a_stroke_that_is_given_up_leaves_the_region_as_it_was(desk, region):
-    before = region.inside.copy()
+    before = region.scene.inside.copy()
     gesture = tools.paint_region(desk, pen("down", 110.0, 210.0))
     next(gesture)
     gesture.send(pen("move", 130.0, 210.0))
     gesture.close()
-    assert (region.inside == before).all()
-    assert not region.history.can_undo
+    assert (region.scene.inside == before).all()
+    assert not region.scene.can_undo
 
 
 def test_keys_over_the_region_are_the_regions(desk, region, posted):
     strip = StripPanel()
     desk.pointer.x, desk.pointer.y = 110.0, 210.0
-    region.put(~region.inside)
+    region.do(desk.post, INVERTED)
     assert strip.takes(desk, ACTIONS["undo"])
-    assert not region.history.can_undo
+    assert not region.scene.can_undo
     radius = region.radius
     assert strip.takes(desk, ACTIONS["larger"])
     assert region.radius > radius

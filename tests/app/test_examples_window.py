@@ -1,5 +1,6 @@
 """Painting with examples in the real window: preview, growth, undo, swap, saving, a kill; a region of one’s own."""
 
+import json
 import shutil
 import signal
 import time
@@ -9,6 +10,10 @@ import numpy as np
 import pytest
 from PIL import Image
 from screens import changed
+
+from engine.painting.capture import read_picture
+from engine.strokes.example_files import read_mask
+from engine.strokes.example_region import followed
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
@@ -171,8 +176,12 @@ def test_a_region_is_painted_and_saved(program, folder):
     until(lambda: app.screen()[picture].std() > 20)
     seen = shown_region(app)
     app.stroke(*(app.at("region", *part) for part in ((0.01, 0.02), (0.08, 0.07), (0.11, 0.17))))
-    until_unlike(app, seen)
+    first = until_unlike(app, seen)
     middle = app.at("region", 0.5, 0.36)
+    for keys, expected in (("ctrl+z", seen), ("ctrl+shift+z", first)):
+        app.do("mousemove", *middle)
+        app.keys(keys)
+        until(lambda expected=expected: np.array_equal(shown_region(app), expected))
     app.stroke(middle, app.at("region", 0.55, 0.41))  # in already: a step that changes nothing
     app.do("mousemove", *middle)
     app.keys("ctrl+z")
@@ -187,6 +196,12 @@ def test_a_region_is_painted_and_saved(program, folder):
     assert (after & ~before)[:50, :60].sum() > 500
     assert (before & ~after)[100:150, 140:180].sum() > 500
     assert not list(folder.glob("*.part"))
+    # What was painted is told as the strokes that it was, which make the same region anew.
+    told = json.loads((folder / "my-wash.region.json").read_text())
+    assert [step["op"] for step in told["steps"]] == ["add", "subtract"]
+    began, picture = read_mask(folder / "my-wash.base.png"), read_picture(str(folder / "my-wash.png"), None)
+    assert np.array_equal(began, before)
+    assert np.array_equal(followed(began, told["steps"], picture), after)
 
 
 def test_ones_own_is_renamed_by_a_double_click_and_deleted(program, folder):

@@ -5,16 +5,16 @@ Strokes come from `tools.paint_region`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Any
 
-import numpy as np
 from imgui_bundle import ImVec2, imgui
+from immutables import Map
 
 from app import icons, theme
 from app.actions import ACTIONS, Action
 from app.desk import example_work
 from app.desk.desk import Desk
-from app.desk.region_mask import RADII, Mask, shown, smoothed
+from app.desk.region_state import BY_ALPHA, EVERYTHING, INVERTED, RADII, SMOOTHED, RegionState
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 
@@ -25,15 +25,11 @@ _WAYS = (
     ("out", "Paint out", "A stroke takes away from the region"),
     ("colour", "Colour", "A click takes everything of that colour out of the region: the background"),
 )
-_WHOLE: tuple[tuple[str, str, Callable[[Mask], np.ndarray]], ...] = (
-    (
-        "By transparency",
-        "The region is where the picture is not transparent",
-        lambda mask: mask.pixels[..., 3] > 0,
-    ),
-    ("Everything", "The whole picture is the region: it has no rim", lambda mask: np.ones_like(mask.inside)),
-    ("Invert", "Inside becomes outside", lambda mask: ~mask.inside),
-    ("Smooth", "Rounds the edge, and takes specks and pinholes away", lambda mask: smoothed(mask.inside)),
+_WHOLE: tuple[tuple[str, str, Map[str, Any]], ...] = (
+    ("By transparency", "The region is where the picture is not transparent", BY_ALPHA),
+    ("Everything", "The whole picture is the region: it has no rim", EVERYTHING),
+    ("Invert", "Inside becomes outside", INVERTED),
+    ("Smooth", "Rounds the edge, and takes specks and pinholes away", SMOOTHED),
 )
 
 
@@ -41,53 +37,46 @@ class RegionPanel:
     """Draws the strip's inside."""
 
     def draw(self, desk: Desk) -> None:
-        state, mask = desk.examples, desk.examples.mask
-        if mask is None:
+        state, region = desk.examples, desk.examples.region
+        if region is None:
             return
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
         imgui.begin_child("region picture", ImVec2(room.x - SIDE * desk.scale - gap, 0))
-        self._picture(desk, mask)
+        self._picture(desk, region)
         imgui.end_child()
         imgui.same_line()
         imgui.begin_child("region tools", ImVec2(0, 0))
         imgui.begin_child("ways", ImVec2(0, -imgui.get_frame_height_with_spacing()))
         entry = state.entry
         imgui.text_disabled(f"What is grown of “{entry.title}”" if entry is not None else "")
-        self._tools(desk, mask)
+        self._tools(desk, region)
         imgui.end_child()
         own = entry is not None and entry.own
-        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if mask.modified or not own else theme.RAISED))
+        lit = region.scene.modified or not own
+        imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if lit else theme.RAISED))
         text, hint = ("Save", "Keep this region") if own else ("Save as my own", "It goes to a copy of your own")
-        if w.text_button(f"{icons.DISK} {text}###save", hint, enabled=mask.modified, width=-1):
+        if w.text_button(f"{icons.DISK} {text}###save", hint, enabled=region.scene.modified, width=-1):
             example_work.save_region(desk)
         imgui.pop_style_color()
         imgui.end_child()
-
-    def show(self, desk: Desk) -> None:
-        """Draws into the picture what has changed."""
-        mask = desk.examples.mask
-        if mask is not None and mask.dirty is not None:
-            height, width = mask.inside.shape
-            desk.touch(f"region {desk.examples.chosen}", (width, height), mask.dirty, shown(mask, mask.dirty))
-            mask.dirty = None
 
     def takes(self, desk: Desk, action: Action) -> bool:
         """Steps through what was painted, or makes the brush larger or smaller; False for other actions."""
         steps = {ACTIONS["undo"]: -1, ACTIONS["redo"]: 1}
         sizes = {ACTIONS["smaller"]: 1 / GROW, ACTIONS["larger"]: GROW}
-        mask = desk.examples.mask
-        if mask is None or action not in {**steps, **sizes}:
+        region = desk.examples.region
+        if region is None or action not in {**steps, **sizes}:
             return False
         if action in steps:
-            mask.step(steps[action])
+            region.travel(desk.post, steps[action])
         else:
-            mask.resize(sizes[action])
+            region.resize(sizes[action])
         return True
 
-    def _picture(self, desk: Desk, mask: Mask) -> None:
+    def _picture(self, desk: Desk, region: RegionState) -> None:
         """As large as there is room for; its place is remembered for the strokes."""
         state, room = desk.examples, imgui.get_content_region_avail()
-        height, width = mask.inside.shape
+        width, height = region.scene.size
         scale = min(room.x / width, room.y / height)
         corner = imgui.get_cursor_screen_pos()
         at = ImVec2(round(corner.x + (room.x - width * scale) / 2), round(corner.y + (room.y - height * scale) / 2))
@@ -100,48 +89,48 @@ class RegionPanel:
             painter.add_image(picture, at, end)
         free = not imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
         state.spot = (at.x, at.y, scale) if free else None
-        if state.over(desk.pointer.x, desk.pointer.y) and mask.way != "colour":
+        if state.over(desk.pointer.x, desk.pointer.y) and region.way != "colour":
             painter.push_clip_rect(at, end, True)
-            middle, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, mask.radius * scale)
+            middle, radius = ImVec2(desk.pointer.x, desk.pointer.y), max(1.5, region.radius * scale)
             painter.add_circle(middle, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.6), 0, 1.6 * desk.scale)
             painter.add_circle(middle, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.9), 0, desk.scale)
             painter.pop_clip_rect()
 
-    def _tools(self, desk: Desk, mask: Mask) -> None:
+    def _tools(self, desk: Desk, region: RegionState) -> None:
         gap = 2 * desk.scale
-        mask.way = w.segments("way", mask.way, _WAYS) or mask.way
-        if mask.way == "colour":
+        region.way = w.segments("way", region.way, _WAYS) or region.way
+        if region.way == "colour":
             hint = "How far from the clicked colour still counts as that colour"
-            _, tolerance = w.slider("Tolerance", mask.tolerance * 100, (0.0, 60.0), hint, form="%.0f%%")
+            _, tolerance = w.slider("Tolerance", region.tolerance * 100, (0.0, 60.0), hint, form="%.0f%%")
             hint = "Only what hangs together with the place that is clicked"
-            _, joined = w.tick("Connected only", mask.joined, hint)
-            mask.tolerate(round(tolerance / 100, 3), joined)
+            _, joined = w.tick("Connected only", region.joined, hint)
+            region.tolerate(desk.post, round(tolerance / 100, 3), joined)
         else:
             hint = "Radius of the brush, in pixels of the picture  ([ and ])"
-            changed, radius = w.slider("Size", mask.radius, (1.0, 128.0), hint, form="%.1f px", curved=True)
+            changed, radius = w.slider("Size", region.radius, (1.0, 128.0), hint, form="%.1f px", curved=True)
             if changed:
-                mask.radius = round(max(RADII[0], min(RADII[1], radius)), 1)
-        if mask.way == "colour":
+                region.radius = round(max(RADII[0], min(RADII[1], radius)), 1)
+        if region.way == "colour":
             imgui.text_disabled("Click on the background")
         imgui.spacing()
         room = (imgui.get_content_region_avail().x - gap) / 2
-        for i, (label, hint, make) in enumerate(_WHOLE):
+        for i, (label, hint, step) in enumerate(_WHOLE):
             if i % 2:
                 imgui.same_line(0, gap)
-            if w.text_button(label, hint, enabled=i > 0 or not mask.opaque, width=room):
-                mask.put(make(mask))
-        self._steps(mask)
+            if w.text_button(label, hint, enabled=i > 0 or not region.scene.opaque, width=room):
+                region.do(desk.post, step)
+        self._steps(desk, region)
 
-    def _steps(self, mask: Mask) -> None:
+    def _steps(self, desk: Desk, region: RegionState) -> None:
         """Undo and redo of the region's own, and how much of the picture it is."""
-        gap, past = 2 * imgui.get_style().font_scale_dpi, mask.history
+        gap, past = 2 * imgui.get_style().font_scale_dpi, region.scene
         side = imgui.get_frame_height()
         if w.icon_button("undo", icons.UNDO, "Take back  (Ctrl+Z over the picture)", enabled=past.can_undo, size=side):
-            mask.step(-1)
+            region.travel(desk.post, -1)
         imgui.same_line(0, gap)
         hint = "Do again  (Ctrl+Shift+Z over the picture)"
         if w.icon_button("redo", icons.REDO, hint, enabled=past.can_redo, size=side):
-            mask.step(1)
+            region.travel(desk.post, 1)
         imgui.same_line(0, 3 * gap)
         imgui.align_text_to_frame_padding()
-        imgui.text_disabled(f"{mask.inside.mean() * 100:.0f}% is grown")
+        imgui.text_disabled(f"{region.scene.share * 100:.0f}% is grown")

@@ -20,7 +20,7 @@ from app.panels.examples.growth_settings import GrowthSettings
 from app.panels.examples.own_examples import OwnExamples
 from app.panels.panel import Painting, Panel
 from app.tools import paint_region
-from engine.studio.results import Picture, Scene
+from engine.studio.results import Picture, RegionScene, Scene
 
 TILE = 68.0  # side of a thumbnail, points, at least
 NAME = 0.82  # of the font's size
@@ -39,17 +39,17 @@ class ExamplesPanel(Panel):
     def __init__(self) -> None:
         self._region, self._settings, self._own = RegionPanel(), GrowthSettings(), OwnExamples()
         self._defined: Sequence[Any] | None = None  # what the painting defined when it was last listed
-        self.hears = {Scene: self._heard, Picture: _sampled}
+        self.hears = {Scene: self._heard, Picture: _sampled, RegionScene: _painted}
 
     def wants(self, desk: Desk, now: float) -> None:
-        """Thumbnails, the sample stroke, and what was painted in the region."""
+        """Thumbnails, and the sample stroke where it is seen."""
         state, side = desk.examples, thumbnails.side(desk.scale)
         example_use.prepare(desk, now)
         desk.thumbnails(state.entries, side)
-        if desk.known.preparing is None:  # or the engine would wait for it, and strokes for the engine
+        # Not while examples are made ready, or the engine would wait for it, and strokes for the engine.
+        if desk.known.preparing is None and state.tab != "region":
             state.ask(desk.post, now)
         state.ask_thumbnails(desk.post, side)
-        self._region.show(desk)
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
         """A stroke in the region."""
@@ -74,9 +74,9 @@ class ExamplesPanel(Panel):
     def draw(self, desk: Desk) -> None:
         state = desk.examples
         state.spot = None
-        if state.tab == "region" and state.mask is None and _has_files(state.entry):
+        if state.tab == "region" and state.region is None and _has_files(state.entry):
             example_work.edit(desk)
-        if not _has_files(state.entry) or (state.tab == "region" and state.mask is None):
+        if not _has_files(state.entry) or (state.tab == "region" and state.region is None):
             state.tab = "palette"
         if state.tab == "region":
             self._region.draw(desk)
@@ -198,6 +198,10 @@ class ExamplesPanel(Panel):
         if w.text_button(f"{icons.SWAP} Swap", hint, enabled=entry is not None, width=wide):
             state.swapping = not state.swapping
         imgui.pop_style_color()
+
+
+def _painted(desk: Desk, scene: RegionScene, now: float) -> None:
+    example_work.told(desk, scene)
 
 
 def _sampled(desk: Desk, picture: Picture, _now: float) -> None:
