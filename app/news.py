@@ -77,5 +77,7 @@ def _trace(before: Known, after: Known) -> None:
         trace("engine ready")
     if before.preparing is not None and after.preparing is None:
         trace("examples ready")
+    if after.prepared != before.prepared and after.prepared.ready == after.prepared.of:
+        trace("all brushes ready")
     if (before.growing is None) != (after.growing is None):
         trace("all has grown" if after.growing is None else "something grows")

@@ -13,7 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
-from engine.studio.results import Growing, Ready, Scene, Writing
+from engine.studio.results import Growing, Prepared, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 
@@ -23,7 +23,7 @@ class Known:
     """`ready`: whether the engine is loaded; `tables`: its rows, of textures, operations and so on; `scene`: the
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
-    does.  Times are seconds of time.monotonic()."""
+    does; `prepared`: how many brushes are ready.  Times are seconds of time.monotonic()."""
 
     ready: bool = False
     tables: Ready = Ready()  # noqa: RUF009  # it is frozen
@@ -35,6 +35,7 @@ class Known:
     growing: Growing | None = None
     grows: float = 0.0
     preparing: float | None = None
+    prepared: Prepared = Prepared(0, 0)  # noqa: RUF009
 
     @property
     def frame(self) -> Rect:
@@ -69,5 +70,6 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Pending: lambda known, r, now: {"pending": r.tiles},
     results.Writing: lambda known, r, now: {"writing": r},
     results.GotReady: lambda known, r, now: {"preparing": None},
+    results.Prepared: lambda known, r, now: {"prepared": r},
     results.Growing: _growing,
 }

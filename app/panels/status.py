@@ -49,6 +49,9 @@ def _work(desk: Desk) -> str:
         return f"{icons.DISK} {word}{grown}"
     if desk.known.preparing is not None and time.monotonic() - desk.known.preparing > PATIENCE:
         return f"{icons.WAIT} examples: getting ready"
+    brushes = desk.known.prepared
+    if brushes.ready < brushes.of:
+        return f"{icons.WAIT} Preparing brushes, {brushes.ready} of {brushes.of}"
     if desk.known.growing is not None:
         return f"growing {desk.known.growing.done * 100:.0f} %"
     return f"{desk.known.pending} tiles to do" if desk.known.pending else ""

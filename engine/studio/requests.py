@@ -275,6 +275,13 @@ class RegionClose:
 
 
 @dataclass(frozen=True, slots=True)
+class Prepare:
+    """Brushes that are likely to be painted with, most likely first: their kernels are compiled meanwhile."""
+
+    swatches: tuple[Swatch, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class GetReady:
     """Examples are going to be painted with: what that needs is loaded, or compiled, meanwhile."""
 
@@ -321,4 +328,5 @@ Request = (
     | GetReady
     | FileGrown
     | Written
+    | Prepare
 )

@@ -232,6 +232,14 @@ class GotReady:
 
 
 @dataclass(frozen=True, slots=True)
+class Prepared:
+    """How many of the brushes that Prepare named can be painted with at once."""
+
+    ready: int
+    of: int
+
+
+@dataclass(frozen=True, slots=True)
 class Growing:
     """How far what is painted with examples has grown: the part done, 0..1, and where it has not, as (level,
     rectangle); nowhere, and all of it is as it will stay."""
@@ -258,6 +266,7 @@ Result = (
     | Found
     | MatchScene
     | GotReady
+    | Prepared
     | Growing
 )
 

@@ -44,6 +44,11 @@ class Bench(Protocol):
         """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
         ...
 
+    @property
+    def waits(self) -> bool:
+        """Whether requests that it took over are still to be carried out."""
+        ...
+
     def play(self) -> None:
         """Plays the next piece."""
         ...
@@ -60,9 +65,15 @@ Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  
 
 
 def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> Bench:
-    from engine.studio.studio import Studio  # here, on the thread: it loads numba
+    from engine.studio.preparing import Preparing
 
-    return Studio(send, post)
+    preparing = Preparing()
+    preparing.begin()  # its processes load while the studio does
+
+    from engine.studio.studio import Studio  # here, on the thread: it loads numba
+    from engine.studio.waiting import Waiting
+
+    return Waiting(Studio(send, post), preparing, send)
 
 
 class Worker:
@@ -81,6 +92,7 @@ class Worker:
         self._signal = threading.Condition()
         self._closing = False
         self._doing = False  # a command
+        self._waiting = False  # commands that the bench has taken over
         self._told = -1
         self._thread = threading.Thread(target=self._run, name="inkfall engine", daemon=True)
         self._thread.start()
@@ -124,7 +136,7 @@ class Worker:
     def behind(self) -> bool:
         """Whether commands are still to be carried out, or their results to be taken."""
         with self._signal:
-            return bool(self._posted) or self._doing or bool(self._results)
+            return bool(self._posted) or self._doing or self._waiting or bool(self._results)
 
     def close(self, timeout: float | None = 10.0) -> None:
         """Ends the thread after what was posted before is done and files are written; waits so many seconds for it,
@@ -143,7 +155,7 @@ class Worker:
         then, then swatches; None to end."""
         with self._signal:
             while True:
-                self._doing = bool(self._posted)
+                self._doing, self._waiting = bool(self._posted), bench.waits
                 if self._posted:
                     request = self._posted.popleft()
                     return lambda: bench.do(request)

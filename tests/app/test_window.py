@@ -89,6 +89,7 @@ def test_the_keys_for_the_view_and_the_panels(program):
 
 def test_an_idle_window_sleeps(program):
     app = program()
+    app.wait_for("all brushes ready")
     app.settled()
     time.sleep(8)  # the engine warms up, thumbnails are painted, frames linger
 

@@ -12,7 +12,7 @@ from app.desk import example_use, palette, presets
 from app.desk.desk import Desk, FileWork
 from app.desk.presets import Preset
 from app.panels.controls import widgets as w
-from engine.studio.requests import Swatch
+from engine.studio.requests import Prepare, Swatch
 
 THUMB = (104, 44)  # of a thumbnail, points
 ACROSS = 2  # in the panel
@@ -28,11 +28,15 @@ class BrushList:
         self._group, self._find = EVERY, ""
         self._seen = ""  # the brush chosen when the list was last drawn
         self._asked: dict[str, Preset] = {}  # by name, those whose pictures were asked for
+        self._prepared: tuple[Preset, ...] = ()  # those that were asked to be made ready
         self._reveal = 0  # frames in which the list still scrolls to it: how long a list is, is known a frame late
 
     def wants(self, desk: Desk) -> None:
         """The pictures of all brushes but those that grow examples, before they are in sight: an example would have to
-        be analysed, and be held."""
+        be analysed, and be held.  Before, all are to be made ready."""
+        if desk.known.ready and self._prepared is not desk.known.presets:
+            self._prepared = desk.known.presets
+            desk.post(Prepare(tuple(_picture(desk, preset) for preset in self._prepared)))
         for preset in desk.known.presets:
             if not preset.brush.row.grows:
                 self._ask(desk, preset)
@@ -41,8 +45,7 @@ class BrushList:
         """Has a stroke of a brush painted, once."""
         if desk.known.ready and self._asked.get(preset.name) is not preset:
             self._asked[preset.name] = preset
-            size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
-            desk.post(Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures))
+            desk.post(_picture(desk, preset))
 
     def draw(self, desk: Desk, below: float) -> None:
         """`below`: the height that what follows needs."""
@@ -148,6 +151,12 @@ class BrushList:
             painter.add_image_rounded(picture, *inner, zero, one, white, 3 * desk.scale)
         _name(preset.name, ImVec2(corner.x, bottom + 1.5 * desk.scale), end, theme.TEXT if chosen else (0.72,) * 3)
         return taken
+
+
+def _picture(desk: Desk, preset: Preset) -> Swatch:
+    """The request for a stroke of a brush."""
+    size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
+    return Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures)
 
 
 def take(desk: Desk, preset: Preset) -> None:

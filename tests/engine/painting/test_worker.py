@@ -16,6 +16,7 @@ class Bench:
     """A stand-in that writes down what it is asked to do; `gate` holds it up."""
 
     due = endless = None
+    waits = False
 
     def __init__(self, send):
         self.send, self.did, self.open, self.gate = send, [], [], threading.Event()

@@ -1,0 +1,121 @@
+"""Everything that a brush does, done once on a painting that nobody sees: so its kernels are compiled and kept.
+
+Nothing here lists kernels: what painting, committing, looking and undoing call is what is compiled.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from engine.archive.imports import open_image
+from engine.archive.opening import open_painting
+from engine.brush.settings import Brush
+from engine.brush.settings import from_json as brush_from_json
+from engine.brush.stamp import Edit, Stamp
+from engine.canvas.commit import commit
+from engine.canvas.store import Pyramid
+from engine.makers import definitions
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.painting import commands as c
+from engine.painting.value import Painting
+from engine.studio import requests as q
+from engine.studio import warming
+from engine.studio.studio import Studio
+from engine.studio.swatches import painted
+from engine.texture.planes import Planes
+
+_LEVELS = (0, -1, 1, -3, 2)  # that are looked at: the stroke's first
+_WIDEST = 24.0  # px: radius of the brush
+_PAINTED = Rect(8, 8, 60, 60)
+_STEP = 14.0  # px from one point of the pen to the next
+
+
+def run(told: dict[str, Any]) -> None:
+    """Does what a line of JSON tells: {"kind": "commit"} or {"kind": "files"}, or a brush with its textures and the
+    size of its picture."""
+    if told["kind"] in ("commit", "files"):
+        stamped() if told["kind"] == "commit" else filed()
+        return
+    brush = brush_from_json(told["brush"])
+    textures = definitions.read(told["textures"], "textures")
+    if brush.mode == "example":
+        warming.paint()
+    else:
+        drawn(brush, textures)
+    width, height = told["size"]
+    painted(q.Swatch("", brush, (width, height), told["kind"], textures=textures), Painting())
+
+
+def drawn(brush: Brush, textures: Sequence[c.DefineTexture] = ()) -> None:
+    """A stroke over paint as the pen draws it, seen at several levels while it grows and after, and taken back."""
+    studio = Studio(lambda result: None, lambda request: None)
+    try:
+        for definition in textures:
+            studio.do(q.Do(definition))
+        tiles = tuple((level, x, y, -1) for level in _LEVELS for x in (-1, 0) for y in (-1, 0))
+        for one in (replace(brush, radius=min(brush.radius, _WIDEST)), Brush(radius=_WIDEST / 2)):
+            studio.look(q.Look(tiles))
+            studio.do(q.Begin(0, (0, 0), one))
+            for k in range(6):
+                points = np.zeros((2, 6))
+                points[:, 0], points[:, 1], points[:, 2] = (k * _STEP, (k + 0.5) * _STEP), 30.0 + k, 0.8
+                studio.do(q.Points(points))
+                while studio.easel.viewer.fresh:
+                    studio.step()
+            studio.do(q.Finish())
+            _work(studio)
+        studio.do(q.Do(c.Undo()))
+        _work(studio)
+    finally:
+        studio.close()
+
+
+def _work(studio: Studio) -> None:
+    while studio.step():
+        pass
+
+
+def stamped() -> None:
+    """Plain paint committed twice, without a brush: other kernels than the way from the pen to the first dab."""
+    edit: Edit = _Square()
+    commit(commit(Pyramid(), edit), edit)
+
+
+def filed() -> None:
+    """A painting saved, opened and exported, in a folder beside the kernels that goes again."""
+    with tempfile.TemporaryDirectory(dir=os.environ["NUMBA_CACHE_DIR"], prefix="files-") as folder:
+        ora, png = Path(folder) / "painting.ora", Path(folder) / "picture.png"
+        studio = Studio(lambda result: None, lambda request: None)
+        try:
+            studio.do(q.Begin(0, (0, 0), Brush(radius=_WIDEST)))
+            studio.do(q.Points(np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [90.0, 70.0, 1.0, 0.0, 0.0, 0.1]])))
+            studio.do(q.Finish())
+            studio.do(q.Save(ora))
+            studio.do(q.Export(png))
+        finally:
+            studio.close()
+        open_painting(ora)
+        open_image(png)
+
+
+@dataclass(frozen=True, slots=True)
+class _Square:
+    """An edit of one tile."""
+
+    level: int = 0
+    tiles: tuple[TileKey, ...] = (TileKey(0, 0, 0),)
+    rect: Rect = _PAINTED
+    spares_alpha: bool = False
+
+    def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        keep, add = np.ones((TILE, TILE), np.float32), np.zeros((4, TILE, TILE), np.float32)
+        keep[8:60, 8:60] = 0.5
+        add[:, 8:60, 8:60] = 0.5
+        return Stamp(keep, add, (), True)

@@ -1,0 +1,252 @@
+"""Brushes are made ready by processes of their own: in order, each kernel once, and nothing is lost with a process."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from engine.studio import preparing as module
+from engine.studio.preparing import Job, Preparing
+
+ROOT = Path(__file__).parents[3]
+# Stands in for a process that compiles: does as the job says, and writes down what it "compiled".
+PROGRAM = """
+import json, os, sys, time
+log = open(sys.argv[1], "a", buffering=1)
+def tell(**told):
+    print(json.dumps(told), flush=True)
+for line in sys.stdin:
+    job = json.loads(line)
+    blocked = ""
+    for kernel in job["kernels"]:
+        if os.path.exists(sys.argv[1] + kernel):
+            continue
+        tell(missing=kernel)
+        if not json.loads(sys.stdin.readline())["yours"]:
+            blocked = kernel
+            break
+        if job.get("dies"):
+            os._exit(1)
+        time.sleep(job.get("takes", 0.0))
+        open(sys.argv[1] + kernel, "w").close()
+        log.write(kernel + chr(10))
+        tell(saved=kernel)
+    tell(done=True, blocked=blocked)
+"""
+
+
+def job(*kernels, **more):
+    return Job(json.dumps({"kernels": kernels, **more}))
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    return tmp_path
+
+
+@pytest.fixture
+def make(folder):
+    made = []
+
+    def one(processes):
+        made.append(Preparing(processes, faults.append, ("-c", PROGRAM, str(folder / "log"))))
+        return made[-1]
+
+    faults: list[str] = []
+    one.faults = faults
+    yield one
+    for preparing in made:
+        preparing.close()
+    assert not [thread for thread in threading.enumerate() if thread.name == "inkfall preparing"]
+
+
+def compiled(folder, preparing, seconds=60.0):
+    """What was compiled, in order, when all is done."""
+    end = time.monotonic() + seconds
+    while preparing.busy and time.monotonic() < end:
+        preparing.wait(0.1)
+    assert not preparing.busy
+    return (folder / "log").read_text().split()
+
+
+def test_jobs_are_done_in_order_and_none_twice(folder, make):
+    preparing = make(1)
+    jobs = [job("a", takes=0.2), job("b"), job("c")]
+    preparing.want(jobs)
+    preparing.want(jobs)
+    assert compiled(folder, preparing) == ["a", "b", "c"]
+    assert all(map(preparing.ready, jobs))
+    preparing.want(jobs)
+    assert not preparing.busy
+
+
+def test_what_is_picked_jumps_the_queue(folder, make):
+    preparing = make(1)
+    preparing.want([job("a", takes=0.5), job("b"), job("c"), job("d")])
+    while not preparing._working:
+        preparing.wait(0.01)
+    preparing.want([job("c")], soon=True)
+    preparing.want([job("x")], soon=True)
+    assert compiled(folder, preparing) == ["a", "x", "c", "b", "d"]
+
+
+def test_two_processes_compile_no_kernel_twice(folder, make):
+    preparing = make(2)
+    shared = ["shared1", "shared2"]
+    preparing.want([job(*shared, f"own{i}", takes=0.05) for i in range(8)])
+    found = compiled(folder, preparing)
+    assert sorted(found) == sorted([*shared, *(f"own{i}" for i in range(8))])
+
+
+def test_while_somebody_paints_one_process_works_unless_a_job_is_waited_for(folder, make):
+    preparing = make(2)
+    preparing.painting(True)
+    preparing.want([job(f"k{i}", takes=0.1) for i in range(6)])
+    most = 0
+    while preparing.busy:
+        preparing.wait(0.05)
+        most = max(most, len(preparing._working))
+    assert most == 1
+    preparing.want([job("u1", takes=0.5), job("u2", takes=0.5)], soon=True)
+    while preparing.busy:
+        preparing.wait(0.05)
+        most = max(most, len(preparing._working))
+    assert most == 2
+
+
+def test_a_process_that_dies_costs_its_job_and_no_other(folder, make):
+    preparing = make(2)
+    bad = job("bad", dies=True)
+    preparing.want([job("a"), bad, job("b"), job("c"), job("bad", "d")])
+    assert sorted(compiled(folder, preparing)) == ["a", "b", "bad", "c", "d"]
+    assert preparing.ready(bad)
+    assert len(make.faults) == 1
+
+
+def test_what_is_ready_is_remembered(folder, make):
+    first, jobs = make(1), [job("a"), job("b")]
+    first.want(jobs)
+    compiled(folder, first)
+    second = make(1)
+    second.want(jobs)
+    assert not second.busy
+    assert second._threads == {}
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"for": 1}', '{"for": "STAMP", "ready": 3}', "\udc80"])
+def test_a_note_that_is_damaged_or_of_another_version_is_nothing(folder, make, text):
+    note = folder / module.NOTE
+    note.write_bytes(text.replace("STAMP", module.stamp()).encode(errors="surrogateescape"))
+    preparing = make(1)
+    preparing.want([job("a")])
+    assert compiled(folder, preparing) == ["a"]
+    assert json.loads(note.read_text())["for"] == module.stamp()
+
+
+def test_another_processor_or_numba_has_a_note_of_its_own(monkeypatch):
+    from llvmlite import binding
+
+    first = module.stamp()
+    assert module.stamp() == first
+    with monkeypatch.context() as patch:
+        patch.setattr(module, "version", lambda name: "0.1")
+        assert module.stamp() != first
+    monkeypatch.setattr(binding, "get_host_cpu_name", lambda: "i486")
+    assert module.stamp() != first
+
+
+def test_without_a_folder_to_write_to_nothing_waits(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "none"))
+    preparing = Preparing(1, program=("-c", "raise SystemExit(1)"))
+    preparing.want([job("a")])
+    assert not preparing.busy
+    assert preparing.ready(job("a"))
+
+
+def test_processes_that_cannot_start_leave_nothing_waiting(folder, make):
+    preparing = Preparing(2, make.faults.append, ("-c", "raise SystemExit(1)"))
+    preparing.want([job("a"), job("b"), job("c")])
+    end = time.monotonic() + 20.0
+    while preparing.busy and time.monotonic() < end:
+        preparing.wait(0.1)
+    assert not preparing.busy
+    preparing.close()
+
+
+KILLED = """
+import sys, time
+sys.path.insert(0, sys.argv[1])
+import engine
+from engine.studio.preparing import COMMIT, Preparing
+preparing = Preparing(1, gently=False)
+preparing.want([COMMIT])
+while preparing.count < 1:
+    preparing.wait(1.0)
+print(*(process.pid for process in preparing._running), flush=True)
+time.sleep(100)
+"""
+AFTER = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import engine
+from engine.kernel_cache import Watch, watched
+from engine.studio import exercise
+
+class Enough(Exception):
+    pass
+
+def missing(name):
+    print("missing", name)
+    raise Enough
+
+try:
+    with watched(Watch(missing)):
+        exercise.stamped()
+except Enough:
+    pass
+"""
+
+
+def _alive(pid):
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False
+    return text.rpartition(")")[2].split()[0] != "Z"
+
+
+@pytest.mark.timeout(280)
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks at processes in /proc")
+def test_a_preparation_that_is_killed_leaves_usable_kernels_and_no_process(tmp_path):
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    with subprocess.Popen(
+        [sys.executable, "-c", KILLED, str(ROOT)], env=environment, stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        children = [int(pid) for pid in process.stdout.readline().split()]
+        process.send_signal(signal.SIGKILL)
+    assert len(children) == 1
+    end = time.monotonic() + 10.0
+    while any(map(_alive, children)) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not any(map(_alive, children))
+    kept = {path.name for path in tmp_path.rglob("*.kernel")}
+    assert kept
+    done = subprocess.run(
+        [sys.executable, "-c", AFTER, str(ROOT)],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("missing ")
+    assert done.stdout.split()[1] not in kept  # the first that it had to compile is one that comes after these

@@ -1,0 +1,214 @@
+"""What waits for a kernel keeps its place: the order of commands is that in which they were asked for."""
+
+from types import SimpleNamespace
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from engine.brush.settings import Brush
+from engine.kernel_cache import NotCompiled
+from engine.painting import commands as c
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.waiting import Waiting
+
+PLAIN, ROCK = Brush(), Brush(radius=3.0, hardness=0.5)
+
+
+class Kernels:
+    """In place of `Preparing`: kernels come when a test says so."""
+
+    def __init__(self):
+        self.busy, self.count, self.there, self.jobs, self.done = True, 0, set(), [], set()
+        self.closed = False
+
+    def want(self, jobs, soon=False):
+        self.jobs += [(job, soon) for job in jobs]
+
+    def ready(self, job):
+        return not self.busy or job in self.done
+
+    def painting(self, painting):
+        pass
+
+    def come(self, *names):
+        self.there.update(names)
+        self.count += 1
+
+    def close(self):
+        self.closed, self.busy = True, False
+
+
+class Easel:
+    """In place of the studio and its easel: writes down what is done, and lacks kernels."""
+
+    due = None
+    behind = False
+
+    def __init__(self, kernels):
+        self.kernels, self.easel, self.live, self.log = kernels, self, None, []
+        self.viewer, self.lab = SimpleNamespace(pending=0, changed=lambda where: None), SimpleNamespace(pending=0)
+        self.pending, self.swatches = 0, []
+
+    def do(self, request):
+        match request:
+            case q.Begin():
+                self._need(f"begin {request.brush.radius}")
+                self.live = [request.brush.radius]
+            case q.Points() if self.live is not None:
+                self.live.append("half laid")
+                self._need(f"lay {self.live[0]}")
+                self.live[-1] = float(request.points[0, 0])
+            case q.Finish() if self.live is not None:
+                live, self.live = self.live, None
+                self._need(f"commit {live[0]}")
+                self.log.append(tuple(live))
+            case q.Abandon():
+                self.live = None
+            case q.Swatch():
+                self._need(f"begin {request.brush.radius}")
+                self.swatches.append(request.ident)
+            case q.Do():
+                self._need("do")
+                self.log.append(request.command)
+            case q.Save():
+                self.log.append(request.path)
+
+    def _need(self, name):
+        if self.kernels.busy and name not in self.kernels.there:
+            raise NotCompiled(name)
+
+    def step(self):
+        return False
+
+    def close(self):
+        self.log.append("closed")
+
+
+def made():
+    kernels, sent = Kernels(), []
+    easel = Easel(kernels)
+    return kernels, easel, Waiting(easel, kernels, sent.append), sent
+
+
+def points(x):
+    return q.Points(np.full((1, 6), float(x)))
+
+
+def stroke(brush, *xs):
+    return [q.Begin(0, (0, 0), brush), *map(points, xs), q.Finish()]
+
+
+def test_a_later_stroke_whose_kernels_are_there_is_committed_after_one_that_waits():
+    kernels, easel, waiting, _ = made()
+    kernels.come("begin 12.0", "lay 12.0", "commit 12.0")
+    for request in [*stroke(ROCK, 1, 2), *stroke(Brush(radius=12.0), 3)]:
+        waiting.do(request)
+    assert easel.log == []
+    assert waiting.waits
+    for name in ("begin 3.0", "lay 3.0"):
+        kernels.come(name)
+        waiting.play()
+        assert easel.log == []
+    kernels.come("commit 3.0")
+    waiting.play()
+    assert easel.log == [(3.0, 1.0, 2.0), (12.0, 3.0)]
+    assert not waiting.waits
+
+
+def test_its_brush_jumps_the_queue():
+    kernels, _, waiting, _ = made()
+    waiting.do(q.Begin(0, (0, 0), ROCK))
+    job, soon = kernels.jobs[-1]
+    assert soon
+    assert '"radius": 3.0' in job.line
+
+
+def test_a_stroke_that_could_be_laid_stays_in_sight_until_it_can_be_committed():
+    kernels, easel, waiting, _ = made()
+    kernels.come("begin 3.0", "lay 3.0")
+    for request in stroke(ROCK, 1, 2):
+        waiting.do(request)
+    assert easel.live == [3.0, 1.0, 2.0]
+    kernels.come("commit 3.0")
+    waiting.play()
+    assert easel.log == [(3.0, 1.0, 2.0)]
+
+
+def test_the_pen_may_still_be_down_when_the_kernels_come():
+    kernels, easel, waiting, _ = made()
+    for request in stroke(ROCK, 1, 2)[:-1]:
+        waiting.do(request)
+    kernels.come("begin 3.0", "lay 3.0", "commit 3.0")
+    waiting.play()
+    assert easel.live == [3.0, 1.0, 2.0]
+    waiting.do(points(3))
+    waiting.do(q.Finish())
+    assert easel.log == [(3.0, 1.0, 2.0, 3.0)]
+
+
+def test_what_its_exercise_left_out_is_compiled_in_the_end():
+    kernels, easel, waiting, _ = made()
+    for request in stroke(ROCK, 1):
+        waiting.do(request)
+    kernels.busy = False
+    waiting.play()
+    assert easel.log == [(3.0, 1.0)]
+
+
+def test_closing_does_what_waits():
+    kernels, easel, waiting, _ = made()
+    for request in [*stroke(ROCK, 1), q.Save("p.ora")]:
+        waiting.do(request)
+    waiting.close()
+    assert kernels.closed
+    assert easel.log == [(3.0, 1.0), "p.ora", "closed"]
+
+
+def test_swatches_wait_for_their_brushes_only():
+    kernels, easel, waiting, sent = made()
+    swatches = [q.Swatch(f"s{brush.radius}", brush, (8, 8)) for brush in (ROCK, PLAIN)]
+    waiting.do(q.Prepare(tuple(swatches)))
+    for swatch in swatches:
+        waiting.do(swatch)
+    assert not waiting.step()
+    assert easel.swatches == []
+    kernels.come(f"begin {PLAIN.radius}")
+    kernels.done.add(next(job for job, _ in kernels.jobs if f'"radius": {PLAIN.radius}' in job.line))
+    assert waiting.pending == 1
+    assert waiting.step()
+    assert easel.swatches == [f"s{PLAIN.radius}"]
+    assert not waiting.step()
+    assert results.Prepared(1, 2) in sent
+
+
+_requests = st.lists(
+    st.one_of(
+        st.builds(stroke, st.sampled_from([PLAIN, ROCK]), st.integers(0, 9), st.integers(0, 9)),
+        st.sampled_from([[q.Do(c.Undo())], [q.Save("p.ora")]]),
+    ),
+    max_size=8,
+).map(lambda groups: [request for group in groups for request in group])
+_names = [f"{what} {brush.radius}" for what in ("begin", "lay", "commit") for brush in (PLAIN, ROCK)] + ["do"]
+
+
+@given(_requests, st.permutations(_names), st.lists(st.integers(0, 12), min_size=7, max_size=7))
+def test_the_order_of_commands_is_kept_whenever_kernels_come(requests, names, pauses):
+    kernels, easel, waiting, _ = made()
+    left = iter(requests)
+    for name, pause in zip(names, pauses, strict=True):
+        for _, request in zip(range(pause), left, strict=False):
+            waiting.do(request)
+        kernels.come(name)
+        waiting.play()
+    for request in left:
+        waiting.do(request)
+    waiting.play()
+    assert not waiting.waits
+
+    plain = Easel(SimpleNamespace(busy=False))
+    for request in requests:
+        plain.do(request)
+    assert easel.log == plain.log
+    assert easel.live == plain.live
