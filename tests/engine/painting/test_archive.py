@@ -3,15 +3,15 @@
 import hashlib
 import io
 import json
-import threading
 import zipfile
 
 import numpy as np
 import pytest
+from archived import FRAME, assert_same, places, session_of_all, stroke
 from PIL import Image
 from sown import opened, rewritten
 
-from engine.archive import jobs, opening
+from engine.archive import opening
 from engine.archive.manifest import FORMAT
 from engine.archive.members import LOST
 from engine.archive.opening import open_painting
@@ -20,9 +20,7 @@ from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
-from engine.files.fault import Cancelled, FileError, WriteError
 from engine.files.stack_xml import parse_stack
-from engine.files.zip_writer import MemberSink
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
@@ -30,51 +28,10 @@ from engine.painting.rendering import strips
 from engine.session.apply import Painting
 from engine.session.session import Session
 
-FRAME = Rect.at(-40, 10, 300, 200)
-LEVELS = (-7, -3, 0, 1, 4, 60)
-
-
-def stroke(x, y, level=0, **more):
-    brush = {"radius": 30, "colour": "#c04020", "hardness": 0.5, **more}
-    return {"do": "stroke", "level": level, "origin": [x, y], "points": [[0, 0], [40, 25, 0.7]], "brush": brush}
-
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    """A painting with every kind of thing in it."""
-    folder = tmp_path_factory.mktemp("pictures")
-    y, x = np.mgrid[0:24, 0:40]
-    pixels = np.stack([x * 6, y * 10, x * 3 + y, 255 - x * 2], axis=-1).astype(np.uint8)
-    Image.fromarray(pixels).save(folder / "leaf.png")
-    session = Session(Painting(FRAME, 11), TileCache(64 << 20), folder=folder)
-    rock = [{"texture": "rock", "amount": 0.7, "colour": "#ffffff", "period": 24}]
-    deep = 60 << 60
-    for command in (
-        stroke(0, 60),
-        {"do": "layer", "add": "ink & <stone> “ü”"},
-        stroke(60, 80, ink=rock),
-        {"do": "texture", "name": "leaf", "maker": "image", "path": "leaf.png"},
-        {"do": "texture", "name": "fine", "maker": "stripes", "period": 6, "angle": 30},
-        {"do": "layer", "add": "Group", "kind": "group", "group": None},
-        {"do": "layer", "add": "inside", "group": "Group"},
-        stroke(
-            120, 100, ink=[{"texture": "leaf", "amount": 1, "period": 20}, {"texture": "fine", "colour": "#00ff00"}]
-        ),
-        {"do": "layer", "set": "Group", "opacity": 0.6, "blend": "multiply"},
-        {"do": "layer", "add": "hidden", "group": None},
-        stroke(20, 20, colour="#0000ff"),
-        {"do": "layer", "set": "hidden", "visible": False, "locked": True},
-        {"do": "layer", "add": "deep", "group": None},
-        stroke(10, 10, level=-4, radius=9),
-        stroke(deep, -deep, level=60, ink=rock),
-        stroke(30, 40, level=3, mode="erase", radius=100),
-        {"do": "layer", "add": "empty", "group": "Group"},
-        {"do": "layer", "set": "inside", "alpha_locked": True, "blend": "screen", "opacity": 0.123456789},
-        {"do": "layer", "select": "inside"},
-        stroke(-4, 6, level=-5, radius=3),
-    ):
-        session.do(c.parse(command))
-    return session
+    return session_of_all(tmp_path_factory.mktemp("pictures"))
 
 
 @pytest.fixture(scope="module")
@@ -82,37 +39,6 @@ def saved(session, tmp_path_factory):
     path = tmp_path_factory.mktemp("saved") / "a.ora"
     save(path, Snapshot(session.painting, session.recording()))
     return path
-
-
-def places(painting):
-    for level in LEVELS:
-        frame = painting.frame.zoomed(level)
-        yield level, Rect.at(frame.x0, frame.y0, min(frame.width, 200), min(frame.height, 150))
-    yield 60, Rect.at(60 << 60, -(60 << 60), 90, 70)
-    yield 62, Rect.at(60 << 62, -(60 << 62), 90, 70)
-
-
-def assert_same(one, other):
-    """Equal in every property, pixel and ink."""
-
-    def facts(painting):
-        return [
-            (type(n), n.id, n.name, n.opacity, n.visible, n.blend, n.locked, getattr(n, "alpha_locked", n))
-            if isinstance(n, layers.Layer)
-            else (type(n), n.id, n.name, n.opacity, n.visible, n.blend, n.locked, n.isolated)
-            for n in layers.walk(painting.root)
-        ]
-
-    assert facts(one) == facts(other)
-    assert (one.frame, one.seed, one.active) == (other.frame, other.seed, other.active)
-    assert {k: (t.kind, t.parameters) for k, t in one.textures.items()} == {
-        k: (t.kind, t.parameters) for k, t in other.textures.items()
-    }
-    for a, b in zip(layers.layers(one.root), layers.layers(other.root), strict=True):
-        for level, rect in places(one):
-            p, q = evaluate(a.pyramid, level, rect), evaluate(b.pyramid, level, rect)
-            assert p.inks == q.inks
-            assert np.array_equal(p.data, q.data), (a.name, level)
 
 
 # ---- ours ----
@@ -331,170 +257,6 @@ def test_a_recording_that_is_too_long_is_left_out(members, tmp_path):
     assert found.native
     assert found.recording is None
     assert "left out" in found.notes[0]
-
-
-# ---- what lies ----
-
-
-def altered(members, path, value):
-    manifest = json.loads(members["inkfall/manifest.json"])
-    place = manifest
-    for step in path[:-1]:
-        place = place[step]
-    if value is None:
-        del place[path[-1]]
-    else:
-        place[path[-1]] = value
-    return {"inkfall/manifest.json": json.dumps(manifest).encode()}
-
-
-LIES = {
-    "no frame": (("frame",), None),
-    "frame of text": (("frame",), "all"),
-    "endless frame": (("frame",), [0, 0, 1 << 50, 1]),
-    "other byte order": (("byteorder",), "big"),
-    "layer of unknown kind": (("layers", 0, "kind"), "mask"),
-    "layer without a name": (("layers", 0, "name"), ""),
-    "two layers of a name": (("layers", 0, "name"), "Group"),
-    "two layers of an id": (("layers", 0, "id"), 2),
-    "opacity 2": (("layers", 0, "opacity"), 2),
-    "mode": (("layers", 0, "blend"), "pigment"),
-    "visible maybe": (("layers", 0, "visible"), 1),
-    "active layer that is not there": (("active",), "nobody"),
-    "packs of text": (("layers", 0, "packs"), ["x"]),
-    "pack that is no member": (("layers", 0, "packs", 0, 0), "inkfall/none"),
-    "pack that is a picture": (("layers", 0, "packs", 0, 0), "mergedimage.png"),
-    "pack of fewer tiles": (("layers", 0, "packs", 0, 1), 1),
-    "pack of more bytes": (("layers", 0, "packs", 0, 2), 1 << 30),
-    "pack beyond all memory": (("layers", 0, "packs", 0, 2), 1 << 60),
-    "texture of unknown kind": (("textures", "leaf", "kind"), "marble"),
-    "texture without its picture": (("textures", "leaf", "picture"), "0" * 64),
-    "texture of period 0": (("textures", "fine", "parameters", "period"), 0),
-    "members of text": (("members",), "all"),
-}
-
-
-@pytest.mark.parametrize("name", LIES)
-def test_manifests_that_lie(members, tmp_path, name):
-    with pytest.raises(FileError) as caught:
-        opened(rewritten(members, altered(members, *LIES[name])), tmp_path)
-    assert str(caught.value).startswith(str(tmp_path / "x.ora") + ": ")
-    assert "\n" not in str(caught.value)
-    assert len(str(caught.value)) < 500
-
-
-def test_a_pack_twice_is_refused(members, tmp_path):
-    manifest = json.loads(members["inkfall/manifest.json"])
-    layer = next(v for v in manifest["layers"] if v.get("packs"))
-    layer["packs"] *= 2
-    data = rewritten(members, {"inkfall/manifest.json": json.dumps(manifest).encode()})
-    with pytest.raises(FileError, match="there twice"):
-        opened(data, tmp_path)
-
-
-def test_tiles_of_other_bytes_are_refused(members, tmp_path):
-    name = next(n for n in members if n.endswith(".tiles"))
-    other = bytearray(members[name])
-    other[-1] ^= 1
-    with pytest.raises(FileError, match="not those that the manifest names"):
-        opened(rewritten(members, {name: bytes(other)}), tmp_path)
-
-
-def test_a_recording_that_cannot_be_read_is_told_with_its_line(members, tmp_path):
-    text = members["inkfall/recording.jsonl"] + b'{"do": "stroke", "level": NaN}\n'
-    manifest = json.loads(members["inkfall/manifest.json"])
-    manifest["members"]["inkfall/recording.jsonl"] = [len(text), hashlib.sha256(text).hexdigest()]
-    changes = {"inkfall/recording.jsonl": text, "inkfall/manifest.json": json.dumps(manifest).encode()}
-    with pytest.raises(FileError, match=r"recording.jsonl.*line 22.*NaN"):
-        opened(rewritten(members, changes), tmp_path)
-
-
-def test_truncated_files_are_refused(saved, tmp_path):
-    data = saved.read_bytes()
-    for length in [*range(0, 200, 7), *range(200, len(data), len(data) // 40), len(data) - 1]:
-        with pytest.raises(FileError):
-            opened(data[:length], tmp_path)
-
-
-def test_flipped_bits_are_found(session, saved, tmp_path):
-    """A flipped bit is refused, or lies where nothing is read from; never a different painting."""
-    data = saved.read_bytes()
-    rng = np.random.default_rng(4)
-    refused = 0
-    for place in rng.integers(0, len(data), 60):
-        bad = bytearray(data)
-        bad[place] ^= 1 << int(rng.integers(8))
-        try:
-            found = opened(bytes(bad), tmp_path)
-        except FileError:
-            refused += 1
-            continue
-        if found.native:
-            assert_same(session.painting, found.painting)
-    assert refused > 30
-
-
-@pytest.mark.parametrize("name", ["missing.ora", "."])
-def test_places_that_are_no_file(tmp_path, name):
-    with pytest.raises(FileError, match=r"no such file|a folder"):
-        open_painting(tmp_path / name)
-
-
-# ---- saving ----
-
-
-def test_progress_and_threads(session, tmp_path):
-    """A save runs on any thread while painting goes on."""
-    seen = []
-    worker = Session(session.painting, TileCache(1 << 24))
-    snapshot = Snapshot(session.painting)
-    thread = threading.Thread(target=save, args=(tmp_path / "a.ora", snapshot, seen.append))
-    thread.start()
-    for i in range(3):
-        worker.do(c.parse(stroke(10 * i, 30)))
-    thread.join()
-    assert seen == sorted(seen)
-    assert seen[-1] == 1.0
-    assert_same(session.painting, open_painting(tmp_path / "a.ora").painting)
-
-
-@pytest.mark.parametrize("when", [0, 1, 5, 9])
-def test_a_cancelled_save_leaves_the_old_file(session, tmp_path, when):
-    path = tmp_path / "a.ora"
-    path.write_bytes(b"old")
-    asked = []
-
-    def cancelled():
-        asked.append(1)
-        return len(asked) > when
-
-    with pytest.raises(Cancelled):
-        save(path, Snapshot(session.painting), cancelled=cancelled)
-    assert path.read_bytes() == b"old"
-    assert [p.name for p in tmp_path.iterdir()] == ["a.ora"]
-
-
-def test_a_job_that_fails_leaves_the_old_file(session, tmp_path, monkeypatch):
-    path = tmp_path / "a.ora"
-    path.write_bytes(b"old")
-
-    def fail(*args):
-        raise MemoryError
-
-    monkeypatch.setattr(jobs, "pack", fail)
-    with pytest.raises(WriteError, match="not enough memory"):
-        save(path, Snapshot(session.painting))
-    assert path.read_bytes() == b"old"
-    assert [p.name for p in tmp_path.iterdir()] == ["a.ora"]
-
-
-def test_a_file_that_cannot_be_read_back_is_not_put_in_place(session, tmp_path, monkeypatch):
-    path = tmp_path / "a.ora"
-    written = MemberSink.write
-    monkeypatch.setattr(MemberSink, "write", lambda sink, data: written(sink, data) and sink._file.seek(-1, 1))
-    with pytest.raises(WriteError, match="cannot be read back"):
-        save(path, Snapshot(session.painting))
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_pending_attenuation_is_settled_in_the_file(session, saved):
