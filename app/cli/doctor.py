@@ -45,9 +45,16 @@ glfw.terminate()
 
 def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--prepare", action="store_true", help="compile what the brushes need, so that no start waits")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Prints what there is, or makes the brushes ready; returns the exit status."""
+    if options.prepare:
+        from app.cli.preparation import prepare
+
+        print(prepare())
+        return DONE
     found = examination()
     if options.json:
         print(json.dumps(found))

@@ -69,6 +69,13 @@ PLAIN = job_of(Swatch("", Brush(), (104, 44)))
 COMMIT, FILES = (Job(json.dumps({"kind": kind})) for kind in ("commit", "files"))
 
 
+def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
+    """The jobs of brushes, most likely first: those that grow examples last, and files after the first."""
+    listed = sorted(swatches, key=lambda swatch: swatch.brush.mode == "example")
+    jobs = tuple(dict.fromkeys(map(job_of, listed)))
+    return (*jobs[:1], FILES, *jobs[1:])
+
+
 class Preparing:
     """Works off jobs, those asked for with `soon` first, in as many processes as there are cores; one while somebody
     paints, unless a job is waited for.
@@ -122,6 +129,11 @@ class Preparing:
         """Whether a job is done, or will not be."""
         with self._signal:
             return job.key in self._ready or job.key in self._lost or not self._busy
+
+    def done(self, job: Job) -> bool:
+        """Whether it is done."""
+        with self._signal:
+            return job.key in self._ready
 
     @property
     def busy(self) -> bool:

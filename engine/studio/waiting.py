@@ -16,7 +16,7 @@ from engine.kernel_cache import NotCompiled, refusing
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.preparing import FILES, Job, Preparing, job_of
+from engine.studio.preparing import Job, Preparing, expected, job_of
 from engine.studio.studio import Studio
 
 POLL = 0.03  # seconds from one look at what has been compiled to the next
@@ -154,10 +154,9 @@ class Waiting:
     # --- swatches ----------------------------------------------------------------------------------------------------
 
     def _expect(self, request: q.Prepare) -> None:
-        """Brushes are to be made ready, those that paint before those that grow examples."""
-        last = sorted(request.swatches, key=lambda swatch: swatch.brush.mode == "example")
-        self._expected = tuple(job_of(swatch) for swatch in last)
-        self._preparing.want((*self._expected[:1], FILES, *self._expected))
+        """Brushes are to be made ready."""
+        self._preparing.want(expected(request.swatches))
+        self._expected = tuple(map(job_of, request.swatches))
         self._tell()
 
     def _swatch(self, request: q.Swatch) -> None:
