@@ -28,9 +28,13 @@ class Worker(Protocol):
     """What it needs of the engine's thread."""
 
     @property
-    def ready(self) -> bool: ...
+    def ready(self) -> bool:
+        """Tells whether results lie ready."""
+        ...
 
-    def turn(self, end: float | None) -> None: ...
+    def turn(self, end: float | None) -> None:
+        """Lets open work begin until `end`, as engine.studio.worker.Worker has it."""
+        ...
 
 
 class Pace:

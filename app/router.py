@@ -156,4 +156,5 @@ class Router:
 
     @property
     def panning_key(self) -> bool:
+        """Tells whether the key is down that makes every press pan."""
         return glfw.KEY_SPACE in self._keys

@@ -54,6 +54,7 @@ _COLOURS: dict[str, tuple[tuple[float, ...], float]] = {
 
 
 def vec(colour: tuple[float, ...], alpha: float = 1.0) -> ImVec4:
+    """Gives a colour as imgui takes it."""
     r, g, b = colour
     return ImVec4(r, g, b, alpha)
 

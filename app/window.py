@@ -163,6 +163,7 @@ class Window:
             self._files.close()
 
     def close(self) -> None:
+        """Drops the gesture in hand, and gives back pen, card and window."""
         self.router.cancel()
         self.pointers.close()
         backends.opengl3_shutdown()

@@ -152,6 +152,7 @@ class Locator(caching.UserProvidedCacheLocator):
         """Nothing: a folder that cannot be made is found out when a kernel is saved, and does no harm."""
 
     def get_source_stamp(self) -> str:
+        """Gives what the text of a kernel's module, and all that it imports, hash to."""
         return stamp(Path(self._py_file))
 
 

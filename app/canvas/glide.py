@@ -21,6 +21,7 @@ class Glide:
 
     @property
     def moving(self) -> bool:
+        """Tells whether the view is on its way."""
         return self._target is not None
 
     def zoom(self, view: View, levels: float, x: float, y: float) -> None:

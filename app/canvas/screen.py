@@ -38,6 +38,7 @@ class ScreenTile(NamedTuple):
     y: int
 
     def ancestor(self, levels: int) -> ScreenTile:
+        """Gives the tile that holds this one, so many levels coarser."""
         return ScreenTile(self.level - levels, self.x >> levels, self.y >> levels)
 
 

@@ -160,6 +160,7 @@ class View:
         return replace(self, mirrored=not self.mirrored, angle=-self.angle)
 
     def resized(self, width: int, height: int) -> View:
+        """Gives the same view on a screen of another size, framebuffer pixels."""
         return replace(self, width=width, height=height)
 
 

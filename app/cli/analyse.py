@@ -22,6 +22,7 @@ LAGS = 16  # displacements told of the autocorrelation
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument("image", metavar="IMAGE", help="a PNG, JPEG or TIFF, or the frame of a painting, .ora")
     parser.add_argument("--rect", type=area, metavar="X,Y,W,H", help="only this rectangle, in pixels of the image")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -41,6 +42,7 @@ def area(text: str) -> tuple[int, int, int, int]:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     checked_output(options.png, (".png",))
     pixels, notes = _read(options.image)
     height, width = pixels.shape[:2]

@@ -30,10 +30,12 @@ class Parser(argparse.ArgumentParser):
     """As the standard one, but an error is raised, in one line."""
 
     def error(self, message: str) -> NoReturn:
+        """Refuses the arguments in one line, where argparse would print its usage."""
         raise Refused(f"{message} (see {self.prog} --help)")
 
 
 def run_command(name: str, words: list[str]) -> int:
+    """Carries out a command of app.cli with its arguments; returns the exit status."""
     module = importlib.import_module(f"app.cli.{MODULES.get(name, name)}")
     parser = Parser(prog=f"inkfall {name}", description=module.__doc__, allow_abbrev=False)
     module.declare(parser)
@@ -86,12 +88,14 @@ def rectangle(text: str) -> Rectangle:
 
 
 def count(text: str) -> int:
+    """Reads a whole number from 0."""
     if not re.fullmatch(r"[0-9]{1,18}", text):
         raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number from 0")
     return int(text)
 
 
 def seed(text: str) -> int:
+    """Reads a seed."""
     if not re.fullmatch(r"[+-]?[0-9]{1,18}", text):
         raise argparse.ArgumentTypeError(f"found {text[:40]!r}, expected a whole number of up to 18 digits")
     return int(text)

@@ -14,10 +14,12 @@ TESTS = Path(__file__).resolve().parents[2] / "tests"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     _command().declare(parser)
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     status: int = _command().run(options)
     return status
 

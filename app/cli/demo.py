@@ -19,6 +19,7 @@ FOLDER = "inkfall-demo"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument(
         "--out", metavar="DIR", help=f"write pictures into DIR (without a display: {FOLDER}), no window"
     )
@@ -26,6 +27,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     if options.out is None and not options.json and _in_window():
         return DONE
     return _in_pictures(Path(options.out or FOLDER), options.json)

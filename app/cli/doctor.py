@@ -44,6 +44,7 @@ glfw.terminate()
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--prepare", action="store_true", help="compile what the brushes need, so that no start waits")
 

@@ -31,6 +31,7 @@ PIXELS = 1 << 27  # of a region's picture
 
 
 def run(words: list[str]) -> int:
+    """Carries the command out; returns the exit status."""
     given = _parser().parse_args(words)
     checked_output(given.out, (".png",))
     _check_paths(given)

@@ -19,6 +19,7 @@ ENDINGS = (".png", ".tif", ".tiff", ".ora")
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument("painting", metavar="PAINTING.ora")
     parser.add_argument("out", metavar="OUT", help=" ".join(ENDINGS))
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="level, and rectangle in its pixels")
@@ -27,6 +28,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     ending = checked_output(options.out, ENDINGS)
     if ending == ".ora" and options.depth != 8:
         raise Refused("--depth: found 16 for an .ora, expected it for a picture")

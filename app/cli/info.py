@@ -21,11 +21,13 @@ WIDE = 2048  # pixels: how finely bounds are found
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument("painting", metavar="PAINTING.ora")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     told = facts(opened(options.painting, tell=not options.json))
     told = {"file": options.painting, "file_bytes": os.path.getsize(options.painting), **told}
     if options.json:

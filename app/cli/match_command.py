@@ -126,6 +126,7 @@ def whole(low: int, high: int) -> Any:
 
 
 def part(text: str) -> float:
+    """Reads a number from 0 to 1."""
     if not re.fullmatch(r"[0-9]{0,20}\.?[0-9]{0,20}", text) or text in ("", ".") or not 0.0 <= float(text) <= 1.0:
         raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected a number from 0 to 1")
     return float(text)
@@ -187,6 +188,7 @@ def _beginning(pattern: Pattern, start: Example | None, seed: int, size: tuple[i
 
 
 def thread_count() -> int:
+    """Gives how many threads matching takes here."""
     return min(os.cpu_count() or 1, MOST)
 
 
@@ -233,6 +235,7 @@ def pixels_of(colours: np.ndarray, bits: int) -> np.ndarray:
 
 
 def write(path: str, pixels: np.ndarray) -> None:
+    """Writes pixels (h, w, C) as a PNG, whole or not at all."""
     from engine.files.atomic import replacing
     from engine.files.png_writer import write_png
 
@@ -254,6 +257,7 @@ def told(given: argparse.Namespace, shape: Shape, pixels: np.ndarray) -> dict[st
 
 
 def tell(given: argparse.Namespace, facts: dict[str, Any]) -> None:
+    """Prints what came of it: as JSON if that was asked for."""
     if given.json:
         print(json.dumps(facts))
         return

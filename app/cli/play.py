@@ -16,6 +16,7 @@ from engine.brush.modes import MODES
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument("recording", metavar="RECORDING", help="a recording, .jsonl")
     parser.add_argument("--save", metavar="P.ora", help="write the painting")
     parser.add_argument("--png", metavar="P.png", help="write a picture of the frame, or of --rect")
@@ -31,6 +32,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     if options.rect is not None and options.png is None:
         raise Refused("--rect: found no --png, expected one to write the rectangle to")
     checked_output(options.save, (".ora",))

@@ -26,6 +26,7 @@ EACH = 64  # bytes of memory for each channel of a voxel
 
 
 def run(words: list[str]) -> int:
+    """Carries the command out; returns the exit status."""
     given = _parser().parse_args(words)
     write = _writer(given.out)
     checked_output(given.png, (".png",))

@@ -56,11 +56,13 @@ MATCHED = ("match", "mix", "solid")
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
     parser.add_argument("maker", metavar="MAKER", help=f"{_known()}; MAKER --help tells its options")
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="the maker's picture and options")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
     name = options.maker
     if name == "example":
         from app.cli import example_command

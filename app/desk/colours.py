@@ -12,6 +12,7 @@ MOST_CHROMA = 0.33  # of any sRGB colour
 
 
 def to_hex(rgb: RGB) -> str:
+    """Writes a colour as #rrggbb, each channel held to 0..1."""
     return "#" + "".join(f"{round(max(0.0, min(1.0, v)) * 255):02x}" for v in rgb)
 
 

@@ -122,6 +122,7 @@ class Desk:
         return left, top, self.view.width - right, self.view.height - bottom
 
     def middle(self) -> tuple[float, float]:
+        """Gives the middle of what no panel covers, framebuffer pixels."""
         x0, y0, x1, y1 = self.free_area()
         return (x0 + x1) / 2, (y0 + y1) / 2
 

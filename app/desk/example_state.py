@@ -69,6 +69,7 @@ class Entry:
 
     @property
     def ident(self) -> str:
+        """Tells this entry from all others of the palette."""
         if self.here is not None:
             return f"here {self.name}"
         return f"{'own' if self.own else 'bundled'} {self.name}"
@@ -188,6 +189,7 @@ class ExampleState:
 
     @property
     def entry(self) -> Entry | None:
+        """Gives the entry that is chosen; None if there is none."""
         return next((entry for entry in self.entries if entry.ident == self.chosen), None)
 
     @property
@@ -196,9 +198,11 @@ class ExampleState:
         return self.regions.get(self.chosen)
 
     def groups(self) -> list[str]:
+        """Gives the groups of the palette, in its order."""
         return list(dict.fromkeys(entry.group for entry in self.entries))
 
     def listed(self) -> list[Entry]:
+        """Gives the entries of the group that is listed."""
         return [entry for entry in self.entries if self.group in (ALL, entry.group)]
 
     # --- the region --------------------------------------------------------------------------------------------------

@@ -43,6 +43,7 @@ class LabState:
     _since: float = 0.0
 
     def change(self, **changes: Any) -> None:
+        """Sets members of what is made."""
         self.made = replace(self.made, **changes)
 
     def shape(self, index: int, name: str, value: Any) -> None:

@@ -55,10 +55,12 @@ class MatchState:
 
     @property
     def mixing(self) -> bool:
+        """Tells whether there is a second example."""
         return self.examples[1] is not None
 
     @property
     def maker(self) -> str:
+        """Names the maker that what is set needs."""
         return "mix" if self.mixing else "match"
 
     @property
@@ -90,9 +92,11 @@ class MatchState:
             self.examples = [self.examples[1], None]
 
     def show_file(self, index: int, path: Path) -> None:
+        """Takes a picture file as example 0 or 1."""
         self.show(index, Map({"path": str(path.absolute())}))
 
     def show_area(self, index: int, level: int, rect: Rect) -> None:
+        """Takes a rectangle of the canvas as example 0 or 1."""
         self.show(index, Map({"rect": (level, rect.x0, rect.y0, rect.width, rect.height)}))
 
     def dropped(self, path: Path, x: float, y: float) -> bool:

@@ -56,6 +56,7 @@ def moved(stops: Stops, i: int, place: float) -> Stops:
 
 
 def recoloured(stops: Stops, i: int, colour: str) -> Stops:
+    """Gives the ramp with another colour at stop `i`."""
     return (*stops[:i], (stops[i][0], colour), *stops[i + 1 :])
 
 

@@ -26,6 +26,7 @@ class TakeStock(FileWork):
     """Reads all that comes along, and all of the artist's own."""
 
     def carry_out(self) -> Stock:
+        """Reads presets, papers and examples, those that come along and the artist's own."""
         bundled, faults = presets.load(presets.bundled_folder())
         own, more = presets.load(presets.own_folder())
         papers, torn = presets.load_papers(presets.papers_folder())
@@ -35,6 +36,7 @@ class TakeStock(FileWork):
         return Stock((*bundled, *own), tuple(papers), tuple(examples), (*faults, *more, *torn, *bad, *lost))
 
     def arrive(self, desk: Desk, found: Stock) -> None:
+        """Puts what was found on the desk."""
         desk.learn(presets=found.presets or (presets.DEFAULT,), papers=found.papers)
         desk.examples.entries = found.examples
         gather(desk)
@@ -43,6 +45,7 @@ class TakeStock(FileWork):
             desk.say(fault, bad=True)
 
     def fail(self, desk: Desk, fault: str) -> None:
+        """Goes on with the one brush that needs no file, and says why."""
         desk.learn(presets=(presets.DEFAULT,))
         _first(desk)
         desk.say(fault, bad=True)

@@ -55,6 +55,7 @@ class GlfwPointer:
         self._add("wheel", *self._where(), dx=dx, dy=dy)
 
     def events(self) -> list[PenEvent]:
+        """Gives what came since the last call, in order."""
         queue, self._queue = self._queue, []
         return queue
 

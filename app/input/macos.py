@@ -54,9 +54,11 @@ class MacPointer:
         return None
 
     def events(self) -> list[PenEvent]:
+        """Gives what came since the last call, in order."""
         out = list(self._queue)
         self._queue.clear()
         return out
 
     def close(self) -> None:
+        """Stops listening."""
         self._kit.NSEvent.removeMonitor_(self._monitor)

@@ -113,9 +113,11 @@ class WindowsPointer:
         self._wake()
 
     def events(self) -> list[PenEvent]:
+        """Gives what came since the last call, in order."""
         out = list(self._queue)
         self._queue.clear()
         return out
 
     def close(self) -> None:
+        """Gives the window its own procedure back."""
         self._user.SetWindowLongPtrW(self._window, _WINDOW_PROCEDURE, self._old)

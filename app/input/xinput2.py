@@ -144,10 +144,12 @@ class Device:
 
     @property
     def pen(self) -> bool:
+        """Tells whether it feels pressure."""
         return any(axis.role == "pressure" for axis in self.axes.values())
 
     @property
     def eraser(self) -> bool:
+        """Tells whether it is a pen's other end, which only its name says."""
         return "eraser" in self.name.lower()
 
     def take(self, values: dict[int, float]) -> None:
@@ -340,6 +342,7 @@ class XInput2Pointer:
         self._lib.x.XFreeEventData(self._display, cookie)
 
     def events(self) -> list[PenEvent]:
+        """Gives what came since the last call, in order."""
         out = []
         while self._queue:
             out.append(self._queue.popleft())

@@ -66,6 +66,7 @@ class Layout:
             self.strip.wants(desk, now)
 
     def draw(self, desk: Desk, pointer_name: str) -> None:
+        """Draws it into the present window."""
         self._covered = []
         top = self._menu(desk)
         bottom = self._status(desk, pointer_name) if desk.panels else 0.0

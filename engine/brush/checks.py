@@ -40,12 +40,14 @@ def integer(value: Any, place: str, lo: int, hi: int) -> int:
 
 
 def text(value: Any, place: str, what: str = "a name", cap: int = TEXT_CAP) -> str:
+    """Returns the text; BrushError if it is none, or has other than printable characters."""
     if not isinstance(value, str) or not 0 < len(value) <= cap or _UNPRINTABLE.search(value):
         raise BrushError(place, described(value), f"{what}, a text of 1 to {cap} printable characters")
     return value
 
 
 def one_of(value: Any, place: str, names: tuple[str, ...]) -> str:
+    """Returns the name; BrushError if it is none of `names`."""
     if not isinstance(value, str) or value not in names:
         raise BrushError(place, described(value), f"one of {', '.join(names)}")
     return value

@@ -71,14 +71,17 @@ class Covered:
 
     @property
     def level(self) -> int:
+        """Gives the level of the stroke."""
         return self.coverage.level
 
     @property
     def tiles(self) -> tuple[TileKey, ...]:
+        """Gives the tiles that the stroke covers a part of."""
         return self.coverage.keys
 
     @property
     def rect(self) -> Rect:
+        """Gives a rectangle outside which nothing is covered."""
         return self.coverage.rect
 
     @property

@@ -16,5 +16,6 @@ class Erasing(Covered):
     """Takes away colour, alpha, ink and all finer detail.  Under alpha lock there is nothing it may take."""
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
         keep = None if self.locked else self.keep(key)
         return None if keep is None else Stamp(keep, _NOTHING, plain=True)

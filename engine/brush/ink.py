@@ -37,7 +37,9 @@ _MEMO = 96  # tiles of textured colour kept: 18 MB
 class Texture(Protocol):
     """A texture that a recording defined under a name.  A plain `ImageSource` may stand in its place."""
 
-    def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance: ...
+    def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance:
+        """Makes the instance of a base level, with the parameters that the ink gives anew."""
+        ...
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -60,6 +62,7 @@ class Ink:
 
     @property
     def inks(self) -> tuple[Instance, ...]:
+        """Gives the instances that add planes, in the order of these."""
         return tuple(part.instance for part in self.loaded)
 
     @cached_property

@@ -24,7 +24,9 @@ class Stain(Protocol):
     """Another colour that some of the paint turns to: `colour`, float32 (3,), encoded sRGB."""
 
     @property
-    def colour(self) -> np.ndarray: ...
+    def colour(self) -> np.ndarray:
+        """Gives what the paint turns to: premultiplied float32 (4,)."""
+        ...
 
     def part(self, key: TileKey) -> np.ndarray | None:
         """How much of a tile's paint turns to it, 0..1: float32 (128, 128); None where nothing does."""

@@ -42,6 +42,7 @@ class Operating(Covered):
 
     @cached_property
     def op(self) -> ops.Chosen:
+        """Gives what the brush's `op` says."""
         return ops.chosen(self.brush.op)
 
     @cached_property
@@ -56,6 +57,7 @@ class Operating(Covered):
 
     @cached_property
     def mixture(self) -> Mixture:
+        """Gives the textures of the brush, mixed."""
         return Mixture(self.ink if self.brush.ink else None, self.level)
 
     @cached_property

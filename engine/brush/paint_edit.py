@@ -31,6 +31,7 @@ class Painting(Covered):
 
     @staticmethod
     def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
+        """Returns the brush's ink, as `Covered.ink_of`."""
         return resolve(brush, textures, level, seed)
 
     @staticmethod
@@ -39,6 +40,7 @@ class Painting(Covered):
         return Looks(pressure=ink is not None and bool(ink.swayed))
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
         assert self.ink is not None
         covered = self.coverage.tiles.get(key)
         alike = covered if isinstance(covered, float) and not self.ink.loaded and not self.locked else None

@@ -36,6 +36,7 @@ class Component:
 
     @property
     def rgb(self) -> tuple[float, float, float]:
+        """Gives the colour as three numbers 0..1."""
         return checks.rgb(self.colour)
 
 
@@ -70,6 +71,7 @@ class Edge:
 
     @property
     def rgb(self) -> tuple[float, float, float]:
+        """Gives the colour as three numbers 0..1; black where there is none."""
         return checks.rgb(self.colour or "#000000")
 
 
@@ -88,6 +90,7 @@ class Tip:
 
 
 def ink(value: Any, place: str) -> tuple[Component, ...]:
+    """Reads a brush's ink.  BrushError names what is wrong."""
     if not isinstance(value, list | tuple) or len(value) > COMPONENTS_CAP:
         raise BrushError(place, described(value), f"a list of at most {COMPONENTS_CAP} components")
     return tuple(_component(part, f"{place}[{i}]") for i, part in enumerate(value))
@@ -106,6 +109,7 @@ def _component(value: Any, place: str) -> Component:
 
 
 def ink_json(components: tuple[Component, ...]) -> list[dict[str, Any]]:
+    """Tells a brush's ink as JSON; `ink` is the inverse."""
     return [
         {"texture": part.texture, "amount": part.amount, "colour": part.colour}
         | _given("shaping", part.shaping)
@@ -143,6 +147,7 @@ def surface(value: Any, place: str) -> Surface:
 
 
 def surface_json(part: Surface) -> Any:
+    """Tells a density or grain as JSON."""
     rest: dict[str, Any] = {} if part.amount == 1.0 else {"amount": part.amount}
     rest |= _given("shaping", part.shaping) | ({"level": part.level} if part.level else {})
     rest |= checks.thawed(part.parameters)
@@ -170,6 +175,7 @@ def edge(value: Any, place: str) -> Edge:
 
 
 def edge_json(part: Edge) -> Any:
+    """Tells an edge as JSON."""
     rest: dict[str, Any] = {} if part.width == 0.5 else {"width": part.width}
     rest |= {} if part.amount == 1.0 else {"amount": part.amount}
     rest |= _given("colour", part.colour) | checks.thawed(part.extra)
@@ -191,12 +197,14 @@ def tip(value: Any, place: str) -> Tip:
 
 
 def tip_json(part: Tip) -> Any:
+    """Tells a tip as JSON."""
     rest = ({} if part.source == "sample" else {"from": part.source}) | _given("shaping", part.shaping)
     rest |= checks.thawed(part.parameters)
     return {"texture": part.texture, **rest} if rest else part.texture
 
 
 def flag(value: Any, place: str) -> bool:
+    """Returns true or false; BrushError for anything else."""
     if not isinstance(value, bool):
         raise BrushError(place, described(value), "true or false")
     return value

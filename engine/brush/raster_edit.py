@@ -29,6 +29,7 @@ class Raster(Operating):
 
     @staticmethod
     def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
+        """Returns the mixture of textures that the op takes, as `Covered.ink_of`."""
         return mixture(brush, textures, level, seed)
 
     @staticmethod
@@ -41,9 +42,11 @@ class Raster(Operating):
 
     @property
     def spares_alpha(self) -> bool:
+        """Tells whether alpha stays as it is: under alpha lock, and for ops that lay no paint."""
         return self.locked or self.op.row is None or not self.op.row.lays
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
         covered = plane(self.coverage, key)
         if covered is None:
             return None

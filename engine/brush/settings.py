@@ -44,6 +44,7 @@ class Setting:
     logarithmic: bool = False
 
     def clamped(self, value: float) -> float:
+        """Gives the nearest value that the setting may have; its default for NaN."""
         return min(max(float(value), self.lo), self.hi) if value == value else self.default
 
 
@@ -144,6 +145,7 @@ class Brush:
 
     @property
     def rgb(self) -> tuple[float, float, float]:
+        """Gives the colour as three numbers 0..1."""
         return checks.rgb(self.colour)
 
 

@@ -22,6 +22,7 @@ class Smoothing(Covered):
     """
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
+        """Returns A and B of a tile, as `Edit.stamp`; None where nothing changes."""
         assert self.read is not None
         keep = self.keep(key)
         if keep is None:

@@ -35,7 +35,9 @@ class Edit(Protocol):
     """A change of some tiles of one level."""
 
     @property
-    def level(self) -> int: ...
+    def level(self) -> int:
+        """Gives the level of the pixels that it changes."""
+        ...
 
     @property
     def tiles(self) -> Sequence[TileKey]:

@@ -56,6 +56,7 @@ def curve_of(component: Component, place: str) -> checks.Knots | None:
 
 
 def at_weight(component: Component, weight: float) -> Component:
+    """Gives a component of a series at another weight, 0..1."""
     return replace(component, parameters=component.parameters.set("weight", weight))
 
 

@@ -21,10 +21,12 @@ Span = tuple[int, int, int, int, int]
 
 
 def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:
+    """Does what the kernel of that name in `kernels` does."""
     return bool(data[first_plane:last_plane, first:last].any())
 
 
 def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
+    """Does what the kernel of that name in `kernels` does."""
     out[3, first:last] = np.minimum(np.maximum(out[3, first:last], _ZERO), _ONE)
 
 
@@ -39,6 +41,7 @@ def add_residual(
     width: int,
     planes: np.ndarray,
 ) -> None:
+    """Does what the kernel of that name in `kernels` does."""
     for c, source in enumerate(planes.tolist()):
         if source >= 0:
             part = data[source, row : row + height, column : column + width]
@@ -55,6 +58,7 @@ def apply_stamp(
     new: np.ndarray,
     changed: np.ndarray,
 ) -> bool:
+    """Does what the kernel of that name in `kernels` does."""
     for c, source in enumerate(planes.tolist()):
         if c == 3 and spares_alpha:
             new[c] = old[c]
@@ -70,6 +74,7 @@ def apply_stamp(
 
 
 def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
+    """Does what the kernel of that name in `kernels` does."""
     height, width = fine.shape[1] // 2, fine.shape[2] // 2
     for c, source in enumerate(planes.tolist()):
         part = out[c, top : top + height, left : left + width]
@@ -82,12 +87,14 @@ def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left:
 
 
 def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
+    """Does what the kernel of that name in `kernels` does."""
     height, width = fine.shape[0] // 2, fine.shape[1] // 2
     rows = fine[: 2 * height : 2] | fine[1 : 2 * height : 2]
     out[top : top + height, left : left + width] = rows[:, : 2 * width : 2] | rows[:, 1 : 2 * width : 2]
 
 
 def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
+    """Does what the kernel of that name in `kernels` does."""
     used = marks != 0
     return _span(np.atleast_1d(used.any(axis=1)), np.atleast_1d(used.any(axis=0)))[1:]
 
@@ -102,6 +109,7 @@ def climb(
     new: np.ndarray,
     changed: np.ndarray,
 ) -> bool:
+    """Does what the kernel of that name in `kernels` does."""
     on = parents != 0
     keep[~on] = _ONE
     rest = old - below_old
@@ -116,10 +124,12 @@ def climb(
 
 
 def differs(old: np.ndarray, new: np.ndarray, out: np.ndarray) -> None:
+    """Does what the kernel of that name in `kernels` does."""
     out[...] = (old != new).any(axis=0)
 
 
 def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
+    """Does what the kernel of that name in `kernels` does."""
     y = np.arange(out.shape[0])
     row, columns = top + 1 + y // 2, slice(left, left + out.shape[1] // 2 + 2)
     both = parents[row, columns] | parents[row + 2 * (y & 1) - 1, columns]
@@ -131,6 +141,7 @@ def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
 def residual(
     value: np.ndarray, predicted: np.ndarray, touched: np.ndarray, top: int, left: int, out: np.ndarray
 ) -> bool:
+    """Does what the kernel of that name in `kernels` does."""
     height, width = touched.shape
     part = out[:, top : top + height, left : left + width]
     new = np.where(touched != 0, ((value - predicted) * _COUNT).astype(np.int32), part)
@@ -149,6 +160,7 @@ def first_residual(
     out: np.ndarray,
     used: np.ndarray,
 ) -> Span:
+    """Does what the kernel of that name in `kernels` does."""
     height, width = touched.shape
     for c, source in enumerate(planes.tolist()):
         predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
@@ -157,6 +169,7 @@ def first_residual(
 
 
 def extent(data: np.ndarray, used: np.ndarray) -> Span:
+    """Does what the kernel of that name in `kernels` does."""
     sizes = np.abs(data)
     rows = np.bitwise_or.reduce(sizes, axis=2)
     used[...] = np.bitwise_or.reduce(rows, axis=1)

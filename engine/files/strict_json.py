@@ -113,9 +113,11 @@ class Fields:
         return self._members
 
     def at(self, name: str) -> str:
+        """Gives the place of a member, for messages."""
         return f"{self.place}.{name}" if self.place else name
 
     def fault(self, name: str, expected: str) -> FieldError:
+        """Makes the error that names a member, what was found there and what was expected."""
         found = described(self._members[name]) if name in self._members else "nothing"
         return FieldError(self.at(name), found, expected)
 
@@ -129,6 +131,7 @@ class Fields:
         return self._members[name]
 
     def integer(self, name: str, default: Any = REQUIRED, *, lo: int, hi: int) -> Any:
+        """Returns an integer of lo..hi; the default where it is missing.  FieldError for anything else."""
         expected = f"an integer{_range(lo, hi)}"
         value = self.take(name, default, expected)
         if name in self._members and not (is_integer(value) and lo <= value <= hi):
@@ -146,6 +149,7 @@ class Fields:
         return float(value) + 0.0  # no negative zero
 
     def flag(self, name: str, default: Any = REQUIRED) -> Any:
+        """Returns true or false; the default where it is missing.  FieldError for anything else."""
         value = self.take(name, default, "true or false")
         if name in self._members and not isinstance(value, bool):
             raise self.fault(name, "true or false")
@@ -178,6 +182,7 @@ class Fields:
 
 
 def is_name(value: Any, cap: int = NAME_CAP) -> bool:
+    """Tells whether a value may name a layer or texture: a text, not too long, that stack.xml can hold."""
     return isinstance(value, str) and 0 < len(value) <= cap and not _UNPRINTABLE.search(value)
 
 

@@ -45,6 +45,7 @@ class Layout:
     tags: dict[str, tuple[int, ...]]
 
     def one(self, tag: str, default: int | None = None) -> int:
+        """Gives the single value of a tag; `default` where it is missing.  FileError if there is none, or several."""
         values = self.tags.get(tag, ())
         if not values:
             if default is None:
@@ -54,18 +55,22 @@ class Layout:
 
     @property
     def size(self) -> tuple[int, int]:
+        """Gives (width, height) in pixels."""
         return self.one("ImageWidth"), self.one("ImageLength")
 
     @property
     def bits(self) -> tuple[int, ...]:
+        """Gives the bits of each sample."""
         return self.tags.get("BitsPerSample", (1,))
 
     @property
     def samples(self) -> int:
+        """Counts the samples of a pixel."""
         return self.one("SamplesPerPixel", 1)
 
     @property
     def tiled(self) -> bool:
+        """Tells whether pixels lie in tiles, not strips."""
         return "TileOffsets" in self.tags
 
     @property

@@ -33,6 +33,7 @@ class Post:
         return self._lines.get()
 
     def tell(self, **told: object) -> None:
+        """Writes one line of JSON to the program that started this one, if it still listens."""
         try:
             self._target.write(json.dumps(told) + "\n")
             self._target.flush()

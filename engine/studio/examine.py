@@ -33,9 +33,11 @@ class Examiner(Owned):
 
     @property
     def pending(self) -> bool:
+        """Tells whether there is something left to find."""
         return self._work is not None
 
     def step(self) -> None:
+        """Finds and sends the next fact."""
         found = None
         try:
             found = next(self._work) if self._work is not None else None

@@ -39,6 +39,7 @@ class Grower(Owned):
 
     @property
     def pending(self) -> bool:
+        """Tells whether something is left to grow, or to tell."""
         return self._told is not None or self._open
 
     @property
@@ -67,6 +68,7 @@ class Grower(Owned):
             self._tell()
 
     def close(self) -> None:
+        """Ends the threads, whatever they are at."""
         self._steps = None  # ends what threads are at
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)

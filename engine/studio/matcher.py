@@ -63,6 +63,7 @@ class Matcher(Owned):
 
     @property
     def pending(self) -> bool:
+        """Tells whether a texture is left to match, and may be now."""
         if self._wanted:
             return not self._wanted[0].finished or self._easel.live is None
         return self._preview is not None and not self._preview.finished

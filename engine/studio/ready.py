@@ -15,6 +15,7 @@ _EVERY = 8  # of a curve's 1025 table entries the window gets one in so many
 
 
 def ready() -> Ready:
+    """Returns the tables' rows, as the window is told them."""
     return Ready(
         tuple((row.name, row.label, row.tooltip) for row in BLENDS.values()),
         tuple(KINDS.values()),

@@ -91,5 +91,6 @@ class Sight(Owned):
 
 
 def tile_rect(key: Key) -> Rect:
+    """Gives the pixels that a screen tile covers."""
     _, x, y = key
     return Rect.at(x * q.SCREEN_TILE, y * q.SCREEN_TILE, q.SCREEN_TILE, q.SCREEN_TILE)

@@ -204,6 +204,7 @@ class Waiting:
         return soon if due is None else min(due, soon)
 
     def play(self) -> None:
+        """Plays the next piece of a recording, unless commands wait."""
         self._again()
         if self._studio.due is not None and self._studio.due <= time.monotonic() and not self._queue:
             self._studio.play()

@@ -73,6 +73,7 @@ class BrushPanel:
             desk.post(Swatch("brush", brush, size, textures=palette.lacking(desk), soon=True))
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         self._tools(desk)
         shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
         self._saving.draw(desk)

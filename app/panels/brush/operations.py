@@ -43,6 +43,7 @@ class Operations:
         self._fault: FormulaError | None = None
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         op = desk.hand.brush.op
         own = not isinstance(op, str) and "formula" in op
         name = "formula" if own else op if isinstance(op, str) else str(op["name"])

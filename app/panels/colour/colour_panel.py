@@ -24,6 +24,7 @@ class ColourPanel:
         self._text = ""
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         if not w.section("Colour"):
             return
         self._wheel(desk)

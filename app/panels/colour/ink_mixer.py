@@ -38,6 +38,7 @@ class InkPanel:
             desk.post(Swatch("ink near", plain, size, "fill", DEEPER, lacking, soon=True))
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         if not w.section("Ink mixer", "Textures in the paint; they show new detail as you zoom in"):
             return
         self._picture(desk)

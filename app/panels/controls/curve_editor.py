@@ -194,6 +194,7 @@ def shape_of(curve: Curve, rows: Rows) -> Knots:
 
 
 def title_of(curve: Curve, rows: Rows) -> str:
+    """Gives what a curve is called: its row's title, or "own"."""
     if isinstance(curve, tuple):
         return "own"
     row = _row(curve, rows)

@@ -59,6 +59,7 @@ def _bringable(desk: Desk) -> dict[str, DefineTexture]:
 
 
 def label(desk: Desk, texture: str) -> str:
+    """Gives a texture's name as it is shown."""
     return texture.capitalize() if any(row.name == texture for row in desk.known.tables.kinds) else texture
 
 

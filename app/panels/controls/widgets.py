@@ -65,6 +65,7 @@ def icon_button(
 
 
 def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
+    """Draws a button with a text and a tooltip; tells whether it was pressed."""
     imgui.begin_disabled(not enabled)
     pressed = imgui.button(label, ImVec2(width, 0))
     imgui.end_disabled()

@@ -36,9 +36,11 @@ class Dialogs:
 
     @property
     def open(self) -> bool:
+        """Tells whether one is on the screen."""
         return self._open is not None
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         if desk.asked.dialog and self._open is None:
             self._open = DIALOGS[desk.asked.taken()](desk)
             imgui.open_popup("###dialog")
@@ -69,6 +71,7 @@ class NewPainting:
         self._width, self._height = 1280, 800
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         em = imgui.get_font_size()
         for i, (name, width, height) in enumerate(_SIZES):
             if i % 2:
@@ -100,6 +103,7 @@ class ExportDepth:
     title = "Export picture"
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         em = imgui.get_font_size()
         imgui.text_unformatted("Each level deeper doubles the picture, with new detail.")
         imgui.set_next_item_width(em * 20)
@@ -124,6 +128,7 @@ class Unsaved:
     title = "Unsaved changes"
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         then, going = desk.asked.then, False
         changed = desk.known.modified or desk.behind()
         if then is not None and not changed:  # nothing was, or it is saved by now
@@ -154,6 +159,7 @@ class Keys:
     title = "Keys"
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         rows = [
             ("Wheel", "Zoom about the pointer"),
             ("Space + drag, middle button", "Pan"),
@@ -181,6 +187,7 @@ class About:
     title = "About Inkfall"
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         em = imgui.get_font_size()
         imgui.push_text_wrap_pos(em * 28)
         imgui.text_unformatted(

@@ -41,6 +41,7 @@ class SystemDialog:
         self._dialog = make(title, str(start), filters)
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         imgui.text_unformatted("Choose a file in the other window")
         if not self._dialog.ready(0):
             return True
@@ -78,6 +79,7 @@ class Browser:
         self._folder, self._fault, self._sure = folder.absolute(), "", False
 
     def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window."""
         em = imgui.get_font_size()
         self._path_row(em)
         imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
@@ -159,21 +161,26 @@ def _folder(desk: Desk) -> Path:
 
 
 def opening(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a file to open."""
     return _chooser("Open", _folder(desk), OPENS, False, lambda d, path: d.post(Open(path)))
 
 
 def saving(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to save the painting."""
     stem = desk.known.path.stem if desk.known.path else "untitled"
     return _chooser("Save as", _folder(desk) / f"{stem}.ora", SAVES, True, lambda d, path: d.post(Save(path)))
 
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to export the picture."""
     stem = desk.known.path.stem if desk.known.path else "untitled"
     start, level = _folder(desk) / f"{stem}.png", desk.asked.export_level
     return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
 
 
 def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a picture to begin a spectrum with."""
+
     def choose(d: Desk, path: Path) -> None:
         d.lab.change(shapes=(Map({"shape": "image", "path": str(path.absolute())}),))
 
@@ -195,4 +202,5 @@ def choosing_own(desk: Desk) -> SystemDialog | Browser:
 
 
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a picture to paint with."""
     return _chooser("Paint with a picture", _folder(desk), PICTURES, False, pictured.from_file)

@@ -37,6 +37,7 @@ class RegionPanel:
     """Draws the strip's inside."""
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         state, region = desk.examples, desk.examples.region
         if region is None:
             return

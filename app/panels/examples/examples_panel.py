@@ -72,6 +72,7 @@ class ExamplesPanel(Panel):
             example_use.prepare(desk, now)
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         state = desk.examples
         state.spot = None
         if state.tab == "region" and state.region is None and _has_files(state.entry):

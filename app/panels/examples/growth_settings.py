@@ -75,6 +75,7 @@ class GrowthSettings:
     """Draws the strip's inside."""
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         entry = desk.examples.entry
         if entry is None:
             return

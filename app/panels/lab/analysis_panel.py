@@ -36,6 +36,7 @@ class AnalysisPanel(Panel):
         self.hears = {Found: self._heard}
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
         facts = min(14.5 * imgui.get_font_size(), room.x * 0.3)
         imgui.begin_child("facts", ImVec2(facts, 0))

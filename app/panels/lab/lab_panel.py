@@ -57,6 +57,7 @@ class LabPanel(Panel):
         return True
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         line, gap = imgui.get_frame_height_with_spacing(), imgui.get_style().item_spacing.x
         room = imgui.get_content_region_avail()
         side = min(room.y - line - 2, (room.x - 2 * gap) * 0.37)

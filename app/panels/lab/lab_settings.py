@@ -62,6 +62,7 @@ class LabSettings:
         self.on_window = False
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         self._shapes(desk)
         self._shape_numbers(desk)
         self._phase(desk)

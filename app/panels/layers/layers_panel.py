@@ -25,6 +25,7 @@ class LayersPanel:
         self._opacity: tuple[str, float] | None = None
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         if not w.section("Layers"):
             return
         rows = desk.known.scene.layers if desk.known.scene else ()

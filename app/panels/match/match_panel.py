@@ -52,6 +52,7 @@ class MatchingPanel(Panel):
         return desk.match.dropped(path, x, y)
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
         left = min(0.21 * room.x, 0.62 * room.y)
         middle = min(0.36 * room.x, room.y)

@@ -30,6 +30,7 @@ class MatchSettings:
         self._curves = CurveEditor()
 
     def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
         if desk.match.mixing:
             self._mixture(desk)
         self._subbands(desk)

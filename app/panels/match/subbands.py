@@ -44,6 +44,7 @@ def part_of(gain: float) -> float:
 
 
 def gain_of(part: float) -> float:
+    """Gives the gain at a part, 0..1, of a slider's way: 1 in the middle and close to it."""
     part = min(max(part, 0.0), 1.0)
     gain = 2.0 * part if part <= 0.5 else 2.0 ** (4.0 * part - 2.0)
     return 1.0 if abs(gain - 1.0) < 0.04 else round(gain, 2)
