@@ -230,6 +230,8 @@ def swap(desk: Desk, first: PenEvent) -> Gesture:
 
 
 class Tool(NamedTuple):
+    """A row of the table of tools."""
+
     title: str
     icon: str
     gesture: Callable[[Desk, PenEvent], Gesture]

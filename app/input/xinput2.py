@@ -28,6 +28,8 @@ _ROLES = {"Abs Pressure": "pressure", "Abs Tilt X": "tilt_x", "Abs Tilt Y": "til
 
 
 class EventMask(ct.Structure):
+    """XIEventMask of XInput2.h."""
+
     _fields_ = (("deviceid", ct.c_int), ("mask_len", ct.c_int), ("mask", ct.POINTER(ct.c_ubyte)))
 
 
@@ -53,10 +55,14 @@ class Event(ct.Union):
 
 
 class ButtonState(ct.Structure):
+    """XIButtonState of XInput2.h."""
+
     _fields_ = (("mask_len", ct.c_int), ("mask", ct.POINTER(ct.c_ubyte)))
 
 
 class ValuatorState(ct.Structure):
+    """XIValuatorState of XInput2.h."""
+
     _fields_ = (("mask_len", ct.c_int), ("mask", ct.POINTER(ct.c_ubyte)), ("values", ct.POINTER(ct.c_double)))
 
 
@@ -88,10 +94,14 @@ class DeviceEvent(ct.Structure):
 
 
 class AnyClass(ct.Structure):
+    """XIAnyClassInfo of XInput2.h."""
+
     _fields_ = (("type", ct.c_int), ("sourceid", ct.c_int))
 
 
 class ValuatorClass(ct.Structure):
+    """XIValuatorClassInfo of XInput2.h."""
+
     _fields_ = (
         ("type", ct.c_int),
         ("sourceid", ct.c_int),
@@ -106,6 +116,8 @@ class ValuatorClass(ct.Structure):
 
 
 class DeviceInfo(ct.Structure):
+    """XIDeviceInfo of XInput2.h."""
+
     _fields_ = (
         ("deviceid", ct.c_int),
         ("name", ct.c_char_p),

@@ -82,12 +82,16 @@ class SelectLayer:
 
 @dataclass(frozen=True, slots=True)
 class RemoveLayer:
+    """Takes a layer or group out of the tree."""
+
     name: str
     extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
 class RenameLayer:
+    """Gives a layer or group another name."""
+
     name: str
     to: str
     extra: Map[str, Any] = _NOTHING
@@ -134,12 +138,16 @@ class SetLayer:
 
 @dataclass(frozen=True, slots=True)
 class Undo:
+    """Takes back so many steps."""
+
     count: int = 1
     extra: Map[str, Any] = _NOTHING
 
 
 @dataclass(frozen=True, slots=True)
 class Redo:
+    """Does so many steps again."""
+
     count: int = 1
     extra: Map[str, Any] = _NOTHING
 

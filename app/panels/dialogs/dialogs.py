@@ -21,6 +21,8 @@ _SIZES = (("Screen", 1280, 800), ("Square", 1024, 1024), ("Wide", 1920, 1080), (
 
 
 class Dialog(Protocol):
+    """A window that asks something, and stands until it is answered."""
+
     title: str
 
     def draw(self, desk: Desk) -> bool:
@@ -65,6 +67,8 @@ class Dialogs:
 
 
 class NewPainting:
+    """Asks how large a new painting is to be."""
+
     title = "New painting"
 
     def __init__(self) -> None:
@@ -156,6 +160,8 @@ class Unsaved:
 
 
 class Keys:
+    """Lists the keys."""
+
     title = "Keys"
 
     def draw(self, desk: Desk) -> bool:
@@ -184,6 +190,8 @@ class Keys:
 
 
 class About:
+    """Says what the program is."""
+
     title = "About Inkfall"
 
     def draw(self, desk: Desk) -> bool:
