@@ -111,7 +111,8 @@ def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograp
     app.do("mousemove", 640, 300)
     app.settled()
     usual = longest(app, lambda: None)
-    most = np.maximum(3 * usual, (reading(photograph), 0.25 * reading(photograph)))
+    # By the clock, what else the machine does counts, too; of the processor, only what the window's thread does.
+    most = np.maximum(3 * usual, np.array([2.0, 0.25]) * reading(photograph))
     for place, key in PLACES.items():
         if key:
             app.do("mousemove", 640, 300)
