@@ -127,11 +127,12 @@ def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, 
 
 
 def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
-    """The preset that `words` mean: those whose name begins so come first, then those with all of it in their name."""
+    """The preset that `words` mean: the one of that name comes first, then those whose name begins so, then those with
+    all of it in their name."""
     wanted = " ".join(words.casefold().split())
     listed = [preset for _, members in found(presets, "", words) for preset in members]
     names = [(preset.name.casefold(), preset) for preset in listed]
-    ranked = sorted(names, key=lambda row: (not row[0].startswith(wanted), wanted not in row[0]))
+    ranked = sorted(names, key=lambda row: (row[0] != wanted, not row[0].startswith(wanted), wanted not in row[0]))
     return ranked[0][1] if wanted and ranked else None
 
 

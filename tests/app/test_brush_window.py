@@ -71,3 +71,14 @@ def test_pictures_of_brushes_with_examples_come_when_they_are_in_sight(program):
     while blueness(app.screen()[indigo]) < 60:
         assert time.monotonic() < end, "no picture of the indigo wash"
         time.sleep(0.2)
+
+
+def test_while_brushes_are_read_the_list_says_so(program):
+    app = program()
+    app.box("Pencil")
+    told = app.log.read_text()
+    assert '["left", "Loading brushes"' in told
+    assert "No brush is called so" not in told
+    app.click("Find")
+    app.type("zzzz")
+    app.box("No brush is called so")

@@ -2,12 +2,14 @@
 
 import pytest
 
-from app.panels.layers.layers_panel import dropped
+from app.panels.layers.layers_panel import blend_titles, dropped
 from engine.canvas import layers
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session.apply import apply
 from engine.studio.outline import rows
+from engine.studio.ready import ready
+from engine.studio.results import Ready
 
 
 def painting(*names):
@@ -59,3 +61,9 @@ def test_a_drop_puts_the_layer_where_it_was_let_go(moved, onto, where, after):
     made = painting("A", "B", "C")
     assert drop(made, moved, onto, where) == after
     assert layers.has(made.root, moved)
+
+
+def test_blend_modes_have_their_titles_before_the_engine_is_there():
+    later = blend_titles(ready())
+    assert blend_titles(Ready()) == later[:1] == [("src-over", "Normal")]
+    assert len(later) > 10

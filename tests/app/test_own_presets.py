@@ -69,12 +69,15 @@ def test_brushes_are_found_by_group_or_by_words_of_any():
 
 def test_enter_takes_the_brush_whose_name_is_nearest():
     made = [("Ink spatter", "Wet media"), ("Wet in wet", "Wet media"), ("Soft eraser", "Basic"), ("Eraser", "Basic")]
+    made += [("Moss carpet", "Ground"), ("Moss", "Plants")]
     all_of_them = tuple(Preset(name, Brush(), None, group) for name, group in made)
     for words, name in (
         ("wet in wet", "Wet in wet"),
         ("Wet", "Wet in wet"),
         ("eras", "Eraser"),
         ("wet  INK", "Ink spatter"),
+        ("moss", "Moss"),
+        ("moss ", "Moss"),
     ):
         nearest = presets.nearest(all_of_them, words)
         assert nearest is not None

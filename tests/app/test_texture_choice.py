@@ -82,3 +82,8 @@ def test_a_picture_is_asked_for_again_only_where_a_name_means_another_texture():
     assert texture_rows.meant(here, "fur") != first
     assert texture_rows.brought(here, "fur") == ()
     assert [title for title, _ in texture_rows.groups(here)] == ["Of this painting", "Built in", "Of the brushes"]
+
+
+def test_a_texture_of_the_program_is_called_the_same_before_the_engine_is_there():
+    early = SimpleNamespace(known=Known())
+    assert texture_rows.label(early, "rock") == texture_rows.label(desk(), "rock") == "Rock"

@@ -56,7 +56,8 @@ class BrushList:
         tall = _tall(desk, wide)
         room = imgui.get_window_height() - imgui.get_cursor_pos().y - below - em
         everything = _height(presets.found(desk.known.presets, EVERY, ""), tall + gap, em + gap)
-        imgui.begin_child("presets", ImVec2(0, min(everything, max(room, 2.6 * tall))))  # the same for every group
+        high = max(room, 2.6 * tall)  # the same for every group
+        imgui.begin_child("presets", ImVec2(0, min(everything or high, high)))
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
         for group, members in found:
             imgui.text_disabled(group)
@@ -68,7 +69,9 @@ class BrushList:
                 if self._reveal and preset.name == desk.hand.preset:
                     imgui.set_scroll_here_y(0.5)
         if not found:
-            imgui.text_disabled("No brush is called so")
+            words = "No brush is called so" if desk.known.presets else "Loading brushes"
+            imgui.text_disabled(words)
+            w.named(words)
         imgui.pop_style_var()
         imgui.end_child()
         self._reveal = 2 if desk.hand.preset != self._seen else max(0, self._reveal - 1)
@@ -78,7 +81,7 @@ class BrushList:
         """The group that is listed, a word to look for, and all at once."""
         gap, side = 3 * desk.scale, imgui.get_frame_height()
         room = imgui.get_content_region_avail().x - 2 * gap - side
-        groups = [(EVERY, f"All {len(desk.known.presets)}")]
+        groups = [(EVERY, f"All {len(desk.known.presets) or ''}")]
         groups += [(group, group) for group, _ in presets.found(desk.known.presets, EVERY, "")]
         picked = w.choice("group", self._group, groups, "Which brushes are listed", 0.56 * room)
         if picked is not None:

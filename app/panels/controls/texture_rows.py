@@ -59,8 +59,10 @@ def _bringable(desk: Desk) -> dict[str, DefineTexture]:
 
 
 def label(desk: Desk, texture: str) -> str:
-    """Gives a texture's name as it is shown."""
-    return texture.capitalize() if any(row.name == texture for row in desk.known.tables.kinds) else texture
+    """Returns what a texture is called: one of the program's own with a capital, also before the engine tells which
+    those are."""
+    kinds = desk.known.tables.kinds
+    return texture.capitalize() if not kinds or any(row.name == texture for row in kinds) else texture
 
 
 def meant(desk: Desk, name: str) -> Hashable:

@@ -9,9 +9,10 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
 from engine.studio.requests import Do
-from engine.studio.results import LayerRow
+from engine.studio.results import LayerRow, Ready
 
 _PAYLOAD = "layer"
+_USUAL = "src-over", "Normal"  # the blend mode of a new layer, and its title
 
 
 class LayersPanel:
@@ -40,9 +41,9 @@ class LayersPanel:
         imgui.begin_disabled(row is None)
         side = imgui.get_frame_height()
         width = imgui.get_content_region_avail().x - 2 * (side + imgui.get_style().item_spacing.x)
-        options = [(name, title) for name, title, _ in desk.known.tables.blends]
+        options = blend_titles(desk.known.tables)
         blend = w.choice(
-            "blend", row.blend if row else "src-over", options, "How the layer mixes with those below", width
+            "blend", row.blend if row else _USUAL[0], options, "How the layer mixes with those below", width
         )
         if row and blend:
             desk.post(Do(c.SetLayer(row.name, blend=blend)))
@@ -136,7 +137,7 @@ class LayersPanel:
         w.named(row.name)
         self._drag(desk, row)
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
-        blend = next((title for name, title, _ in desk.known.tables.blends if name == row.blend), row.blend)
+        blend = dict(blend_titles(desk.known.tables)).get(row.blend, row.blend)
         w.tooltip(f"{about}{blend}\nDrag to reorder, double-click to rename")
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:
@@ -184,6 +185,11 @@ class LayersPanel:
             action = actions.ACTIONS[name]
             if w.icon_button(name, icon, actions.tip(name), enabled=action.when(desk)):
                 actions.perform(desk, action)
+
+
+def blend_titles(tables: Ready) -> list[tuple[str, str]]:
+    """Returns the name and the title of each blend mode; before the engine is there, of the usual one alone."""
+    return [(name, title) for name, title, _ in tables.blends] or [_USUAL]
 
 
 def dropped(rows: tuple[LayerRow, ...], moved: LayerRow, onto: LayerRow, where: float) -> c.MoveLayer | None:
