@@ -22,6 +22,7 @@ from engine.studio import results
 from engine.studio.sight import Key, Sight, tile_rect
 
 _NOTHING = Rect(0, 0, 0, 0)
+Above = Callable[[int, Rect, np.ndarray], np.ndarray]
 
 
 class Subject(Protocol):
@@ -38,6 +39,7 @@ class Viewer(Owned):
     def __init__(self, subject: Subject) -> None:
         self._subject = subject
         self.sight = Sight()
+        self.above: Above = lambda level, rect, pixels: pixels  # lays over a picture what is not painted yet
         self._fresh = _NOTHING  # pixels of the live stroke's level not sent yet
         self._level = 0
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick}
@@ -112,7 +114,7 @@ class Viewer(Owned):
             planes = known[layer.id]
             return None if planes is None else planes[:, *rect.slices(whole)]
 
-        return composite(root, level, whole, read)
+        return self.above(level, whole, composite(root, level, whole, read))
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live

@@ -17,6 +17,7 @@ from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.preparing import Job, Preparing, expected, job_of
+from engine.studio.sketch import Sketch
 from engine.studio.studio import Studio
 
 POLL = 0.03  # seconds from one look at what has been compiled to the next
@@ -38,6 +39,8 @@ class Waiting:
         self._tried = -1  # `count` when the first that waits was last tried
         self._unseen: float | None = None  # since when pictures wait
         self._told = (0, 0)
+        self._sketch, self._levels = Sketch(), set[int]()  # of what waits, and the levels of its strokes
+        studio.easel.viewer.above = self._sketch.over
 
     # --- requests ----------------------------------------------------------------------------------------------------
 
@@ -57,6 +60,9 @@ class Waiting:
                 self._studio.do(request)
             case _ if self._queue:
                 self._queue.append(request)
+                grown = self._sketch.add(request)
+                if grown is not None and not grown[1].empty:
+                    self._studio.easel.viewer.grew(*grown)
             case _:
                 self._attempt(request)
 
@@ -79,6 +85,7 @@ class Waiting:
                 self._studio.easel.live = live  # as it was: the stroke stays in sight, and is committed later
                 self._queue.appendleft(request)
             self._preparing.want((self._needed(),), soon=True)
+            self._draw()
             return False
         if isinstance(request, STROKE):
             self._laid = [*self._laid, request] if self._studio.easel.live is not None else []
@@ -111,7 +118,18 @@ class Waiting:
             compiling, self._tried = self._preparing.ready(self._needed()), -1  # also where the next line raises
             if not self._attempt(self._queue.popleft(), compiling):
                 return
+            if not self._queue:
+                self._draw()
         self._tried = self._preparing.count
+
+    def _draw(self) -> None:
+        """Sketches what waits now."""
+        before = self._sketch.rects
+        known = {level: before(level) for level in self._levels}
+        self._sketch.begin(self._queue)
+        self._levels = {request.level for request in self._queue if isinstance(request, q.Begin)}
+        after = {level: self._sketch.rects(level) for level in self._levels}
+        self._studio.easel.viewer.changed(lambda level: known.get(level, []) + after.get(level, []))
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 
@@ -146,6 +164,7 @@ class Waiting:
             self._unseen = self._unseen or now
             if easel.live is not None:
                 self._take_back()
+                self._draw()
             easel.viewer.changed(lambda level: [])  # nothing has, but all is to be looked at again
             return True
         self._unseen = None if looks else self._unseen

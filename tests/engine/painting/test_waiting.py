@@ -3,14 +3,18 @@
 from types import SimpleNamespace
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.brush.settings import Brush
 from engine.kernel_cache import NotCompiled
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.sketch import Sketch
+from engine.studio.studio import Studio
 from engine.studio.waiting import Waiting
 
 PLAIN, ROCK = Brush(), Brush(radius=3.0, hardness=0.5)
@@ -48,7 +52,10 @@ class Easel:
 
     def __init__(self, kernels):
         self.kernels, self.easel, self.live, self.log = kernels, self, None, []
-        self.viewer, self.lab = SimpleNamespace(pending=0, changed=lambda where: None), SimpleNamespace(pending=0)
+        self.viewer, self.lab = (
+            SimpleNamespace(pending=0, changed=lambda where: None, grew=lambda *area: None),
+            SimpleNamespace(pending=0),
+        )
         self.pending, self.swatches = 0, []
 
     def do(self, request):
@@ -193,6 +200,7 @@ _requests = st.lists(
 _names = [f"{what} {brush.radius}" for what in ("begin", "lay", "commit") for brush in (PLAIN, ROCK)] + ["do"]
 
 
+@settings(deadline=None)
 @given(_requests, st.permutations(_names), st.lists(st.integers(0, 12), min_size=7, max_size=7))
 def test_the_order_of_commands_is_kept_whenever_kernels_come(requests, names, pauses):
     kernels, easel, waiting, _ = made()
@@ -212,3 +220,28 @@ def test_the_order_of_commands_is_kept_whenever_kernels_come(requests, names, pa
         plain.do(request)
     assert easel.log == plain.log
     assert easel.live == plain.live
+
+
+def test_a_sketch_of_plain_strokes_is_what_they_will_be():
+    """Two plain strokes that wait look as the painting does when they are done."""
+    sketch, sent = Sketch(), []
+    studio = Studio(sent.append, sent.append)
+    rows = [(PLAIN, 10.0), (Brush(radius=9.0, hardness=0.4, opacity=0.7, colour="#c04020"), 30.0)]
+    rect, level = Rect.at(-20, -20, 120, 120), 0
+    requests = []
+    for brush, y in rows:
+        points = np.zeros((6, 6))
+        points[:, 0], points[:, 1], points[:, 2] = np.arange(6) * 12.0, y, np.linspace(0.3, 1.0, 6)
+        requests += [q.Begin(level, (0, 0), brush), q.Points(points), q.Finish()]
+    sketch.begin(requests)
+    seen = sketch.over(level, rect, studio.easel.picture(level, rect))
+    for request in requests:
+        studio.do(request)
+    done = studio.easel.picture(level, rect)
+    studio.close()
+    assert done[3].max() == 1.0
+    assert np.array_equal(to_premul8(seen[:, :39]), to_premul8(done[:, :39]))  # where one stroke lies alone
+    assert np.abs(to_premul8(seen).astype(int) - to_premul8(done)).max() <= 1
+    assert sketch.rects(level)
+    sketch.begin(requests[3:])
+    assert np.array_equal(sketch.over(level, Rect.at(0, -20, 9, 9), done[:, :9, :9]), done[:, :9, :9])
