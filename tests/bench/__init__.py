@@ -49,5 +49,6 @@ BENCHES = {
     "frames": "the frames of a real window that pans",
     "files": "saving and opening four layers of 4000 x 4000",
     "start": "from the command to the first frame of the window",
+    "first_start": "with no kernel compiled: to the first dab, and to all brushes",
     "memory": "what the process and its history hold after 1,000 strokes",
 }
