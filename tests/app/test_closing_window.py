@@ -23,6 +23,7 @@ def shown(app):
     return subprocess.run(command, env={**os.environ, "DISPLAY": app.display}, capture_output=True).returncode == 0
 
 
+@pytest.mark.serial
 def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkeypatch):
     monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", None)
     app = program()

@@ -105,6 +105,7 @@ def reading(path):
     return time.process_time() - start
 
 
+@pytest.mark.serial
 def test_a_photograph_that_is_dropped_anywhere_loses_no_frame(program, photograph):
     """Reading it takes as long as many frames; none is longer than those before, but for noise."""
     app = program(trace="frames")

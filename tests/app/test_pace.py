@@ -54,6 +54,7 @@ def frame(one, growing, moving=False):
     one.end(True, moving, growing)
 
 
+@pytest.mark.serial
 def test_the_engine_has_the_rest_between_two_frames(events):
     one = paced(SOFTWARE)
     one.event()
@@ -106,6 +107,7 @@ def test_what_moves_by_itself_has_turns_too(events, monkeypatch):
     assert None not in one.worker.turns
 
 
+@pytest.mark.serial
 @pytest.mark.parametrize("took", [0.012, 0.014, 0.0155, 0.0166, 0.018, 0.08])
 def test_the_engine_gets_its_turn_however_long_a_frame_takes(events, took):
     one = paced(SOFTWARE)

@@ -87,6 +87,7 @@ def test_the_keys_for_the_view_and_the_panels(program):
     assert app.comes_to(before)
 
 
+@pytest.mark.serial
 def test_an_idle_window_sleeps(program):
     app = program()
     app.wait_for("all brushes ready")

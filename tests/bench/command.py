@@ -11,9 +11,10 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
-from app.cli.outcome import DONE, Failed, Refused
+from app.cli.outcome import DONE, FAILED, Failed, Refused
 from app.cli.progress import Progress
 from bench import BENCHES, Figure, Skipped
+from bench.comparison import MOST, worsened
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -21,6 +22,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"which (default: all).  {listed}")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--store", metavar="FILE", help="write the rows into FILE; rows of others stay in it")
+    parser.add_argument("--compare", metavar="FILE", help=f"fail where a ratio is {MOST} x as bad as in FILE")
     parser.add_argument("--small", action="store_true", help="the least work: shows that it runs, ratios mean nothing")
 
 
@@ -28,6 +30,7 @@ def run(options: argparse.Namespace) -> int:
     for name in options.names:
         if name not in BENCHES:
             raise Refused(f"bench: found {name!r}, expected any of {', '.join(BENCHES)}")
+    stored = _held(Path(options.compare)) if options.compare is not None else {}
     names = options.names or list(BENCHES)
     rows: dict[str, list[Figure | Skipped]] = {name: [] for name in names}
     for name, row in measured(names, options.small):
@@ -39,7 +42,10 @@ def run(options: argparse.Namespace) -> int:
         print(json.dumps({"figures": [{"bench": name, **row} for name, found in told.items() for row in found]}))
     if options.store is not None:
         store(Path(options.store), told)
-    return DONE
+    worse = worsened(stored, told)
+    if not options.json:
+        print("".join(f"{line}\n" for line in worse), end="")
+    return FAILED if worse else DONE
 
 
 def measured(names: list[str], small: bool = False) -> Iterator[tuple[str, Figure | Skipped]]:
@@ -53,17 +59,26 @@ def measured(names: list[str], small: bool = False) -> Iterator[tuple[str, Figur
 def store(path: Path, told: dict[str, list[dict]]) -> None:
     """Puts the rows of the benchmarks that ran in place of those that the file has of them."""
     try:
-        held = json.loads(path.read_text("utf-8")) if path.exists() else {}
-        if not isinstance(held, dict) or not isinstance(held.get("benches", {}), dict):
-            raise Refused(f"{path}: found another kind of file, expected one that bench wrote")
-        benches = {**held.get("benches", {}), **told}
+        benches = {**(_held(path) if path.exists() else {}), **told}
         ordered = {name: benches[name] for name in BENCHES if name in benches}
         text = json.dumps({"machine": machine(), "benches": ordered}, indent=1, ensure_ascii=False)
         path.write_text(text + "\n", "utf-8")
+    except OSError as error:
+        raise Failed(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def _held(path: Path) -> dict[str, list[dict[str, object]]]:
+    """Reads the rows that a file has, by benchmark."""
+    try:
+        held = json.loads(path.read_text("utf-8"))
     except ValueError as error:
         raise Refused(f"{path}: found no JSON ({error}), expected a file that bench wrote") from None
     except OSError as error:
-        raise Failed(f"{path}: cannot be written: {error.strerror}") from None
+        raise Refused(f"{path}: cannot be read: {error.strerror}") from None
+    if not isinstance(held, dict) or not isinstance(held.get("benches", {}), dict):
+        raise Refused(f"{path}: found another kind of file, expected one that bench wrote")
+    benches: dict[str, list[dict[str, object]]] = held.get("benches", {})
+    return benches
 
 
 def machine() -> dict[str, object]:

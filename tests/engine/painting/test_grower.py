@@ -286,6 +286,7 @@ def test_saving_in_the_middle_holds_the_final_pixels_and_refining_is_no_change(w
     assert window.scene().modified
 
 
+@pytest.mark.serial
 def test_a_stroke_is_served_while_refinement_runs_and_closing_is_safe(meadow):
     """Real thread: points are laid between steps, and the thread ends although work is left."""
     came, woken = [], threading.Event()

@@ -107,6 +107,7 @@ def test_requests_are_carried_out_in_order(worker):
     assert worker.bench.did == posts
 
 
+@pytest.mark.serial
 def test_posting_never_waits(worker):
     worker.bench.gate.clear()
     start = time.perf_counter()
