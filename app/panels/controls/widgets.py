@@ -14,14 +14,19 @@ Col = imgui.Col_
 _RETURN = imgui.Key.enter, imgui.Key.keypad_enter
 
 
-def tooltip(text: str) -> None:
-    """The hint of the item just drawn, after a short rest of the pointer."""
+def tooltip(text: str, *, beside: bool = False) -> None:
+    """Draws the hint of the item just drawn, after a short rest of the pointer.  `beside`: to the left of its window,
+    so that it covers none of what is in it."""
     if text and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip | imgui.HoveredFlags_.allow_when_disabled):
+        if beside:
+            edge = imgui.internal.get_current_window_read().root_window.pos.x - 4 * imgui.get_style().font_scale_dpi
+            imgui.set_next_window_pos(ImVec2(edge, imgui.get_item_rect_min().y), imgui.Cond_.always, ImVec2(1, 0))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 5) * imgui.get_style().font_scale_dpi)
         if imgui.begin_tooltip():
             imgui.push_text_wrap_pos(imgui.get_font_size() * 22)
             imgui.text_unformatted(text)
             imgui.pop_text_wrap_pos()
+            named("tooltip")
             imgui.end_tooltip()
         imgui.pop_style_var()
 
@@ -71,6 +76,19 @@ def text_button(label: str, hint: str, *, enabled: bool = True, width: float = 0
     imgui.end_disabled()
     named(label)
     tooltip(hint)
+    return pressed
+
+
+def lines_button(lines: Sequence[str], hint: str, width: float) -> bool:
+    """Draws a button with lines of text, each in its middle; tells whether it was pressed.  The first is its name."""
+    line, padding = imgui.get_text_line_height(), imgui.get_style().frame_padding.y
+    pressed = imgui.button(f"##{lines[0]}", ImVec2(width, len(lines) * line + 2 * padding))
+    named(lines[0])
+    tooltip(hint)
+    corner, painter = imgui.get_item_rect_min(), imgui.get_window_draw_list()
+    for i, text in enumerate(lines):
+        left = corner.x + (width - imgui.calc_text_size(text).x) / 2
+        painter.add_text(ImVec2(round(left), corner.y + padding + i * line), theme.packed(theme.TEXT), text)
     return pressed
 
 

@@ -76,29 +76,37 @@ class NewPainting:
 
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window."""
-        em = imgui.get_font_size()
+        column = imgui.get_font_size() * 10
         for i, (name, width, height) in enumerate(_SIZES):
             if i % 2:
                 imgui.same_line()
-            if w.text_button(f"{name}\n{width} × {height}##{name}", "Use this size", width=em * 10):
+            if w.lines_button((name, f"{width} × {height}"), "Use this size", column):
                 self._width, self._height = width, height
         imgui.spacing()
-        imgui.set_next_item_width(em * 8)
-        _, self._width = imgui.input_int("Width", self._width, 0)
-        w.named("Width")
-        w.tooltip("Of the frame, in pixels of level 0; you can paint outside it and inside every pixel")
+        hint = "Of the frame, in pixels of level 0; you can paint outside it and inside every pixel"
+        self._width = _side("Width", self._width, hint, column)
         imgui.same_line()
-        imgui.set_next_item_width(em * 8)
-        _, self._height = imgui.input_int("Height", self._height, 0)
-        w.named("Height")
-        w.tooltip("Of the frame, in pixels of level 0")
+        self._height = _side("Height", self._height, "Of the frame, in pixels of level 0", column)
         good = 1 <= self._width <= MOST_SIDE and 1 <= self._height <= MOST_SIDE
         imgui.spacing()
-        if w.default_button("Start", "Start the new painting", enabled=good, width=em * 8):
+        if w.default_button("Start", "Start the new painting", enabled=good, width=column):
             desk.post(New(Rect(0, 0, self._width, self._height)))
             return False
         imgui.same_line()
-        return not w.text_button("Cancel", "Go back", width=em * 8)
+        return not w.text_button("Cancel", "Go back", width=column)
+
+
+def _side(name: str, value: int, hint: str, width: float) -> int:
+    """Draws a field for pixels after its name, `width` wide together; gives what stands in it now."""
+    left = imgui.get_cursor_pos_x()
+    imgui.align_text_to_frame_padding()
+    imgui.text_unformatted(name)
+    imgui.same_line(left + 3.4 * imgui.get_font_size())
+    imgui.set_next_item_width(left + width - imgui.get_cursor_pos_x())
+    value = imgui.input_int(f"##{name}", value, 0)[1]
+    w.named(name)
+    w.tooltip(hint)
+    return value
 
 
 class ExportDepth:

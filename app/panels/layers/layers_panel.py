@@ -105,15 +105,17 @@ class LayersPanel:
     def _row(self, desk: Desk, row: LayerRow) -> None:
         side = imgui.get_frame_height()
         eye = icons.EYE if row.visible else icons.EYE_OFF
-        if w.icon_button("eye", eye, "Show or hide", enabled=True):
+        if w.icon_button("eye", eye, ""):
             desk.post(Do(c.SetLayer(row.name, visible=not row.visible)))
+        w.tooltip("Show or hide", beside=True)
         imgui.same_line()
         imgui.dummy(ImVec2(row.depth * side * 0.55, 0))
         imgui.same_line(0, 0)
         if row.group:
             folded = row.name in self._folded
-            if w.icon_button("fold", icons.GROUP if folded else icons.GROUP_OPEN, "Fold or unfold the group"):
+            if w.icon_button("fold", icons.GROUP if folded else icons.GROUP_OPEN, ""):
                 self._folded ^= {row.name}
+            w.tooltip("Fold or unfold the group", beside=True)
             imgui.same_line(0, 2 * desk.scale)
         if self._editing == row.name:
             self._name_field(desk, row)
@@ -138,7 +140,7 @@ class LayersPanel:
         self._drag(desk, row)
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
         blend = dict(blend_titles(desk.known.tables)).get(row.blend, row.blend)
-        w.tooltip(f"{about}{blend}\nDrag to reorder, double-click to rename")
+        w.tooltip(f"{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:
         imgui.set_next_item_width(-1)
