@@ -90,3 +90,53 @@ def test_failed_work_shows_all_that_it_said(tmp_path):
 def test_the_start_reads_no_file_of_the_tests():
     assert not [line for line in (ROOT / "app" / "start").read_text().splitlines() if "tests/" in line]
     assert "tests/" not in (ROOT / "app" / "environment.sh").read_text().partition("\n")[2]
+
+
+def run_tests(tmp_path, *words, fails="never"):
+    """What tests/run asks for, in order, in an environment whose python writes that down and fails when `fails` stands
+    among its words."""
+    (tmp_path / "venv" / "bin").mkdir(parents=True)
+    (tmp_path / "venv" / ".pyproject").write_bytes((ROOT / "pyproject.toml").read_bytes())
+    for name in ("python", "ruff", "mypy"):
+        text = f'echo {name} "$*" >> {tmp_path}/asked; case " $* " in *" {fails} "*) exit 3;; esac'
+        (tmp_path / "venv" / "bin" / name).write_text(f"#!/bin/bash\n{text}\n")
+        (tmp_path / "venv" / "bin" / name).chmod(0o755)
+    path = lent(tmp_path)
+    for name in ("dirname", "cmp"):
+        (tmp_path / "bin" / name).symlink_to(shutil.which(name))
+    environment = {**path, "HOME": str(tmp_path), "INKFALL_TEST_VENV": str(tmp_path / "venv")}
+    done = subprocess.run(["bash", ROOT / "tests" / "run", *words], env=environment, capture_output=True, text=True)
+    asked = [line for line in (tmp_path / "asked").read_text().splitlines() if " -m pip " not in line]
+    return done.returncode, asked
+
+
+def test_tests_that_measure_time_run_alone_even_after_others_failed(tmp_path):
+    status, asked = run_tests(tmp_path, fails="-n")
+    assert status == 3
+    assert "-m serial and not nightly" in asked[-1]
+    assert " -n " not in asked[-1]
+    assert " -n auto " in asked[-2]
+    assert asked[-3] == "python -m app doctor --prepare"
+
+
+def test_all_tests_passed(tmp_path):
+    status, asked = run_tests(tmp_path, "-k", "canvas")
+    assert status == 0
+    assert [line.endswith(" -k canvas") for line in asked[-2:]] == [True, True]
+
+
+def test_checks_alone(tmp_path):
+    status, asked = run_tests(tmp_path, "--checks")
+    assert status == 0
+    assert asked == [
+        "ruff format --check .",
+        "ruff check .",
+        "mypy ",
+        "python -m pytest tests/test_architecture.py tests/test_counts.py",
+    ]
+
+
+def test_benchmarks_of_some_names(tmp_path):
+    status, asked = run_tests(tmp_path, "--bench", "dab", "view")
+    assert status == 0
+    assert asked == ["python -m app bench --compare tests/bench/ratios.json dab view"]
