@@ -1,0 +1,37 @@
+"""`inkfall doctor`: what there is, and brushes made ready."""
+
+import json
+
+from app.__main__ import main
+
+
+def test_doctor_prepares_what_is_not_ready(tmp_path, monkeypatch, capsys):
+    """One line on a pipe; what is ready is not done again; where nothing can be kept, that is said."""
+    from engine.studio import preparing
+
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    program = "import sys\nfor line in sys.stdin: print('{\"done\": true}', flush=True)"
+    monkeypatch.setattr(preparing.Preparing.__init__, "__defaults__", (2, print, ("-c", program), True))
+    assert main(["doctor", "--prepare"]) == 0
+    assert capsys.readouterr() == ("all brushes are ready\n", "")
+    assert len(json.loads((tmp_path / preparing.NOTE).read_text())["ready"]) >= 60
+    monkeypatch.setattr(preparing.Preparing.__init__, "__defaults__", (2, print, ("-c", "raise SystemExit(1)"), True))
+    assert main(["doctor", "--prepare"]) == 0
+    capsys.readouterr()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "none"))
+    assert main(["doctor", "--prepare"]) == 1
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.count("\n") == 1
+    assert "cannot be written to" in told.err
+
+
+def test_doctor(capsys, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    assert main(["doctor", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["display"] == "none"
+    assert isinstance(found["opengl"], str)
+    assert main(["doctor"]) == 0
+    assert "config" in capsys.readouterr().out

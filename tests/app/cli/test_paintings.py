@@ -1,0 +1,109 @@
+"""`inkfall export` and `info`: what a saved painting shows and tells."""
+
+import json
+
+import numpy as np
+import pytest
+from command_line import HEADER, pixels, refused
+
+from app.__main__ import main
+
+PLACES = ["-4,0,0,4,3", "0,0,0,64,48", "3,150,130,100,80", "12,90000,70000,64,64", f"60,{30 << 60},{25 << 60},32,24"]
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_reopened_painting_shows_the_same_pixels(script, saved, tmp_path, place):
+    played, reopened = tmp_path / "played.png", tmp_path / "reopened.png"
+    assert main(["play", str(script), "--png", str(played), "--rect", place]) == 0
+    assert main(["export", str(saved), str(reopened), "--rect", place]) == 0
+    assert pixels(played).any()
+    assert np.array_equal(pixels(played), pixels(reopened))
+
+
+def test_endings_depths_and_layers(saved, tmp_path, capsys):
+    shown = {}
+    for name, words in {
+        "a.png": [],
+        "b.tif": [],
+        "c.tiff": ["--layer", "Sky"],
+        "d.PNG": ["--depth", "16"],
+    }.items():
+        assert main(["export", str(saved), str(tmp_path / name), *words]) == 0
+        shown[name] = pixels(tmp_path / name)
+    assert np.array_equal(shown["a.png"], shown["b.tif"])
+    assert not np.array_equal(shown["a.png"], shown["c.tiff"])
+    capsys.readouterr()
+
+
+def test_a_rectangle_as_a_painting(saved, tmp_path, capsys):
+    out = tmp_path / "part.ora"
+    assert main(["export", str(saved), str(out), "--rect", "1,20,20,60,41", "--layer", "Sky"]) == 0
+    capsys.readouterr()
+    assert main(["info", str(out), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["frame"] == [10, 10, 30, 21]
+    assert [row["name"] for row in told["layers"]] == ["Sky"]
+    whole, part = tmp_path / "whole.png", tmp_path / "part.png"
+    for path, picture in ((saved, whole), (out, part)):
+        assert main(["export", str(path), str(picture), "--layer", "Sky", "--rect", "4,320,320,99,99"]) == 0
+    assert np.array_equal(pixels(whole), pixels(part))
+
+
+def test_a_group_as_a_painting_can_be_painted_on(tmp_path, capsys):
+    script, whole, part = (tmp_path / name for name in ("a.jsonl", "a.ora", "b.ora"))
+    script.write_text(
+        HEADER + '{"do": "layer", "add": "Both", "kind": "group"}\n'
+        '{"do": "layer", "add": "one", "group": "Both"}\n{"do": "stroke", "points": [[9, 9]], "brush": {}}\n'
+    )
+    assert main(["play", str(script), "--save", str(whole)]) == 0
+    assert main(["export", str(whole), str(part), "--layer", "Both"]) == 0
+    capsys.readouterr()
+    assert main(["info", str(part), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["active"] == "one"
+
+
+def test_info(saved, capsys):
+    assert main(["info", str(saved), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["native"] is True
+    assert [row["name"] for row in told["layers"]] == ["Sky", "Top"]
+    assert told["inks"] == [["rock", 0, 16.0, 0.5, 7]]
+    assert told["commands"] == 7
+    assert max(told["levels"]) == 3
+    assert told["bytes"] == sum(row["bytes"] for row in told["layers"]) > 1000
+    level, x, y, width, _ = told["layers"][1]["bounds"]
+    assert level == 3
+    assert (x, y) == (191, 151)
+    assert 75 < width < 82
+    assert main(["info", str(saved)]) == 0
+    assert "layer 'Top'" in capsys.readouterr().out
+
+
+WRONG_PAINTINGS = {
+    "no file": ["info", "{dir}/none.ora"],
+    "a folder": ["info", "{dir}"],
+    "a recording": ["info", "{script}"],
+    "exr": ["export", "{saved}", "{dir}/o.exr"],
+    "no ending": ["export", "{saved}", "{dir}/o"],
+    "no such layer": ["export", "{saved}", "{dir}/o.png", "--layer", "x"],
+    "depth": ["export", "{saved}", "{dir}/o.png", "--depth", "12"],
+    "deep painting": ["export", "{saved}", "{dir}/o.ora", "--depth", "16"],
+    "onto itself": ["export", "{saved}", "{saved}"],
+    "export of nothing": ["export", "{dir}/none.ora", "{dir}/o.png"],
+}
+
+
+@pytest.mark.parametrize("words", WRONG_PAINTINGS.values(), ids=WRONG_PAINTINGS)
+def test_wrong_paintings_and_endings(script, saved, tmp_path, capsys, words):
+    refused(capsys, *(word.format(dir=tmp_path, script=script, saved=saved) for word in words))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_cut_painting_is_refused(saved, tmp_path, capsys):
+    whole = saved.read_bytes()
+    for part in (0, 1, 100, len(whole) // 2, len(whole) - 1):
+        path = tmp_path / "cut.ora"
+        path.write_bytes(whole[:part])
+        assert str(path) in refused(capsys, "info", path)
+        assert str(path) in refused(capsys, "export", path, tmp_path / "o.png")
+    assert not (tmp_path / "o.png").exists()
