@@ -41,6 +41,10 @@ def _layer(desk: Desk) -> bool:
     return _ready(desk) and desk.known.scene is not None and desk.known.scene.active is not None
 
 
+def _hidden(desk: Desk) -> bool:
+    return _ready(desk) and bool(desk.known.hiding)
+
+
 def _can_undo(desk: Desk) -> bool:
     return _ready(desk) and desk.known.scene is not None and desk.known.scene.can_undo
 
@@ -160,6 +164,11 @@ def _remove(desk: Desk) -> None:
     desk.post(Do(c.RemoveLayer(_active(desk))))
 
 
+def _show(desk: Desk) -> None:
+    for name in desk.known.hiding:
+        desk.post(Do(c.SetLayer(name, visible=True)))
+
+
 def _moves(by: int) -> Callable[[Desk], None]:
     def do(desk: Desk) -> None:
         row = next((r for r in desk.known.scene.layers if r.name == _active(desk)), None) if desk.known.scene else None
@@ -209,6 +218,7 @@ ACTIONS: dict[str, Action] = {
     "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), _layer),
     "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), _layer),
     "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, _layer),
+    "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),
     "fit": A("Fit the frame", "View", ("F", "2"), "Show the whole frame", Desk.fit),
     "one": A("One to one", "View", ("1",), "One pixel of level 0 on one of the screen", _one_to_one),
     "in": A("Zoom in", "View", ("+", "=", "PageUp"), "One level deeper", _zooms(1.0)),

@@ -49,10 +49,12 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     if not desk.known.ready:
         desk.say("The paint engine is still loading")
         return
-    layer = _locked_layer(desk)
-    if layer:
-        desk.say(f"Layer “{layer}” is locked", bad=True)
+    layer = desk.known.active
+    if layer is not None and layer.locked:
+        desk.say(f"Layer “{layer.name}” is locked", bad=True)
         return
+    if desk.known.hiding:
+        desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
     example_use.reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
@@ -109,13 +111,6 @@ def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | Region
     if len(points):
         points.flags.writeable = False
         desk.post(form(points))
-
-
-def _locked_layer(desk: Desk) -> str | None:
-    rows = desk.known.scene.layers if desk.known.scene else ()
-    return next(
-        (row.name for row in rows if desk.known.scene and row.name == desk.known.scene.active and row.locked), None
-    )
 
 
 def pan(desk: Desk, first: PenEvent) -> Gesture:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
@@ -51,6 +51,16 @@ def _no_thumbnails(_entries: tuple[Entry, ...], _side: int) -> None:
     """Makes none: there is no thread for them yet."""
 
 
+class Message(NamedTuple):
+    """A line in the status line, until a time by the monotonic clock.  `offer`: the action, a row of
+    app.actions.ACTIONS, that does something about it; the line is void when that is not to be done any more."""
+
+    text: str = ""
+    bad: bool = False
+    until: float = 0.0
+    offer: str = ""
+
+
 @dataclass(slots=True)
 class Pointer:
     """Where the pointer is, and what it is over."""
@@ -76,7 +86,7 @@ class Desk:
     insets: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom taken by panels
     pointer: Pointer = field(default_factory=Pointer)
     glide: Glide = field(default_factory=Glide)
-    message: tuple[str, bool, float] = ("", False, 0.0)
+    message: Message = Message()  # noqa: RUF009  # it never changes
     behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
     asked: Asked = field(default_factory=Asked)
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
@@ -91,9 +101,9 @@ class Desk:
         """Takes over what has become known: other values for members of `known`."""
         self.known = replace(self.known, **known)
 
-    def say(self, text: str, bad: bool = False) -> None:
-        """Shows a line in the status line for some seconds."""
-        self.message = text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
+    def say(self, text: str, bad: bool = False, offer: str = "") -> None:
+        """Shows a line in the status line for some seconds; with a button for an action that it may `offer`."""
+        self.message = Message(text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1), offer)
 
     def told(self, note: Note) -> None:
         """Shows what the engine tells."""

@@ -13,7 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
-from engine.studio.results import Growing, Prepared, Ready, Scene, Writing
+from engine.studio.results import Growing, LayerRow, Prepared, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 
@@ -51,6 +51,23 @@ class Known:
     def path(self) -> Path | None:
         """The painting's file."""
         return self.scene.path if self.scene else None
+
+    @property
+    def active(self) -> LayerRow | None:
+        """The layer or group that is painted on."""
+        scene = self.scene
+        return None if scene is None else next((row for row in scene.layers if row.name == scene.active), None)
+
+    @property
+    def hiding(self) -> tuple[str, ...]:
+        """What hides the layer that is painted on, from the inside out: itself, and groups around it."""
+        found, row = [], self.active
+        rows = {row.name: row for row in self.scene.layers} if self.scene else {}
+        while row is not None:
+            if not row.visible:
+                found.append(row.name)
+            row = rows.get(row.parent) if row.parent is not None else None
+        return tuple(found)
 
 
 def told(known: Known, result: object, now: float) -> Known:

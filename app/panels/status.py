@@ -8,6 +8,7 @@ import time
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
+from app.actions import ACTIONS, perform
 from app.canvas.view import zoom_text
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
@@ -18,11 +19,8 @@ PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets 
 
 def draw(desk: Desk, pointer_name: str) -> None:
     """Fills the present window, one line high."""
-    text, bad, until = desk.message
-    now = time.monotonic()
-    if text and now < until:
-        sign = f"{icons.WARNING}  " if bad else ""
-        imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
+    if _says(desk):
+        _message(desk)
     elif desk.examples.swapping:
         name = desk.examples.entry.title if desk.examples.entry else ""
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
@@ -39,6 +37,28 @@ def draw(desk: Desk, pointer_name: str) -> None:
         w.tooltip(hint)
         right -= 1.4 * imgui.get_font_size()
     imgui.dummy(ImVec2(0, 0))
+
+
+def _says(desk: Desk) -> bool:
+    """Whether there is a message, and it still holds."""
+    message = desk.message
+    return time.monotonic() < message.until and (
+        not message.offer or desk.painting or ACTIONS[message.offer].when(desk)
+    )
+
+
+def _message(desk: Desk) -> None:
+    """Draws it, with a button for what it offers."""
+    text, bad, _, offer = desk.message
+    sign = f"{icons.WARNING}  " if bad else ""
+    imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
+    if offer:
+        imgui.same_line(0, imgui.get_font_size())
+        pressed = imgui.small_button(ACTIONS[offer].title)
+        w.named(ACTIONS[offer].title)
+        w.tooltip(ACTIONS[offer].hint)
+        if pressed:
+            perform(desk, ACTIONS[offer])
 
 
 def _work(desk: Desk) -> str:

@@ -6,6 +6,10 @@ import pytest
 
 from app.desk.known import Known, told
 from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting.value import Painting
+from engine.session.apply import apply
+from engine.studio.outline import rows
 from engine.studio.results import GotReady, Growing, Note, Pending, Ready, Scene, Writing
 
 SCENE = Scene(Rect(0, 0, 64, 48), (), None, False, False, modified=True, path=None)
@@ -55,3 +59,25 @@ def test_a_frame_is_there_before_the_painting_is():
     assert (Known().modified, Known().path) == (False, None)
     assert Known(scene=SCENE).frame == SCENE.frame
     assert Known(scene=SCENE).modified
+
+
+def seen_with(active, *hidden):
+    """What is known of a painting with one layer in two groups and one beside them, some of them hidden."""
+    made = Painting()
+    for name, kind, group in (("Outer", "group", None), ("Inner", "group", "Outer"), ("Paint", "layer", "Inner")):
+        made = apply(made, c.AddLayer(name, kind=kind, group=group))
+    made = apply(made, c.AddLayer("Beside", group=None))
+    for name in hidden:
+        made = apply(made, c.SetLayer(name, visible=False))
+    listed = tuple(rows(made.root))
+    return told(Known(), Scene(Rect(0, 0, 8, 8), listed, active, False, False, modified=False, path=None), 1.0)
+
+
+def test_what_hides_the_layer_that_is_painted_on_is_known():
+    assert Known().hiding == ()
+    assert seen_with(None, "Paint").hiding == ()
+    assert seen_with("Paint", "Beside").hiding == ()
+    assert seen_with("Paint", "Paint").hiding == ("Paint",)
+    assert seen_with("Paint", "Outer", "Paint").hiding == ("Paint", "Outer")
+    assert seen_with("Beside", "Outer", "Paint").hiding == ()
+    assert seen_with("Paint").active.name == "Paint"

@@ -20,3 +20,20 @@ def test_the_tooltip_of_a_layer_covers_no_row(program):
         pointed = app.parked(app.at(over))
         app.box("tooltip")
         assert np.array_equal(pointed[column], still[column]), f"the tooltip of {over} covers what is below"
+
+
+def test_a_stroke_on_a_hidden_layer_is_told_and_the_layer_shown_at_a_click(program):
+    app = program()
+    empty = app.canvas()
+    app.click("add_layer")
+    app.box("Layer 1")
+    eye, at = app.part("eye"), app.at("Layer 1", 0.9)  # there the pointer covers no sign
+    shown = app.parked(at)[eye]
+    app.click("eye")
+    app.until(lambda screen: (np.abs(screen[eye] - shown) > 60).any(), at)  # it is crossed out
+    app.stroke(*((380 + 12 * i, 400) for i in range(24)))
+    app.box("Show layer", "status")
+    assert np.array_equal(app.canvas(), empty)
+    app.click("Show layer", "status")
+    app.until_gone("Show layer")
+    app.canvas_unlike(empty)

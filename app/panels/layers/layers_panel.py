@@ -30,9 +30,8 @@ class LayersPanel:
         if not w.section("Layers"):
             return
         rows = desk.known.scene.layers if desk.known.scene else ()
-        active = next((r for r in rows if desk.known.scene and r.name == desk.known.scene.active), None)
         imgui.begin_disabled(not desk.known.ready)
-        self._settings(desk, active)
+        self._settings(desk, desk.known.active)
         self._list(desk, rows)
         self._buttons(desk)
         imgui.end_disabled()
