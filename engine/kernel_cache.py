@@ -145,7 +145,7 @@ def _write(path: Path, content: bytes) -> None:
         beside.unlink(missing_ok=True)
 
 
-class Locator(caching.UserProvidedCacheLocator):
+class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]
     """Where a kernel of the engine is kept, and what its code depends on: its module and those imported there."""
 
     def ensure_cache_path(self) -> None:

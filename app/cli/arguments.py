@@ -39,7 +39,8 @@ def run_command(name: str, words: list[str]) -> int:
     module = importlib.import_module(f"app.cli.{MODULES.get(name, name)}")
     parser = Parser(prog=f"inkfall {name}", description=module.__doc__, allow_abbrev=False)
     module.declare(parser)
-    return module.run(parser.parse_args(joined(words)))
+    status: int = module.run(parser.parse_args(joined(words)))
+    return status
 
 
 def run_option(words: list[str], commands: Mapping[str, str]) -> int:

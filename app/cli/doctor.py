@@ -101,7 +101,8 @@ def opengl(timeout: float = 20.0) -> dict[str, str] | str:
         return f"not examined: {error}"
     if done.returncode == 0:
         try:
-            return json.loads(done.stdout)
+            told: dict[str, str] = json.loads(done.stdout)
+            return told
         except ValueError:
             return f"not understood: {done.stdout[:100]!r}"
     last = done.stderr.strip().splitlines()[-1:] or [f"the probe ended with status {done.returncode}"]

@@ -45,7 +45,8 @@ def sheet(found: Analysis) -> np.ndarray:
 
 def _side(found: Analysis) -> int:
     """The side of what the spectra were made of, so that all panels show the same part."""
-    return max(found.grey.shape)
+    side: int = max(found.grey.shape)
+    return side
 
 
 def _font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:

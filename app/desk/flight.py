@@ -25,4 +25,5 @@ def middle(origin: float, size: float, fraction: float) -> int:
     whole = int(origin // 1)
     rest = round((origin - whole + size / 2) * 2.0 ** (SUBPIXEL - fraction))
     scale = round(2.0 ** (64 - fraction))  # pixels of the finer level are smaller
-    return ((whole * scale) >> (64 - SUBPIXEL)) + rest
+    middle: int = ((whole * scale) >> (64 - SUBPIXEL)) + rest
+    return middle

@@ -18,7 +18,7 @@ from engine.files.tiff_writer import write_tiff
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.grown import settled_root
-from engine.painting.rendering import folded, strips
+from engine.painting.rendering import Progress, folded, strips
 from engine.painting.value import Painting
 
 PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
@@ -56,7 +56,7 @@ FORMATS: dict[str, Write] = {".png": _png, ".tif": write_tiff, ".tiff": write_ti
 def export(
     path: str | os.PathLike[str],
     picture: Picture,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> None:
     """Writes the picture; the ending of `path` decides the format.  The place holds the old file or the whole new one.

@@ -112,6 +112,9 @@ def _at(key: TileKey, record: Record) -> Rect:
     return Rect(x + r.x0, y + r.y0, x + r.x1, y + r.y1)
 
 
+_Arguments = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+
+
 class _Tile:
     """A tile on its parents: `above`, what lies on `rect` of the level above, None for nothing."""
 
@@ -135,7 +138,7 @@ class _Tile:
         others = [ink for ink in found if 0 <= ink.base - self.key.level <= ABOVE]
         return () if len(adding) > MOST else tuple([*adding, *others][:MOST])
 
-    def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> tuple[np.ndarray, ...]:
+    def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> _Arguments:
         """What the kernels need of the tile for these inks."""
         sources, own = (
             np.array([COLOURS + 3 * there.index(ink) if ink in there else -1 for ink in inks], np.int64)

@@ -11,10 +11,9 @@ pixel at `start`, int64 (2,); `factors`, float32 (3, 1 + 2n), are p, then q and 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.grid import snap
-from engine.numeric.inner import inner
+from engine.numeric.kernel import Int, Real, inner, kernel
 from engine.numeric.pyramid import blend_rows, expand_row
 
 _UNIT = np.float32(2.0**-16)
@@ -26,8 +25,8 @@ _FAR = 21  # bits of what is implied, in units of 2^-16: snap holds below 64
 _RIDGE = 1e-10  # of the normal equations' trace: of terms that do the same, both get a part
 
 
-@njit(cache=True, nogil=True)
-def lies(values, plane, top, left, height, width):
+@kernel
+def lies(values: np.ndarray, plane: Int, top: Int, left: Int, height: Int, width: Int) -> bool:
     """Whether any of three planes from `plane` on is not zero on a rectangle."""
     for c in range(3):
         for y in range(height):
@@ -41,7 +40,9 @@ def lies(values, plane, top, left, height, width):
 
 
 @inner
-def _expanded(flat, height, width, plane, place, y, t, line):
+def _expanded(
+    flat: np.ndarray, height: Int, width: Int, plane: Int, place: np.ndarray, y: Int, t: np.ndarray, line: np.ndarray
+) -> None:
     """Row `y` of a plane of the expanded parents, from the even column on; `flat`, all parents of height x width.
 
     (Views of one-dimensional arrays cost least: a row is no more work than it takes to cut it out.)
@@ -57,7 +58,7 @@ def _expanded(flat, height, width, plane, place, y, t, line):
 
 
 @inner
-def _refined(line, flat, height, plane, y):
+def _refined(line: np.ndarray, flat: np.ndarray, height: Int, plane: Int, y: Int) -> None:
     """line += row `y` of a plane of residuals, if there is one; `flat`, all planes of `height` rows."""
     if plane >= 0:
         start = (plane * height + y) * line.size
@@ -67,20 +68,20 @@ def _refined(line, flat, height, plane, y):
 
 
 @inner
-def _clamped(line):
+def _clamped(line: np.ndarray) -> None:
     for i in range(line.size):
         line[i] = min(max(line[i], np.float32(0.0)), np.float32(1.0))
 
 
-@njit(cache=True, nogil=True)
-def _textured(line, amplitude, detail):
+@kernel
+def _textured(line: np.ndarray, amplitude: np.ndarray, detail: np.ndarray) -> None:
     """line += what an ink adds, as the canvas does."""
     for i in range(detail.size):
         line[i] += snap(amplitude[i] * detail[i])
 
 
 @inner
-def _solve(a, b):
+def _solve(a: np.ndarray, b: np.ndarray) -> None:
     """The solution of the positive definite a x = b, in place, by elimination."""
     n = b.size
     for i in range(n):
@@ -96,7 +97,16 @@ def _solve(a, b):
 
 
 @inner
-def _sampled(parents, plane, data, own, place, y, stride, line):
+def _sampled(
+    parents: np.ndarray,
+    plane: Int,
+    data: np.ndarray,
+    own: Int,
+    place: np.ndarray,
+    y: Int,
+    stride: Int,
+    line: np.ndarray,
+) -> None:
     """Every `stride`-th pixel of a row, the parents expanded and the residual added, into `line` float32."""
     if plane < 0:
         line[:] = np.float32(0.0)
@@ -117,7 +127,7 @@ def _sampled(parents, plane, data, own, place, y, stride, line):
 
 
 @inner
-def _gather(sums, x):
+def _gather(sums: np.ndarray, x: np.ndarray) -> None:
     """Adds to `sums` (m (m + 3) / 2, w) the products of the rows of `x` (m + 1, w), column by column."""
     m, r = x.shape[0] - 1, 0
     for j in range(m):
@@ -130,7 +140,7 @@ def _gather(sums, x):
 
 
 @inner
-def _solution(sums, m):
+def _solution(sums: np.ndarray, m: Int) -> np.ndarray:
     """What has the smallest squares: float64 (m,), from the sums of products."""
     a, b, r, trace = np.zeros((m, m), np.float64), np.zeros(m, np.float64), 0, 0.0
     for j in range(m):
@@ -150,8 +160,18 @@ def _solution(sums, m):
     return b
 
 
-@njit(cache=True, nogil=True)
-def fit(data, parents, place, sources, own, seen, start, detail, stride):
+@kernel
+def fit(
+    data: np.ndarray,
+    parents: np.ndarray,
+    place: np.ndarray,
+    sources: np.ndarray,
+    own: np.ndarray,
+    seen: np.ndarray,
+    start: np.ndarray,
+    detail: np.ndarray,
+    stride: Int,
+) -> np.ndarray:
     """The factors, float64, that leave the smallest squares on every `stride`-th pixel of every such row."""
     n, width = sources.size, (data.shape[2] + stride - 1) // stride
     m = 1 + 2 * n
@@ -187,7 +207,16 @@ def fit(data, parents, place, sources, own, seen, start, detail, stride):
 
 
 @inner
-def _add(line, alpha, amplitude, s, p, q, r, first):
+def _add(
+    line: np.ndarray,
+    alpha: np.ndarray,
+    amplitude: np.ndarray,
+    s: np.ndarray,
+    p: Real,
+    q: Real,
+    r: Real,
+    first: bool,
+) -> None:
     """line += p alpha + q amplitude + (amplitude + r alpha) s, or that alone if `first`."""
     if first:
         for i in range(line.size):
@@ -198,7 +227,9 @@ def _add(line, alpha, amplitude, s, p, q, r, first):
 
 
 @inner
-def _exchanged(row, implied, below, sign, whole):
+def _exchanged(
+    row: np.ndarray, implied: np.ndarray, below: np.ndarray, sign: Int, whole: np.ndarray
+) -> tuple[Int, Int, Int]:
     """A row of `exchange`, into `whole` int32: all bits of what is implied, of the row before and after.
 
     Every sum is cast: int32 added to int32 is int64 otherwise, and half as many fit into a register.
@@ -216,8 +247,20 @@ def _exchanged(row, implied, below, sign, whole):
     return far, old, new
 
 
-@njit(cache=True, nogil=True)
-def exchange(data, parents, place, sources, own, seen, start, detail, factors, sign, out):
+@kernel
+def exchange(
+    data: np.ndarray,
+    parents: np.ndarray,
+    place: np.ndarray,
+    sources: np.ndarray,
+    own: np.ndarray,
+    seen: np.ndarray,
+    start: np.ndarray,
+    detail: np.ndarray,
+    factors: np.ndarray,
+    sign: Int,
+    out: np.ndarray,
+) -> int:
     """`out`, whose colour planes may be those of `data`, = `data`, to the colour of which implied - (expanded + detail)
     is added (`sign` 1: it is put back) or from which it is taken (-1).
 
@@ -254,12 +297,12 @@ def exchange(data, parents, place, sources, own, seen, start, detail, factors, s
             far, widest = far | most, widest | after
             saved += _bits(before) - _bits(after)
     if _bits(far) > _FAR or _bits(widest) >= 8 * data.itemsize:
-        return np.int64(-1)
-    return saved
+        return np.int64(-1)  # type: ignore[return-value]
+    return saved  # type: ignore[return-value]
 
 
 @inner
-def _bits(value):
+def _bits(value: Int) -> Int:
     count = 0
     while value:
         count += 1

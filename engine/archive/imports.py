@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import PurePath
@@ -30,7 +30,7 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.recording import Recording
-from engine.painting.rendering import Stop, check
+from engine.painting.rendering import Progress, Stop, check
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
@@ -173,7 +173,7 @@ def _png_rows(
 def read_raster(
     archive: ZipArchive,
     limits: Limits = LIMITS,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress = None,
     cancelled: Stop = None,
 ) -> Opened:
     """The layers of an OpenRaster file as its pictures show them.  FileError if it is none, or damaged."""
@@ -184,7 +184,14 @@ def read_raster(
 class _Import:
     """Builds the tree of one file."""
 
-    def __init__(self, archive: ZipArchive, image: ImageEntry, limits: Limits, progress, cancelled: Stop) -> None:
+    def __init__(
+        self,
+        archive: ZipArchive,
+        image: ImageEntry,
+        limits: Limits,
+        progress: Progress,
+        cancelled: Stop,
+    ) -> None:
         self._archive = archive
         self._image = image
         self._limits = limits

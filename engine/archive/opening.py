@@ -31,7 +31,7 @@ from engine.files.stack_xml import parse_stack
 from engine.files.strict_json import loads
 from engine.files.zip_reader import ZipArchive
 from engine.painting.recording import Recording, read_from
-from engine.painting.rendering import Stop, check
+from engine.painting.rendering import Progress, Stop, check
 from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
 from engine.texture.example.tiles import Tiles
@@ -49,7 +49,7 @@ NEWER = "a newer Inkfall wrote this file: its pictures are shown, the rest is le
 
 def open_painting(
     path: str | os.PathLike[str],
-    progress: Callable[[float], None] | None = None,
+    progress: Progress = None,
     cancelled: Stop = None,
     limits: Limits = LIMITS,
 ) -> Opened:
@@ -77,7 +77,7 @@ Masks = Callable[[str, int], Tiles]
 class _Opening:
     """One file being opened."""
 
-    def __init__(self, archive: ZipArchive, limits: Limits, progress, cancelled: Stop) -> None:
+    def __init__(self, archive: ZipArchive, limits: Limits, progress: Progress, cancelled: Stop) -> None:
         self._archive = archive
         self._limits = limits
         self._progress = progress
@@ -141,13 +141,13 @@ class _Opening:
         The colour of a layer that ink implies is put back while the next layers are read.
         """
         root = manifest.root
-        coloured: list[Future] = []
+        coloured: list[Future[int]] = []
         with (
             ThreadPoolExecutor(WORKERS, "lay") as pool,
             ThreadPoolExecutor(WORKERS, "imply") as squares,
             ThreadPoolExecutor(WORKERS, "colour") as colours,
         ):
-            laid: dict[int, Future] = {
+            laid: dict[int, Future[Pyramid]] = {
                 number: pool.submit(self._ground, found, members) for number, found in manifest.grounds.items()
             }
             try:
@@ -160,8 +160,9 @@ class _Opening:
                     root = layers.with_pyramid(root, layer.name, pyramid)
                 return root, sum(future.result() for future in coloured)
             finally:
-                for future in (*coloured, *laid.values()):
-                    future.cancel()
+                for open_work in (coloured, laid.values()):
+                    for future in open_work:
+                        future.cancel()
 
     def _grown(
         self, root: Group, manifest: Manifest, masks: Masks, sources: Mapping[str, ImageSource]
@@ -202,7 +203,7 @@ class _Opening:
 
     def _tiles(self, packs: tuple[Pack, ...], members: Members, sources: Mapping[str, ImageSource]) -> Iterator[Coded]:
         """All tiles of some packs; the file is read here, unpacking goes on beside."""
-        waiting: deque[tuple[Pack, Future]] = deque()
+        waiting: deque[tuple[Pack, Future[list[Coded]]]] = deque()
         with ThreadPoolExecutor(WORKERS, "open") as pool:
             try:
                 for pack in packs:
@@ -217,7 +218,7 @@ class _Opening:
                 for _, future in waiting:
                     future.cancel()
 
-    def _next(self, waiting: deque) -> list[Coded]:
+    def _next(self, waiting: deque[tuple[Pack, Future[list[Coded]]]]) -> list[Coded]:
         pack, future = waiting.popleft()
         tiles = future.result()
         self._done += pack.plain

@@ -10,15 +10,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numba import njit
 
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 
 MAGIC = b"inkfall\x01"
 
 
 @inner
-def _whole_row(raw, start, size, row):
+def _whole_row(raw: np.ndarray, start: int, size: int, row: np.ndarray) -> None:
     """One row of differences from its bytes, which lie `size` apart from `start` on."""
     width = row.size
     low = raw[start : start + width]
@@ -35,8 +34,8 @@ def _whole_row(raw, start, size, row):
         row[i] = (wide >> 1) ^ -(wide & 1)
 
 
-@njit(cache=True, nogil=True)
-def _decode(raw, out):
+@kernel
+def _decode(raw: np.ndarray, out: np.ndarray) -> int:
     """The tile that bytes `raw` hold into `out`; gives the largest |value|, or -1 if a difference is unknown."""
     planes, height, width = out.shape
     size = height * width
@@ -44,7 +43,7 @@ def _decode(raw, out):
     for p in range(planes):
         kind = raw[p]
         if kind > 2:
-            return np.int64(-1)
+            return np.int64(-1)  # type: ignore[return-value]
         base = planes + p * size * out.itemsize
         for y in range(height):
             row = out[p, y]
@@ -58,7 +57,7 @@ def _decode(raw, out):
                     row[i] += before[i]
             for i in range(width):
                 largest = max(largest, abs(np.int64(row[i])))
-    return largest
+    return largest  # type: ignore[return-value]
 
 
 def encoded_size(shape: tuple[int, ...], bits: int) -> int:

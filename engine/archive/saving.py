@@ -11,7 +11,7 @@ import io
 import os
 import tempfile
 from collections import deque
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -44,8 +44,9 @@ from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted
 from engine.painting.grown import settled_root
 from engine.painting.recording import Recording
-from engine.painting.rendering import Stop, check, folded, reach, sheets, strips
+from engine.painting.rendering import Progress, Stop, check, folded, reach, sheets, strips
 from engine.painting.value import Painting
+from engine.texture.image import ImageSource
 
 MIMETYPE = b"image/openraster"
 MERGED_SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
@@ -70,7 +71,7 @@ Product = bytes | IO[bytes]
 def save(
     path: str | os.PathLike[str],
     snapshot: Snapshot,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress = None,
     cancelled: Stop = None,
 ) -> None:
     """Writes the painting.  The place holds the old file or the whole new one, which was read back and checked.
@@ -293,7 +294,7 @@ class Plan:
             self._plots[layer.id].append(entry)
             yield from (Job(name, make) for name, make in makes.items())
 
-    def _picture_jobs(self, source) -> Iterator[Job]:
+    def _picture_jobs(self, source: ImageSource) -> Iterator[Job]:
         packs: list[Pack] = []
         yield from pack_jobs(f"inkfall/pictures/{source.sha}", pictures.tiles(source), packs)
         self._pictures.append(PictureEntry(source.name, source.sha, (source.width, source.height), tuple(packs)))

@@ -17,9 +17,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numba import njit
 
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inlined, inner, kernel, short
 
 STREAMS = 7
 _CODES = 6  # widths of a row
@@ -27,15 +26,15 @@ _KINDS = 4  # of differences
 SAMPLED = 4  # of the rows, by which those are chosen
 
 
-@njit(inline="always")
-def _abs(value):
+@inlined
+def _abs(value: np.int32) -> np.int32:
     """|value| of an int32, as one."""
     sign = np.int32(value >> np.int32(31))
     return np.int32(np.int32(value ^ sign) - sign)
 
 
 @inner
-def _small(plane):
+def _small(plane: np.ndarray) -> bool:
     """Whether all values are -2 to 1: then they are roundings, and differences would make more of them."""
     for y in range(plane.shape[0]):
         row = plane[y]
@@ -49,7 +48,7 @@ def _small(plane):
 
 
 @inner
-def _kind(plane):
+def _kind(plane: np.ndarray) -> int:
     """0 to 3: which differences of a plane (h, w) have the smallest sum of absolute values on every `SAMPLED`-th row;
     0 if all are -2 to 1."""
     height = plane.shape[0]
@@ -62,11 +61,11 @@ def _kind(plane):
         sums[1] += left
         sums[2] += above
         sums[3] += both
-    return np.argmin(sums)
+    return np.argmin(sums)  # type: ignore[return-value]
 
 
 @inner
-def _sums(row, before):
+def _sums(row: np.ndarray, before: np.ndarray) -> tuple[np.int32, np.int32, np.int32, np.int32]:
     """The sums of a row's absolute differences, of each kind.
 
     They are cast to int32 at every step, since sums of it are int64 otherwise, which takes twice as long; where that
@@ -87,7 +86,7 @@ def _sums(row, before):
 
 
 @inner
-def _difference(plane, y, kind, line):
+def _difference(plane: np.ndarray, y: int, kind: int, line: np.ndarray) -> None:
     """Row `y` of a plane less what `kind` names, wrapping, into `line`."""
     row = plane[y]
     width = row.size
@@ -109,7 +108,7 @@ def _difference(plane, y, kind, line):
 
 
 @inner
-def _zigzag(line, z):
+def _zigzag(line: np.ndarray, z: np.ndarray) -> np.uint32:
     """`line` (w,) zigzag-coded into `z` uint32 (>= w,); all its bits together."""
     bits = np.uint32(0)
     for i in range(line.size):
@@ -120,7 +119,7 @@ def _zigzag(line, z):
 
 
 @inner
-def _put(z, width, bits, streams, at):
+def _put(z: np.ndarray, width: int, bits: np.uint32, streams: np.ndarray, at: np.ndarray) -> int:
     """Appends a row to its stream, `at` (STREAMS,) being where each ends; the code of its width."""
     if bits == 0:
         return 0
@@ -149,8 +148,8 @@ def _put(z, width, bits, streams, at):
     return 3 if count == 1 else 3 + count // 2
 
 
-@njit(cache=True, nogil=True)
-def _encode(data, codes, streams, at):
+@kernel
+def _encode(data: np.ndarray, codes: np.ndarray, streams: np.ndarray, at: np.ndarray) -> None:
     """`data` int16 or int32 (planes, h, w): its codes (planes * (1 + h),), its rows into the streams."""
     planes, height, width = data.shape
     line = np.empty(width, data.dtype)
@@ -164,8 +163,8 @@ def _encode(data, codes, streams, at):
             codes[p * (1 + height) + 1 + y] = _put(z, width, bits, streams, at)
 
 
-@njit(cache=True)  # too short to let other threads run meanwhile
-def _lengths(codes, planes, height, width, lengths):
+@short
+def _lengths(codes: np.ndarray, planes: int, height: int, width: int, lengths: np.ndarray) -> bool:
     """Adds what a tile takes of each stream to `lengths` (STREAMS,); False if a code is unknown."""
     for p in range(planes):
         if codes[p * (1 + height)] >= _KINDS:
@@ -186,8 +185,8 @@ def _lengths(codes, planes, height, width, lengths):
     return True
 
 
-@njit(cache=True, nogil=True)
-def _take(raw, at, code, z):
+@kernel
+def _take(raw: np.ndarray, at: np.ndarray, code: np.uint8, z: np.ndarray) -> None:
     """The next row of width `code` into `z` uint32 (w + 3,)."""
     width = z.size - 3
     if code == 1:
@@ -220,7 +219,7 @@ def _take(raw, at, code, z):
 
 
 @inner
-def _add_before(row, before, kind, first):
+def _add_before(row: np.ndarray, before: np.ndarray, kind: np.uint8, first: bool) -> None:
     """A row of differences to the row itself, wrapping."""
     if kind == 1 or kind == 3:
         for i in range(1, row.size):
@@ -230,8 +229,8 @@ def _add_before(row, before, kind, first):
             row[i] += before[i]
 
 
-@njit(cache=True, nogil=True)
-def _decode(raw, codes, at, out):
+@kernel
+def _decode(raw: np.ndarray, codes: np.ndarray, at: np.ndarray, out: np.ndarray) -> np.int32:
     """The inverse of `_encode`, `at` (STREAMS,) being where in `raw` the next row of each width lies; gives the
     largest |value|."""
     planes, height, width = out.shape
@@ -285,7 +284,8 @@ def decoded(raw: np.ndarray, tiles: Sequence[np.ndarray]) -> int:
     lengths = np.zeros(STREAMS, np.int64)
     filled = 0
     for data in tiles:
-        if not _lengths(raw[filled:count], *data.shape, lengths):
+        planes, height, width = data.shape
+        if not _lengths(raw[filled:count], planes, height, width, lengths):
             return -1
         filled += code_size(data.shape)
     if count + int(lengths.sum()) != raw.size:
@@ -293,6 +293,6 @@ def decoded(raw: np.ndarray, tiles: Sequence[np.ndarray]) -> int:
     at = count + np.cumsum(lengths) - lengths
     filled = largest = 0
     for data in tiles:
-        largest |= _decode(raw, raw[filled:count], at, data)
+        largest |= int(_decode(raw, raw[filled:count], at, data))
         filled += code_size(data.shape)
     return largest

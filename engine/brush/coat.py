@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import TILE
 from engine.numeric.grid import SNAP, snap
+from engine.numeric.kernel import kernel
 from engine.numeric.stand_in import or_plain
 
 _ONE = np.float32(1.0)
@@ -19,8 +19,8 @@ def _keep_of(coverage: np.ndarray, keep: np.ndarray) -> bool:
 
 
 @or_plain(_keep_of)
-@njit(cache=True, nogil=True)
-def keep_of(coverage, keep):
+@kernel
+def keep_of(coverage: np.ndarray, keep: np.ndarray) -> bool:
     """A = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w)."""
     covered = 0
     for y in range(coverage.shape[0]):
@@ -31,8 +31,8 @@ def keep_of(coverage, keep):
     return covered > 0
 
 
-@njit(cache=True, nogil=True)
-def _weigh_locked(keep, alpha, weight, add_alpha):
+@kernel
+def _weigh_locked(keep: np.ndarray, alpha: np.ndarray, weight: np.ndarray, add_alpha: np.ndarray) -> None:
     for y in range(keep.shape[0]):
         a, v, w, b = keep[y], alpha[y], weight[y], add_alpha[y]
         for x in range(a.shape[0]):
@@ -54,8 +54,8 @@ def weigh(keep: np.ndarray, alpha: np.ndarray, locked: bool, add_alpha: np.ndarr
     return weight
 
 
-@njit(cache=True, nogil=True)
-def wash(weight, colour, add):
+@kernel
+def wash(weight: np.ndarray, colour: np.ndarray, add: np.ndarray) -> None:
     """B = snap(weight * colour): `weight` float32 (h, w), `colour` float32 (n,), `add` float32 (n, h, w)."""
     for c in range(add.shape[0]):
         value = colour[c]
@@ -65,8 +65,8 @@ def wash(weight, colour, add):
                 b[x] = snap(w[x] * value)
 
 
-@njit(cache=True, nogil=True)
-def glaze(weight, colours, add):
+@kernel
+def glaze(weight: np.ndarray, colours: np.ndarray, add: np.ndarray) -> None:
     """B = snap(weight * colours): `weight` float32 (h, w), `colours` and `add` float32 (n, h, w)."""
     for c in range(add.shape[0]):
         for y in range(weight.shape[0]):
@@ -82,8 +82,8 @@ def _lay(keep: np.ndarray, colour: np.ndarray, add: np.ndarray) -> None:
 
 
 @or_plain(_lay)
-@njit(cache=True, nogil=True)
-def lay(keep, colour, add):
+@kernel
+def lay(keep: np.ndarray, colour: np.ndarray, add: np.ndarray) -> None:
     """B of plain paint in one pass, as `weigh` and `wash` make it: with M = 1 - A, add[0:3] = snap(M colour), add[3] =
     M.  `keep` float32 (h, w), `colour` (3,), `add` (4, h, w)."""
     for y in range(keep.shape[0]):
@@ -96,8 +96,8 @@ def lay(keep, colour, add):
                 b[x] = snap(w[x] * value)
 
 
-@njit(cache=True, nogil=True)
-def load(keep, colours, amplitudes, add):
+@kernel
+def load(keep: np.ndarray, colours: np.ndarray, amplitudes: np.ndarray, add: np.ndarray) -> None:
     """B of textured paint in one pass, as `weigh`, `glaze` and `wash` make it: with M = 1 - A, add[0:3] = snap(M
     colours), add[3] = M, add[4 + i] = snap(M amplitudes[i]).
 
@@ -117,8 +117,8 @@ def load(keep, colours, amplitudes, add):
                 b[x] = snap(w[x] * value)
 
 
-@njit(cache=True, nogil=True)
-def stain(part, colour, add):
+@kernel
+def stain(part: np.ndarray, colour: np.ndarray, add: np.ndarray) -> None:
     """Turns some of the paint to another colour: B of `load`, `lay` or `wash`, float32 (4 + 3n, h, w), in place.
 
     `part`: how much of it, 0..1, float32 (h, w); `colour` float32 (3,).  Ink of what turns is gone.
@@ -150,8 +150,8 @@ def local_mean(planes: np.ndarray, reach: int) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
-def _box(values, width):
+@kernel
+def _box(values: np.ndarray, width: int) -> np.ndarray:
     """Sums of `width` successive rows: float64 (h, w) to (h - width + 1, w)."""
     out = np.empty((values.shape[0] - width + 1, values.shape[1]))
     total = np.zeros(values.shape[1])

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.brush.dynamics import FLOW, HARDNESS, OPACITY, RADIUS, SPACING, respond, response
 from engine.brush.samples import cleaned
 from engine.brush.settings import Brush
+from engine.numeric.kernel import kernel
 from engine.numeric.stand_in import or_interpreted
 
 DAB = 6  # columns: x, y, radius, opacity, flow, hardness
@@ -59,8 +59,18 @@ class Stroker:
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def _walk(points, state, values, lo, hi, inputs, outputs, counts, dabs):
+@kernel
+def _walk(
+    points: np.ndarray,
+    state: np.ndarray,
+    values: np.ndarray,
+    lo: np.ndarray,
+    hi: np.ndarray,
+    inputs: np.ndarray,
+    outputs: np.ndarray,
+    counts: np.ndarray,
+    dabs: np.ndarray,
+) -> int:
     """Advances `state` over the points; writes the dabs that fit into `dabs` and returns how many there are."""
     now = np.empty(values.shape[0])
     made = 0

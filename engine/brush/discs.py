@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import TILE
+from engine.numeric.kernel import Int, Real, inlined, kernel
 from engine.numeric.stand_in import or_interpreted
 
 CX, CY, ROUT, RIN2, SCALE, CEILING, RATE = range(7)  # a disc's columns; SCALE = 1/(Rout^2 - Rin^2)
@@ -31,8 +31,8 @@ _THREE = np.float32(3.0)
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def as_discs(dabs, shift_x, shift_y, bounds):
+@kernel
+def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray) -> np.ndarray:
     """Dabs (n, 6) as discs (n, 7), moved by a shift in px; those without effect get RATE 0.
 
     CEILING is the dab's opacity on the grid 2^-16.  `bounds`, float64 (x0, y0, x1, y1), grows to hold the discs.
@@ -61,8 +61,8 @@ def as_discs(dabs, shift_x, shift_y, bounds):
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def highest(discs):
+@kernel
+def highest(discs: np.ndarray) -> float:
     """The highest ceiling of discs (n, 7)."""
     most = 0.0
     for i in range(discs.shape[0]):
@@ -70,8 +70,8 @@ def highest(discs):
     return most
 
 
-@njit(inline="always")
-def _span(centre, tile):
+@inlined
+def _span(centre: Real, tile: Int) -> tuple[Real, Real]:
     """Along one axis, how far from `centre` the nearest and the farthest pixel centres of a tile are."""
     low = tile * TILE + 0.5 - centre
     high = low + (TILE - 1)
@@ -79,8 +79,10 @@ def _span(centre, tile):
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def list_pairs(discs, start, codes, which, inside):
+@kernel
+def list_pairs(
+    discs: np.ndarray, start: Int, codes: np.ndarray, which: np.ndarray, inside: np.ndarray
+) -> tuple[int, int]:
     """The pairs (tile, disc) of the discs from `start` on, disc by disc, until the next might not fit.
 
     Writes the tile as (y + HALF) 2^32 + (x + HALF) into `codes`, the disc's index into `which`, and into `inside`
@@ -106,7 +108,7 @@ def list_pairs(discs, start, codes, which, inside):
                         inside[count] = (far_x * far_x + far_y * far_y - disc[RIN2]) * disc[SCALE] < _INSIDE
                         count += 1
         i += 1
-    return count, i
+    return count, i  # type: ignore[return-value]
 
 
 def list_runs(
@@ -126,8 +128,8 @@ def list_runs(
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def _join(codes, which, inside, count, runs):
+@kernel
+def _join(codes: np.ndarray, which: np.ndarray, inside: np.ndarray, count: Int, runs: np.ndarray) -> int:
     """The runs among `count` pairs, which are sorted on the way."""
     for i in range(1, count):  # insertion: stable, and nothing is faster for the few of a frame, or where all is sorted
         code, disc, full = codes[i], which[i], inside[i]
@@ -148,8 +150,10 @@ def _join(codes, which, inside, count, runs):
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def lay_flat(discs, which, inside, value, ceiling):
+@kernel
+def lay_flat(
+    discs: np.ndarray, which: np.ndarray, inside: np.ndarray, value: Real, ceiling: Real
+) -> tuple[np.float32, int]:
     """Lays discs on a tile whose coverage is one `value`, float32, for as long as it stays one.
 
     `ceiling`: no disc of the stroke so far has a higher one.  Returns the value and how many discs were laid.
@@ -164,14 +168,14 @@ def lay_flat(discs, which, inside, value, ceiling):
         room = max(_ZERO, np.float32(disc[CEILING]) - value)
         if room > _ZERO:
             if not inside[k]:
-                return value, k
+                return value, k  # type: ignore[return-value]
             value = value + room * np.float32(disc[RATE])
-    return value, which.shape[0]
+    return value, which.shape[0]  # type: ignore[return-value]
 
 
 @or_interpreted()
-@njit(cache=True, nogil=True)
-def wiped(discs, which, inside, ceiling):
+@kernel
+def wiped(discs: np.ndarray, which: np.ndarray, inside: np.ndarray, ceiling: Real) -> bool:
     """Whether a disc among these fills the whole tile up to the ceiling."""
     for k in range(which.shape[0]):
         if inside[k] and discs[which[k], RATE] == 1.0 and discs[which[k], CEILING] >= ceiling:
@@ -179,8 +183,8 @@ def wiped(discs, which, inside, ceiling):
     return False
 
 
-@njit(inline="always")
-def _lay_row(row, across, down, ceiling, rate):
+@inlined
+def _lay_row(row: np.ndarray, across: np.ndarray, down: Real, ceiling: Real, rate: Real) -> None:
     for i in range(row.shape[0]):
         v = _ONE - max(_ZERO, min(_ONE, across[i] + down))  # 1 - u
         row[i] += max(_ZERO, ceiling - row[i]) * (rate * (v * v * (_THREE - _TWO * v)))
@@ -195,8 +199,8 @@ def _lay_whole_row(
 
 
 @or_interpreted(_lay_row=_lay_whole_row)
-@njit(cache=True, nogil=True)
-def lay(coverage, discs, which, first, last, left, top):
+@kernel
+def lay(coverage: np.ndarray, discs: np.ndarray, which: np.ndarray, first: Int, last: Int, left: Int, top: Int) -> None:
     """Lays the discs which[first:last] into one tile, in order: M' = M + max(0, ceiling - M) * rate * d(r).
 
     `coverage`: M, float32 (128, 128), written; `left`, `top`: the tile's corner in px.

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.brush.settings import SETTINGS, Brush, Curve
+from engine.numeric.kernel import kernel
 
 DYNAMIC = ("radius", "opacity", "flow", "hardness", "spacing")
 RADIUS, OPACITY, FLOW, HARDNESS, SPACING = range(len(DYNAMIC))
@@ -62,8 +62,17 @@ def response(brush: Brush) -> Response:
     )
 
 
-@njit(cache=True, nogil=True)
-def respond(values, lo, hi, inputs, outputs, counts, pressure, into):
+@kernel
+def respond(
+    values: np.ndarray,
+    lo: np.ndarray,
+    hi: np.ndarray,
+    inputs: np.ndarray,
+    outputs: np.ndarray,
+    counts: np.ndarray,
+    pressure: float,
+    into: np.ndarray,
+) -> None:
     """Writes the settings at one pressure into `into`, float64 (5,), each clamped to its range."""
     for i in range(values.shape[0]):
         n = counts[i]

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 
 from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
@@ -21,7 +20,7 @@ from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
 from engine.brush.settings import Brush
 from engine.brush.tip import Pattern
 from engine.numeric.address import TILE, Rect
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 
 WIDEST = 2048.0  # px: radius of a dab
 TILES_CAP = 1 << 12  # of one stroke
@@ -146,7 +145,7 @@ def _groups(boxes: np.ndarray) -> Iterator[tuple[int, int, Rect]]:
 
 
 @inner
-def _half(ceiling):
+def _half(ceiling: float) -> float:
     """The u at which a dab of that ceiling covers half: ceiling (1 - u)^2 (1 + 2u) = 1/2; 1/2 but for the tiniest."""
     low, high = 0.0, 0.5
     while ceiling < 1.0 and high - low > 1e-9:
@@ -158,8 +157,8 @@ def _half(ceiling):
     return high
 
 
-@njit(cache=True, nogil=True)
-def _take(mask, discs, left, top):
+@kernel
+def _take(mask: np.ndarray, discs: np.ndarray, left: float, top: float) -> None:
     """Marks the pixels of a mask, bool (h, w), that a disc covers at least half."""
     for k in range(discs.shape[0]):
         disc = discs[k]

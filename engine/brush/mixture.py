@@ -54,7 +54,8 @@ class Mixture:
         out = np.broadcast_to(self.ink.base[:, None, None], (3, rect.height, rect.width)).copy()
         for part in self.ink.loaded:
             out += part.amplitude[:, None, None] * part.instance.appearance(self.level, rect)[:3]
-        return np.clip(np.einsum("chw,c->hw", out, LUMA), 0.0, 1.0)
+        luma: np.ndarray = np.clip(np.einsum("chw,c->hw", out, LUMA), 0.0, 1.0)
+        return luma
 
     def gains(self, inks: tuple[Instance, ...]) -> np.ndarray:
         """What one unit of each ink adds to the mixture, float32 (n,); 0 for those that are not the brush's, or are

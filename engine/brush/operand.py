@@ -84,7 +84,8 @@ def straight(planes: np.ndarray, old: Planes) -> np.ndarray:
     """Straight colours (3, h, w) of premultiplied `planes`; those of `old` where there are none."""
     alpha = planes[ALPHA]
     below = np.clip(old.data[:ALPHA] / np.maximum(old.data[ALPHA], _TINY), 0.0, 1.0)
-    return np.where(alpha > 0.0, np.clip(planes[:ALPHA] / np.maximum(alpha, _TINY), 0.0, 1.0), below)
+    straight: np.ndarray = np.where(alpha > 0.0, np.clip(planes[:ALPHA] / np.maximum(alpha, _TINY), 0.0, 1.0), below)
+    return straight
 
 
 def planes_of(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndarray:

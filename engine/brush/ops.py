@@ -195,12 +195,14 @@ def read(value: Any, place: str) -> OpValue:
         raise BrushError(place, described(value), 'a name, {"name": NAME, ...} or {"formula": "..."}')
     if "formula" in value:
         _formula(value["formula"], f"{place}.formula")
-        return checks.frozen(value)
+        formula: OpValue = checks.frozen(value)
+        return formula
     op = _row(value["name"], f"{place}.name")
     own = {part.name: part for part in op.parameters}
     _missing(op, value, place)
     given = {name: own[name].read(part, f"{place}.{name}") for name, part in value.items() if name in own}
-    return checks.frozen(value).update(given)  # members that this version does not know are kept
+    kept: OpValue = checks.frozen(value).update(given)  # members that this version does not know are kept
+    return kept
 
 
 def chosen(op: OpValue, place: str = "brush.op") -> Chosen:

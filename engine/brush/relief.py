@@ -20,7 +20,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 
 from engine.brush import extent
 from engine.brush.extent import Extent
@@ -30,6 +29,7 @@ from engine.brush.parts import Surface
 from engine.brush.rim import Rim, Tiles
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.kernel import kernel
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table
 from engine.texture.grey import grey
@@ -236,8 +236,8 @@ def resolve(
     )
 
 
-@njit(cache=True, nogil=True)
-def _dig(coverage, heights, amount, out):
+@kernel
+def _dig(coverage: np.ndarray, heights: np.ndarray, amount: np.float32, out: np.ndarray) -> None:
     """What of M touches the heights g: see the module's text.  All float32 (h, w), amount above 0."""
     soft = np.float32(SOFTNESS)
     gain = (_ONE + soft) / (soft * amount)
@@ -250,8 +250,8 @@ def _dig(coverage, heights, amount, out):
             o[x] = touch * (m + amount * m * (_ONE - m))
 
 
-@njit(cache=True, nogil=True)
-def _thin(coverage, values, amount):
+@kernel
+def _thin(coverage: np.ndarray, values: np.ndarray, amount: np.float32) -> None:
     """coverage (h, w) times 1 - amount + amount s, in place."""
     for y in range(coverage.shape[0]):
         m, s = coverage[y], values[y]

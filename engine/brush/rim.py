@@ -12,11 +12,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from engine.brush.parts import Edge
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, TileKey
+from engine.numeric.kernel import kernel
 from engine.numeric.shaping import look_up, table
 
 CAP = 64  # px: wider rims are as wide as this
@@ -98,8 +98,8 @@ class Rim:
         return out
 
 
-@njit(cache=True, nogil=True)
-def _distances(inside, reach, scale, out):
+@kernel
+def _distances(inside: np.ndarray, reach: int, scale: np.float32, out: np.ndarray) -> None:
     """How far each pixel of the middle lies from the nearest pixel that is not inside, less the half pixel to the
     border between them, times `scale` and at most 1.
 

@@ -13,7 +13,6 @@ from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
-from numba import njit
 
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.brush.ink import Texture, named
@@ -22,6 +21,7 @@ from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect
 from engine.numeric.curves import Shape
 from engine.numeric.hashing import fold_key, mix64
+from engine.numeric.kernel import inlined, kernel
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table
 from engine.texture.grey import LUMINANCE, grey
@@ -132,15 +132,25 @@ def _curved(values: np.ndarray, curve: Shape | None) -> np.ndarray:
     return out
 
 
-@njit(inline="always")
-def _profile(dx2, dy2, inner, scale):
+@inlined
+def _profile(dx2: np.float32, dy2: np.float32, inner: np.float32, scale: np.float32) -> np.float32:
     """d(r) of a disc (module `discs`)."""
     v = _ONE - max(_ZERO, min(_ONE, np.float32((dx2 + dy2 - inner) * scale)))
     return v * v * (_THREE - _TWO * v)
 
 
-@njit(cache=True, nogil=True)
-def _lay_windows(coverage, discs, which, number, key, left, top, field, n):
+@kernel
+def _lay_windows(
+    coverage: np.ndarray,
+    discs: np.ndarray,
+    which: np.ndarray,
+    number: int,
+    key: np.uint64,
+    left: int,
+    top: int,
+    field: np.ndarray,
+    n: int,
+) -> None:
     """M' = M + max(0, ceiling - M) rate d(r) t, t being a window of `field`, float32 (n n,), in whole pixels."""
     for index in which:
         disc = discs[index]
@@ -158,8 +168,16 @@ def _lay_windows(coverage, discs, which, number, key, left, top, field, n):
                 row[x] += max(_ZERO, ceiling - row[x]) * (rate * d * seen[(x - x0) % n])
 
 
-@njit(cache=True, nogil=True)
-def _lay_samples(coverage, discs, which, left, top, packed, sizes):
+@kernel
+def _lay_samples(
+    coverage: np.ndarray,
+    discs: np.ndarray,
+    which: np.ndarray,
+    left: int,
+    top: int,
+    packed: np.ndarray,
+    sizes: np.ndarray,
+) -> None:
     """As `_lay_windows`, t being the sample laid out over the disc's square, of the level that is about as wide as
     the disc, with straight lines between its pixels."""
     for index in which:

@@ -10,11 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numba import njit
-from numba.extending import register_jitable
 
 from engine.numeric.grid import snap
-from engine.numeric.inner import inner
+from engine.numeric.kernel import forced, inner, kernel
 
 _ZERO, _ONE, _TWO, _HALF = np.float32(0), np.float32(1), np.float32(2), np.float32(0.5)
 _TINY = np.float32(1e-6)
@@ -25,92 +23,93 @@ LUMA = (0.3, 0.59, 0.11)  # W3C, Compositing and Blending Level 1, section 10.2
 _RED, _GREEN, _BLUE = (np.float32(part) for part in LUMA)
 STEPS = 1024  # of a ramp's table
 
-_inlined = register_jitable(forceinline=True)
 Loop = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray], None]  # of `_separable`
+# Of a colour, the brush's, and two parameters: where it goes, and how steeply.
+Channel = Callable[[np.float32, np.float32, np.float32, np.float32], tuple[np.float32, np.float32]]
 
 
 # ---- channel functions: (channel, brush's colour, first and second parameter) -> target, slope ----------------------
 
 
-@_inlined
-def _multiply(c, p, a, b):
+@forced
+def _multiply(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c * p, p
 
 
-@_inlined
-def _screen(c, p, a, b):
+@forced
+def _screen(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c + p - c * p, _ONE - p
 
 
-@_inlined
-def _overlay(c, p, a, b):
+@forced
+def _overlay(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     dark = c <= _HALF
     return (_TWO * c * p if dark else _ONE - _TWO * (_ONE - c) * (_ONE - p)), (_TWO * p if dark else _TWO * (_ONE - p))
 
 
-@_inlined
-def _dodge(c, p, a, b):
+@forced
+def _dodge(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     gain = _ONE / max(_ONE - p, _TINY)
     return c * gain, gain
 
 
-@_inlined
-def _burn(c, p, a, b):
+@forced
+def _burn(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     gain = _ONE / max(p, _TINY)
     return _ONE - (_ONE - c) * gain, gain
 
 
-@_inlined
-def _add(c, p, a, b):
+@forced
+def _add(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c + p, _ONE
 
 
-@_inlined
-def _subtract(c, p, a, b):
+@forced
+def _subtract(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c - p, _ONE
 
 
-@_inlined
-def _difference(c, p, a, b):
+@forced
+def _difference(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return abs(c - p), (_ONE if c >= p else -_ONE)
 
 
-@_inlined
-def _invert(c, p, a, b):
+@forced
+def _invert(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return _ONE - c, -_ONE
 
 
-@_inlined
-def _lighten(c, p, a, b):
+@forced
+def _lighten(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c + a * (_ONE - c), _ONE - a
 
 
-@_inlined
-def _darken(c, p, a, b):
+@forced
+def _darken(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c * (_ONE - a), _ONE - a
 
 
-@_inlined
-def _gamma(c, p, a, b):
+@forced
+def _gamma(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return c**a, a * max(c, _TINY) ** (a - _ONE)
 
 
-@_inlined
-def _contrast(c, p, a, b):
+@forced
+def _contrast(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return b + a * (c - b), a
 
 
-@_inlined
-def _posterise(c, p, a, b):
+@forced
+def _posterise(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return np.floor(min(c * a, a - _HALF)) / (a - _ONE), _ZERO
 
 
-def _separable(function):
+def _separable(function: Channel) -> Loop:
     """The loop of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n), by the brush's
     `colour` (3,) and the op's `parameters` (9,).  It is compiled when it is first used."""
 
-    @njit(cache=True, nogil=True)
-    def loop(c, colour, parameters, t, s):
+    @kernel
+    def loop(c: np.ndarray, colour: np.ndarray, parameters: np.ndarray, t: np.ndarray, s: np.ndarray) -> None:
         a, b = parameters[0], parameters[1]
         for channel in range(3):
             source, target, slope, p = c[channel], t[channel], s[channel], colour[channel]
@@ -131,8 +130,8 @@ CHANNELS: dict[str, Loop] = {
 }  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
-def mixed(c, matrix, t, s):
+@kernel
+def mixed(c: np.ndarray, matrix: np.ndarray, t: np.ndarray, s: np.ndarray) -> None:
     """Channels mixed by `matrix`, float32 (9,), whose rows sum to 1, so that grey detail stays."""
     for channel in range(3):
         m0, m1, m2 = matrix[3 * channel], matrix[3 * channel + 1], matrix[3 * channel + 2]
@@ -143,8 +142,8 @@ def mixed(c, matrix, t, s):
             slope[x] = _ONE if -_TINY <= value <= _ONE + _TINY else _ZERO
 
 
-@njit(cache=True, nogil=True)
-def ramp(index, table, t, s):
+@kernel
+def ramp(index: np.ndarray, table: np.ndarray, t: np.ndarray, s: np.ndarray) -> None:
     """The colours of `table`, float32 (1025, 3), at `index`, 0..1, and how fast they change along it."""
     steps = np.float32(STEPS)
     for x in range(index.size):
@@ -157,8 +156,8 @@ def ramp(index, table, t, s):
             s[channel, x] = step * steps
 
 
-@njit(cache=True, nogil=True)
-def sharpen(c, mean, amount, t, s):
+@kernel
+def sharpen(c: np.ndarray, mean: np.ndarray, amount: np.float32, t: np.ndarray, s: np.ndarray) -> None:
     """Colours away from the `mean` around them, float32 (3, n), by `amount` times how far they are."""
     for channel in range(3):
         source, around, target, slope = c[channel], mean[channel], t[channel], s[channel]
@@ -168,16 +167,16 @@ def sharpen(c, mean, amount, t, s):
             slope[x] = _ONE + amount if _ZERO <= value <= _ONE else _ZERO
 
 
-@njit(cache=True, nogil=True)
-def luma(c, out):
+@kernel
+def luma(c: np.ndarray, out: np.ndarray) -> None:
     """Brightness of straight colours `c`, float32 (3, n), into `out` (n,)."""
     red, green, blue = c[0], c[1], c[2]
     for x in range(out.size):
         out[x] = _RED * red[x] + _GREEN * green[x] + _BLUE * blue[x]
 
 
-@njit(cache=True, nogil=True)
-def straight(v, out):
+@kernel
+def straight(v: np.ndarray, out: np.ndarray) -> None:
     """Colour and alpha, float32 (4, n), to straight colours (3, n) within 0..1; black where nothing lies."""
     alpha = v[3]
     for channel in range(3):
@@ -187,8 +186,8 @@ def straight(v, out):
             target[x] = min(max(value, _ZERO), _ONE)
 
 
-@njit(cache=True, nogil=True)
-def weigh(coverage, texture, weight, free):
+@kernel
+def weigh(coverage: np.ndarray, texture: np.ndarray, weight: np.ndarray, free: np.ndarray) -> bool:
     """w = M clamp(tex) into `weight`, M where the texture is not cut off into `free`; whether w is anything.
 
     All float32 (h, w); M is rounded to the grid; `free` is how strongly w follows the texture's finer detail.
@@ -201,11 +200,23 @@ def weigh(coverage, texture, weight, free):
             w[x] = covered * min(max(t[x], _ZERO), _ONE)
             f[x] = covered if _ZERO <= t[x] <= _ONE else _ZERO
             some |= np.int32(w[x] > _ZERO)
-    return some != 0
+    return some != 0  # type: ignore[no-any-return]
 
 
-@njit(cache=True, nogil=True)
-def change(old, planes, weight, free, c, t, s, along, gains, keep, add):
+@kernel
+def change(
+    old: np.ndarray,
+    planes: np.ndarray,
+    weight: np.ndarray,
+    free: np.ndarray,
+    c: np.ndarray,
+    t: np.ndarray,
+    s: np.ndarray,
+    along: bool,
+    gains: np.ndarray,
+    keep: np.ndarray,
+    add: np.ndarray,
+) -> None:
     """A and B of an op that changes colours and spares alpha: v' = v + w (alpha t - v), A = 1 + w (t' - 1) in -1..2.
 
     `old` float32 (4 + 3m, h, w), premultiplied; `weight`, `free` (h, w), as of `weigh`; `c`, `t`, `s` (3, h, w):
@@ -234,7 +245,18 @@ def change(old, planes, weight, free, c, t, s, along, gains, keep, add):
 
 
 @inner
-def _inks(old, planes, free, gains, y, t, s, along, a, add):
+def _inks(
+    old: np.ndarray,
+    planes: np.ndarray,
+    free: np.ndarray,
+    gains: np.ndarray,
+    y: int,
+    t: np.ndarray,
+    s: np.ndarray,
+    along: bool,
+    a: np.ndarray,
+    add: np.ndarray,
+) -> None:
     """B of the ink planes of a row: the op's own texture goes on in them, to one half at most; none passes 2."""
     f, alpha = free[y], old[3, y]
     for i in range(planes.size):
@@ -249,8 +271,16 @@ def _inks(old, planes, free, gains, y, t, s, along, a, add):
             b[x] = min(max(left + snap(f[x] * gain * steep), -most), most) - left
 
 
-@njit(cache=True, nogil=True)
-def spray(keep, free, colour, old, planes, gains, add):
+@kernel
+def spray(
+    keep: np.ndarray,
+    free: np.ndarray,
+    colour: np.ndarray,
+    old: np.ndarray,
+    planes: np.ndarray,
+    gains: np.ndarray,
+    add: np.ndarray,
+) -> None:
     """B of the ink planes, add[4:], of paint of one `colour` (3,) laid through a texture, as `change` makes them where
     the layer is opaque; where nothing lies there is nothing for the texture to stand out from."""
     for y in range(keep.shape[0]):
@@ -266,8 +296,8 @@ def spray(keep, free, colour, old, planes, gains, add):
                 b[x] = min(max(left + snap(f[x] * gain * (alpha[x] * p - v[x])), -most), most) - left
 
 
-@njit(cache=True, nogil=True)
-def moved(planes, right, down, out):
+@kernel
+def moved(planes: np.ndarray, right: np.ndarray, down: np.ndarray, out: np.ndarray) -> None:
     """`planes` float32 (4, h + 2 r, w + 2 r) at places (right, down) px from each pixel, float32 (h, w), |.| < r, by
     bilinear interpolation, into `out` (4, h, w)."""
     reach = (planes.shape[1] - out.shape[1]) // 2

@@ -9,10 +9,10 @@ lies below both fades from one to the other.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.grid import snap
+from engine.numeric.kernel import kernel
 from engine.numeric.pyramid import expand_into
 from engine.texture.example import show, tiles
 from engine.texture.example.exemplar import PAD
@@ -110,8 +110,8 @@ def _names(region: Region, rect: Rect) -> tuple[np.ndarray, np.ndarray]:
     return out, ends
 
 
-@njit(cache=True, nogil=True)
-def _continued(names, near, colours, out, ends):
+@kernel
+def _continued(names: np.ndarray, near: np.ndarray, colours: np.ndarray, out: np.ndarray, ends: np.ndarray) -> None:
     """For each pixel of `out` the source that its nearest neighbour in `names` (BEYOND pixels more on each side)
     continues with; OUTSIDE where there is none."""
     for y in range(out.shape[0]):
@@ -129,8 +129,10 @@ def _continued(names, near, colours, out, ends):
                     break
 
 
-@njit(cache=True, nogil=True)
-def _show(names, colours, inside, k, top, left, out):
+@kernel
+def _show(
+    names: np.ndarray, colours: np.ndarray, inside: np.ndarray, k: int, top: int, left: int, out: np.ndarray
+) -> None:
     """Shows in `out` (4, h, w), `k` levels below `names` and `top`, `left` pixels from their first one, what the
     example has there, `colours` (rows, columns, 4), as far as it is `inside` (h, w), 0..1; on the grid."""
     found = np.empty(4, np.float32)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,9 +18,12 @@ from engine.canvas.fold import fold
 from engine.canvas.front import Front, Surroundings, climbed, climbs, cut_front, joined, widened
 from engine.canvas.painted import Painted, lift, paint, tile_bounds
 from engine.canvas.residuals import NewRecords, Parents, store_front, store_painted
-from engine.canvas.store import Change, Level, Pyramid
+from engine.canvas.store import Change, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import Planes, merged
+
+if TYPE_CHECKING:
+    from immutables._protocols import MapMutation
 
 Keeps = dict[tuple[int, int], np.ndarray]
 _AT_ONCE = 1 << 22  # pixels of an edit's bounds up to which it is worked on as one rectangle
@@ -102,7 +106,14 @@ def _climb_to_the_top(
         front = parent
 
 
-def _by_slabs(pyramid, edit, keys, records, keeps, cache) -> Rect:
+def _by_slabs(
+    pyramid: Pyramid,
+    edit: Edit,
+    keys: Sequence[TileKey],
+    records: NewRecords,
+    keeps: Keeps | None,
+    cache: TileCache | None,
+) -> Rect:
     """A large edit, square by square, so that memory does not grow with it.  Returns the bounds of what changed."""
     changed, tops = Rect(0, 0, 0, 0), []
     for slab in _slabs([key.rect for key in keys]):
@@ -148,7 +159,9 @@ def _higher(pyramid: Pyramid, fronts: Sequence[Front], records: NewRecords, cach
     return tops
 
 
-def _climb_slab(pyramid, front: Front | None, levels, slab: Rect, records: NewRecords) -> Front | None:
+def _climb_slab(
+    pyramid: Pyramid, front: Front | None, levels: Iterator[Surroundings], slab: Rect, records: NewRecords
+) -> Front | None:
     """The further levels of one square; residuals only of its own tiles.  Returns what is left for all together."""
     if front is None:
         return None
@@ -201,7 +214,7 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
     return fold(after) if keeps and sum(1 for _ in after.waiting()) > _MOST_WAITING else after
 
 
-def _write(editable, keys: Iterable[TileKey], records: NewRecords) -> None:
+def _write(editable: MapMutation[tuple[int, int], Record], keys: Iterable[TileKey], records: NewRecords) -> None:
     for key in keys:
         record = records[key]
         if record is not None:

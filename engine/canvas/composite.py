@@ -120,6 +120,8 @@ def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.nd
         if _pair_at(found, i):  # two plain layers in one pass over memory
             (lower, below), (upper, above) = found[i : i + 2]
             both = blend.place_pair if empty else blend.over_pair
+            assert isinstance(below, np.ndarray)
+            assert isinstance(above, np.ndarray)
             both(target, below, above, lower.opacity, upper.opacity)
             empty = False
             i += 2

@@ -154,7 +154,7 @@ def step(
     out = np.empty((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32)
     if parent is None:
         out[:] = 0.0
-    sources = plane_map(parent.inks, inks) if parent is not None else None
+    sources = plane_map(() if parent is None else parent.inks, inks)
     top = (rect.y0 >> 1) - 1 - parent_at.y0
     left = (rect.x0 >> 1) - 1 - parent_at.x0
     laid = [(placed(key, record.rect), record, plane_map(record.inks, inks)) for key, record in records]

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.canvas import plain as plainly
 from engine.numeric.grid import snap
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inlined, inner, kernel
 from engine.numeric.pyramid import blend_rows, expand_row
 from engine.numeric.stand_in import or_plain
 
@@ -23,8 +22,8 @@ _STEEPEST = np.float32(8.0)  # the residual up to which strokes can amplify deta
 
 
 @or_plain(plainly.any_nonzero)
-@njit(cache=True, nogil=True)
-def any_nonzero(data, first_plane, last_plane, first, last):
+@kernel
+def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:
     """Whether any value of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) is not zero."""
     for c in range(first_plane, last_plane):
         for y in range(first, last):
@@ -38,8 +37,8 @@ def any_nonzero(data, first_plane, last_plane, first, last):
 
 
 @or_plain(plainly.clamp_alpha)
-@njit(cache=True, nogil=True)
-def clamp_alpha(out, first, last):
+@kernel
+def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
     """Alpha of rows [first, last) of `out` (C, h, w) into [0, 1], in place."""
     for y in range(first, last):
         row = out[3, y]
@@ -48,8 +47,18 @@ def clamp_alpha(out, first, last):
 
 
 @or_plain(plainly.add_residual)
-@njit(cache=True, nogil=True)
-def add_residual(out, top, left, data, row, column, height, width, planes):
+@kernel
+def add_residual(
+    out: np.ndarray,
+    top: int,
+    left: int,
+    data: np.ndarray,
+    row: int,
+    column: int,
+    height: int,
+    width: int,
+    planes: np.ndarray,
+) -> None:
     """out[:, top:, left:] += data * 2^-16 over height x width; plane c comes from `data[planes[c]]`, -1 for none."""
     for c in range(out.shape[0]):
         source = planes[c]
@@ -62,8 +71,8 @@ def add_residual(out, top, left, data, row, column, height, width, planes):
                 a[i] += np.float32(b[i]) * _UNIT
 
 
-@njit(cache=True, nogil=True)
-def add_texture(out, amplitudes, plane, detail, first):
+@kernel
+def add_texture(out: np.ndarray, amplitudes: np.ndarray, plane: int, detail: np.ndarray, first: int) -> None:
     """Colour rows of `out` (C, h, w) from row `first` += snap(ink * detail); `detail` float32 (1 or 3, rows, w), the
     ink's planes are those of `amplitudes` from `plane` (it may be `out` itself)."""
     for c in range(3):
@@ -76,8 +85,8 @@ def add_texture(out, amplitudes, plane, detail, first):
                 a[i] += snap(ink[i] * d[i])
 
 
-@njit(cache=True, nogil=True)
-def attenuate(data, keep, spares_alpha, out):
+@kernel
+def attenuate(data: np.ndarray, keep: np.ndarray, spares_alpha: bool, out: np.ndarray) -> None:
     """out = snap(data * keep), within +-8, in units of 2^-16; alpha as it is if `spares_alpha`.
 
     `data` int (C, h, w), `keep` float32 (h, w), `out` int32 (C, h, w).
@@ -91,8 +100,17 @@ def attenuate(data, keep, spares_alpha, out):
 
 
 @or_plain(plainly.apply_stamp)
-@njit(cache=True, nogil=True)
-def apply_stamp(old, keep, add, planes, plain, spares_alpha, new, changed):
+@kernel
+def apply_stamp(
+    old: np.ndarray,
+    keep: np.ndarray,
+    add: np.ndarray,
+    planes: np.ndarray,
+    plain: bool,
+    spares_alpha: bool,
+    new: np.ndarray,
+    changed: np.ndarray,
+) -> bool:
     """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
 
     Writes `new` (C, n, n) and `changed` (n, n) uint8, 1 where A != 1 or v' != v.  Returns whether any is.
@@ -121,7 +139,7 @@ def apply_stamp(old, keep, add, planes, plain, spares_alpha, new, changed):
 
 
 @inner
-def _mark(old, keep, plain, new, changed):
+def _mark(old: np.ndarray, keep: np.ndarray, plain: bool, new: np.ndarray, changed: np.ndarray) -> bool:
     """`changed` of `apply_stamp`, and whether any is set."""
     marks = np.empty(keep.shape[1], np.int32)
     found = np.int32(0)
@@ -137,12 +155,12 @@ def _mark(old, keep, plain, new, changed):
         for i in range(a.size):
             found |= marks[i]
             s[i] = np.uint8(marks[i])
-    return found != 0
+    return found != 0  # type: ignore[no-any-return]
 
 
 @or_plain(plainly.halve)
-@njit(cache=True, nogil=True)
-def halve(fine, planes, out, top, left):
+@kernel
+def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
     """out[:, top:, left:] = snapped means of 2 x 2 pixels of `fine` (D, 2h, 2w); plane c of `out` takes
     `fine[planes[c]]`, zero for -1."""
     height, width = fine.shape[1] // 2, fine.shape[2] // 2
@@ -160,8 +178,8 @@ def halve(fine, planes, out, top, left):
 
 
 @or_plain(plainly.halve_marks)
-@njit(cache=True, nogil=True)
-def halve_marks(fine, out, top, left):
+@kernel
+def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
     """out[top:, left:] (uint8) = 1 where any of the 2 x 2 pixels of `fine` (2h, 2w) is marked."""
     height, width = fine.shape[0] // 2, fine.shape[1] // 2
     for y in range(height):
@@ -172,8 +190,8 @@ def halve_marks(fine, out, top, left):
 
 
 @or_plain(plainly.marked)
-@njit(cache=True, nogil=True)
-def marked(marks):
+@kernel
+def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
     """The extent y0, y1, x0, x1 of what is set in `marks`, uint8 (h, w)."""
     y0, y1, x0, x1 = marks.shape[0], 0, marks.shape[1], 0
     columns = np.zeros(marks.shape[1], np.uint8)
@@ -192,8 +210,17 @@ def marked(marks):
 
 
 @or_plain(plainly.climb)
-@njit(cache=True, nogil=True)
-def climb(below_old, below_new, keep, parents, spares_alpha, old, new, changed):
+@kernel
+def climb(
+    below_old: np.ndarray,
+    below_new: np.ndarray,
+    keep: np.ndarray,
+    parents: np.ndarray,
+    spares_alpha: bool,
+    old: np.ndarray,
+    new: np.ndarray,
+    changed: np.ndarray,
+) -> bool:
     """Rule U: what a change of the level below does to this one.
 
     r = v - R v_below (zero where it is only lag);  v' = R v'_below + snap(A r) on `parents` of changed pixels, v
@@ -228,12 +255,12 @@ def climb(below_old, below_new, keep, parents, spares_alpha, old, new, changed):
         for i in range(width):
             found |= marks[i]
             s[i] = np.uint8(marks[i])
-    return found != 0
+    return found != 0  # type: ignore[no-any-return]
 
 
 @or_plain(plainly.differs)
-@njit(cache=True, nogil=True)
-def differs(old, new, out):
+@kernel
+def differs(old: np.ndarray, new: np.ndarray, out: np.ndarray) -> None:
     """out (h, w) uint8 = 1 where any plane of `old` and `new` (C, h, w) differs."""
     for y in range(out.shape[0]):
         s = out[y]
@@ -245,8 +272,8 @@ def differs(old, new, out):
 
 
 @or_plain(plainly.spread)
-@njit(cache=True, nogil=True)
-def spread(parents, top, left, out):
+@kernel
+def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
     """out (2h, 2w) |= 1 where any of the four parents that expand reads is marked; out[0, 0] is the first child of
     parents[top + 1, left + 1].  Returns whether any entry of `out` is set."""
     n = out.shape[1] // 2
@@ -264,12 +291,14 @@ def spread(parents, top, left, out):
             s[2 * i + 1] |= here[i] | after[i]
         for i in range(s.size):
             found |= s[i]
-    return found != 0
+    return found != 0  # type: ignore[no-any-return]
 
 
 @or_plain(plainly.residual)
-@njit(cache=True, nogil=True)
-def residual(value, predicted, touched, top, left, out):
+@kernel
+def residual(
+    value: np.ndarray, predicted: np.ndarray, touched: np.ndarray, top: int, left: int, out: np.ndarray
+) -> bool:
     """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched: `value`, `predicted` float32
     (C, h, w), `touched` uint8 (h, w).  Returns whether that changed `out`."""
     width = touched.shape[1]
@@ -282,12 +311,21 @@ def residual(value, predicted, touched, top, left, out):
                 new = np.int32((v[i] - p[i]) * _COUNT) if t[i] else o[i]
                 changed |= new ^ o[i]
                 o[i] = new
-    return changed != 0
+    return changed != 0  # type: ignore[no-any-return]
 
 
 @or_plain(plainly.first_residual)
-@njit(cache=True, nogil=True)
-def first_residual(value, coarse, top, left, planes, touched, out, used):
+@kernel
+def first_residual(
+    value: np.ndarray,
+    coarse: np.ndarray,
+    top: int,
+    left: int,
+    planes: np.ndarray,
+    touched: np.ndarray,
+    out: np.ndarray,
+    used: np.ndarray,
+) -> tuple[int, int, int, int, int]:
     """The residual of a tile that had none, and what `extent` tells of it.
 
     `value` float32 (C, 2h, 2w); the prediction is expand of `coarse`, placed and chosen as by `expand_into`; `touched`
@@ -323,8 +361,8 @@ def first_residual(value, coarse, top, left, planes, touched, out, used):
 
 
 @or_plain(plainly.extent)
-@njit(cache=True, nogil=True)
-def extent(data, used):
+@kernel
+def extent(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
     """Of int32 (C, h, w): the bits of all absolute values, and the extent y0, y1, x0, x1 of what is not zero.
 
     `used`, int32 (C,), gets the bits of each plane.
@@ -345,8 +383,8 @@ def extent(data, used):
     return _span(rows, columns)
 
 
-@njit(inline="always")
-def _span(rows, columns):
+@inlined
+def _span(rows: np.ndarray, columns: np.ndarray) -> tuple[int, int, int, int, int]:
     bits = np.int32(0)
     y0, y1, x0, x1 = rows.size, 0, columns.size, 0
     for y in range(rows.size):
@@ -356,4 +394,4 @@ def _span(rows, columns):
     for x in range(columns.size):
         if columns[x]:
             x0, x1 = min(x0, x), x + 1
-    return bits, y0, y1, x0, x1
+    return bits, y0, y1, x0, x1  # type: ignore[return-value]

@@ -12,11 +12,11 @@ from collections.abc import Generator, Iterable, Iterator
 from concurrent.futures import Executor, Future
 
 import numpy as np
-from numba import njit
 
 from engine.canvas import closer
 from engine.numeric.address import Rect
 from engine.numeric.grid import snap
+from engine.numeric.kernel import kernel
 from engine.numeric.pyramid import reduce
 from engine.texture.example import show, tiles
 from engine.texture.example.region import Region
@@ -178,8 +178,8 @@ def _sourceless(mask: np.ndarray, names: np.ndarray | None, key: Key) -> Rect:
     return Rect(at.x0 + x0, at.y0 + y0, at.x0 + x1, at.y0 + y1)
 
 
-@njit(cache=True, nogil=True)
-def _bounds_of(mask, names):
+@kernel
+def _bounds_of(mask: np.ndarray, names: np.ndarray) -> tuple[int, int, int, int]:
     """Rows [0, 1) and columns [2, 3) that hold the pixels of a mask (n, n) without a source; 0 if there are none."""
     y0, y1, x0, x1 = mask.shape[0], 0, mask.shape[1], 0
     for y in range(mask.shape[0]):
@@ -290,8 +290,10 @@ def at_level(shown: Shown, up: int, rect: Rect) -> Tiles:
     return level
 
 
-@njit(cache=True, nogil=True)
-def over_tile(out, top, left, above, row, column, height, width):
+@kernel
+def over_tile(
+    out: np.ndarray, top: int, left: int, above: np.ndarray, row: int, column: int, height: int, width: int
+) -> None:
     """out = above + snap((1 - alpha of above) out) for height x width pixels; `out` (C, h, w), `above` (4, h, w)."""
     for y in range(height):
         alpha = above[3, row + y][column : column + width]

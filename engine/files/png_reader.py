@@ -12,14 +12,13 @@ from dataclasses import dataclass
 from typing import BinaryIO
 
 import numpy as np
-from numba import njit
 
 from engine.files.fault import shown
 from engine.files.inflate import DeflateError, Inflated
 from engine.files.limits import LIMITS, Limits
 from engine.files.png_chunks import Chunks
 from engine.files.png_writer import SIGNATURE
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 
 CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
@@ -55,7 +54,7 @@ class Header:
 
 
 @inner
-def _add_paeth(row, above, step):
+def _add_paeth(row: np.ndarray, above: np.ndarray, step: int) -> None:
     """Adds the Paeth predictor (section 9.4) to a row in place."""
     for i in range(min(step, row.size)):
         row[i] = np.uint8(row[i] + above[i])
@@ -74,8 +73,8 @@ def _add_paeth(row, above, step):
         row[i] = np.uint8(row[i] + nearest)
 
 
-@njit(cache=True, nogil=True)
-def _unfilter(raw, before, step):
+@kernel
+def _unfilter(raw: np.ndarray, before: np.ndarray, step: int) -> int:
     """Undoes the filters of `raw` uint8 (n, 1 + stride) in place (section 9.2); `before` is the row above (stride).
 
     Gives the number of rows done: fewer than n if a row names no known filter.
@@ -99,7 +98,7 @@ def _unfilter(raw, before, step):
             _add_paeth(row, above, step)
         elif kind != 0:
             return y
-    return raw.shape[0]
+    return raw.shape[0]  # type: ignore[no-any-return]
 
 
 class PngReader:

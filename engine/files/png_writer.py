@@ -13,7 +13,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 from isal import isal_zlib
-from numba import njit
+
+from engine.numeric.kernel import kernel
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 COLOUR_TYPES = {1: 0, 2: 4, 3: 2, 4: 6}  # channels -> colour type: grey, grey + alpha, RGB, RGBA
@@ -21,8 +22,8 @@ STRIP = 1 << 20  # bytes filtered and deflated at a time
 LEVEL = 2
 
 
-@njit(cache=True, nogil=True)
-def _filter(rows, before, step, out):
+@kernel
+def _filter(rows: np.ndarray, before: np.ndarray, step: int, out: np.ndarray) -> None:
     """Filters `rows` uint8 (n, stride) into `out` (n, stride + 1); `before` is the row above the first."""
     count, stride = rows.shape
     for y in range(count):

@@ -22,9 +22,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
-from numba.extending import register_jitable
 
+from engine.numeric.kernel import dividing, forced, kernel
 from engine.numeric.stand_in import or_plain
 
 ZERO, HALF, ONE, TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
@@ -35,11 +34,14 @@ _FLOAT32 = np.dtype(np.float32)
 NEAR = np.float32(2.0**-20)
 
 Kernel = Callable[[np.ndarray, np.ndarray, np.float32], None]
-_inlined = register_jitable(forceinline=True)  # a call left in the loop would keep it from being vectorised: 9 x slower
+RGB = tuple[np.float32, np.float32, np.float32]
+Channel = Callable[[np.float32, np.float32, np.float32, np.float32], np.float32]  # backdrop, source, each with alpha
+Colour = Callable[[np.float32, np.float32, np.float32, np.float32, np.float32, np.float32, np.float32, np.float32], RGB]
+Shares = Callable[[np.float32, np.float32], tuple[np.float32, np.float32]]
 
 
-@_inlined
-def _clamp(value, top):
+@forced
+def _clamp(value: np.float32, top: np.float32) -> np.float32:
     value = value if value > ZERO else ZERO  # in this order NaN becomes 0
     return value if value < top else top
 
@@ -50,63 +52,63 @@ def clamped(values: np.ndarray, top: np.ndarray | np.float32) -> np.ndarray:
     return np.where(values < top, values, top)
 
 
-@_inlined
-def _least(x, y):
+@forced
+def _least(x: np.float32, y: np.float32) -> np.float32:
     return x if x < y else y
 
 
-@_inlined
-def _most(x, y):
+@forced
+def _most(x: np.float32, y: np.float32) -> np.float32:
     return x if x > y else y
 
 
 # --- separable blend modes: M for one channel ------------------------------------------------------------------------
 
 
-@_inlined
-def _multiply(b, ba, s, sa):
+@forced
+def _multiply(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return s * b
 
 
-@_inlined
-def _screen(b, ba, s, sa):
+@forced
+def _screen(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return b * sa + s * ba - s * b
 
 
-@_inlined
-def _hard_light(b, ba, s, sa):
+@forced
+def _hard_light(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return TWO * s * b if TWO * s <= sa else sa * ba - TWO * (ba - b) * (sa - s)
 
 
-@_inlined
-def _overlay(b, ba, s, sa):
+@forced
+def _overlay(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return TWO * s * b if TWO * b <= ba else sa * ba - TWO * (ba - b) * (sa - s)
 
 
-@_inlined
-def _darken(b, ba, s, sa):
+@forced
+def _darken(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return _least(b * sa, s * ba)
 
 
-@_inlined
-def _lighten(b, ba, s, sa):
+@forced
+def _lighten(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return _most(b * sa, s * ba)
 
 
-@_inlined
-def _color_dodge(b, ba, s, sa):
+@forced
+def _color_dodge(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     bright = sa * _least(ba, b * sa / _most(sa - s, TINY))
     return bright if b > NEAR else ZERO
 
 
-@_inlined
-def _color_burn(b, ba, s, sa):
+@forced
+def _color_burn(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     dark = sa * (ba - _least(ba, (ba - b) * sa / _most(s, TINY)))
     return dark if ba - b > NEAR else sa * ba
 
 
-@_inlined
-def _soft_light(b, ba, s, sa):
+@forced
+def _soft_light(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     cb = _least(b / _most(ba, TINY), ONE)
     low = ((np.float32(16) * cb - np.float32(12)) * cb + np.float32(4)) * cb
     d = low if cb <= np.float32(0.25) else np.sqrt(cb)
@@ -114,14 +116,14 @@ def _soft_light(b, ba, s, sa):
     return sa * b + (TWO * s - sa) * ba * slope
 
 
-@_inlined
-def _difference(b, ba, s, sa):
+@forced
+def _difference(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
     return abs(b * sa - s * ba)
 
 
-def _separable(mix: Callable) -> Kernel:
-    @njit(cache=True, nogil=True, error_model="numpy")
-    def kernel(backdrop, source, opacity):
+def _separable(mix: Channel) -> Kernel:
+    @dividing
+    def kernel(backdrop: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
         for i in range(backdrop.shape[1]):
             sa = _clamp(source[3, i], ONE)
             ba = backdrop[3, i]
@@ -141,13 +143,13 @@ def _separable(mix: Callable) -> Kernel:
 # --- non-separable blend modes: M for three channels, x = backdrop, y = source ---------------------------------------
 
 
-@_inlined
-def _lum(r, g, b):
+@forced
+def _lum(r: np.float32, g: np.float32, b: np.float32) -> np.float32:
     return np.float32(0.3) * r + np.float32(0.59) * g + np.float32(0.11) * b
 
 
-@_inlined
-def _set_lum(r, g, b, light, top):
+@forced
+def _set_lum(r: np.float32, g: np.float32, b: np.float32, light: np.float32, top: np.float32) -> RGB:
     """SetLum with ClipColor, for colours in 0..top instead of 0..1 (both are homogeneous)."""
     shift = light - _lum(r, g, b)
     r, g, b = r + shift, g + shift, b + shift
@@ -159,44 +161,80 @@ def _set_lum(r, g, b, light, top):
     return light + (r - light) * scale, light + (g - light) * scale, light + (b - light) * scale
 
 
-@_inlined
-def _sat(r, g, b):
+@forced
+def _sat(r: np.float32, g: np.float32, b: np.float32) -> np.float32:
     return _most(r, _most(g, b)) - _least(r, _least(g, b))
 
 
-@_inlined
-def _set_sat(r, g, b, sat):
+@forced
+def _set_sat(r: np.float32, g: np.float32, b: np.float32, sat: np.float32) -> RGB:
     """SetSat; depends on ratios of differences only, so it is given unscaled colours, whose differences are exact."""
     low = _least(r, _least(g, b))
     scale = sat / _most(_sat(r, g, b), TINY)
     return (r - low) * scale, (g - low) * scale, (b - low) * scale
 
 
-@_inlined
-def _hue(x0, x1, x2, ba, y0, y1, y2, sa):
+@forced
+def _hue(
+    x0: np.float32,
+    x1: np.float32,
+    x2: np.float32,
+    ba: np.float32,
+    y0: np.float32,
+    y1: np.float32,
+    y2: np.float32,
+    sa: np.float32,
+) -> RGB:
     r, g, b = _set_sat(y0, y1, y2, _sat(x0, x1, x2) * sa)
     return _set_lum(r, g, b, _lum(x0, x1, x2) * sa, sa * ba)
 
 
-@_inlined
-def _saturation(x0, x1, x2, ba, y0, y1, y2, sa):
+@forced
+def _saturation(
+    x0: np.float32,
+    x1: np.float32,
+    x2: np.float32,
+    ba: np.float32,
+    y0: np.float32,
+    y1: np.float32,
+    y2: np.float32,
+    sa: np.float32,
+) -> RGB:
     r, g, b = _set_sat(x0, x1, x2, _sat(y0, y1, y2) * ba)
     return _set_lum(r, g, b, _lum(x0, x1, x2) * sa, sa * ba)
 
 
-@_inlined
-def _color(x0, x1, x2, ba, y0, y1, y2, sa):
+@forced
+def _color(
+    x0: np.float32,
+    x1: np.float32,
+    x2: np.float32,
+    ba: np.float32,
+    y0: np.float32,
+    y1: np.float32,
+    y2: np.float32,
+    sa: np.float32,
+) -> RGB:
     return _set_lum(y0 * ba, y1 * ba, y2 * ba, _lum(x0, x1, x2) * sa, sa * ba)
 
 
-@_inlined
-def _luminosity(x0, x1, x2, ba, y0, y1, y2, sa):
+@forced
+def _luminosity(
+    x0: np.float32,
+    x1: np.float32,
+    x2: np.float32,
+    ba: np.float32,
+    y0: np.float32,
+    y1: np.float32,
+    y2: np.float32,
+    sa: np.float32,
+) -> RGB:
     return _set_lum(x0 * sa, x1 * sa, x2 * sa, _lum(y0, y1, y2) * ba, sa * ba)
 
 
-def _inseparable(mix: Callable) -> Kernel:
-    @njit(cache=True, nogil=True, error_model="numpy")
-    def kernel(backdrop, source, opacity):
+def _inseparable(mix: Colour) -> Kernel:
+    @dividing
+    def kernel(backdrop: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
         for i in range(backdrop.shape[1]):
             sa = _clamp(source[3, i], ONE)
             y0, y1, y2 = _clamp(source[0, i], sa), _clamp(source[1, i], sa), _clamp(source[2, i], sa)
@@ -216,41 +254,41 @@ def _inseparable(mix: Callable) -> Kernel:
 # --- Porter-Duff operators: the shares (Fa, Fb) of source and backdrop -----------------------------------------------
 
 
-@_inlined
-def _src_over(sa, ba):
+@forced
+def _src_over(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
     return ONE, ONE - sa
 
 
-@_inlined
-def _dst_in(sa, ba):
+@forced
+def _dst_in(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
     return ZERO, sa
 
 
-@_inlined
-def _dst_out(sa, ba):
+@forced
+def _dst_out(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
     return ZERO, ONE - sa
 
 
-@_inlined
-def _src_atop(sa, ba):
+@forced
+def _src_atop(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
     return ba, ONE - sa
 
 
-@_inlined
-def _dst_atop(sa, ba):
+@forced
+def _dst_atop(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
     return ONE - ba, sa
 
 
-@_inlined
-def _plus(sa, ba):
+@forced
+def _plus(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
     return ONE, ONE
 
 
-def _porter_duff(shares: Callable) -> Kernel:
+def _porter_duff(shares: Shares) -> Kernel:
     """fl(x y) and fl(x + y) are monotone, so colour <= alpha needs no clamp; only `plus` passes 1."""
 
-    @njit(cache=True, nogil=True, error_model="numpy")
-    def kernel(backdrop, source, opacity):
+    @dividing
+    def kernel(backdrop: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
         for i in range(backdrop.shape[1]):
             sa = _clamp(source[3, i], ONE)
             ba = backdrop[3, i]
@@ -321,8 +359,8 @@ def _place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
 
 
 @or_plain(_place)
-@njit(cache=True, nogil=True)
-def place(target, source, opacity):
+@kernel
+def place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
     """Write `opacity` times the clamped source: what every mode with `alone` gives on an empty backdrop."""
     for i in range(target.shape[1]):
         sa = _clamp(source[3, i], ONE)
@@ -331,8 +369,10 @@ def place(target, source, opacity):
         target[3, i] = opacity * sa
 
 
-@njit(cache=True, nogil=True)
-def place_pair(target, lower, upper, lower_opacity, upper_opacity):
+@kernel
+def place_pair(
+    target: np.ndarray, lower: np.ndarray, upper: np.ndarray, lower_opacity: np.float32, upper_opacity: np.float32
+) -> None:
     """`place` of one source, then `src-over` of another, with the same bits, in one pass over memory."""
     for i in range(target.shape[1]):
         la, ua = _clamp(lower[3, i], ONE), _clamp(upper[3, i], ONE)
@@ -343,8 +383,10 @@ def place_pair(target, lower, upper, lower_opacity, upper_opacity):
         target[3, i] = upper_opacity * ua + keep * (lower_opacity * la)
 
 
-@njit(cache=True, nogil=True)
-def over_pair(backdrop, lower, upper, lower_opacity, upper_opacity):
+@kernel
+def over_pair(
+    backdrop: np.ndarray, lower: np.ndarray, upper: np.ndarray, lower_opacity: np.float32, upper_opacity: np.float32
+) -> None:
     """`src-over` of two sources, one after the other, with the same bits, in one pass over memory."""
     for i in range(backdrop.shape[1]):
         la, ua = _clamp(lower[3, i], ONE), _clamp(upper[3, i], ONE)
@@ -355,8 +397,8 @@ def over_pair(backdrop, lower, upper, lower_opacity, upper_opacity):
         backdrop[3, i] = upper_opacity * ua + keep * (lower_opacity * la + bare * backdrop[3, i])
 
 
-@njit(cache=True, nogil=True)
-def opaque(source):
+@kernel
+def opaque(source: np.ndarray) -> bool:
     """Whether alpha is at least 1 everywhere in (4, n); stops in the first run of 1024 pixels where it is not."""
     n = source.shape[1]
     for start in range(0, n, 1024):

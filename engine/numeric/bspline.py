@@ -10,7 +10,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import inlined, kernel
 
 _SIXTH = np.float32(1.0 / 6.0)
 
@@ -62,8 +63,8 @@ def lay(total: np.ndarray, plane: Plane, values: np.ndarray) -> None:
     _lay(total, *plane, values)
 
 
-@njit(inline="always")
-def _weigh(place, side, places, weights):
+@inlined
+def _weigh(place: float, side: int, places: np.ndarray, weights: np.ndarray) -> None:
     """The four coefficients that a place along an axis lies among, and their weights."""
     low = math.floor(place)
     t = np.float32(place - low)
@@ -77,8 +78,8 @@ def _weigh(place, side, places, weights):
         places[k] = first + k if first + k < side else first + k - side
 
 
-@njit(cache=True, nogil=True)
-def _cut(coefficients, corner, down, across, out):
+@kernel
+def _cut(coefficients: np.ndarray, corner: np.ndarray, down: np.ndarray, across: np.ndarray, out: np.ndarray) -> None:
     side = coefficients.shape[0]
     flat = coefficients.reshape(-1)
     places, weights = np.empty((3, 4), np.int64), np.empty((3, 4), np.float32)
@@ -97,8 +98,8 @@ def _cut(coefficients, corner, down, across, out):
             out[i, j] = total
 
 
-@njit(cache=True, nogil=True)
-def _lay(total, corner, down, across, values):
+@kernel
+def _lay(total: np.ndarray, corner: np.ndarray, down: np.ndarray, across: np.ndarray, values: np.ndarray) -> None:
     side = total.shape[0]
     flat = total.reshape(-1)
     places, weights = np.empty((3, 4), np.int64), np.empty((3, 4), np.float32)

@@ -9,11 +9,10 @@ import sys
 from collections.abc import Callable
 
 import numpy as np
-from numba import njit
-from numba.extending import register_jitable
 
 from engine.numeric.blend import clamped, flat
 from engine.numeric.grid import snap
+from engine.numeric.kernel import dividing, forced
 from engine.numeric.stand_in import or_plain
 
 # A pixel is packed into one integer, so that loads and stores vectorise.
@@ -26,31 +25,29 @@ _ZERO, _HALF, _ONE, _TOP8, _TINY = (np.float32(v) for v in (0, 0.5, 1, 255, 1e-3
 _PER_BYTE = np.float32(1 / 255)
 _STEPS, _STEP = 65536.0, np.float32(2.0**-16)
 
-_inlined = register_jitable(forceinline=True)
 
-
-@_inlined
-def _clamp(value, top):
+@forced
+def _clamp(value: np.float32, top: np.float32) -> np.float32:
     value = value if value > _ZERO else _ZERO  # in this order NaN becomes 0
     return value if value < top else top
 
 
-@_inlined
-def _byte(value):
+@forced
+def _byte(value: np.float32) -> np.uint32:
     """Nearest integer of 0..255, ties up; NaN gives 0."""
     return np.uint32(np.int32(_clamp(value, _TOP8) + _HALF))
 
 
-@_inlined
-def _word(value):
+@forced
+def _word(value: float) -> np.uint64:
     """Nearest integer of 0..65535, ties up; NaN gives 0."""
     value = value if value > 0.0 else 0.0
     value = value if value < 65535.0 else 65535.0
     return np.uint64(np.int64(value + 0.5))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _straight8(planes, out):
+@dividing
+def _straight8(planes: np.ndarray, out: np.ndarray) -> None:
     for i in range(out.size):
         a = _clamp(planes[3, i], _ONE)
         alpha = _byte(_TOP8 * a)
@@ -60,8 +57,8 @@ def _straight8(planes, out):
         out[i] = (r << _R8) | (g << _G8) | (b << _B8) | (alpha << _A8)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _straight16(planes, out):
+@dividing
+def _straight16(planes: np.ndarray, out: np.ndarray) -> None:
     for i in range(out.size):
         a = np.float64(_clamp(planes[3, i], _ONE))
         alpha = _word(65535.0 * a)
@@ -80,8 +77,8 @@ def _plainly_premultiplied8(planes: np.ndarray, out: np.ndarray) -> None:
 
 
 @or_plain(_plainly_premultiplied8)
-@njit(cache=True, nogil=True, error_model="numpy")
-def _premultiplied8(planes, out):
+@dividing
+def _premultiplied8(planes: np.ndarray, out: np.ndarray) -> None:
     for i in range(out.size):
         a = _clamp(planes[3, i], _ONE)
         r, g, b = _clamp(planes[0, i], a), _clamp(planes[1, i], a), _clamp(planes[2, i], a)
@@ -93,8 +90,8 @@ def _premultiplied8(planes, out):
         )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _planes8(pixels, out):
+@dividing
+def _planes8(pixels: np.ndarray, out: np.ndarray) -> None:
     for i in range(pixels.size):
         p = pixels[i]
         a = snap(np.float32((p >> _A8) & _BYTE) * _PER_BYTE)
@@ -105,8 +102,8 @@ def _planes8(pixels, out):
         out[3, i] = a
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _planes16(pixels, out):
+@dividing
+def _planes16(pixels: np.ndarray, out: np.ndarray) -> None:
     for i in range(pixels.size):
         p = pixels[i]
         a = np.floor(np.float64((p >> _A16) & _WORD) * _STEPS / 65535.0 + 0.5)

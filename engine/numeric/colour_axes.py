@@ -10,7 +10,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import kernel
 
 LEAST = 1e-5  # standard deviation, colours being 0..1, of an axis that is one
 _BLOCK = 1 << 18  # pixels whose products are summed in float64 at a time
@@ -136,8 +137,8 @@ def combined(matrix: np.ndarray, planes: np.ndarray, offset: np.ndarray) -> np.n
     return out
 
 
-@njit(cache=True, nogil=True)
-def _combine(matrix, planes, offset, out):
+@kernel
+def _combine(matrix: np.ndarray, planes: np.ndarray, offset: np.ndarray, out: np.ndarray) -> None:
     for m in range(matrix.shape[0]):
         row = out[m]
         row[:] = offset[m]

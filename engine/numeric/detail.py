@@ -7,10 +7,9 @@ after the other, always in the same order, so a pixel's value does not depend on
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 
 # Below a sixteenth of the grid's step a difference is the rounding of float32, not detail.
 FLOOR = np.float32(2.0**-20)
@@ -26,14 +25,14 @@ def parents(rect: Rect) -> Rect:
 
 
 @inner
-def blend_rows(near, far, out):
+def blend_rows(near: np.ndarray, far: np.ndarray, out: np.ndarray) -> None:
     """The vertical half of E: 3 near + far, to be divided by 4."""
     for i in range(out.size):
         out[i] = _THREE * near[i] + far[i]
 
 
 @inner
-def _subtract_row(t, out):
+def _subtract_row(t: np.ndarray, out: np.ndarray) -> int:
     """out (2n,) -= E of `t` (n + 2,), differences below FLOOR to zero; how many are left."""
     n = out.size // 2
     left, mid, right = t[0:n], t[1 : n + 1], t[2 : n + 2]
@@ -46,11 +45,11 @@ def _subtract_row(t, out):
         out[2 * i] = a
         out[2 * i + 1] = b
         count += np.int32(a != _ZERO) + np.int32(b != _ZERO)
-    return count
+    return count  # type: ignore[return-value]
 
 
-@njit(cache=True, nogil=True)
-def subtract_expanded(fine, coarse):
+@kernel
+def subtract_expanded(fine: np.ndarray, coarse: np.ndarray) -> bool:
     """fine -= E coarse, in place; whether anything but zeros is left.
 
     `fine` float32 (C, 2h, 2w) begins at an even row and column; `coarse` (C, h + 2, w + 2) are its `parents`.
@@ -66,8 +65,8 @@ def subtract_expanded(fine, coarse):
     return some
 
 
-@njit(cache=True, nogil=True)
-def expand_row(t, out):
+@kernel
+def expand_row(t: np.ndarray, out: np.ndarray) -> None:
     """The horizontal half of E and the division by 16: `t` (n + 2,) to `out` (2n,)."""
     n = out.size // 2
     left, mid, right = t[0:n], t[1 : n + 1], t[2 : n + 2]
@@ -84,8 +83,8 @@ def cut(planes: np.ndarray, rect: Rect, inside: Rect) -> np.ndarray:
     return np.ascontiguousarray(planes[:, rows, columns])
 
 
-@njit(cache=True, nogil=True)
-def add_expanded(fine, coarse):
+@kernel
+def add_expanded(fine: np.ndarray, coarse: np.ndarray) -> None:
     """fine += E coarse, in place; shapes as for `subtract_expanded`."""
     t, finer = np.empty(coarse.shape[2], np.float32), np.empty(fine.shape[2], np.float32)
     for c in range(fine.shape[0]):

@@ -17,107 +17,106 @@ from numba.core.types import Array, float32, float64, void
 
 from engine.numeric.formula import NAMES, Tree, printed
 from engine.numeric.hashing import place64
+from engine.numeric.kernel import dividing
 
 MEMO = 64  # compiled formulas kept
 _WHOLE = 2.0**31  # beyond, `noise` has no places
 _KEY = np.uint64(0x6A09E667F3BCC908)
 
-_function = njit(cache=True, nogil=True, error_model="numpy")
 
-
-@_function
-def _sin(a):
+@dividing
+def _sin(a: float) -> float:
     return math.sin(a)
 
 
-@_function
-def _cos(a):
+@dividing
+def _cos(a: float) -> float:
     return math.cos(a)
 
 
-@_function
-def _tan(a):
+@dividing
+def _tan(a: float) -> float:
     return math.tan(a)
 
 
-@_function
-def _atan2(a, b):
+@dividing
+def _atan2(a: float, b: float) -> float:
     return math.atan2(a, b)
 
 
-@_function
-def _sqrt(a):
+@dividing
+def _sqrt(a: float) -> float:
     return math.sqrt(abs(a))
 
 
-@_function
-def _abs(a):
+@dividing
+def _abs(a: float) -> float:
     return abs(a)
 
 
-@_function
-def _exp(a):
+@dividing
+def _exp(a: float) -> float:
     return math.exp(a if a < 700.0 or a != a else 700.0)
 
 
-@_function
-def _log(a):
+@dividing
+def _log(a: float) -> float:
     return math.log(abs(a) + 1e-300)
 
 
-@_function
-def _floor(a):
-    return np.floor(a)
+@dividing
+def _floor(a: float) -> float:
+    return np.floor(a)  # type: ignore[no-any-return]
 
 
-@_function
-def _fract(a):
-    return a - np.floor(a)
+@dividing
+def _fract(a: float) -> float:
+    return a - np.floor(a)  # type: ignore[no-any-return]
 
 
-@_function
-def _min(a, b):
+@dividing
+def _min(a: float, b: float) -> float:
     return a if a < b or a != a else b  # what is no number stays none
 
 
-@_function
-def _max(a, b):
+@dividing
+def _max(a: float, b: float) -> float:
     return a if a > b or a != a else b
 
 
-@_function
-def _clamp(a, lo, hi):
+@dividing
+def _clamp(a: float, lo: float, hi: float) -> float:
     return _min(_max(a, lo), hi)
 
 
-@_function
-def _mix(a, b, part):
+@dividing
+def _mix(a: float, b: float, part: float) -> float:
     return a + (b - a) * part
 
 
-@_function
-def _step(edge, a):
+@dividing
+def _step(edge: float, a: float) -> float:
     return 1.0 if a >= edge else 0.0
 
 
-@_function
-def _smoothstep(lo, hi, a):
+@dividing
+def _smoothstep(lo: float, hi: float, a: float) -> float:
     s = _clamp((a - lo) / (hi - lo), 0.0, 1.0)
     return s * s * (3.0 - 2.0 * s)
 
 
-@_function
-def _pow(a, b):
-    return abs(a) ** b
+@dividing
+def _pow(a: float, b: float) -> float:
+    return abs(a) ** b  # type: ignore[no-any-return]
 
 
-@_function
-def _mod(a, b):
-    return a - b * np.floor(a / b)
+@dividing
+def _mod(a: float, b: float) -> float:
+    return a - b * np.floor(a / b)  # type: ignore[no-any-return]
 
 
-@_function
-def _noise(a, b):
+@dividing
+def _noise(a: float, b: float) -> float:
     """A random number of 0..1 for the unit square of the plane that (a, b) lies in."""
     if not (abs(a) < _WHOLE and abs(b) < _WHOLE):
         return 0.0
@@ -139,8 +138,8 @@ def kernel({arguments}, out):
 """
 
 
-@_function
-def _bounded(value):
+@dividing
+def _bounded(value: float) -> float:
     """What does not fit a pixel: 0 for what is no number, the nearest that fits for the others."""
     return 0.0 if not np.isfinite(value) else (1e6 if value > 0.0 else -1e6)
 

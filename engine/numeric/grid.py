@@ -6,7 +6,8 @@ vector width or the path by which a tile was reached.
 """
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import inlined
 
 Q = 2.0**-16
 LIMIT = 16.0
@@ -16,8 +17,8 @@ LIMIT = 16.0
 SNAP = np.float32(192.0)
 
 
-@njit(inline="always")
-def snap(value):
+@inlined
+def snap(value: np.float32) -> np.float32:
     """The nearest grid value to a float32 `value`, |value| < 64; ties to even."""
     return (value + SNAP) - SNAP
 

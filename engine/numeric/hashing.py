@@ -9,7 +9,8 @@ places collide.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import inlined, kernel
 
 MASK32 = (1 << 32) - 1
 MASK64 = (1 << 64) - 1
@@ -19,16 +20,16 @@ _FIRST = np.uint64(0xBF58476D1CE4E5B9)
 _SECOND = np.uint64(0x94D049BB133111EB)
 
 
-@njit(inline="always")
-def mix64(h):
+@inlined
+def mix64(h: np.uint64) -> np.uint64:
     """The splitmix64 finaliser: a bijection of uint64 in which every input bit sways every output bit."""
     h = (h ^ (h >> np.uint64(30))) * _FIRST
     h = (h ^ (h >> np.uint64(27))) * _SECOND
     return h ^ (h >> np.uint64(31))
 
 
-@njit(inline="always")
-def place64(key, x, y):
+@inlined
+def place64(key: np.uint64, x: np.uint64, y: np.uint64) -> np.uint64:
     """The hash at the place whose low 32 bits are `x` and `y` (uint64 below 2^32), under a uint64 `key`."""
     return mix64(((y << np.uint64(32)) | x) ^ key)
 
@@ -80,8 +81,8 @@ def _run(origin: int, high: int, size: int) -> tuple[int, int]:
     return max(0, (high << 32) - origin), min(size, ((high + 1) << 32) - origin)
 
 
-@njit(cache=True, nogil=True)
-def _fill_hash(out, first, last, key, x, y):
+@kernel
+def _fill_hash(out: np.ndarray, first: int, last: int, key: np.uint64, x: np.uint64, y: np.uint64) -> None:
     for j in range(out.shape[0]):
         row = out[j, first:last]
         for i in range(row.size):

@@ -8,9 +8,8 @@ value's exact rank (`match_by_rank`).  Everything is float32 and finite; results
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inlined, inner, kernel
 
 BINS = 256
 
@@ -87,19 +86,19 @@ def _check(values: np.ndarray) -> None:
         raise ValueError(f"match: found {values.dtype} {values.strides}, expected C-contiguous float32")
 
 
-@njit(inline="always")
-def _at(ordered, part):
+@inlined
+def _at(ordered: np.ndarray, part: float) -> np.float32:
     """The sorted values at a part 0..1 of them all."""
     place = min(max(part * ordered.size - 0.5, 0.0), ordered.size - 1.0)
     k = min(np.int64(place), ordered.size - 2) if ordered.size > 1 else 0
-    low = ordered[k]
+    low = ordered[k]  # type: ignore[index]
     if ordered.size == 1:
-        return low
-    return min(np.float32(low + (ordered[k + 1] - low) * (place - k)), ordered[k + 1])  # rounding might go beyond
+        return low  # type: ignore[no-any-return]
+    return min(np.float32(low + (ordered[k + 1] - low) * (place - k)), ordered[k + 1])  # type: ignore[operator]  # rounding might go beyond
 
 
-@njit(cache=True, nogil=True)
-def _match_rows(rows, lows, highs, ordered, counts):
+@kernel
+def _match_rows(rows: np.ndarray, lows: np.ndarray, highs: np.ndarray, ordered: np.ndarray, counts: np.ndarray) -> None:
     bins = counts.shape[1]
     start = np.empty(bins, np.float32)
     step = np.empty(bins, np.float32)
@@ -115,7 +114,7 @@ def _match_rows(rows, lows, highs, ordered, counts):
 
 
 @inner
-def _count(row, low, scale, counts):
+def _count(row: np.ndarray, low: np.float32, scale: np.float32, counts: np.ndarray) -> None:
     """counts[0] = how many values fall into each bin.  Four tables by turns: equal neighbours would wait for one
     another's sum."""
     counts[:] = 0
@@ -134,7 +133,7 @@ def _count(row, low, scale, counts):
 
 
 @inner
-def _fill_table(start, step, counts, total, ordered):
+def _fill_table(start: np.ndarray, step: np.ndarray, counts: np.ndarray, total: int, ordered: np.ndarray) -> None:
     """start[k] = the example's value where as large a part of it lies below as of the values below bin k; step[k] = the
     way from there to start[k + 1], rounded so that no bin ends above the next one's start."""
     below = counts[0, 0]
@@ -152,7 +151,7 @@ def _fill_table(start, step, counts, total, ordered):
 
 
 @inner
-def _look_up(row, low, scale, start, step):
+def _look_up(row: np.ndarray, low: np.float32, scale: np.float32, start: np.ndarray, step: np.ndarray) -> None:
     last = np.int32(start.size - 1)
     for i in range(row.size):
         t = (row[i] - low) * scale
@@ -160,8 +159,8 @@ def _look_up(row, low, scale, start, step):
         row[i] = start[np.uint32(k)] + step[np.uint32(k)] * min(t - np.float32(k), _ONE)
 
 
-@njit(cache=True, nogil=True)
-def _place_by_rank(values, keys, order, ordered):
+@kernel
+def _place_by_rank(values: np.ndarray, keys: np.ndarray, order: np.ndarray, ordered: np.ndarray) -> None:
     start = 0
     while start < keys.size:
         stop = start + 1
@@ -190,7 +189,7 @@ def _values(keys: np.ndarray) -> np.ndarray:
 
 
 @inner
-def _starts(keys):
+def _starts(keys: np.ndarray) -> np.ndarray:
     """Where each digit's run begins, for the three passes of the sort: int64 (3, 2^11)."""
     starts = np.zeros((3, _SIZE), np.int64)
     for i in range(keys.size):
@@ -205,8 +204,8 @@ def _starts(keys):
     return starts
 
 
-@njit(cache=True, nogil=True)
-def _sort(keys, spare):
+@kernel
+def _sort(keys: np.ndarray, spare: np.ndarray) -> None:
     """Sorts keys (n,) by their digits from the lowest, stably; `spare` is as large."""
     starts = _starts(keys)
     source, target = keys, spare
@@ -220,8 +219,8 @@ def _sort(keys, spare):
         keys[i] = source[i]
 
 
-@njit(cache=True, nogil=True)
-def _sort_with_places(keys, spare, order, spare_order):
+@kernel
+def _sort_with_places(keys: np.ndarray, spare: np.ndarray, order: np.ndarray, spare_order: np.ndarray) -> None:
     """As `_sort`; `order` becomes the place that each key came from."""
     starts = _starts(keys)
     for i in range(order.size):

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.grid import Q
+from engine.numeric.kernel import kernel
 
 Edges = Literal["circular", "reflected"]  # what lies beyond: the other end, or the mirror image about the last sample
 
@@ -107,8 +107,8 @@ def _add_expanded(out: np.ndarray, low: np.ndarray, dimensions: int, edges: Edge
             grown = larger
 
 
-@njit(cache=True, nogil=True)
-def _reduce(x, taps, out):
+@kernel
+def _reduce(x: np.ndarray, taps: np.ndarray, out: np.ndarray) -> None:
     """out (b, m, c) from x (b, n, c) along the middle axis; taps (m, 5) places in it."""
     outer, middle, inner = np.float32(1.0 / 16.0), np.float32(6.0 / 16.0), np.float32(4.0 / 16.0)
     for b in range(out.shape[0]):
@@ -120,8 +120,8 @@ def _reduce(x, taps, out):
                 row[i] = sides + third[i] * middle
 
 
-@njit(cache=True, nogil=True)
-def _reduce_last(x, taps, out):
+@kernel
+def _reduce_last(x: np.ndarray, taps: np.ndarray, out: np.ndarray) -> None:
     """out (b, m) from x (b, n), as `_reduce`, rounded to the grid."""
     outer, middle, inner = np.float32(1.0 / 16.0), np.float32(6.0 / 16.0), np.float32(4.0 / 16.0)
     m, n = out.shape[1], x.shape[1]
@@ -140,8 +140,8 @@ def _reduce_last(x, taps, out):
                 row[j] = np.rint(value * _STEPS) * _STEP
 
 
-@njit(cache=True, nogil=True)
-def _expand(x, around, out):
+@kernel
+def _expand(x: np.ndarray, around: np.ndarray, out: np.ndarray) -> None:
     """out (b, n, c) from x (b, m, c) along the middle axis; around (m, 3): the samples before, at and after."""
     side, middle, half = np.float32(1.0 / 8.0), np.float32(6.0 / 8.0), np.float32(0.5)
     for b in range(out.shape[0]):
@@ -156,8 +156,8 @@ def _expand(x, around, out):
                     odd[i] = (here[i] + after[i]) * half
 
 
-@njit(cache=True, nogil=True)
-def _expand_last(x, around, out, sign):
+@kernel
+def _expand_last(x: np.ndarray, around: np.ndarray, out: np.ndarray, sign: np.float32) -> None:
     """out (b, n) += sign times x (b, m) expanded and rounded to the grid."""
     side, middle, half = np.float32(1.0 / 8.0), np.float32(6.0 / 8.0), np.float32(0.5)
     m, n = x.shape[1], out.shape[1]

@@ -12,9 +12,11 @@ from typing import Any
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
+
+from engine.numeric.kernel import kernel
 
 RADIUS, SIDE = 3, 7
 ROW = 32  # values of a row of weights
@@ -26,8 +28,8 @@ _LANES = ir.VectorType(ir.IntType(16), ROW)
 _WIDE = ir.VectorType(ir.IntType(32), ROW)
 
 
-@intrinsic
-def ones(context, number):
+@intrinsic  # type: ignore[untyped-decorator]
+def ones(context: Any, number: Any) -> Any:
     """How many bits of a uint64 are set: int32."""
 
     def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -77,14 +79,16 @@ def _apart_over(rows: tuple[int, ...], within: bool) -> Any:
     places = types.intp, types.intp
     if within:
 
-        @intrinsic
-        def apart(context, a, i, a_row, b, j, b_row, weights, k, care):
+        @intrinsic  # type: ignore[untyped-decorator]
+        def apart(
+            context: Any, a: Any, i: Any, a_row: Any, b: Any, j: Any, b_row: Any, weights: Any, k: Any, care: Any
+        ) -> Any:
             return types.int32(a, *places, b, *places, weights, types.intp, care), emit
 
     else:
 
-        @intrinsic
-        def apart(context, a, i, a_row, b, j, b_row, weights, k):
+        @intrinsic  # type: ignore[untyped-decorator]
+        def apart(context: Any, a: Any, i: Any, a_row: Any, b: Any, j: Any, b_row: Any, weights: Any, k: Any) -> Any:
             return types.int32(a, *places, b, *places, weights, types.intp), emit
 
     return apart
@@ -98,8 +102,8 @@ middle_apart, others_apart = _apart_over(_MIDDLE, False), _apart_over(_OTHERS, F
 middle_apart_within, others_apart_within = _apart_over(_MIDDLE, True), _apart_over(_OTHERS, True)
 
 
-@njit(cache=True, nogil=True)
-def region_bits(mask, out):
+@kernel
+def region_bits(mask: np.ndarray, out: np.ndarray) -> None:
     """Bits of the 7 x 7 pixels around each that lie in the region, pixel (dy, dx) as bit 7 (dy + 3) + dx + 3.
 
     `mask`: uint8 0 or 1 (h, w); `out`: uint64 (h, w), all but its outermost three rows and columns are written.

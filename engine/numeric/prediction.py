@@ -14,9 +14,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.hashing import fold_key, hash_plane
+from engine.numeric.kernel import kernel
 
 REACH_CAP = 8
 RADIUS = 0.999  # of the outermost pole, at most
@@ -150,8 +150,16 @@ def noise_at(seed: int, x: int, y: int, shape: tuple[int, int, int]) -> np.ndarr
     return out
 
 
-@njit(cache=True, nogil=True)
-def _continue(memory, reach, mask, steps, taps, mean, errors):
+@kernel
+def _continue(
+    memory: np.ndarray,
+    reach: int,
+    mask: np.ndarray,
+    steps: np.ndarray,
+    taps: np.ndarray,
+    mean: float,
+    errors: np.ndarray,
+) -> None:
     """Foretells the masked pixels of one plane, padded by `reach` above, left and right; `steps`: flat offsets."""
     height, width = mask.shape
     flat = memory.reshape(-1)
@@ -165,8 +173,8 @@ def _continue(memory, reach, mask, steps, taps, mean, errors):
                 flat[row + x] = np.float32(total)
 
 
-@njit(cache=True, nogil=True)
-def _add_products(plane, reach, steps, out):
+@kernel
+def _add_products(plane: np.ndarray, reach: int, steps: np.ndarray, out: np.ndarray) -> None:
     """Adds v(p + step_i) v(p + step_j), j <= i, of all pixels p whose memory lies in the plane."""
     height, width = plane.shape
     flat = plane.reshape(-1)
@@ -181,8 +189,8 @@ def _add_products(plane, reach, steps, out):
                     row[j] += value * values[j]
 
 
-@njit(cache=True, nogil=True)
-def _cholesky(matrix):
+@kernel
+def _cholesky(matrix: np.ndarray) -> np.ndarray:
     """The lower triangular root of a symmetric matrix with no negative eigenvalue, column by column."""
     n = matrix.shape[0]
     root = np.zeros((n, n))
@@ -198,8 +206,8 @@ def _cholesky(matrix):
     return root
 
 
-@njit(cache=True, nogil=True)
-def _solved(root, right):
+@kernel
+def _solved(root: np.ndarray, right: np.ndarray) -> np.ndarray:
     """The x with root root' x = right."""
     n = right.size
     x = right.copy()

@@ -8,10 +8,9 @@ only one, whatever the order of the sums.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.grid import SNAP, snap
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 from engine.numeric.stand_in import or_plain
 
 _THREE = np.float32(3.0)
@@ -20,14 +19,14 @@ _QUARTER = np.float32(0.25)
 
 
 @inner
-def blend_rows(near, far, out):
+def blend_rows(near: np.ndarray, far: np.ndarray, out: np.ndarray) -> None:
     """3 near + far: a row halfway between two coarse rows, times 4."""
     for i in range(out.size):
         out[i] = _THREE * near[i] + far[i]
 
 
-@njit(cache=True, nogil=True)
-def expand_row(t, out):
+@kernel
+def expand_row(t: np.ndarray, out: np.ndarray) -> None:
     """`t` (n + 2,) to `out` (2n,): along a row, and the division by 16 of both axes."""
     n = out.size // 2
     left, mid, right = t[0:n], t[1 : n + 1], t[2 : n + 2]
@@ -60,8 +59,10 @@ def _expand_into(
 
 
 @or_plain(_expand_into)
-@njit(cache=True, nogil=True)
-def expand_into(coarse, top, left, planes, out, first, last):
+@kernel
+def expand_into(
+    coarse: np.ndarray, top: int, left: int, planes: np.ndarray, out: np.ndarray, first: int, last: int
+) -> None:
     """Rows [first, last) of `out` (C, 2h, 2w) from `coarse` (D, H, W), both C-contiguous.
 
     `out[0, 0]` is the first child of `coarse[top + 1, left + 1]`; `planes[c]` says which plane of `coarse` feeds
@@ -93,13 +94,13 @@ def expand(coarse: np.ndarray) -> np.ndarray:
 
 
 @inner
-def _reduce_row(upper, lower, out):
+def _reduce_row(upper: np.ndarray, lower: np.ndarray, out: np.ndarray) -> None:
     for i in range(out.size):
         out[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * _QUARTER)
 
 
-@njit(cache=True, nogil=True)
-def _reduce_into(fine, out):
+@kernel
+def _reduce_into(fine: np.ndarray, out: np.ndarray) -> None:
     for c in range(out.shape[0]):
         for y in range(out.shape[1]):
             _reduce_row(fine[c, 2 * y], fine[c, 2 * y + 1], out[c, y])

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.hashing import mix64
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 
 _MASK24 = np.uint32(0xFFFFFF)
 
@@ -53,15 +52,15 @@ def false_colours(colours: np.ndarray) -> np.ndarray:
 
 
 @inner
-def _root(parents, i):
+def _root(parents: np.ndarray, i: int) -> int:
     while parents[i] != i:
         parents[i] = parents[parents[i]]
         i = parents[i]
     return i
 
 
-@njit(cache=True, nogil=True)
-def _regions(colours, parents):
+@kernel
+def _regions(colours: np.ndarray, parents: np.ndarray) -> int:
     """Union-find over the grid; the root of a region is its first pixel."""
     height, width = colours.shape
     count = 0
@@ -81,8 +80,8 @@ def _regions(colours, parents):
     return count
 
 
-@njit(cache=True, nogil=True)
-def _false_colours(colours, out, bytes8):
+@kernel
+def _false_colours(colours: np.ndarray, out: np.ndarray, bytes8: bool) -> None:
     """A bijection of 24 bits on the high bytes of red, green and blue, turned by a hash of all else."""
     for i in range(colours.size):
         value = np.uint64(colours[i])

@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.curves import CURVES, EDGES, KNOTS_CAP, Curve, Shape
+from engine.numeric.kernel import kernel
 
 __all__ = ["CURVES", "EDGES", "KNOTS_CAP", "Shape", "is_identity", "look_up", "shape", "shape_signed", "table"]
 
@@ -57,8 +57,8 @@ def shape_signed(values: np.ndarray, curve: np.ndarray) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
-def look_up(values, curve, scale, offset):
+@kernel
+def look_up(values: np.ndarray, curve: np.ndarray, scale: np.float32, offset: np.float32) -> None:
     """values (n,) = (curve(scale values + offset) - offset) / scale, all float32."""
     back = _ONE / scale
     for i in range(values.size):

@@ -12,7 +12,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import inlined, kernel
 
 _WIDTH = 4  # points of the grid that a frequency is spread to, along each axis
 _STEEP = 2.3 * _WIDTH
@@ -81,14 +82,23 @@ def _transform(count: int) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
-def _kernel(x):
+@kernel
+def _kernel(x: float) -> float:
     inside = 1.0 - (2.0 * x / _WIDTH) ** 2
     return math.exp(_STEEP * (math.sqrt(inside) - 1.0)) if inside > 0.0 else 0.0
 
 
-@njit(cache=True, nogil=True)
-def _gather_rod(frame, centre, side, reach, response, places, along, weights):
+@kernel
+def _gather_rod(
+    frame: np.ndarray,
+    centre: np.ndarray,
+    side: int,
+    reach: float,
+    response: np.ndarray,
+    places: np.ndarray,
+    along: np.ndarray,
+    weights: np.ndarray,
+) -> int:
     """Fills in what a Rod has; returns how many frequencies there are."""
     count, highest = 0, (side - 1) // 2
     first = np.argmax(np.abs(frame[0]))
@@ -116,8 +126,8 @@ def _gather_rod(frame, centre, side, reach, response, places, along, weights):
     return count
 
 
-@njit(inline="always")
-def _around(place, count, places, weights):
+@inlined
+def _around(place: float, count: int, places: np.ndarray, weights: np.ndarray) -> None:
     """The points of a grid of `count`, with spacing 1/2, that a frequency is spread to, and their weights."""
     first = math.ceil(2.0 * place - _WIDTH / 2.0)
     for k in range(_WIDTH):
@@ -125,8 +135,8 @@ def _around(place, count, places, weights):
         weights[k] = _kernel(first + k - 2.0 * place)
 
 
-@njit(cache=True, nogil=True)
-def _spread(values, along, grid):
+@kernel
+def _spread(values: np.ndarray, along: np.ndarray, grid: np.ndarray) -> None:
     places, weights = np.empty((3, _WIDTH), np.int64), np.empty((3, _WIDTH), np.float32)
     for n in range(values.size):
         for axis in range(3):
@@ -139,8 +149,8 @@ def _spread(values, along, grid):
                     row[places[2, c]] += value * weights[2, c]
 
 
-@njit(cache=True, nogil=True)
-def _collect(grid, along, found):
+@kernel
+def _collect(grid: np.ndarray, along: np.ndarray, found: np.ndarray) -> None:
     places, weights = np.empty((3, _WIDTH), np.int64), np.empty((3, _WIDTH), np.float32)
     for n in range(found.size):
         for axis in range(3):

@@ -8,7 +8,8 @@ multiplies by dense matrices: 88 ms where this takes 3 (1920x1080 to 256x144), a
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import kernel
 
 
 def fitted(width: int, height: int, limit: int) -> tuple[int, int]:
@@ -33,8 +34,8 @@ def box_reduce(planes: np.ndarray, width: int, height: int) -> np.ndarray:
     return out
 
 
-@njit(cache=True, nogil=True)
-def _reduce(planes, out):
+@kernel
+def _reduce(planes: np.ndarray, out: np.ndarray) -> None:
     """Overlaps are counted in units of 1/width and 1/height of a pixel, so weights are integers and nothing rounds
     before the last division (values on the grid, 2^37 pixels or fewer)."""
     _, h, w = planes.shape

@@ -14,11 +14,10 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.hashing import MASK32, fold_key, mix64, place64
-from engine.numeric.inner import inner
+from engine.numeric.kernel import Int, Real, inlined, inner, kernel
 from engine.numeric.strips import NO_ROWS, NO_STRIPS, in_strips, lay_strips
 
 ALIKE = -1  # for `levels`: all points weigh 1
@@ -157,8 +156,8 @@ def _keys(key: int, high_x: int, high_y: int) -> np.ndarray:
     return np.array(squares, np.uint64)
 
 
-@njit(inline="always")
-def _weight(h, levels):
+@inlined
+def _weight(h: Int, levels: Int) -> Real:
     """A number of mean 0 and variance 1 from the upper 24 bits of a hash: any, or one of `levels` values."""
     bits = h >> _40
     if levels == ALIKE:
@@ -172,7 +171,7 @@ def _weight(h, levels):
 
 
 @inner
-def _stamp(out, response, top, left, weight):
+def _stamp(out: np.ndarray, response: np.ndarray, top: Int, left: Int, weight: Real) -> None:
     """out += weight * response (c, h, w), whose first pixel lies at (top, left) of `out`, inside or not."""
     y0, y1 = max(0, top), min(out.shape[1], top + response.shape[1])
     x0, x1 = max(0, left), min(out.shape[2], left + response.shape[2])
@@ -185,20 +184,29 @@ def _stamp(out, response, top, left, weight):
                 row[i] += weight * copied[i]
 
 
-@njit(inline="always")
-def _counts(within, x, y):
-    return 0 <= y < within.shape[0] and 0 <= x < within.shape[1] and within[y, x] != 0
+@inlined
+def _counts(within: np.ndarray, x: Int, y: Int) -> bool:
+    return 0 <= y < within.shape[0] and 0 <= x < within.shape[1] and within[y, x] != 0  # type: ignore[no-any-return]
 
 
 @inner
-def _cell(h, corner, layout, noise, within, places, weights, count):
+def _cell(
+    h: Int,
+    corner: tuple[Int, Int],
+    layout: _Layout,
+    noise: tuple[Real, Int],
+    within: np.ndarray,
+    places: np.ndarray,
+    weights: np.ndarray,
+    count: Int,
+) -> Int:
     """Lists the points of one cell, whose hash is `h` and whose corner lies at (x, y), from `count` on; the new count.
 
     `places`: int64 (n, 2), where the response begins, (row, column) in pixels of the points' level.
     """
     cell_w, cell_h = np.uint64(layout.width), np.uint64(layout.height)
     mean, levels = noise
-    rest = np.float64(mix64(h) >> _40) * 2.0**-24
+    rest = np.float64(mix64(h) >> _40) * 2.0**-24  # type: ignore[arg-type]
     for i in range(int(mean) + (1 if rest < mean - int(mean) else 0)):
         g = mix64(h + np.uint64(i + 1) * _GOLDEN)
         x = corner[0] + np.int64((g & _BITS20) * cell_w >> _20)
@@ -212,8 +220,18 @@ def _cell(h, corner, layout, noise, within, places, weights, count):
     return count
 
 
-@njit(cache=True, nogil=True)
-def _fill(out, phases, strips, filled, keys, numbers, mean, levels, within):
+@kernel
+def _fill(
+    out: np.ndarray,
+    phases: np.ndarray,
+    strips: np.ndarray,
+    filled: np.ndarray,
+    keys: np.ndarray,
+    numbers: np.ndarray,
+    mean: Real,
+    levels: Int,
+    within: np.ndarray,
+) -> None:
     """Lists the points, cell by cell, then lays them.  `numbers`: int64, those of a _Layout in order."""
     n = numbers
     layout = _Layout(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12])
@@ -228,14 +246,14 @@ def _fill(out, phases, strips, filled, keys, numbers, mean, levels, within):
             key = keys[(y + j) >> 32, (x + i) >> 32]
             h = place64(key, np.uint64((x + i) & MASK32), np.uint64((y + j) & MASK32))
             corner = layout.left + i * layout.width, layout.top + j * layout.height
-            count = _cell(h, corner, layout, noise, within, places, weights, count)
+            count = _cell(h, corner, layout, noise, within, places, weights, count)  # type: ignore[assignment]
     starts[rows] = count
     if strips.size:
         top = layout.top - layout.half_y
         lay_strips(out, strips, filled, places, weights, (starts, top, layout.height))
         return
     out[:] = np.float32(0.0)
-    for n in range(count):
+    for n in range(count):  # type: ignore[assignment]
         top, left = places[n, 0] >> layout.coarser, places[n, 1] >> layout.coarser
         if top < out.shape[1] and top + phases.shape[3] > 0:
             a, b = places[n, 0] - (top << layout.coarser), places[n, 1] - (left << layout.coarser)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from types import FunctionType
-from typing import Any
+from typing import Any, TypeVar
 
 from numba.core.dispatcher import Dispatcher
 
@@ -19,6 +19,7 @@ from engine.kernel_cache import NotCompiled
 REST = 0.05  # seconds after which a kernel that was missing is looked for again: that takes as long as a small tile
 
 Function = Callable[..., Any]
+F = TypeVar("F", bound=Function)
 
 
 class Kernel:
@@ -41,15 +42,17 @@ class Kernel:
         return result
 
 
-def or_plain(plain: Function) -> Callable[[Any], Kernel]:
-    """Declares that `plain` does the same as a kernel, bit for bit."""
-    return lambda compiled: Kernel(compiled, plain)
+def or_plain(plain: Function) -> Callable[[F], F]:
+    """Declares that `plain` does the same as a kernel, bit for bit; what is declared is a `Kernel`."""
+    declared: Callable[[F], Any] = lambda compiled: Kernel(compiled, plain)  # noqa: E731
+    return declared
 
 
-def or_interpreted(**instead: Function) -> Callable[[Any], Kernel]:
+def or_interpreted(**instead: Function) -> Callable[[F], F]:
     """Declares that a kernel's own text gives the same bits when it is interpreted: it has few steps, all in float64,
     or in types that it names.  `instead`: what to call in place of functions of those names, which have many."""
-    return lambda compiled: Kernel(compiled, interpreted(compiled, instead))
+    declared: Callable[[F], Any] = lambda compiled: Kernel(compiled, interpreted(compiled, instead))  # noqa: E731
+    return declared
 
 
 def interpreted(kernel: Any, instead: dict[str, Function]) -> Function:

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numba import njit
+
+from engine.numeric.kernel import kernel
 
 Change = Callable[["Place", np.ndarray], None]
 
@@ -238,8 +239,8 @@ def _give(total: np.ndarray, half: np.ndarray, made: Filters, place: Place) -> N
     _add_masked(total.view(np.float32), made.mask(place), scale, turn, half.view(np.float32))
 
 
-@njit(cache=True, nogil=True)
-def _masked(spectra, mask, scale, turn, out):
+@kernel
+def _masked(spectra: np.ndarray, mask: np.ndarray, scale: np.float32, turn: np.float32, out: np.ndarray) -> None:
     """out (n, h, 2c) = the lowest frequencies of spectra (n, H, 2C) times mask (h, c), pairs being complex numbers;
     with turn = 1 times i as well."""
     height, (h, c) = spectra.shape[1], mask.shape
@@ -260,8 +261,8 @@ def _masked(spectra, mask, scale, turn, out):
                     into[2 * i + 1] = m * line[2 * i + 1]
 
 
-@njit(cache=True, nogil=True)
-def _add_masked(total, mask, scale, turn, spectra):
+@kernel
+def _add_masked(total: np.ndarray, mask: np.ndarray, scale: np.float32, turn: np.float32, spectra: np.ndarray) -> None:
     """total (n, H, 2C) += spectra (n, h, 2c) times mask (h, c), at the lowest frequencies; with turn = 1 times -i."""
     height, (h, c) = total.shape[1], mask.shape
     for n in range(spectra.shape[0]):

@@ -9,9 +9,8 @@ bit: what is added besides are zeros.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
-from engine.numeric.inner import inner
+from engine.numeric.kernel import Int, Real, inlined, inner, kernel
 
 WIDE = 16  # pixels across a strip
 _BLOCK = 128  # pixels along a side of a block of the result
@@ -51,15 +50,24 @@ def _empty(shape: tuple[int, ...]) -> np.ndarray:
     return room[at : at + size].view(np.float32).reshape(shape)
 
 
-@njit(inline="always")
-def _add(into, p, copied, q, n, weight):
+@inlined
+def _add(into: np.ndarray, p: Int, copied: np.ndarray, q: Int, n: Int, weight: Real) -> None:
     """into[p:p + n] += weight * copied[q:q + n]; unsigned places, so that none counts from the end."""
     for i in range(n):
         into[p + i] += weight * copied[q + i]
 
 
 @inner
-def _near(places, weights, first, last, block, shape, at, found):
+def _near(
+    places: np.ndarray,
+    weights: np.ndarray,
+    first: Int,
+    last: Int,
+    block: tuple[Int, Int, Int, Int],
+    shape: tuple[Int, Int],
+    at: np.ndarray,
+    found: np.ndarray,
+) -> Int:
     """Lists the copies `first` to `last` that touch a block: (top row, displacement on its first strip) in `at`,
     weights in `found`; how many.  block = (y, x, height, width), shape = (rows of a copy, its displacements)."""
     y0, x0, height, width = block
@@ -74,7 +82,14 @@ def _near(places, weights, first, last, block, shape, at, found):
 
 
 @inner
-def _lay(strip, copied, rows, shape, at, found):
+def _lay(
+    strip: np.ndarray,
+    copied: np.ndarray,
+    rows: np.ndarray,
+    shape: tuple[Int, Int, Int, Int, Int],
+    at: np.ndarray,
+    found: np.ndarray,
+) -> None:
     """Sums the listed copies on a strip, the `s`-th of a block: shape = (s, channel, its rows, a copy's displacements
     and rows)."""
     s, channel, height, displacements, deep = shape
@@ -92,7 +107,7 @@ def _lay(strip, copied, rows, shape, at, found):
 
 
 @inner
-def _unpack(out, strip, channel, y0, x0):
+def _unpack(out: np.ndarray, strip: np.ndarray, channel: Int, y0: Int, x0: Int) -> None:
     """Copies a strip to rows and columns from (y0, x0) on of `out`."""
     height, wide = min(_BLOCK, out.shape[1] - y0), np.uintp(min(WIDE, out.shape[2] - x0))
     flat = out.reshape(out.size)
@@ -103,8 +118,15 @@ def _unpack(out, strip, channel, y0, x0):
             flat[p + i] = strip[q + i]
 
 
-@njit(cache=True, nogil=True)
-def lay_strips(out, copied, rows, places, weights, bands):
+@kernel
+def lay_strips(
+    out: np.ndarray,
+    copied: np.ndarray,
+    rows: np.ndarray,
+    places: np.ndarray,
+    weights: np.ndarray,
+    bands: tuple[np.ndarray, Int, Int],
+) -> None:
     """out (c, h, w) = sum over n of weights[n] times the copy, beginning at (row, column) places[n], in that order.
 
     bands = (starts, top, tall): copies starts[j] to starts[j + 1] begin in the rows [top + j tall, top + (j + 1) tall).

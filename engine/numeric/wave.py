@@ -14,10 +14,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
-from engine.numeric.inner import inner
+from engine.numeric.kernel import Int, Real, inlined, inner, kernel
 
 UNIT = 1 << 24  # units in a pixel
 # A cell longer than this cannot show two of its ends in one rectangle (fewer than 2^20 pixels across); the far end is
@@ -132,15 +131,15 @@ def saw_wave(wave: Wave, rect: Rect) -> np.ndarray:
     return out
 
 
-@njit(inline="always")
-def _tail(z, shadow):
+@inlined
+def _tail(z: Real, shadow: tuple[Real, Real, Real, Real]) -> Real:
     """The part of a pixel that lies beyond an edge at distance z >= 0 (pixels) from its centre."""
     rest = max(shadow[2] - z, _ZERO)
     return _HALF - z * shadow[0] if z < shadow[1] else rest * rest * shadow[3]
 
 
-@njit(inline="always")
-def _stepped(r, odd, step, wraps, cell):
+@inlined
+def _stepped(r: Int, odd: Int, step: Int, wraps: Int, cell: Int) -> tuple[Int, Int]:
     """r + step modulo the cell; `step` is reduced already, `wraps` says whether that dropped an odd number of cells."""
     r += step
     odd ^= wraps
@@ -150,14 +149,14 @@ def _stepped(r, odd, step, wraps, cell):
     return r, odd
 
 
-@njit(inline="always")
-def _lift(ux, cell):
+@inlined
+def _lift(ux: Int, cell: Int) -> Int:
     """An even number of cells that keeps every t of a block positive; with r, it stays below 2^31."""
     return 0 if ux >= 0 else ((_BLOCK * -ux) // (2 * cell) + 1) * 2 * cell
 
 
-@njit(inline="always")
-def _within(t, cell, per_cell):
+@inlined
+def _within(t: Int, cell: Int, per_cell: Real) -> tuple[Int, Real]:
     """(m, d): t = m cell + d, 0 <= d < cell; all int32, t >= 0.  The quotient by float32, put right where it is off."""
     m = np.int32(np.float32(t) * per_cell)
     d = np.int32(t - np.int32(m * cell))
@@ -165,11 +164,11 @@ def _within(t, cell, per_cell):
     d = np.int32(d + cell) if d < 0 else d
     m = np.int32(m + 1) if d >= cell else m
     d = np.int32(d - cell) if d >= cell else d
-    return m, d
+    return m, d  # type: ignore[return-value]
 
 
 @inner
-def _square_short(row, r, odd, cell, ux, shadow):
+def _square_short(row: np.ndarray, r: Int, odd: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
     """A block of the square wave whose cells are at most _SHORT: any number of edges."""
     start, step, size = np.int32(r + _lift(ux, cell)), np.int32(ux), np.int32(cell)
     per_cell = _ONE / np.float32(size)
@@ -183,7 +182,13 @@ def _square_short(row, r, odd, cell, ux, shadow):
 
 
 @inner
-def _square_edge(row, distance, sign, ux, shadow):
+def _square_edge(
+    row: np.ndarray,
+    distance: Int,
+    sign: Real,
+    ux: Int,
+    shadow: tuple[Real, Real, Real, Real],
+) -> None:
     """A block with one edge, `distance` units before its first pixel's centre; `sign` holds after the edge."""
     start, step = np.int32(distance), np.int32(ux)
     for i in range(row.size):
@@ -194,7 +199,7 @@ def _square_edge(row, distance, sign, ux, shadow):
 
 
 @inner
-def _square_long(row, r, odd, cell, ux, shadow):
+def _square_long(row: np.ndarray, r: Int, odd: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
     """A block of the square wave whose cells are longer than _SHORT: at most one edge."""
     span = ux * (row.size - 1)
     past = 2 * r + span >= cell
@@ -208,8 +213,16 @@ def _square_long(row, r, odd, cell, ux, shadow):
         _square_edge(row, distance, sign, ux, shadow)
 
 
-@njit(cache=True, nogil=True)
-def _square_rows(out, r, odd, cell, ux, uy, shadow):
+@kernel
+def _square_rows(
+    out: np.ndarray,
+    r: Int,
+    odd: Int,
+    cell: Int,
+    ux: Int,
+    uy: Int,
+    shadow: tuple[Real, Real, Real, Real],
+) -> None:
     """The square wave over `out` (h, w), whose first pixel's centre is at r (0 <= r < cell) in an even or odd cell."""
     jump, jumps = (_BLOCK * ux) % cell, ((_BLOCK * ux) // cell) & 1
     down, downs = uy % cell, (uy // cell) & 1
@@ -226,7 +239,7 @@ def _square_rows(out, r, odd, cell, ux, uy, shadow):
 
 
 @inner
-def _saw_short(row, r, cell, ux, shadow):
+def _saw_short(row: np.ndarray, r: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
     """A block of the sawtooth whose period is at most _SHORT: any number of jumps."""
     start, step, size = np.int32(r + _lift(ux, cell)), np.int32(ux), np.int32(cell)
     per_cell = _ONE / np.float32(size)
@@ -238,7 +251,7 @@ def _saw_short(row, r, cell, ux, shadow):
 
 
 @inner
-def _saw_long(row, r, cell, ux, shadow):
+def _saw_long(row: np.ndarray, r: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
     """A block of the sawtooth with one jump at most; the ramp in float64."""
     slope = 2.0 / cell
     span = ux * (row.size - 1)
@@ -254,8 +267,8 @@ def _saw_long(row, r, cell, ux, shadow):
         row[i] = np.float32((1.0 - slope * np.float64(t)) - np.float64(_TWO * (near - far)))
 
 
-@njit(cache=True, nogil=True)
-def _saw_rows(out, r, cell, ux, uy, shadow):
+@kernel
+def _saw_rows(out: np.ndarray, r: Int, cell: Int, ux: Int, uy: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
     """The sawtooth over `out` (h, w), whose first pixel's centre is at r, 0 <= r < cell = the period."""
     jump, down = (_BLOCK * ux) % cell, uy % cell
     for y in range(out.shape[0]):

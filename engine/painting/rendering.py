@@ -21,6 +21,7 @@ TOGETHER = 1 << 25  # pixels of all layers' parts of a band, about: half a gigab
 HELD = 64  # layers for which a piece has that size; for more it is narrower
 
 Stop = Callable[[], bool] | None
+Progress = Callable[[float], None] | None  # gets the part done, 0..1
 
 
 def folded(root: Group) -> Group:

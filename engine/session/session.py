@@ -14,6 +14,7 @@ from typing import Any
 
 from immutables import Map
 
+from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.checks.owned import Owned
@@ -81,7 +82,7 @@ class Session(Owned):
         return self._done(command, after)
 
     def begin(
-        self, level: int, origin: tuple[int, int], brush, layer: str | None = None, seed: int | None = None
+        self, level: int, origin: tuple[int, int], brush: Brush, layer: str | None = None, seed: int | None = None
     ) -> Live:
         """A stroke whose points are still to come; hand it to `finish`."""
         return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed)

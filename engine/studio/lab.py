@@ -15,7 +15,7 @@ import numpy as np
 from engine.brush.parts import Component
 from engine.checks.owned import Owned
 from engine.makers import spectrum
-from engine.makers.makers import FIELDS
+from engine.makers.definitions import FIELDS
 from engine.makers.spectrum import Sheets
 from engine.numeric import shapes
 from engine.numeric.address import Rect

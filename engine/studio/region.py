@@ -273,4 +273,5 @@ def _edge(inside: np.ndarray) -> np.ndarray:
     grown[:-1] |= inside[1:]
     grown[:, 1:] |= inside[:, :-1]
     grown[:, :-1] |= inside[:, 1:]
-    return grown & ~inside
+    rim: np.ndarray = grown & ~inside
+    return rim

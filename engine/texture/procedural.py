@@ -17,10 +17,10 @@ from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.detail import FLOOR, cut, expand_row, parents, subtract_expanded
+from engine.numeric.kernel import kernel
 from engine.numeric.wave import FAR, LONGEST, Wave, saw_wave, square_wave, step_wave
 
 Sampler = Callable[[Wave, Rect], np.ndarray]  # pixel averages, float32 (h, w)
@@ -198,8 +198,8 @@ def _kept(out: np.ndarray, some: bool, rect: Rect, even: Rect) -> np.ndarray | N
     return inner if inner.any() else None
 
 
-@njit(cache=True, nogil=True)
-def _outer_difference(sx, sy, ex, ey, out):
+@kernel
+def _outer_difference(sx: np.ndarray, sy: np.ndarray, ex: np.ndarray, ey: np.ndarray, out: np.ndarray) -> bool:
     """out (h, w) = sy sx - ey ex, values up to FLOOR to zero; whether any is left."""
     some = False
     for y in range(out.shape[0]):

@@ -30,12 +30,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.detail import blend_rows, cut, expand_row
 from engine.numeric.hashing import MASK32, fold_key, place64
-from engine.numeric.inner import inner
+from engine.numeric.kernel import inner, kernel
 
 FIRST = 10  # the depth down to which octaves keep their amplitudes, at least
 PEAK = 8  # the age of the strongest octave in the end: features of 2^8 pixels
@@ -166,7 +165,9 @@ def _keys(seed: int, base: int, level: int, high: tuple[int, int], ages: int) ->
 
 
 @inner
-def _noise_run(upper, lower, key, x, y, factor):
+def _noise_run(
+    upper: np.ndarray, lower: np.ndarray, key: np.uint64, x: np.uint64, y: np.uint64, factor: np.float32
+) -> None:
     """Adds an octave's noise to two rows, `x`, `y` (uint64) being the low halves of the first pixel's place.
 
     Of the 2 x 2 pixels of a block the noise is +a+b+c, +a-b-c over -a+b-c, -a-b+c: variance 1, mean exactly zero.
@@ -183,7 +184,9 @@ def _noise_run(upper, lower, key, x, y, factor):
 
 
 @inner
-def _noise_rows(upper, lower, x, y, keys, high, factor):
+def _noise_rows(
+    upper: np.ndarray, lower: np.ndarray, x: int, y: int, keys: np.ndarray, high: tuple[int, int], factor: np.float32
+) -> None:
     """`_noise_run` from the place (x, y), cut where x passes a multiple of 2^32; high = (x, y) >> 32 of keys[1, 1]."""
     row = keys[(y >> 32) - high[1] + 1]
     i, n = 0, upper.size
@@ -197,7 +200,7 @@ def _noise_rows(upper, lower, x, y, keys, high, factor):
 
 
 @inner
-def _ancestors(x, y, height, width, ages):
+def _ancestors(x: int, y: int, height: int, width: int, ages: int) -> np.ndarray:
     """Even rectangles x, y, height, width (ages, 4): the first is given, each next holds what E needs for the last."""
     places = np.empty((ages, 4), np.int64)
     for m in range(ages):
@@ -208,8 +211,8 @@ def _ancestors(x, y, height, width, ages):
     return places
 
 
-@njit(cache=True, nogil=True)
-def _fill_cascade(out, x, y, keys, factors):
+@kernel
+def _fill_cascade(out: np.ndarray, x: int, y: int, keys: np.ndarray, factors: np.ndarray) -> None:
     """out (h, w) = sum over m of factors[m] E^m n_m; x, y: low 62 bits of the even place of its first pixel."""
     places = _ancestors(x, y, out.shape[0], out.shape[1], factors.size)
     coarse = out

@@ -10,6 +10,7 @@ import platform
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from app.cli.outcome import DONE, FAILED, Failed, Refused
 from app.cli.progress import Progress
@@ -56,7 +57,7 @@ def measured(names: list[str], small: bool = False) -> Iterator[tuple[str, Figur
                 yield name, row
 
 
-def store(path: Path, told: dict[str, list[dict]]) -> None:
+def store(path: Path, told: dict[str, list[dict[str, Any]]]) -> None:
     """Puts the rows of the benchmarks that ran in place of those that the file has of them."""
     try:
         benches = {**(_held(path) if path.exists() else {}), **told}

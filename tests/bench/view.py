@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from bench import Figure
 from bench.clock import best, copying
@@ -27,7 +28,7 @@ TURNED = [
     {"texture": "squares", "amount": 0.3, "colour": "#4060c0", "period": 40, "angle": 12},
 ]
 ROCKS = [{**ROCK, "seed": seed, "period": 48 + 16 * seed} for seed in range(3)]
-CASES: tuple[tuple[str, list[dict], float], ...] = (
+CASES: tuple[tuple[str, list[dict[str, Any]], float], ...] = (
     ("view, rock, stripes, squares", [ROCK, STRIPES, SQUARES], 8.0),
     ("view, three turned waves", TURNED, 8.0),
     ("view, three rocks", ROCKS, 8.0),
@@ -40,7 +41,7 @@ def measure(small: bool = False) -> Iterator[Figure]:
         yield _figure(name, inks, limit, small)
 
 
-def _figure(name: str, inks: list[dict], limit: float, small: bool) -> Figure:
+def _figure(name: str, inks: list[dict[str, Any]], limit: float, small: bool) -> Figure:
     view = SMALL if small else VIEW
     pyramid = _painted(inks)
     above = Rect((view.x0 >> 1) - 1, (view.y0 >> 1) - 1, (view.x1 >> 1) + 1, (view.y1 >> 1) + 1).evened()
@@ -60,7 +61,7 @@ def evaluated(pyramid: Pyramid, parent: Planes, above: Rect, view: Rect) -> int:
     return planes
 
 
-def _painted(inks: list[dict]) -> Pyramid:
+def _painted(inks: list[dict[str, Any]]) -> Pyramid:
     """A layer covered with ink at level 0."""
     brush = {"radius": 400, "hardness": 1, "colour": "#604020", "ink": inks, "spacing": 0.5}
     stroke = parse({"do": "stroke", "points": [[0, 300], [1100, 300]], "brush": brush})

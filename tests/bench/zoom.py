@@ -8,6 +8,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from app.canvas.view import Place, View, place_of_pixel
 from bench import Figure, Skipped
@@ -99,7 +100,7 @@ def engine(painting: Painting, place: Place, levels: int) -> list[float]:
     return times[1:]
 
 
-def window(painting: Painting, place: Place, levels: int) -> dict:
+def window(painting: Painting, place: Place, levels: int) -> dict[str, Any]:
     """The same zoom in the real window on a display of its own; see `zooming`."""
     with tempfile.TemporaryDirectory() as folder, display() as environment:
         file = Path(folder) / "zoom.ora"

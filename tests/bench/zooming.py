@@ -12,6 +12,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from app.canvas.screen import cells
 from app.canvas.view import Place
@@ -25,7 +26,7 @@ WARM = 0.5  # seconds of zooming before frames are counted: the first tiles' mem
 SMOOTH = 0.016
 
 
-def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float) -> dict:
+def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float) -> dict[str, Any]:
     window = opened()
     window.frame()
     sys.setswitchinterval(SWITCH)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from imgui_bundle import imgui
 from immutables import Map
@@ -19,6 +19,8 @@ from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
 from engine.brush.parts import Edge, Surface, Tip
+
+P = TypeVar("P", Surface, Tip)
 
 SCALES = (-6, 6)  # levels of a grain that the slider offers
 PAPER = "Cold-pressed paper"  # that a brush gets first
@@ -101,7 +103,7 @@ class Texturing:
             part = replace(part, level=round(level))
         return self._shaped(desk, part)
 
-    def _shaped(self, desk: Desk, part: Any) -> Any:
+    def _shaped(self, desk: Desk, part: P) -> P:
         parameters = texture_rows.sliders(desk, part.texture, part.parameters)
         if parameters != part.parameters:
             part = replace(part, parameters=parameters)

@@ -9,9 +9,9 @@ Energies are whole numbers.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.hashing import mix64
+from engine.numeric.kernel import Int, inlined, inner_uncounted, uncounted
 from engine.numeric.neighbourhood import (
     RADIUS,
     SIDE,
@@ -29,8 +29,6 @@ from engine.texture.example.region_window import (
     Rules,
     Window,
     first_of,
-    inner,
-    kernel,
     mark_readers,
 )
 
@@ -44,8 +42,8 @@ _COUNTS_APART, _SHAPES_APART = 2, 2  # of what is searched at a rim: neighbours 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
-@njit(inline="always")
-def _show(window, compared, stride, y, x, source):
+@inlined
+def _show(window: Window, compared: np.ndarray, stride: Int, y: Int, x: Int, source: Int) -> None:
     """Puts a source and its values into the window."""
     window.now[y, x] = source
     i = 4 * (y * window.mask.shape[1] + x)
@@ -58,8 +56,8 @@ def _show(window, compared, stride, y, x, source):
         window.shown[i + c] = compared[j + c]
 
 
-@kernel
-def wanted(window, p, turn, beyond, places):
+@uncounted
+def wanted(window: Window, p: Int, turn: Int, beyond: Int, places: np.ndarray) -> int:
     """Lists the pixels to correct in a sub-pass, as row * width + column; gives their number.
 
     `beyond`: pixels along the edges that do not count after the pass, nor do those that only such pixels read then.
@@ -67,7 +65,7 @@ def wanted(window, p, turn, beyond, places):
     height, width = window.mask.shape
     count = 0
     margin = max(MARGIN, beyond - RADIUS * (SUBPASSES - 1 - turn))
-    first = first_of(window, turn)
+    first = first_of(window, turn)  # type: ignore[arg-type]
     for y in range(margin + (margin + first[0] & 1), height - margin, 2):
         asked, mask = window.need[p, y], window.mask[y]
         for x in range(margin + (margin + first[1] & 1), width - margin, 2):
@@ -77,8 +75,10 @@ def wanted(window, p, turn, beyond, places):
     return count
 
 
-@inner
-def _colours_apart(window, i, example, j, weights, rim, e, least):
+@inner_uncounted
+def _colours_apart(
+    window: Window, i: Int, example: Example, j: Int, weights: np.ndarray, rim: bool, e: Int, least: Int
+) -> Int:
     """`e` and how far the colours of two neighbourhoods are apart, or some number from `least` on."""
     row, other = 4 * window.mask.shape[1], 4 * example.region.shape[1]
     if rim:
@@ -92,8 +92,10 @@ def _colours_apart(window, i, example, j, weights, rim, e, least):
     return np.int32(e)
 
 
-@njit(inline="always")
-def _energy(window, y, x, example, name, rules, bits, rim, least):
+@inlined
+def _energy(
+    window: Window, y: Int, x: Int, example: Example, name: Int, rules: Rules, bits: Int, rim: bool, least: Int
+) -> Int:
     """The energy between the neighbourhoods of a pixel and of an example's, or some number from `least` on.
 
     At a `rim` what lies outside the region does not count but for its shape.
@@ -106,8 +108,8 @@ def _energy(window, y, x, example, name, rules, bits, rim, least):
     return _colours_apart(window, i, example, _corner(example, name), rules.weights, rim, e, least)
 
 
-@njit(inline="always")
-def _corrected(window, y, x, p, example, rules, tried):
+@inlined
+def _corrected(window: Window, y: Int, x: Int, p: Int, example: Example, rules: Rules, tried: np.ndarray) -> Int:
     """The best source for one pixel: what continues its neighbours' sources, or what is much nearer."""
     bits = window.bits[y, x] & rules.square
     rim = bits != rules.square
@@ -116,12 +118,12 @@ def _corrected(window, y, x, p, example, rules, tried):
     searched = rules.stride > 0 or (bits != rules.square and p == 1)
     count = _continued(window, y, x, example, rules.stride > 0, tried)
     if count == 1 and not searched:
-        return tried[0]
+        return tried[0]  # type: ignore[no-any-return]
     least, best = _FAR, np.int32(OUTSIDE)
     for k in range(count):
         e = _energy(window, y, x, example, tried[k], rules, bits, rim, least)
         if e < least:
-            least, best = e, tried[k]
+            least, best = e, tried[k]  # type: ignore[assignment]
     if least == 0:
         return best
     limit = least if best < 0 else np.int32(np.int64(least) * 256 // rules.kappa)
@@ -135,8 +137,8 @@ def _corrected(window, y, x, p, example, rules, tried):
     return best
 
 
-@njit(inline="always")
-def _continued(window, y, x, example, coarsest, names):
+@inlined
+def _continued(window: Window, y: Int, x: Int, example: Example, coarsest: bool, names: np.ndarray) -> Int:
     """The coherence search: lists the sources that continue those of a pixel and its neighbours; gives their number."""
     count = 0
     for k in range(9):
@@ -154,16 +156,29 @@ def _continued(window, y, x, example, coarsest, names):
     return count
 
 
-@njit(inline="always")
-def _holds(names, count, name):
+@inlined
+def _holds(names: np.ndarray, count: Int, name: Int) -> bool:
     found = False
     for i in range(count):
         found = found or names[i] == name
     return found
 
 
-@inner
-def _searched(window, y, x, example, rules, bits, rim, limit, best, first, last, stride):
+@inner_uncounted
+def _searched(
+    window: Window,
+    y: Int,
+    x: Int,
+    example: Example,
+    rules: Rules,
+    bits: Int,
+    rim: bool,
+    limit: Int,
+    best: Int,
+    first: Int,
+    last: Int,
+    stride: Int,
+) -> Int:
     """The best of some of the example's pixels in their order, if its energy is below `limit`; else `best`."""
     for i in range(first, last, stride):
         e = _energy(window, y, x, example, example.order[i], rules, bits, rim, limit)
@@ -172,8 +187,18 @@ def _searched(window, y, x, example, rules, bits, rim, limit, best, first, last,
     return best
 
 
-@inner
-def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
+@inner_uncounted
+def _searched_rim(
+    window: Window,
+    y: Int,
+    x: Int,
+    example: Example,
+    rules: Rules,
+    bits: Int,
+    limit: Int,
+    best: Int,
+    h: Int,
+) -> Int:
     """The best of those with about as many neighbours inside whose shapes are nearest, if it is below `limit`.
 
     What is another shape weighs as it is, only colours weigh (1 + kappa) times as much as those of what continues the
@@ -205,14 +230,14 @@ def _searched_rim(window, y, x, example, rules, bits, limit, best, h):
     return best
 
 
-@njit(inline="always")
-def _corner(example, name):
+@inlined
+def _corner(example: Example, name: Int) -> Int:
     """Where the neighbourhood of a pixel of the example begins."""
-    return 4 * (((name >> 16) - RADIUS) * example.region.shape[1] + (name & 0xFFFF) - RADIUS)
+    return 4 * (((name >> 16) - RADIUS) * example.region.shape[1] + (name & 0xFFFF) - RADIUS)  # type: ignore[no-any-return]
 
 
-@inner
-def _alike(starts, count):
+@inner_uncounted
+def _alike(starts: np.ndarray, count: Int) -> tuple[Int, Int]:
     """The part of the order with about so many neighbours inside, though not all, or with the next fewer and more."""
     most = SIDE * SIDE - 1
     low, high = max(0, count - _COUNTS_APART), min(most, count + _COUNTS_APART)
@@ -223,8 +248,18 @@ def _alike(starts, count):
     return np.int64(starts[low]), np.int64(starts[high + 1])
 
 
-@kernel
-def _correct(window, places, first, last, p, example, rules, found, tried):
+@uncounted
+def _correct(
+    window: Window,
+    places: np.ndarray,
+    first: Int,
+    last: Int,
+    p: Int,
+    example: Example,
+    rules: Rules,
+    found: np.ndarray,
+    tried: np.ndarray,
+) -> None:
     width = window.mask.shape[1]
     for i in range(first, last):
         found[i] = _corrected(window, places[i] // width, places[i] % width, p, example, rules, tried)
@@ -244,8 +279,10 @@ def correct(
     _correct(window, places, first, last, p, example, rules, found, np.empty(9, np.int32))
 
 
-@kernel
-def settle(window, places, count, found, p, turn, example):
+@uncounted
+def settle(
+    window: Window, places: np.ndarray, count: Int, found: np.ndarray, p: Int, turn: Int, example: Example
+) -> None:
     """Takes over the sources found in a sub-pass; asks for what reads one that changed."""
     height, width = window.mask.shape
     plane = window.planes[p]
@@ -254,8 +291,8 @@ def settle(window, places, count, found, p, turn, example):
         if plane[y, x] != found[i]:
             plane[y, x] = found[i]
             if not window.fresh:
-                mark_readers(window, y, x, p, turn)
-    first = first_of(window, turn)
+                mark_readers(window, y, x, p, turn)  # type: ignore[arg-type]
+    first = first_of(window, turn)  # type: ignore[arg-type]
     for y in range(first[0], height, 2):
         for x in range(first[1], width, 2):
             if plane[y, x] != window.now[y, x]:

@@ -329,8 +329,18 @@ def _sliced_pass(
         correction.settle(window, places, count, found, p, turn, example)
 
 
-def _corrected(window, places, count, p, example, rules, found, step, threads):
-    """Corrects places[:count] in slices; gives how many are done after each."""
+def _corrected(
+    window: Window,
+    places: np.ndarray,
+    count: int,
+    p: int,
+    example: Example,
+    rules: Rules,
+    found: np.ndarray,
+    step: int,
+    threads: Executor | None,
+) -> Iterator[int]:
+    """Corrects places[:count] in slices; yields how many are done after each."""
     slices = [(first, min(first + step, count)) for first in range(0, count, step)]
     if threads is None or len(slices) == 1:
         for first, last in slices:

@@ -9,19 +9,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from engine.numeric.kernel import inlined, inner_uncounted, kernel
 from engine.numeric.neighbourhood import RADIUS, region_bits
 
 MARGIN = RADIUS + 1  # even
 SUBPASSES = 4
 OUTSIDE = -1  # instead of a source, where there is no region
-
-# Compiles what may not allocate, without counting references: else each array that is read from one of these tuples is
-# counted, for all threads at once, which takes several times as long as the work itself.
-kernel = njit(cache=True, nogil=True, _nrt=False)
-# The same for what kernels alone call: what Python would call it by is not made, which takes a second for each.
-inner = njit(cache=True, nogil=True, _nrt=False, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 class Example(NamedTuple):
@@ -86,27 +80,27 @@ def window_of(
     return Window(mask, was, bits, now, shown, care, planes, need, hashes, *parity, fresh)
 
 
-@njit(inline="always")
-def shape_at(example, i):
+@inlined
+def shape_at(example: Example, i: int) -> np.uint64:
     """The shape around a pixel of the order."""
-    return example.shapes[min(i, example.shapes.size - 1)]
+    return example.shapes[min(i, example.shapes.size - 1)]  # type: ignore[no-any-return]
 
 
-@njit(inline="always")
-def first_of(window, turn):
+@inlined
+def first_of(window: Window, turn: int) -> tuple[int, int]:
     """The first row and column of the four sub-passes' pixels: every other one, beginning with (0, 0), (1, 1), (0, 1)
     and (1, 0) where the window's own place is even."""
     return (turn ^ window.y) & 1, ((turn + 1 >> 1) ^ window.x) & 1
 
 
-@njit(inline="always")
-def turn_of(window, y, x):
+@inlined
+def turn_of(window: Window, y: int, x: int) -> int:
     """The sub-pass that corrects a pixel."""
     return (y + window.y & 1) * 3 if (x + window.x & 1) == 0 else 2 - (y + window.y & 1)
 
 
-@njit(cache=True, nogil=True)
-def _mark_shapes(mask, was, need, fresh):
+@kernel
+def _mark_shapes(mask: np.ndarray, was: np.ndarray, need: np.ndarray, fresh: bool) -> None:
     """Asks for all pixels in whose neighbourhood the region changed, in every pass."""
     height, width = mask.shape
     if fresh:
@@ -125,8 +119,8 @@ def _mark_shapes(mask, was, need, fresh):
                     need[p, y, x] = 1
 
 
-@inner
-def mark_readers(window, y, x, p, turn):
+@inner_uncounted
+def mark_readers(window: Window, y: int, x: int, p: int, turn: int) -> None:
     """Asks for the pixels that read the source of one as it is after pass `p` (0: at the start)."""
     height, width = window.mask.shape
     top, left = max(0, y - RADIUS), max(0, x - RADIUS)

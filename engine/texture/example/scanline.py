@@ -12,11 +12,10 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
-from engine.numeric.inner import inner
+from engine.numeric.kernel import Int, inner, kernel
 from engine.numeric.neighbourhood import (
     FULL,
     RADIUS,
@@ -47,6 +46,11 @@ class Layer(NamedTuple):
     region: np.ndarray
     bits: np.ndarray
     names: np.ndarray
+
+
+# As kernels take them: the layers of the example, this level and the coarser, then those that are made, the window
+# and the penalty.
+Levels = tuple[Layer, Layer, Layer, Layer, np.ndarray, int]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -184,7 +188,7 @@ def _data(own: Layer, above: Layer, window: np.ndarray, two: bool) -> Data:
 
 
 @inner
-def _energy(y, x, name, levels, least):
+def _energy(y: Int, x: Int, name: Int, levels: Levels, least: Int) -> Int:
     """Of two-level neighbourhoods, or some number from `least` on."""
     own, coarser, made, above, window, penalty = levels
     row, column = name >> 16, name & 0xFFFF
@@ -198,7 +202,9 @@ def _energy(y, x, name, levels, least):
 
 
 @inner
-def _apart(made, y, x, own, row, column, window, first, e, least):
+def _apart(
+    made: Layer, y: Int, x: Int, own: Layer, row: Int, column: Int, window: np.ndarray, first: Int, e: Int, least: Int
+) -> Int:
     if e >= least:
         return e
     width, other = 4 * made.region.shape[1], 4 * own.region.shape[1]
@@ -210,8 +216,8 @@ def _apart(made, y, x, own, row, column, window, first, e, least):
     return e
 
 
-@njit(cache=True, nogil=True)
-def _continued(ys, xs, levels, found, energy):
+@kernel
+def _continued(ys: np.ndarray, xs: np.ndarray, levels: Levels, found: np.ndarray, energy: np.ndarray) -> None:
     """The coherence search (Ashikhmin 2001) for the pixels of a line."""
     own, made = levels[0], levels[2]
     for k in range(ys.size):
@@ -230,8 +236,17 @@ def _continued(ys, xs, levels, found, energy):
                     found[k], energy[k] = name, e
 
 
-@njit(cache=True, nogil=True)
-def _compare(ys, xs, which, near, levels, closeness, found, energy):
+@kernel
+def _compare(
+    ys: np.ndarray,
+    xs: np.ndarray,
+    which: np.ndarray,
+    near: np.ndarray,
+    levels: Levels,
+    closeness: Int,
+    found: np.ndarray,
+    energy: np.ndarray,
+) -> None:
     """Takes what the data search found where it is so much nearer than what continues the neighbours."""
     for i in range(which.size):
         k = which[i]
@@ -240,8 +255,18 @@ def _compare(ys, xs, which, near, levels, closeness, found, energy):
             found[k], energy[k] = near[i], e
 
 
-@njit(cache=True, nogil=True)
-def _searched(ys, xs, which, rims, starts, levels, closeness, hashes, found):
+@kernel
+def _searched(
+    ys: np.ndarray,
+    xs: np.ndarray,
+    which: np.ndarray,
+    rims: np.ndarray,
+    starts: np.ndarray,
+    levels: Levels,
+    closeness: Int,
+    hashes: np.ndarray,
+    found: np.ndarray,
+) -> None:
     """The data search at the rim: all with as many pixels inside, or with the next fewer and more."""
     made, above = levels[2], levels[3]
     two = levels[4][SIDE * ROW + 3 * ROW + 3 * 4] != 0
@@ -259,19 +284,19 @@ def _searched(ys, xs, which, rims, starts, levels, closeness, hashes, found):
             more += 1
         least, best = _FAR, np.int32(_MISSING)
         if found[k] >= 0:
-            best, least = found[k], _energy(y, x, found[k], levels, _FAR) * 256 // closeness
+            best, least = found[k], _energy(y, x, found[k], levels, _FAR) * 256 // closeness  # type: ignore[assignment]
         for c in range(fewer, more + 1):
             size = starts[c + 1] - starts[c]
             for j in range(size):
                 name = rims[starts[c] + (j + np.int64(hashes[y, x] >> np.uint64(40))) % size]
                 e = _energy(y, x, name, levels, least)
                 if e < least:
-                    least, best = e, name
+                    least, best = e, name  # type: ignore[assignment]
         found[k] = best
 
 
-@njit(cache=True, nogil=True)
-def _put(ys, xs, found, own, made):
+@kernel
+def _put(ys: np.ndarray, xs: np.ndarray, found: np.ndarray, own: Layer, made: Layer) -> None:
     for k in range(ys.size):
         made.names[ys[k], xs[k]] = found[k]
         i = 4 * (ys[k] * made.region.shape[1] + xs[k])

@@ -8,12 +8,11 @@ neighbours' sources would continue with: so seams are blended, and all else is c
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.numeric.grid import snapped
-from engine.numeric.inner import inner
+from engine.numeric.kernel import Int, Real, inlined, inner, kernel
 from engine.texture.example import tiles
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
@@ -105,8 +104,8 @@ def _blended(region: Region, rect: Rect, level: int) -> tuple[np.ndarray, np.nda
     return out, blended
 
 
-@njit(cache=True, nogil=True)
-def _left(mask, names):
+@kernel
+def _left(mask: np.ndarray, names: np.ndarray) -> int:
     """Takes the pixels that have a source off the mask, uint8 (h, w); gives how many are left."""
     left = 0
     for y in range(mask.shape[0]):
@@ -117,8 +116,18 @@ def _left(mask, names):
     return left
 
 
-@njit(cache=True, nogil=True)
-def _fill(out, mask, names, finest, coarse, mirrored, n, top, left_side):
+@kernel
+def _fill(
+    out: np.ndarray,
+    mask: np.ndarray,
+    names: np.ndarray,
+    finest: np.ndarray,
+    coarse: np.ndarray,
+    mirrored: bool,
+    n: Int,
+    top: Int,
+    left_side: Int,
+) -> int:
     """Gives the pixels of a mask what is `below` their sources `n` levels coarser, the first of which begins `top` and
     `left_side` pixels before; takes them off the mask, and gives how many are left.  `finest`, `coarse`: colours of
     the finest level, and of the one that the sources are of."""
@@ -145,8 +154,8 @@ def _fill(out, mask, names, finest, coarse, mirrored, n, top, left_side):
     return left
 
 
-@njit(inline="always")
-def _around(k, y, x):
+@inlined
+def _around(k: Int, y: Int, x: Int) -> tuple[Int, Int, Real, Real]:
     """The first of the four pixels `k` levels coarser that lie around a pixel, and how far it is to the others."""
     side = 1 << k
     row, column = (y - (side >> 1)) >> k, (x - (side >> 1)) >> k
@@ -155,8 +164,8 @@ def _around(k, y, x):
     return row, column, down * down * (3 - 2 * down), across * across * (3 - 2 * across)
 
 
-@njit(inline="always")
-def _between(names, colours, k, y, x, found):
+@inlined
+def _between(names: np.ndarray, colours: np.ndarray, k: Int, y: Int, x: Int, found: np.ndarray) -> None:
     """Adds to `found` (4,) the mean colour of the four sources around a pixel `k` levels below."""
     row, column, down, across = _around(k, y, x)
     total = np.float32(0.0)
@@ -172,8 +181,8 @@ def _between(names, colours, k, y, x, found):
             found[m] /= total
 
 
-@njit(inline="always")
-def below(names, colours, mirrored, k, y, x, found):
+@inlined
+def below(names: np.ndarray, colours: np.ndarray, mirrored: bool, k: Int, y: Int, x: Int, found: np.ndarray) -> None:
     """Adds to `found` (4,) what an example has, in `colours` (rows, columns, 4) `k` levels below `names`, at a pixel:
     the sources of the four pixels around it go on to there, as far as there are any, and those nearer to it count for
     more.  Beyond the picture it goes on `mirrored`, or there is nothing."""
@@ -202,8 +211,15 @@ def below(names, colours, mirrored, k, y, x, found):
             found[m] /= total
 
 
-@njit(cache=True, nogil=True)
-def _blend(around, colours, region, weights, out, blended):
+@kernel
+def _blend(
+    around: np.ndarray,
+    colours: np.ndarray,
+    region: np.ndarray,
+    weights: np.ndarray,
+    out: np.ndarray,
+    blended: np.ndarray,
+) -> None:
     """`around`: sources, with as many pixels around `out` (4, h, w) as `weights` reach."""
     reach = weights.shape[0] // 2
     for y in range(out.shape[1]):
@@ -219,8 +235,8 @@ def _blend(around, colours, region, weights, out, blended):
             _mean(around, y, x, colours, region, weights, out)
 
 
-@njit(cache=True, nogil=True)
-def _alone(around, y, x, reach, source):
+@kernel
+def _alone(around: np.ndarray, y: Int, x: Int, reach: Int, source: Int) -> bool:
     """Whether all neighbours inside come from the same place of the example."""
     for dy in range(2 * reach + 1):
         for dx in range(2 * reach + 1):
@@ -231,7 +247,9 @@ def _alone(around, y, x, reach, source):
 
 
 @inner
-def _mean(around, y, x, colours, region, weights, out):
+def _mean(
+    around: np.ndarray, y: Int, x: Int, colours: np.ndarray, region: np.ndarray, weights: np.ndarray, out: np.ndarray
+) -> None:
     """The mean of what the neighbours' sources continue with."""
     reach = weights.shape[0] // 2
     total = np.float32(0.0)

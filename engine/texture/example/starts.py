@@ -7,29 +7,19 @@ Kernels are called one after another from Python: one that called them would be 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.numeric.hashing import mix64
+from engine.numeric.kernel import Int, inlined, inner_uncounted, uncounted
 from engine.numeric.neighbourhood import RADIUS, ones
-from engine.texture.example.region_window import (
-    OUTSIDE,
-    Example,
-    Rules,
-    Window,
-    inner,
-    kernel,
-    mark_readers,
-    shape_at,
-    turn_of,
-)
+from engine.texture.example.region_window import OUTSIDE, Example, Rules, Window, mark_readers, shape_at, turn_of
 
 _ALIKE = 6  # pixels by which the shape under a patch may differ from the one it was copied from
 _DRAWN = 12  # pixels of another shape up to which pixels are drawn alike: along a straight rim all shapes are one
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
-@kernel
-def _begin(window, before, example):
+@uncounted
+def _begin(window: Window, before: np.ndarray, example: Example) -> None:
     """The starts in planes[0], `before` (int32 (h, w)) having been those until now, go into the window."""
     height, width = window.mask.shape
     for y in range(height):
@@ -50,11 +40,11 @@ def _begin(window, before, example):
     for y in range(height):
         for x in range(width):
             if window.was[y, x] and window.mask[y, x] and window.planes[0, y, x] != before[y, x]:
-                mark_readers(window, y, x, np.int64(0), turn_of(window, y, x))
+                mark_readers(window, y, x, np.int64(0), turn_of(window, y, x))  # type: ignore[arg-type]
 
 
-@njit(inline="always")
-def _child(parent, y, x, region):
+@inlined
+def _child(parent: Int, y: Int, x: Int, region: np.ndarray) -> Int:
     """The pixel below a coarser source for an even or odd row and column, or the nearest of its four in the region."""
     row, column = 2 * (parent >> 16) - RADIUS - 1, 2 * (parent & 0xFFFF) - RADIUS - 1
     for k in range(4):
@@ -64,8 +54,10 @@ def _child(parent, y, x, region):
     return np.int32(OUTSIDE)
 
 
-@kernel
-def _children(mask, parents, odd_y, odd_x, region, out):
+@uncounted
+def _children(
+    mask: np.ndarray, parents: np.ndarray, odd_y: Int, odd_x: Int, region: np.ndarray, out: np.ndarray
+) -> None:
     """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
     for y in range(mask.shape[0]):
         inside, row, above = mask[y], out[y], parents[(y + odd_y) >> 1]
@@ -103,8 +95,16 @@ def start_coarsest(
     _begin(window, old, example)
 
 
-@kernel
-def _draw(window, patches, corners, block, offset, example, rules):
+@uncounted
+def _draw(
+    window: Window,
+    patches: np.ndarray,
+    corners: np.ndarray,
+    block: Int,
+    offset: tuple[Int, Int],
+    example: Example,
+    rules: Rules,
+) -> None:
     """Puts the starts that are new, or whose neighbourhoods are, into planes[0]."""
     height, width = window.mask.shape
     starts = window.planes[0]
@@ -117,8 +117,8 @@ def _draw(window, patches, corners, block, offset, example, rules):
                 starts[y, x] = _shaped(window.bits[y, x], start, window.hashes[y, x], example, rules)
 
 
-@inner
-def _shaped(bits, start, h, example, rules):
+@inner_uncounted
+def _shaped(bits: Int, start: Int, h: Int, example: Example, rules: Rules) -> Int:
     """`start`, if the shape around it is alike; else the pixel that the hash draws of those with about such a shape, or
     with the nearest if there are none."""
     if not rules.rims:

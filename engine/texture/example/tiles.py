@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 from immutables import Map
-from numba import njit
 
 from engine.numeric.address import Rect
+from engine.numeric.kernel import kernel
 
 TILE_SIDE = 64  # pixels along a tile
 Key = tuple[int, int]  # row and column of a tile, of any size
@@ -134,8 +134,8 @@ def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> 
             yield Rect(x + x0, y + y0, x + x1, y + y1)
 
 
-@njit(cache=True, nogil=True)
-def bounds(planes):
+@kernel
+def bounds(planes: np.ndarray) -> tuple[int, int, int, int]:
     """Rows [0, 1) and columns [2, 3) outside which arrays (planes, h, w) are 0; empty ones if all of it is."""
     y0, y1, x0, x1 = planes.shape[1], 0, planes.shape[2], 0
     for c in range(planes.shape[0]):
@@ -152,8 +152,8 @@ def bounds(planes):
     return (y0, y1, x0, x1) if y1 > y0 else (0, 0, 0, 0)
 
 
-@njit(cache=True, nogil=True)
-def _differing(one, other):
+@kernel
+def _differing(one: np.ndarray, other: np.ndarray) -> tuple[int, int, int, int]:
     """Rows [0, 1) and columns [2, 3) within which two arrays (planes, h, w) of tiles differ; none if they do not."""
     y0, y1, x0, x1 = TILE_SIDE, 0, TILE_SIDE, 0
     for c in range(one.shape[0]):
