@@ -11,16 +11,18 @@ from imgui_bundle import imgui  # before glfw, so that both use one libglfw
 import glfw  # isort: skip
 from imgui_bundle.imgui import backends
 
+from app.input.drops import say_taken
 from app.panels.layout import Layout
 from app.router import Router
 
-Drop = Callable[[Path], None]
+Drop = Callable[[Path], bool]
 
 
 class Callbacks:
     """Keys and text go to imgui at once, and to the router when the frame asks for them.
 
-    `event` is called whenever anything happens, `drop` with a file that was dropped on the window.
+    `event` is called whenever anything happens, `drop` with a file that was dropped on the window, which tells
+    whether that is taken.
     """
 
     def __init__(
@@ -79,7 +81,7 @@ class Callbacks:
         if not entered:
             self._router.left()
 
-    def _dropped(self, _w: Any, paths: Any) -> None:
+    def _dropped(self, window: Any, paths: Any) -> None:
         self._event()
-        if paths:
-            self._drop(Path(paths[0]))
+        if paths and self._drop(Path(paths[0])):
+            say_taken(window)

@@ -48,7 +48,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
     worker = _worker(window)
     for name, live in ((path, False), (play, True)):
         if name is not None:
-            window.open(Path(name), live)
+            window.desk.open(Path(name), live)
     try:
         while not window.closed():
             window.wait(window.frame())

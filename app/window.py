@@ -33,7 +33,6 @@ from app.panels.layout import Layout
 from app.router import Router
 from app.tiles import Tiles
 from engine.studio import results
-from engine.studio.requests import Open
 from engine.studio.worker import Worker
 
 
@@ -78,14 +77,14 @@ class Window:
             return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
         return [self.tiles.hears[kind]] if kind in self.tiles.hears else []
 
-    def _dropped(self, path: Path) -> None:
-        """A file was dropped on the window: a panel takes it, or it is opened."""
-        if self.desk.known.ready and not self.layout.strip.dropped(self.desk, path, *self.pointers.at()):
-            self.desk.guard(lambda: self.open(path))
-
-    def open(self, path: Path, live: bool = False) -> None:
-        """Opens a file; `live`: a recording is seen as it grows."""
-        self.desk.post(Open(path, live))
+    def _dropped(self, path: Path) -> bool:
+        """Takes a file that was dropped on the window: it is a panel's, or it is opened.  False while it cannot be."""
+        desk = self.desk
+        if not desk.known.ready:
+            self._not_yet(None)
+        elif not self.layout.strip.dropped(desk, path, *self.pointers.at()):
+            desk.guard(lambda: desk.open(path))
+        return desk.known.ready
 
     def connect(self, worker: Worker) -> None:
         """From now on pens are heard, and requests go to the engine's thread."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from app.canvas.glide import Glide
@@ -20,7 +21,7 @@ from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from app.log import log_file
 from engine.brush.settings import Brush
-from engine.studio.requests import Request, Save
+from engine.studio.requests import Open, Request, Save
 from engine.studio.results import Note
 
 MESSAGE_SECONDS = 6.0
@@ -117,6 +118,12 @@ class Desk:
             self.asked.about_changes(then)
         else:
             then()
+
+    def open(self, path: Path, live: bool = False) -> None:
+        """Opens a file, which the status line tells until it is there; `live`: a recording is seen as it grows."""
+        self.learn(opening=path.name)
+        self.message = Message()
+        self.post(Open(path, live))
 
     def save(self) -> None:
         """Saves where the painting came from; asks where, the first time."""

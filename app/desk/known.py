@@ -13,7 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
-from engine.studio.results import Growing, LayerRow, Prepared, Ready, Scene, Writing
+from engine.studio.results import Growing, LayerRow, Note, Prepared, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 
@@ -23,7 +23,8 @@ class Known:
     """`ready`: whether the engine is loaded; `tables`: its rows, of textures, operations and so on; `scene`: the
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
-    does; `prepared`: how many brushes are ready.  Times are seconds of time.monotonic()."""
+    does; `prepared`: how many brushes are ready; `opening`: the name of the file that is being opened.  Times are
+    seconds of time.monotonic()."""
 
     ready: bool = False
     tables: Ready = Ready()  # noqa: RUF009  # it is frozen
@@ -36,6 +37,7 @@ class Known:
     grows: float = 0.0
     preparing: float | None = None
     prepared: Prepared = Prepared(0, 0)  # noqa: RUF009
+    opening: str = ""
 
     @property
     def frame(self) -> Rect:
@@ -73,7 +75,17 @@ class Known:
 def told(known: Known, result: object, now: float) -> Known:
     """What is known after a result that came at a time; the same if it tells nothing of this."""
     teller = _TELLERS.get(type(result))
-    return known if teller is None else replace(known, **teller(known, result, now))
+    news = {} if teller is None else teller(known, result, now)
+    return replace(known, **news) if news else known
+
+
+def _scene(known: Known, result: Scene, _now: float) -> dict[str, Any]:
+    same = result.serial == (known.scene.serial if known.scene else 0)  # 0: the painting of the start
+    return {"scene": result, "opening": known.opening if same else ""}
+
+
+def _note(known: Known, result: Note, _now: float) -> dict[str, Any]:
+    return {"opening": ""} if result.bad and known.opening else {}
 
 
 def _growing(known: Known, result: Growing, now: float) -> dict[str, Any]:
@@ -83,7 +95,8 @@ def _growing(known: Known, result: Growing, now: float) -> dict[str, Any]:
 
 _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Ready: lambda known, r, now: {"ready": True, "tables": r},
-    results.Scene: lambda known, r, now: {"scene": r},
+    results.Scene: _scene,
+    results.Note: _note,
     results.Pending: lambda known, r, now: {"pending": r.tiles},
     results.Writing: lambda known, r, now: {"writing": r},
     results.GotReady: lambda known, r, now: {"preparing": None},

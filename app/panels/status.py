@@ -21,6 +21,9 @@ def draw(desk: Desk, pointer_name: str) -> None:
     """Fills the present window, one line high."""
     if _says(desk):
         _message(desk)
+    elif desk.known.opening:
+        imgui.text_unformatted(f"Opening {desk.known.opening}")
+        w.named(f"Opening {desk.known.opening}")
     elif desk.examples.swapping:
         name = desk.examples.entry.title if desk.examples.entry else ""
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")

@@ -95,10 +95,10 @@ class Drag:
                 return list(event.message.data)
 
     def _give(self, asked: Request) -> None:
-        """The file's address, as a list of addresses.  A window of GLFW's answers a drop with the length of the list,
-        of which 1 in the lowest bit means that it was taken: a line of comment makes it odd."""
+        """The file's address, as a list of addresses.  GLFW answers a drop with the length of the list, of which 0 in
+        the lowest bit means that it was refused: a line of comment makes it even."""
         text = f"{self._path.as_uri()}\r\n".encode()
-        text += b"" if len(text) % 2 else b"#\r\n"
+        text += b"#\r\n" if len(text) % 2 else b""
         self._x.XChangeProperty(self._display, asked.requestor, asked.property, asked.target, 8, 0, text, len(text))
         event = Event()
         event.notice = Notice(

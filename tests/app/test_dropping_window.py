@@ -76,6 +76,8 @@ def test_a_picture_dropped_on_the_canvas_is_opened(program, stone):
     app.settled()
     Drag(app.display, window_of(app), stone).drop(*app.at("canvas"))
     app.wait_for("painting 1 shown")
+    assert '["status", "Opening A 100% stone.png"' in app.log.read_text()
+    app.until_gone("Opening A 100% stone.png")
     assert not (app.folder / "data" / "inkfall" / "examples").exists()
 
 

@@ -1,6 +1,6 @@
 """What is known: each result of the engine gives the next record, and leaves the one before as it was."""
 
-from dataclasses import FrozenInstanceError
+from dataclasses import FrozenInstanceError, replace
 
 import pytest
 
@@ -35,6 +35,15 @@ def test_what_the_engine_tells_is_known(result, name, value):
 def test_what_tells_nothing_of_it_leaves_the_same_record():
     known = Known()
     assert told(known, Note("a line"), 1.0) is known
+
+
+def test_what_is_being_opened_is_known_until_it_is_there_or_cannot_be():
+    begun = told(Known(opening="a.png"), SCENE, 1.0)  # the empty painting of the start
+    assert begun.opening == "a.png"
+    assert told(begun, Note("Wrote b.png"), 1.0).opening == "a.png"
+    assert told(begun, replace(SCENE, serial=1), 1.0).opening == ""
+    assert told(begun, Note("a.png: found nothing", bad=True), 1.0).opening == ""
+    assert told(Known(opening="a.png"), replace(SCENE, serial=1), 1.0).opening == ""
 
 
 def test_the_engine_is_ready_with_its_tables():

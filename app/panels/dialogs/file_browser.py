@@ -17,7 +17,7 @@ from app import icons, theme
 from app.desk import example_work, pictured
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
-from engine.studio.requests import Export, Open, Save
+from engine.studio.requests import Export, Save
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
@@ -162,7 +162,7 @@ def _folder(desk: Desk) -> Path:
 
 def opening(desk: Desk) -> SystemDialog | Browser:
     """Asks for a file to open."""
-    return _chooser("Open", _folder(desk), OPENS, False, lambda d, path: d.post(Open(path)))
+    return _chooser("Open", _folder(desk), OPENS, False, Desk.open)
 
 
 def saving(desk: Desk) -> SystemDialog | Browser:
