@@ -43,10 +43,10 @@ class Callbacks:
         glfw.set_drop_callback(window, dropped)
 
     def deliver(self) -> None:
-        """Gives the router what was pressed and typed since the last call."""
-        keys, self._keys = self._keys, []
-        for key in keys:
-            self._router.key(*key)
+        """Gives the router what was pressed and typed since the last call; what follows a key that fails comes with
+        the next one."""
+        while self._keys:
+            self._router.key(*self._keys.pop(0))
         characters, self._characters = self._characters, []
         for character in characters if self._router.typing else ():
             backends.glfw_char_callback(self._address, character)

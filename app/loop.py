@@ -18,8 +18,8 @@ import imgui_bundle  # before glfw, so that both use one libglfw
 
 import glfw  # isort: skip
 
-from app.file_guard import guard_files
-from app.log import LOGGER, log_file, open_log
+from app.faults.file_guard import guard_files
+from app.faults.log import log_file, open_log
 from app.trace import trace
 
 if TYPE_CHECKING:
@@ -52,9 +52,6 @@ def run(path: str | None = None, play: str | None = None) -> int:
     try:
         while not window.closed():
             window.wait(window.frame())
-    except Exception as error:
-        LOGGER.critical("a fault of the window, which ends it", exc_info=error)
-        raise
     finally:
         try:
             window.hide()

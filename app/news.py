@@ -9,6 +9,7 @@ from app.desk import flight
 from app.desk.desk import Desk, Hear
 from app.desk.files import Done
 from app.desk.known import Known, told
+from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
 from engine.studio.results import Result
@@ -45,10 +46,10 @@ HEARS: dict[type, Hear] = {
 
 
 class News:
-    """Brings results to the desk itself, as HEARS has it, and to `hearers`."""
+    """Brings results to the desk itself, as HEARS has it, and to `hearers`; none keeps the next from it by a fault."""
 
-    def __init__(self, desk: Desk, *hearers: Hearers) -> None:
-        self._desk, self._hearers = desk, hearers
+    def __init__(self, desk: Desk, guard: FaultGuard, *hearers: Hearers) -> None:
+        self._desk, self._guard, self._hearers = desk, guard, hearers
         self._sources: list[Source] = []
 
     def connect(self, source: Source) -> None:
@@ -59,12 +60,16 @@ class News:
         """Takes in all results; True if there were any."""
         came = [result for source in self._sources for result in source()]
         for result in came:
-            before = self._desk.known
-            self._desk.known = told(before, result, now)
-            for hear in self._who(type(result)):
-                hear(self._desk, result, now)
-            _trace(before, self._desk.known)
+            with self._guard.spare("on a result"):
+                self._hear(result, now)
         return bool(came)
+
+    def _hear(self, result: Result | Done, now: float) -> None:
+        before = self._desk.known
+        self._desk.known = told(before, result, now)
+        for hear in self._who(type(result)):
+            hear(self._desk, result, now)
+        _trace(before, self._desk.known)
 
     def _who(self, kind: type) -> list[Hear]:
         own = [HEARS[kind]] if kind in HEARS else []

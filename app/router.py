@@ -103,6 +103,9 @@ class Router:
                 self.gesture.send(event)
         except StopIteration:
             self.gesture = None
+        except Exception:
+            self.gesture = None  # a fault has ended it
+            raise
 
     def cancel(self) -> None:
         """Ends the gesture in progress as if it had not been."""

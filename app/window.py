@@ -26,6 +26,7 @@ from app.desk.files import Files
 from app.desk.stock import TakeStock
 from app.desk.thumbnails import Shelf
 from app.drawing import Drawing
+from app.faults.fault_guard import FaultGuard
 from app.input.pointers import Pointers
 from app.news import News
 from app.pace import Pace
@@ -52,7 +53,8 @@ class Window:
         theme.apply(scale)
         width, height = glfw.get_framebuffer_size(handle)
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, scale)
-        self.layout = Layout()
+        self._guard = FaultGuard(lambda words: self.desk.say(words, bad=True))
+        self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)
         address = ctypes.cast(handle, ctypes.c_void_p).value or 0
@@ -62,7 +64,7 @@ class Window:
         self.screen = Screen(self.ctx)
         self.tiles, self.gallery = Tiles(self.screen), Gallery(self.ctx, self.desk.pictures)
         self._drawing, self._decoration = Drawing(handle, self.screen, Overlay(self.ctx)), Decoration(handle)
-        self.news = News(self.desk, self._hearers, self.layout.hearers)
+        self.news = News(self.desk, self._guard, self._hearers, self.layout.hearers)
         self._files: Files | None = None
         self._laid_out = False  # whether panels were: only then the free area is known
 
@@ -82,9 +84,11 @@ class Window:
         desk = self.desk
         if not desk.known.ready:
             self._not_yet(None)
-        elif not self.layout.strip.dropped(desk, path, *self.pointers.at()):
-            desk.guard(lambda: desk.open(path))
-        return desk.known.ready
+            return False
+        with self._guard.spare("on a drop"):
+            if not self.layout.strip.dropped(desk, path, *self.pointers.at()):
+                desk.guard(lambda: desk.open(path))
+        return True
 
     def connect(self, worker: Worker) -> None:
         """From now on pens are heard, and requests go to the engine's thread."""
@@ -100,25 +104,29 @@ class Window:
 
     def frame(self) -> bool:
         """Takes in what happened and draws; True while something still moves."""
-        desk, now = self.desk, time.monotonic()
+        desk, now, spare = self.desk, time.monotonic(), self._guard.spare
         seconds = self.pace.begin(now)
         self._resize()
         for event in self.pointers.events():
             self.pace.event()
-            self.router.pointer(event)
-        self._callbacks.deliver()  # after the pointer: a stroke ends before what a key does to it
+            with spare("on what the pointer did"):
+                self.router.pointer(event)
+        with spare("on a key"):
+            self._callbacks.deliver()  # after the pointer: a stroke ends before what a key does to it
         if self.news.take(now):
             self.pace.news(now)
         moving = desk.glide.moving
-        desk.view = desk.glide.step(desk.view, seconds)
+        with spare("on the view's way"):
+            desk.view = desk.glide.step(desk.view, seconds)
         self._panels()
-        imgui.render()
-        if desk.known.ready:
-            self.tiles.wants(desk)
-            self.layout.wants(desk, now)
-        self._decoration.show(desk, self.router.panning_key)
-        exposed, self._callbacks.exposed = self._callbacks.exposed, False
-        moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
+        with spare("asking for what is to be seen"):
+            if desk.known.ready:
+                self.tiles.wants(desk)
+                self.layout.wants(desk, now)
+        with spare("drawing the picture"):
+            self._decoration.show(desk, self.router.panning_key)
+            exposed, self._callbacks.exposed = self._callbacks.exposed, False
+            moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
         return moving
 
@@ -134,24 +142,29 @@ class Window:
         backends.opengl3_new_frame()
         backends.glfw_new_frame()
         imgui.new_frame()
-        cursor.draw_frame(self.desk)
-        cursor.draw_growing(self.desk)
-        cursor.draw_outline(self.desk)
-        self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
-        self.router.hover()
+        with self._guard.spare_drawing("drawing the canvas's marks"):
+            cursor.draw_frame(self.desk)
+            cursor.draw_growing(self.desk)
+            cursor.draw_outline(self.desk)
+        with self._guard.spare_drawing("laying out the panels"):
+            self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
+            self.router.hover()
         if not self._laid_out:
             self._laid_out = True
             self.desk.fit()
+        imgui.render()
 
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""
-        self.pace.wait(moving, self.desk.painting, imgui.get_io().want_text_input)
+        with self._guard.spare("on an event of the window system"):  # what its callbacks raised
+            self.pace.wait(moving, self.desk.painting, imgui.get_io().want_text_input)
 
     def closed(self) -> bool:
         """Whether the window is to go; asks about unsaved changes first."""
         if glfw.window_should_close(self.handle):
             glfw.set_window_should_close(self.handle, False)
-            close(self.desk)
+            with self._guard.spare("closing"):
+                close(self.desk)
         return self.desk.asked.quit
 
     def hide(self) -> None:

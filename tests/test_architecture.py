@@ -25,7 +25,7 @@ ORDER = (
     ("engine.archive",),
     ("engine.session",),
     ("engine.studio",),
-    ("app.input", "app.theme", "app.icons", "app.keys", "app.trace", "app.log", "app.file_guard"),
+    ("app.input", "app.theme", "app.icons", "app.keys", "app.trace", "app.faults"),
     ("app.canvas",),
     ("app.desk",),
     ("app.actions", "app.tools"),

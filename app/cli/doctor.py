@@ -15,7 +15,7 @@ from typing import Any
 import platformdirs
 
 from app.cli.outcome import DONE
-from app.log import log_file
+from app.faults.log import log_file
 
 PACKAGES = ("numpy", "numba", "Pillow", "glfw", "moderngl", "imgui-bundle")
 INPUT_DEVICES = Path("/proc/bus/input/devices")

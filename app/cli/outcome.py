@@ -60,8 +60,9 @@ def _judged(error: BaseException) -> tuple[int, str]:
 
 
 def _of_system(error: OSError) -> str:
-    reason = error.strerror or str(error) or type(error).__name__
-    return f"{error.filename}: {reason}" if error.filename else reason
+    from engine.files.fault import system_words
+
+    return system_words(error)
 
 
 def _judged_by_engine(error: BaseException) -> tuple[int, str]:
@@ -72,9 +73,16 @@ def _judged_by_engine(error: BaseException) -> tuple[int, str]:
             return FAILED, str(error)
         case FileError():
             return WRONG, str(error)
+    from engine.studio.faults import EXPECTED, words
+
+    if isinstance(error, EXPECTED):
+        return WRONG, words(error)
+    from app.faults.log import log_fault, log_file
+
     where = traceback.extract_tb(error.__traceback__)
     place = f" ({os.path.basename(where[-1].filename)}, line {where[-1].lineno})" if where else ""
-    return FAILED, f"a fault in Inkfall: {type(error).__name__}: {error}{place}; {TRACE}=1 shows more"
+    more = f"{log_file()} tells more" if log_fault(error) else f"{TRACE}=1 shows more"
+    return FAILED, f"a fault in Inkfall: {type(error).__name__}: {error}{place}; {more}"
 
 
 def _give_up_standard_output() -> None:

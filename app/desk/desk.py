@@ -19,7 +19,7 @@ from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
-from app.log import log_file
+from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.requests import Open, Request, Save
 from engine.studio.results import Note
@@ -31,8 +31,8 @@ class FileWork:
     """Work with files in two halves, the first on the files’ thread, the second on the window’s: a frozen record."""
 
     def carry_out(self) -> Any:
-        """Reads or writes, and returns what the window is to know, which never changes.  One of `files.FAULTS` where
-        that cannot be."""
+        """Reads or writes, and returns what the window is to know, which never changes.  An OSError or one
+        of `engine.studio.faults.EXPECTED` where that cannot be."""
         raise NotImplementedError
 
     def arrive(self, desk: Desk, found: Any) -> None:
@@ -108,7 +108,7 @@ class Desk:
 
     def told(self, note: Note) -> None:
         """Shows what the engine tells."""
-        self.say(f"{note.text}: {log_file()} tells more" if note.fault else note.text, note.bad)
+        self.say(fault_words(note.text) if note.fault else note.text, note.bad)
         if note.bad:
             self.asked.give_up()
 

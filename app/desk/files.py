@@ -9,10 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.desk.desk import Desk, FileWork
-from app.log import LOGGER, log_file
-from engine.files.fault import FileError, WriteError
-
-FAULTS = (FileError, WriteError, OSError)  # that work may raise: each a line for the artist
+from app.faults.log import LOGGER, fault_words
+from engine.files.fault import system_words
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +33,20 @@ def carried_out(work: FileWork) -> Done:
     """Does the first half of some work, on the thread that calls it."""
     try:
         return Done(work, work.carry_out())
-    except FAULTS as error:
-        return Done(work, fault=str(error))
-    except Exception as error:  # a fault of the program's own: the others' files are still to be written
-        LOGGER.error("a fault, while the window's files were read or written", exc_info=error)
-        return Done(work, fault=f"A fault in Inkfall: {log_file()} tells more")
+    except OSError as error:
+        return Done(work, fault=system_words(error))
+    except Exception as error:  # the others' files are still to be written
+        return Done(work, fault=_told(error))
+
+
+def _told(error: Exception) -> str:
+    """Returns what the artist is told of an error, and logs it if it is a fault of the program's own."""
+    from engine.studio.faults import EXPECTED, words  # here, on the thread: it loads what the errors are of
+
+    if isinstance(error, EXPECTED):
+        return words(error)
+    LOGGER.error("a fault, while the window's files were read or written", exc_info=error)
+    return fault_words()
 
 
 class Files:

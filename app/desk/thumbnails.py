@@ -11,7 +11,7 @@ import numpy as np
 
 from app.desk import own_example_files
 from app.desk.example_state import Entry
-from app.desk.files import FAULTS
+from engine.files.fault import FileError
 from engine.studio.results import Picture
 
 PAPER = (214, 209, 200)  # sRGB
@@ -60,7 +60,7 @@ class Shelf:
     def _work(self) -> None:
         while self._wanted:
             entry, side = self._wanted.popleft()
-            with suppress(*FAULTS):  # a picture that cannot be read has no thumbnail
+            with suppress(FileError, OSError):  # a picture that cannot be read has no thumbnail
                 self._ready.append(Picture(ident(entry), thumbnail(entry, side)))
                 self._wake()
 

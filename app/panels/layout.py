@@ -5,13 +5,12 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import theme, trace
-from app.actions import ACTIONS, MENUS, Action, perform
 from app.desk.desk import Desk, Hear
-from app.panels import status
+from app.faults.fault_guard import FaultGuard
+from app.panels import menu_bar, status
 from app.panels.brush.brush_panel import BrushPanel
 from app.panels.colour.colour_panel import ColourPanel
 from app.panels.colour.ink_mixer import InkPanel
-from app.panels.controls import widgets as w
 from app.panels.dialogs.dialogs import Dialogs
 from app.panels.layers.layers_panel import LayersPanel
 from app.panels.panel import Painting
@@ -29,9 +28,10 @@ _FIXED = (
 
 
 class Layout:
-    """Draws all panels and tells which points of the screen they cover."""
+    """Draws all panels and tells which points of the screen they cover; one that fails keeps none from the others."""
 
-    def __init__(self) -> None:
+    def __init__(self, guard: FaultGuard) -> None:
+        self._guard = guard
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip = Dialogs(), StripPanel()
         self._covered: list[tuple[float, float, float, float]] = []
@@ -82,7 +82,8 @@ class Layout:
                 wide = desk.view.width - left - (0.0 if under else right)
                 self._open_strip(desk, (left, desk.view.height - bottom, wide, tall))
         self._make_room(desk, (left, top, right, bottom))
-        self.dialogs.draw(desk)
+        with self._guard.spare_drawing("drawing a dialog"):
+            self.dialogs.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
         trace.tell_places()
@@ -96,19 +97,24 @@ class Layout:
         inner = 2 * imgui.get_style().window_padding.x
         imgui.set_next_window_content_size(ImVec2(left - inner, 0))
         if self._begin("left", (0, top, left, tall)):
-            self.brush.draw(desk)
+            with self._guard.spare_drawing("drawing the brush panel"):
+                self.brush.draw(desk)
         imgui.end()
         imgui.set_next_window_content_size(ImVec2(right - inner, 0))
         if self._begin("right", (desk.view.width - right, top, right, height)):
-            self.colour.draw(desk)
-            self.ink.draw(desk)
-            self.layers.draw(desk)
+            with self._guard.spare_drawing("drawing the colour panel"):
+                self.colour.draw(desk)
+            with self._guard.spare_drawing("drawing the ink mixer"):
+                self.ink.draw(desk)
+            with self._guard.spare_drawing("drawing the layers panel"):
+                self.layers.draw(desk)
         imgui.end()
 
     def _open_strip(self, desk: Desk, box: tuple[float, float, float, float]) -> None:
         imgui.push_style_color(imgui.Col_.window_bg, theme.vec((0.15,) * 3))
         if self._begin("strip", box):
-            self.strip.draw(desk)
+            with self._guard.spare_drawing("drawing the strip"):
+                self.strip.draw(desk)
         imgui.end()
         imgui.pop_style_color()
 
@@ -130,33 +136,12 @@ class Layout:
         return imgui.begin(name, None, _FIXED | flags)[0]
 
     def _menu(self, desk: Desk) -> float:
-        if not desk.panels or not imgui.begin_main_menu_bar():
-            return 0.0
-        for menu in MENUS:
-            if imgui.begin_menu(menu):
-                for action in ACTIONS.values():
-                    if action.menu == menu:
-                        self._item(desk, action)
-                imgui.end_menu()
-        self._title(desk)
-        height = imgui.get_window_height()
-        self._covered.append((0, 0, desk.view.width, height))
-        imgui.end_main_menu_bar()
+        height = 0.0
+        if desk.panels:
+            with self._guard.spare_drawing("drawing the menu bar"):
+                height = menu_bar.draw(desk)
+                self._covered.append((0, 0, desk.view.width, height))
         return height
-
-    def _item(self, desk: Desk, action: Action) -> None:
-        keys = action.keys[0] if action.keys else ""
-        on = bool(action.checked and action.checked(desk))
-        if imgui.menu_item(action.title, keys, on, action.when(desk))[0]:
-            perform(desk, action)
-        w.named(action.title)
-        w.tooltip(action.hint)
-
-    def _title(self, desk: Desk) -> None:
-        name = desk.known.path.name if desk.known.path else "Untitled"
-        text = f"{name}{' *' if desk.known.modified else ''}"
-        imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
-        imgui.text_disabled(text)
 
     def _status(self, desk: Desk, pointer_name: str) -> float:
         height = imgui.get_font_size() + 11 * desk.scale
@@ -166,7 +151,8 @@ class Layout:
         if self._begin(
             "status", (0, desk.view.height - height, desk.view.width, height), imgui.WindowFlags_.no_scrollbar
         ):
-            status.draw(desk, pointer_name)
+            with self._guard.spare_drawing("drawing the status line"):
+                status.draw(desk, pointer_name)
         imgui.end()
         imgui.pop_style_var(2)
         imgui.pop_style_color()

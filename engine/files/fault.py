@@ -25,6 +25,12 @@ class Cancelled(Exception):
     """The one who asked no longer wants the result; nothing was written."""
 
 
+def system_words(error: OSError) -> str:
+    """Returns what the system says of a file, in one line: the file, if it names one, and the reason."""
+    reason = error.strerror or str(error) or type(error).__name__
+    return f"{error.filename}: {reason}" if error.filename else reason
+
+
 def shown(text: object, limit: int = 60) -> str:
     """Text found in a file, fit for one line of a message: printable ASCII in quotes, cut at `limit`."""
     plain = ascii(text[: limit + 1] if isinstance(text, bytes) else str(text)[: limit + 1])

@@ -15,7 +15,7 @@ import pytest
 from PIL import ImageGrab
 from xserver import lacking, need, started_server
 
-from app.file_guard import TOLD
+from app.faults.file_guard import TOLD
 
 Point = tuple[int, int]
 Box = tuple[int, int, int, int]  # left, top, right, bottom, pixels of the screen

@@ -1,11 +1,16 @@
 """A fault of the program is told: in the window, on standard error, in the log; and tests fail on it."""
 
 import json
+import os
+import subprocess
+import time
 
 import pytest
+from dragging import Drag
 
 from app.__main__ import main
-from app.log import log_file
+from app.faults.fault_guard import QUIET
+from app.faults.log import log_file
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
@@ -26,6 +31,43 @@ def test_a_fault_of_the_engine_is_told_and_the_window_goes_on(program, excused):
         with pytest.raises(AssertionError, match="missing key"):
             app.close()
     app.log.write_text("")
+
+
+def window_of(app):
+    command = ["xdotool", "search", "--onlyvisible", "--name", "Inkfall"]
+    return int(subprocess.check_output(command, env={**os.environ, "DISPLAY": app.display}, text=True).split()[0])
+
+
+def test_a_fault_of_the_window_costs_no_painting(program, tmp_path):
+    began, app = time.monotonic(), program(module="faulty_window")
+    app.wait_for("KeyError: 'missing layer'")
+    before = app.canvas()
+    app.stroke((400, 300), (700, 500))
+    painted = app.canvas_unlike(before)
+    app.keys("4")
+    app.wait_for("KeyError: 'missing key'")
+    app.keys("r")
+    app.stroke((500, 300), (600, 400))
+    app.wait_for("KeyError: 'missing point'")
+    (tmp_path / "stone.png").write_bytes(b"")
+    Drag(app.display, window_of(app), tmp_path / "stone.png").drop(600, 600)
+    app.wait_for("KeyError: 'missing panel'")
+    assert app.comes_to(painted)
+    app.keys("b")
+    app.stroke((400, 600), (800, 250))
+    app.canvas_unlike(painted)
+    app.save_as(tmp_path / "spared.ora", 90.0)  # its kernels may still be compiled
+    app.wait_for("KeyError: 'missing file'")
+    app.canvas()
+    assert app.process.poll() is None
+    words = app.log.read_text()
+    log = app.folder / "state" / "inkfall" / "log" / "inkfall.log"
+    for what in ("layer", "key", "point", "panel", "file"):
+        assert f"KeyError: 'missing {what}'" in log.read_text()
+    assert log.read_text().count("missing layer") <= 2 * (1 + (time.monotonic() - began) / QUIET), "in every frame"
+    assert "imgui-error" not in words
+    app.log.write_text("")
+    assert main(["info", str(tmp_path / "spared.ora")]) == 0
 
 
 def test_the_doctor_names_the_log(capsys):

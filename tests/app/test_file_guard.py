@@ -5,13 +5,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from app.file_guard import TOLD
+from app.faults.file_guard import TOLD
 
 ROOT = Path(__file__).parents[2]
 PROBE = """
 import sys, threading
 from pathlib import Path
-from app.file_guard import guard_files
+from app.faults.file_guard import guard_files
 Path("before").write_text("")
 guard_files()
 other = threading.Thread(target=lambda: Path("by another").write_text(""))

@@ -18,12 +18,18 @@ from typing import Any
 import platformdirs
 
 SIZE, OLD = 1 << 20, 3  # bytes of the log at most, and how many full ones are kept
+FORM = "%(asctime)s %(levelname)s %(threadName)s: %(message)s"
 LOGGER = logging.getLogger("inkfall")
 
 
 def log_file() -> Path:
     """Returns where the log lies, whether it exists or not."""
     return platformdirs.user_log_path("inkfall") / "inkfall.log"
+
+
+def fault_words(fault: str = "A fault in Inkfall") -> str:
+    """Returns the sentence for the artist that there was a fault, and where more of it stands."""
+    return f"{fault}: {log_file()} tells more"
 
 
 class _Log(RotatingFileHandler):
@@ -41,20 +47,43 @@ class _Log(RotatingFileHandler):
 
 def open_log() -> None:
     """Has faults of all threads told on standard error and in the log; a log that cannot be written is done without."""
-    form = logging.Formatter("%(asctime)s %(levelname)s %(threadName)s: %(message)s")
-    handlers: list[logging.Handler] = [logging.StreamHandler()]
+    console = logging.StreamHandler()
+    console.setFormatter(logging.Formatter(FORM))
+    LOGGER.addHandler(console)
     try:
-        log_file().parent.mkdir(parents=True, exist_ok=True)
-        handlers.append(_Log(log_file(), maxBytes=SIZE, backupCount=OLD, encoding="utf-8"))
+        LOGGER.addHandler(_opened(_Log))
     except OSError as error:
         print(f"inkfall: {log_file()}: no log is kept: {error.strerror}", file=sys.stderr)
-    for handler in handlers:
-        handler.setFormatter(form)
-        LOGGER.addHandler(handler)
     LOGGER.propagate = False
     sys.excepthook = _uncaught
     threading.excepthook = _in_thread
     sys.unraisablehook = _unraisable
+
+
+def log_fault(error: BaseException) -> bool:
+    """Logs the fault that ends the program, whether the log is open or not; False if it cannot be written."""
+    if any(isinstance(handler, _Log) for handler in LOGGER.handlers):
+        _uncaught(type(error), error, error.__traceback__)
+        return True
+    try:
+        handler = _opened(RotatingFileHandler)
+    except OSError:
+        return False
+    LOGGER.addHandler(handler)
+    try:
+        _uncaught(type(error), error, error.__traceback__)
+    finally:
+        LOGGER.removeHandler(handler)
+        handler.close()
+    return True
+
+
+def _opened(kind: type[RotatingFileHandler]) -> RotatingFileHandler:
+    """Returns a handler that writes the log.  OSError if that cannot be written."""
+    log_file().parent.mkdir(parents=True, exist_ok=True)
+    handler = kind(log_file(), maxBytes=SIZE, backupCount=OLD, encoding="utf-8")
+    handler.setFormatter(logging.Formatter(FORM))
+    return handler
 
 
 def _uncaught(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:

@@ -1,0 +1,41 @@
+"""The menu bar: the table of actions by menu, and the painting's name."""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.actions import ACTIONS, MENUS, Action, perform
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+
+
+def draw(desk: Desk) -> float:
+    """Draws it over the whole width; returns its height, pixels."""
+    if not imgui.begin_main_menu_bar():
+        return 0.0
+    for menu in MENUS:
+        if imgui.begin_menu(menu):
+            for action in ACTIONS.values():
+                if action.menu == menu:
+                    _item(desk, action)
+            imgui.end_menu()
+    _title(desk)
+    height = imgui.get_window_height()
+    imgui.end_main_menu_bar()
+    return height
+
+
+def _item(desk: Desk, action: Action) -> None:
+    keys = action.keys[0] if action.keys else ""
+    on = bool(action.checked and action.checked(desk))
+    if imgui.menu_item(action.title, keys, on, action.when(desk))[0]:
+        perform(desk, action)
+    w.named(action.title)
+    w.tooltip(action.hint)
+
+
+def _title(desk: Desk) -> None:
+    name = desk.known.path.name if desk.known.path else "Untitled"
+    text = f"{name}{' *' if desk.known.modified else ''}"
+    imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
+    imgui.text_disabled(text)
