@@ -5,8 +5,8 @@ The painting is on the easel; filing, lab, examiner, matcher and grower work at 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -27,6 +27,36 @@ from engine.studio.region import Regions
 from engine.studio.warming import Warming
 from engine.studio.writers import Post, Send
 
+Handlers = Mapping[type, Callable[[Any], None]]
+_NO_REQUESTS: Handlers = {}
+
+
+class Part(Protocol):
+    """What works at the painting for a panel, piece by piece."""
+
+    handlers: dict[type, Callable[[Any], None]]  # of requests, by their types
+
+    @property
+    def pending(self) -> int:
+        """Pieces of open work."""
+        ...
+
+    def step(self) -> None:
+        """Does the next piece."""
+        ...
+
+
+class Work(NamedTuple):
+    """One row of open work: how many pieces there are, what does the next one, and the requests that make more."""
+
+    pending: Callable[[], int]
+    step: Callable[[], None]
+    handlers: Handlers = _NO_REQUESTS
+
+
+def _of(part: Part) -> Work:
+    return Work(lambda: part.pending, part.step, part.handlers)
+
 
 class Studio(Owned):
     """What the worker works at.  It belongs to the engine's thread.
@@ -36,8 +66,19 @@ class Studio(Owned):
 
     def __init__(self, send: Send, post: Post) -> None:
         self.easel = easel = Easel(send)
-        self.filing, self.lab, self.examiner = Filing(easel, post), Lab(easel), Examiner(easel)
-        self.matcher, self.grower, self.regions = Matcher(easel), Grower(easel), Regions(send)
+        self.filing, self.lab, self.grower = Filing(easel, post), Lab(easel), Grower(easel)
+        viewer = easel.viewer
+        # From the most urgent: first what the pen just painted, on the canvas or in a region.
+        self._rows = (
+            Work(lambda: easel.behind, easel.follow),
+            Work(lambda: viewer.fresh, viewer.send_fresh),
+            _of(Regions(send)),
+            _of(self.lab),
+            Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
+            Work(lambda: self.grower.pending, self._grow),
+            _of(Matcher(easel)),
+            _of(Examiner(easel)),
+        )
         self._handlers: dict[type, Callable[[Any], None]] = {
             q.Do: lambda r: easel.carry_out(r.command),
             q.Begin: self._begin,
@@ -45,9 +86,11 @@ class Studio(Owned):
             q.Finish: lambda r: easel.finish(),
             q.Abandon: lambda r: easel.abandon(),
             q.Swatch: self._swatch,
+            **self.filing.handlers,
+            **Warming(send).handlers,
         }
-        for part in (easel.viewer, self.filing, self.lab, self.examiner, self.matcher, self.regions, Warming(send)):
-            self._handlers |= part.handlers
+        for row in self._rows:
+            self._handlers |= row.handlers
         send(ready())
         easel.tell()
 
@@ -63,34 +106,14 @@ class Studio(Owned):
     @property
     def pending(self) -> int:
         """Pieces of open work."""
-        parts = (self.easel.viewer, self.regions, self.grower, self.lab, self.examiner, self.matcher)
-        return self.easel.behind + sum(part.pending for part in parts)
+        return sum(row.pending() for row in self._rows)
 
     def step(self) -> bool:
-        """Does the most urgent piece of open work: what the pen just painted, on the canvas or in a region, then the
-        lab's pictures, tiles, examples being grown, textures being matched, analysis.  False when there is none."""
-        viewer = self.easel.viewer
-        if self.easel.behind:
-            self.easel.follow()
-        elif viewer.fresh:
-            viewer.send_fresh()
-        elif self.regions.pending:
-            self.regions.step()
-        elif self.lab.pending:
-            self.lab.step()
-        elif viewer.pending:
-            viewer.send_tile()
-        elif self.grower.pending:
-            self.grower.step()
-            if not self.grower.pending:
-                self.filing.grown()
-        elif self.matcher.pending:
-            self.matcher.step()
-        elif self.examiner.pending:
-            self.examiner.step()
-        else:
-            return False
-        return True
+        """Does the most urgent piece of open work; False when there is none."""
+        row = next((row for row in self._rows if row.pending()), None)
+        if row is not None:
+            row.step()
+        return row is not None
 
     @property
     def due(self) -> float | None:
@@ -109,6 +132,11 @@ class Studio(Owned):
     def _begin(self, request: q.Begin) -> None:
         self.lab.settle()
         self.easel.begin(c.Stroke(request.level, request.origin, np.empty((0, 6)), request.brush))
+
+    def _grow(self) -> None:
+        self.grower.step()
+        if not self.grower.pending:
+            self.filing.grown()
 
     def _swatch(self, request: q.Swatch) -> None:
         pixels = swatches.painted(request, self.easel.session.painting)
