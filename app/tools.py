@@ -13,9 +13,10 @@ import numpy as np
 
 from app import icons
 from app.canvas.view import Place, View
-from app.desk import example_use, palette
+from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
+from app.desk.examples import example_use
 from app.desk.match_state import SMALLEST
 from app.input.events import PenEvent
 from engine.brush.smoothing import Smoother

@@ -22,9 +22,9 @@ from app.canvas.screen import Screen
 from app.canvas.view import Place, View
 from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
+from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
 from app.desk.stock import TakeStock
-from app.desk.thumbnails import Shelf
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
 from app.input.pointers import Pointers
@@ -32,7 +32,7 @@ from app.news import News
 from app.pace import Pace
 from app.panels.layout import Layout
 from app.router import Router
-from app.tiles import Tiles
+from app.wanted_tiles import Tiles
 from engine.studio import results
 from engine.studio.worker import Worker
 

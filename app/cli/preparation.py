@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.cli.outcome import Failed
 from app.cli.progress import Progress
 from app.desk import presets
-from engine.studio.preparing import Preparing, expected
+from engine.studio.preparing.preparing import Preparing, expected
 from engine.studio.requests import Swatch
 
 _PICTURE = (104, 44)

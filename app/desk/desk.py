@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, fitted
 from app.desk.asked import Asked, Then
-from app.desk.example_state import Entry, ExampleState
+from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState

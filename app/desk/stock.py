@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from app.desk import example_state, presets
+from app.desk import presets
 from app.desk.desk import Desk, FileWork
-from app.desk.example_state import Entry
-from app.desk.example_use import gather
+from app.desk.examples import example_state
+from app.desk.examples.example_state import Entry
+from app.desk.examples.example_use import gather
 from app.desk.presets import Paper, Preset
 
 

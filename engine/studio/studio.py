@@ -18,14 +18,14 @@ from engine.studio import requests as q
 from engine.studio import results, swatches
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
-from engine.studio.filing import Filing
+from engine.studio.filing.filing import Filing
+from engine.studio.filing.writers import Post, Send
 from engine.studio.grower import Grower
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
 from engine.studio.ready import ready
-from engine.studio.region import Regions
+from engine.studio.region_strokes import Regions
 from engine.studio.warming import Warming
-from engine.studio.writers import Post, Send
 
 Handlers = Mapping[type, Callable[[Any], None]]
 _NO_REQUESTS: Handlers = {}

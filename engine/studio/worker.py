@@ -65,13 +65,13 @@ Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  
 
 
 def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> Bench:
-    from engine.studio.preparing import Preparing
+    from engine.studio.preparing.preparing import Preparing
 
     preparing = Preparing()
     preparing.begin()  # its processes load while the studio does
 
+    from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
-    from engine.studio.waiting import Waiting
 
     return Waiting(Studio(send, post), preparing, send)
 

@@ -1,6 +1,6 @@
 """Pictures that follow what they show: the first change at once, the last one always, none too often."""
 
-from app.desk.following import Following
+from app.desk.examples.following import Following
 
 
 def test_a_change_is_followed_at_once_and_only_once():

@@ -18,7 +18,7 @@ from dataclasses import replace
 from threading import Event, Thread
 from typing import Any
 
-from app.desk import example_use
+from app.desk.examples import example_use
 from app.input.events import LEFT, MIDDLE, PenEvent
 from app.loop import SWITCH, opened
 from app.window import Window

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import example_use, palette, presets
+from app.desk import palette, presets
 from app.desk.desk import Desk, FileWork
+from app.desk.examples import example_use
 from app.desk.presets import Preset
 from app.panels.controls import widgets as w
 from engine.studio.requests import Prepare, Swatch

@@ -8,9 +8,10 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import actions, icons, theme
-from app.desk import example_use, palette, thumbnails
+from app.desk import palette
 from app.desk.desk import Desk
-from app.desk.following import Following
+from app.desk.examples import example_use, thumbnails
+from app.desk.examples.following import Following
 from app.desk.hand import LARGEST, SMALLEST
 from app.desk.knots import at
 from app.panels.brush import example_section

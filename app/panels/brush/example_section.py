@@ -6,9 +6,9 @@ from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
 from app.actions import tip
-from app.desk import example_use, thumbnails
 from app.desk.desk import Desk
-from app.desk.example_state import DEPTHS
+from app.desk.examples import example_use, thumbnails
+from app.desk.examples.example_state import DEPTHS
 from app.panels.controls import widgets as w
 
 _SIZES = (

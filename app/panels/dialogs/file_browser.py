@@ -14,8 +14,9 @@ from imgui_bundle import portable_file_dialogs as pfd
 from immutables import Map
 
 from app import icons, theme
-from app.desk import example_work, pictured
+from app.desk import pictured
 from app.desk.desk import Desk
+from app.desk.examples import example_work
 from app.panels.controls import widgets as w
 from engine.studio.requests import Export, Save
 

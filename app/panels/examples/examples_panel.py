@@ -10,14 +10,14 @@ from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
 from app.actions import Action
-from app.desk import example_state, example_use, example_work, thumbnails
 from app.desk.desk import Desk
-from app.desk.example_state import Entry
+from app.desk.examples import example_state, example_use, example_work, thumbnails
+from app.desk.examples.example_state import Entry
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
-from app.panels.examples.example_region import RegionPanel
 from app.panels.examples.growth_settings import GrowthSettings
 from app.panels.examples.own_examples import OwnExamples
+from app.panels.examples.region_panel import RegionPanel
 from app.panels.panel import Painting, Panel
 from app.tools import paint_region
 from engine.studio.results import Picture, RegionScene, Scene

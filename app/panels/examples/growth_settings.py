@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import example_work
 from app.desk.desk import Desk
-from app.desk.example_state import SAMPLE, Entry
+from app.desk.examples import example_work
+from app.desk.examples.example_state import SAMPLE, Entry
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app import icons
-from app.desk import example_state, example_work
 from app.desk.desk import Desk
-from app.desk.example_state import Entry
+from app.desk.examples import example_state, example_work
+from app.desk.examples.example_state import Entry
 from app.panels.controls import widgets as w
 
 

@@ -7,7 +7,7 @@ from app.__main__ import main
 
 def test_doctor_prepares_what_is_not_ready(tmp_path, monkeypatch, capsys):
     """One line on a pipe; what is ready is not done again; where nothing can be kept, that is said."""
-    from engine.studio import preparing
+    from engine.studio.preparing import preparing
 
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     program = "import sys\nfor line in sys.stdin: print('{\"done\": true}', flush=True)"

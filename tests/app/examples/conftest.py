@@ -3,11 +3,11 @@
 import pytest
 
 from app.canvas.view import Place, View
-from app.desk import example_state, example_work
 from app.desk.desk import Desk
+from app.desk.examples import example_state, example_work
 from app.desk.files import carried_out
 from app.desk.stock import TakeStock
-from engine.studio.region import Regions
+from engine.studio.region_strokes import Regions
 from engine.studio.results import RegionScene
 
 

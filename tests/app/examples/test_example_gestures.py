@@ -6,8 +6,8 @@ from examples_at_hand import named
 from app import icons, tools
 from app.actions import ACTIONS
 from app.cursor import apart
-from app.desk import example_state, example_use, example_work
-from app.desk.region_state import INVERTED
+from app.desk.examples import example_state, example_use, example_work
+from app.desk.examples.region_state import INVERTED
 from app.input.events import PenEvent
 from app.panels import status
 from app.panels.strip import StripPanel

@@ -6,7 +6,8 @@ import pytest
 from examples_at_hand import named, scene_with
 from immutables import Map
 
-from app.desk import example_state, example_use, example_work, palette, thumbnails
+from app.desk import palette
+from app.desk.examples import example_state, example_use, example_work, thumbnails
 from app.desk.presets import Preset
 from engine.brush.settings import Brush
 from engine.makers.definitions import defined_by

@@ -8,9 +8,10 @@ from examples_at_hand import named, picture, scene_with
 from immutables import Map
 from PIL import Image
 
-from app.desk import example_state, example_use, example_work, own_example_files, palette
+from app.desk import palette
+from app.desk.examples import example_state, example_use, example_work, own_example_files
+from app.desk.examples.region_state import EVERYTHING, INVERTED, SMOOTHED
 from app.desk.presets import Preset
-from app.desk.region_state import EVERYTHING, INVERTED, SMOOTHED
 from app.desk.stock import TakeStock
 from engine.brush.settings import Brush
 from engine.makers.definitions import defined_by

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from examples_at_hand import named
 
-from app.desk import thumbnails
-from app.desk.example_state import Entry
+from app.desk.examples import thumbnails
+from app.desk.examples.example_state import Entry
 from app.panels.examples.examples_panel import tile
 from engine.texture.example.parameters import Parameters
 

@@ -332,7 +332,7 @@ LONG = (
 @pytest.fixture
 def half_played(tmp_path, monkeypatch):
     """A window in which a recording plays, in the middle of its only stroke."""
-    monkeypatch.setattr("engine.studio.playing.PIECE", 1e-6)  # one point at a time
+    monkeypatch.setattr("engine.studio.filing.playing.PIECE", 1e-6)  # one point at a time
     (tmp_path / "long.jsonl").write_text(LONG)
     window = Window()
     window.studio.do(q.Open(tmp_path / "long.jsonl", True))

@@ -269,7 +269,7 @@ def stack_entries(members):
 def test_a_picture_below_stays_what_it_was(folder, tmp_path):
     """A layer that began as a picture: other programs see it grown over, the picture itself comes back."""
     Image.fromarray(np.full((60, 80, 4), 200, np.uint8)).save(tmp_path / "in.png")
-    from engine.studio.documents import opened as document
+    from engine.studio.filing.documents import opened as document
 
     own = document(tmp_path / "in.png").session
     own = Session(own.painting, TileCache(16 << 20), folder=folder)

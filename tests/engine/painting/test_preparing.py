@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from engine.studio import preparing as module
-from engine.studio.preparing import Job, Preparing
+from engine.studio.preparing import preparing as module
+from engine.studio.preparing.preparing import Job, Preparing
 
 ROOT = Path(__file__).parents[3]
 # Stands in for a process that compiles: does as the job says, and writes down what it "compiled".
@@ -184,7 +184,7 @@ KILLED = """
 import sys, time
 sys.path.insert(0, sys.argv[1])
 import engine
-from engine.studio.preparing import COMMIT, Preparing
+from engine.studio.preparing.preparing import COMMIT, Preparing
 preparing = Preparing(1, gently=False)
 preparing.want([COMMIT])
 while preparing.count < 1:
@@ -197,7 +197,7 @@ import sys
 sys.path.insert(0, sys.argv[1])
 import engine
 from engine.kernel_cache import Watch, watched
-from engine.studio import exercise
+from engine.studio.preparing import exercise
 
 class Enough(Exception):
     pass

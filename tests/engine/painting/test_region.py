@@ -10,7 +10,7 @@ from engine.numeric.address import Rect
 from engine.strokes.example_region import followed
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.region import KEPT, Regions, over_paper, shown
+from engine.studio.region_strokes import KEPT, Regions, over_paper, shown
 
 HEIGHT, WIDTH = 40, 60
 WHOLE = Rect(0, 0, WIDTH, HEIGHT)

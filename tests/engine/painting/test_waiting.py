@@ -13,9 +13,9 @@ from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.sketch import Sketch
+from engine.studio.preparing.sketch import Sketch
+from engine.studio.preparing.waiting import Waiting
 from engine.studio.studio import Studio
-from engine.studio.waiting import Waiting
 
 PLAIN, ROCK = Brush(), Brush(radius=3.0, hardness=0.5)
 

@@ -61,7 +61,7 @@ def main(niceness: int) -> None:
     post = Post(os.fdopen(os.dup(0), encoding="utf-8"), target)
 
     from engine.kernel_cache import Watch, watched
-    from engine.studio import exercise
+    from engine.studio.preparing import exercise
 
     watch = Watch(post.missing, lambda name: post.tell(saved=name))
     while True:

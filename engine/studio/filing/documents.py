@@ -14,7 +14,7 @@ from engine.painting.value import Painting
 from engine.session import replay
 from engine.session.session import Session
 from engine.studio import requests as q
-from engine.studio.playing import Playing
+from engine.studio.filing.playing import Playing
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,9 +12,9 @@ from immutables import Map
 
 from app import icons, theme
 from app.actions import ACTIONS, Action
-from app.desk import example_work
 from app.desk.desk import Desk
-from app.desk.region_state import BY_ALPHA, EVERYTHING, INVERTED, RADII, SMOOTHED, RegionState
+from app.desk.examples import example_work
+from app.desk.examples.region_state import BY_ALPHA, EVERYTHING, INVERTED, RADII, SMOOTHED, RegionState
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 

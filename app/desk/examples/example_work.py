@@ -9,11 +9,12 @@ from typing import NamedTuple
 
 from immutables import Map
 
-from app.desk import example_state, own_example_files, palette, presets
+from app.desk import palette, presets
 from app.desk.desk import Desk, FileWork
-from app.desk.example_state import Entry
-from app.desk.example_use import choose, gather, take
-from app.desk.region_state import RegionState
+from app.desk.examples import example_state, own_example_files
+from app.desk.examples.example_state import Entry
+from app.desk.examples.example_use import choose, gather, take
+from app.desk.examples.region_state import RegionState
 from engine.studio.requests import RegionClose, RegionOpen, RegionSaved
 from engine.studio.results import RegionScene
 from engine.texture.example.parameters import Parameters

@@ -31,14 +31,15 @@ from engine.makers import definitions
 from engine.studio.requests import Swatch
 
 LOGGER = logging.getLogger("inkfall")
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 MOST = 8  # processes: each takes some 200 MB
 REST = 1.0  # seconds after a stroke for which only one process works
 NOTE = "ready.json"
 NICENESS = 10
 _PROGRAM = (
     "-c",
-    "import sys; sys.path.insert(0, sys.argv[1]); from engine.studio.compiling import main; main(int(sys.argv[2]))",
+    "import sys; sys.path.insert(0, sys.argv[1])\n"
+    "from engine.studio.preparing.compiling import main; main(int(sys.argv[2]))",
     str(ROOT),
 )
 _BELOW_NORMAL, _NO_CONSOLE = 0x00004000, 0x08000000  # how Windows starts a process

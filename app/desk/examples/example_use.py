@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from app.desk import example_state, palette
+from app.desk import palette
 from app.desk.desk import Desk
-from app.desk.example_state import Entry
+from app.desk.examples import example_state
+from app.desk.examples.example_state import Entry
 from engine.brush.settings import Brush
 from engine.painting.commands import Swap
 from engine.studio.requests import Do, GetReady

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from immutables import Map
 
-from app.desk import example_state
-from app.desk.example_state import BASE, MASK, NAME_CAP, PARAMETERS, PICTURE, STEPS, Entry, sha_of
+from app.desk.examples import example_state
+from app.desk.examples.example_state import BASE, MASK, NAME_CAP, PARAMETERS, PICTURE, STEPS, Entry, sha_of
 from engine.brush.checks import thawed
 from engine.files.atomic import replacing
 from engine.studio.requests import RegionOpen

@@ -16,8 +16,8 @@ from engine.kernel_cache import NotCompiled, refusing
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.preparing import Job, Preparing, expected, job_of
-from engine.studio.sketch import Sketch
+from engine.studio.preparing.preparing import Job, Preparing, expected, job_of
+from engine.studio.preparing.sketch import Sketch
 from engine.studio.studio import Studio
 
 POLL = 0.03  # seconds from one look at what has been compiled to the next

@@ -18,8 +18,8 @@ import numpy as np
 import platformdirs
 from immutables import Map
 
-from app.desk.following import Following
-from app.desk.region_state import RegionState
+from app.desk.examples.following import Following
+from app.desk.examples.region_state import RegionState
 from engine.brush.checks import frozen
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
@@ -85,7 +85,7 @@ class Entry:
 
 def bundled_folder() -> Path:
     """The examples that come with the program; the folder lies beside the packages."""
-    return Path(__file__).resolve().parents[2] / "palettes" / "examples"
+    return Path(__file__).resolve().parents[3] / "palettes" / "examples"
 
 
 def own_folder() -> Path:

@@ -9,8 +9,8 @@ from contextlib import suppress
 
 import numpy as np
 
-from app.desk import own_example_files
-from app.desk.example_state import Entry
+from app.desk.examples import own_example_files
+from app.desk.examples.example_state import Entry
 from engine.files.fault import FileError
 from engine.studio.results import Picture
 

@@ -11,12 +11,13 @@ from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
 from engine.painting.value import Painting
 from engine.session.session import Session
-from engine.studio import documents, results
 from engine.studio import requests as q
-from engine.studio.documents import Document
+from engine.studio import results
 from engine.studio.easel import Easel
-from engine.studio.playing import PIECE, Playing
-from engine.studio.writers import Post, Writers
+from engine.studio.filing import documents
+from engine.studio.filing.documents import Document
+from engine.studio.filing.playing import PIECE, Playing
+from engine.studio.filing.writers import Post, Writers
 
 
 class Filing(Owned):

@@ -1,0 +1,1 @@
+"""Examples: the bundled ones, one's own, their regions and thumbnails."""

@@ -1,0 +1,1 @@
+"""Files of the painting on the easel."""

@@ -1,0 +1,1 @@
+"""Kernels compiled in the background, and what waits for them."""
