@@ -24,6 +24,7 @@ from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
+from app.desk.previews import Previews
 from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
@@ -35,6 +36,8 @@ from app.router import Router
 from app.wanted_tiles import Tiles
 from engine.studio import results
 from engine.studio.worker import Worker
+
+DOUBLE = 0.5  # seconds from one click to the next, at most, that are a double click
 
 
 class Window:
@@ -48,6 +51,7 @@ class Window:
         io = imgui.get_io()
         io.set_ini_filename("")
         io.config_flags |= imgui.ConfigFlags_.no_mouse_cursor_change
+        io.mouse_double_click_time, io.mouse_single_click_delay = DOUBLE, 1.1 * DOUBLE
         scale = max(0.75, glfw.get_window_content_scale(handle)[0])
         theme.load_fonts(io)
         theme.apply(scale)
@@ -93,12 +97,13 @@ class Window:
     def connect(self, worker: Worker) -> None:
         """From now on pens are heard, and requests go to the engine's thread."""
         self.pointers.hear_pens()
-        shelf = Shelf(glfw.post_empty_event)
+        shelf, previews = Shelf(glfw.post_empty_event), Previews(glfw.post_empty_event)
         self.desk.post, self.desk.thumbnails, self.pace.worker = worker.post, shelf.ask, worker
         self.desk.behind = lambda: worker.behind
         self._files = files = Files(glfw.post_empty_event)
         self.desk.work = files.post
-        for source in (worker.results, shelf.take, files.take):
+        self.desk.previews = previews.ask
+        for source in (worker.results, shelf.take, previews.take, files.take):
             self.news.connect(source)
         self.desk.work(TakeStock())
 

@@ -6,7 +6,7 @@ Panels and actions read and change these; everything that changes pixels goes th
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,6 +19,7 @@ from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
+from app.desk.previews import FileRow
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.requests import Open, Request, Save
@@ -62,6 +63,10 @@ class Message(NamedTuple):
     offer: str = ""
 
 
+def _no_previews(_folder: Path, _rows: Iterable[FileRow], _side: int) -> None:
+    """Makes none: there is no thread for them yet."""
+
+
 @dataclass(slots=True)
 class Pointer:
     """Where the pointer is, and what it is over."""
@@ -97,6 +102,9 @@ class Desk:
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square
+    previews: Callable[[Path, Iterable[FileRow], int], None] = (
+        _no_previews  # asks for pictures of files, as Previews.ask
+    )
 
     def learn(self, **known: Any) -> None:
         """Takes over what has become known: other values for members of `known`."""

@@ -1,7 +1,10 @@
 """The dialogs in the real window: how they look, and that they do what is asked of them."""
 
+import time
+
 import numpy as np
 import pytest
+from PIL import Image
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
@@ -31,3 +34,49 @@ def test_sizes_of_a_new_painting_stand_in_the_middle_of_their_buttons(program):
     app.click("Start")
     app.until_gone("Start")
     assert app.process.poll() is None
+
+
+def pictures(folder):
+    """Some files to choose from: a red picture, a green one, and a folder with a blue one."""
+    (folder / "more").mkdir()
+    for name, colour in (("a.png", (220, 30, 30)), ("b.jpg", (30, 200, 30)), ("more/c.png", (40, 40, 230))):
+        Image.new("RGB", (64, 48), colour).save(folder / name)
+
+
+def colourful(screen, place):
+    """How much the strongest channel of a part of the screen exceeds the weakest, at most, and which that is."""
+    part = screen[place].reshape(-1, 3).astype(int)
+    pixel = part[np.argmax(part.max(axis=1) - part.min(axis=1))]
+    return int(pixel.max() - pixel.min()), int(pixel.argmax())
+
+
+def test_files_are_chosen_by_their_pictures_and_a_slow_double_click(program):
+    app = program()
+    pictures(app.folder)
+    app.do("mousemove", 640, 300)
+    app.keys("ctrl+o")
+    rows = {name: app.part(name, "Open") for name in ("a.png", "b.jpg")}
+    for channel, name in enumerate(rows):
+        app.until(lambda screen, name=name, channel=channel: colourful(screen, rows[name]) > (100, channel), (640, 20))
+        assert colourful(app.screen(), rows[name])[1] == channel
+    app.type("b.j")  # the field has the focus
+    app.keys("ctrl+a", "BackSpace")
+    app.click("more", "Open")
+    app.do("mousemove", *app.at("c.png", window="Open"), "click", 1)
+    time.sleep(0.6)  # another click than the one into the folder
+    app.do("mousedown", 1, "mouseup", 1)
+    time.sleep(0.4)
+    app.do("mousedown", 1, "mouseup", 1)
+    app.until_gone("Cancel")
+    app.wait_for("painting 1 shown")
+
+
+def test_a_name_typed_at_once_is_the_files(program):
+    app = program()
+    pictures(app.folder)
+    app.do("mousemove", 640, 300)
+    app.keys("ctrl+o")
+    app.box("a.png", "Open")
+    app.type("a.png")
+    app.keys("Return")
+    app.wait_for("painting 1 shown")

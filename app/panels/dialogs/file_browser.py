@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import sys
 from collections.abc import Callable
@@ -17,7 +16,10 @@ from app import icons, theme
 from app.desk import pictured
 from app.desk.desk import Desk
 from app.desk.examples import example_work
+from app.desk.folders import ReadFolder
+from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
+from app.panels.dialogs import file_list
 from engine.studio.requests import Export, Save
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
@@ -59,43 +61,50 @@ class SystemDialog:
 
 
 class Browser:
-    """Folders and files with certain endings; a name field when saving."""
+    """Folders and files with certain endings, with their sizes, dates and pictures; a field for the name."""
 
     def __init__(self, title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> None:
         self.title, self._endings, self._saving, self._then = title, endings, saving, then
-        folder = start if start.is_dir() else start.parent
+        self._folder = start if start.is_dir() else start.parent
         self._name = "" if start.is_dir() else start.name
-        self._list: list[tuple[str, bool]] = []
+        self._rows: tuple[FileRow, ...] = ()
+        self._wanted: Path | None = self._folder  # a folder that is to be listed
         self._fault, self._focus, self._sure = "", True, False
-        self._go(folder)
 
     def _go(self, folder: Path) -> None:
-        try:
-            entries = [(e.name, e.is_dir()) for e in os.scandir(folder) if not e.name.startswith(".")]
-        except OSError as error:
-            self._fault = f"{folder}: {error.strerror}"
-            return
-        shown = [(n, d) for n, d in entries if d or n.lower().endswith(self._endings)]
-        self._list = sorted(shown, key=lambda e: (not e[1], e[0].lower()))
-        self._folder, self._fault, self._sure = folder.absolute(), "", False
+        """Lists a folder as soon as it is read."""
+        self._wanted = folder
+
+    def _listed(self, folder: Path, rows: tuple[FileRow, ...], fault: str) -> None:
+        """Hears what is in a folder."""
+        self._fault, self._sure = fault, False
+        if not fault:
+            self._folder, self._rows = folder.absolute(), rows
 
     def draw(self, desk: Desk) -> bool:
-        """Draws it into the present window."""
+        """Draws the folders and files, the name and the buttons; False when it is done."""
+        if self._wanted is not None:
+            desk.work(ReadFolder(self._wanted, self._endings, self._listed))
+            self._wanted = None
         em = imgui.get_font_size()
         self._path_row(em)
         imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
-        imgui.begin_child("entries", ImVec2(em * 38, em * 20))
-        picked = self._entries()
+        imgui.begin_child("entries", ImVec2(em * 42, em * 25))
+        picked = self._entries(desk)
         imgui.end_child()
         imgui.pop_style_color()
-        imgui.set_next_item_width(em * 24)
-        if self._focus and self._saving and not w.return_down():  # a key that still is would take it away again
+        imgui.set_next_item_width(imgui.get_content_region_avail().x - 2 * (em * 6 + imgui.get_style().item_spacing.x))
+        if self._focus and not w.return_down():  # a key that still is would take it away again
             imgui.set_keyboard_focus_here()
             self._focus = False
         _, self._name = imgui.input_text("##name", self._name)
         w.named("name")
         w.tooltip("The file’s name")
         imgui.same_line()
+        return self._buttons(desk, em, picked)
+
+    def _buttons(self, desk: Desk, em: float, picked: bool) -> bool:
+        """Draws them; False when the dialog is done."""
         word = "Replace" if self._sure else "Save" if self._saving else "Open"
         hint = f"{word} this file"
         if w.default_button(f"{word}###go", hint, enabled=bool(self._name), width=em * 6) or picked:
@@ -119,19 +128,17 @@ class Browser:
         text = str(self._folder)
         imgui.text_disabled(text if len(text) < 64 else "…" + text[-62:])
 
-    def _entries(self) -> bool:
-        """Lists the folder; True when a file was chosen by a double click."""
-        for name, is_folder in self._list:
-            icon = icons.FOLDER if is_folder else icons.IMAGE
-            flags = imgui.SelectableFlags_.allow_double_click | imgui.SelectableFlags_.no_auto_close_popups
-            if imgui.selectable(f"{icon}  {name}", name == self._name, flags)[0]:
-                if is_folder:
-                    self._go(self._folder / name)
-                    break
-                self._name, self._sure = name, False
-                if imgui.is_mouse_double_clicked(0):
-                    return True
-        return False
+    def _entries(self, desk: Desk) -> bool:
+        """Lists the folder; True when a file was chosen by a double click, both clicks on the same."""
+        row = file_list.draw(desk, self._folder, self._rows, self._name)
+        if row is None:
+            return False
+        if row.folder:
+            self._go(self._folder / row.name)
+            return False
+        again, self._name = row.name == self._name, row.name
+        self._sure = self._sure and again
+        return again and imgui.is_mouse_double_clicked(0)
 
     def _choose(self, desk: Desk) -> bool:
         """Hands the path on; False when the dialog is done."""

@@ -1,0 +1,104 @@
+"""Small pictures of files, made on a thread of their own."""
+
+from __future__ import annotations
+
+import io
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from engine.studio.results import Picture
+
+MOST = 100_000_000  # pixels of a picture that is made small
+MOST_BYTES = 4 << 20  # of the small picture in a painting
+THUMBNAIL = "Thumbnails/thumbnail.png"  # in an OpenRaster file
+PAPER, FIELD = (244, 244, 244, 255), (29, 29, 29, 255)  # sRGB: below pictures with holes, and around them
+PAINTING, PICTURES = ".ora", (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+
+
+class FileRow(NamedTuple):
+    """A file or a folder in a list.  `size`: bytes; `changed`: when, nanoseconds since 1970; `date`: that, local."""
+
+    name: str
+    folder: bool
+    size: int = 0
+    changed: int = 0
+    date: str = ""
+
+
+def ident(folder: Path, row: FileRow) -> str:
+    """What its picture is called: otherwise once the file has changed."""
+    return f"file {folder / row.name} {row.changed} {row.size}"
+
+
+class Previews:
+    """Makes the pictures asked for last.  `wake` is called from the thread when one is ready; one that cannot be made
+    never comes.  All other calls come from the window's thread."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._wanted: deque[tuple[str, Path, int]] = deque()
+        self._ready: deque[Picture] = deque()
+        self._begun: set[str] = set()
+        self._thread: threading.Thread | None = None
+
+    def ask(self, folder: Path, rows: Iterable[FileRow], side: int) -> None:
+        """Has pictures of files in a folder made, at most `side` pixels wide and high; in place of those asked for
+        before that are not begun."""
+        files = [row for row in rows if row.name.lower().endswith((PAINTING, *PICTURES))]
+        wanted = [(ident(folder, row), folder / row.name, side) for row in files]
+        self._wanted = deque(one for one in wanted if one[0] not in self._begun)
+        if self._wanted and (self._thread is None or not self._thread.is_alive()):
+            self._thread = threading.Thread(target=self._work, name="inkfall previews", daemon=True)
+            self._thread.start()
+
+    def take(self) -> list[Picture]:
+        """What is ready."""
+        found = []
+        while self._ready:
+            found.append(self._ready.popleft())
+        return found
+
+    def _work(self) -> None:
+        while True:
+            try:
+                name, path, side = self._wanted.popleft()
+            except IndexError:
+                return
+            if name not in self._begun:
+                self._begun.add(name)
+                small = preview(path, side)
+                if small is not None:
+                    self._ready.append(Picture(name, small))
+                    self._wake()
+
+
+def preview(path: Path, side: int) -> np.ndarray | None:
+    """A file's picture on paper in the middle of a field, uint8 RGBA (side, side, 4), opaque; None if it has none, or
+    one that is damaged or too large."""
+    from PIL import Image  # here: it takes its time to load
+
+    try:
+        with Image.open(io.BytesIO(_thumbnail(path)) if path.suffix.lower() == PAINTING else path) as picture:
+            if picture.width * picture.height > MOST:
+                return None
+            picture.draft("RGB", (2 * side, 2 * side))  # a JPEG is read small
+            picture.thumbnail((side, side), reducing_gap=2.0)
+            small = picture.convert("RGBA")
+    except Exception:  # Pillow raises many kinds for damaged files
+        return None
+    out = Image.new("RGBA", (side, side), FIELD)
+    at = (side - small.width) // 2, (side - small.height) // 2
+    out.paste(Image.alpha_composite(Image.new("RGBA", small.size, PAPER), small), at)
+    return np.array(out)
+
+
+def _thumbnail(path: Path) -> bytes:
+    from engine.files.zip_reader import ZipArchive  # here: the window is up before the engine is loaded
+
+    with path.open("rb") as file:
+        return ZipArchive(file, path.name).read(THUMBNAIL, MOST_BYTES)
