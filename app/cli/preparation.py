@@ -5,7 +5,8 @@ from __future__ import annotations
 from app.cli.outcome import Failed
 from app.cli.progress import Progress
 from app.desk import presets
-from engine.studio.preparing.preparing import Preparing, expected
+from engine.studio.preparing.job_queue import PLAIN_PAINT, expected
+from engine.studio.preparing.processes import Preparing
 from engine.studio.requests import Swatch
 
 _PICTURE = (104, 44)
@@ -22,7 +23,7 @@ def prepare() -> str:
     faults: list[str] = []
     preparing = Preparing(report=faults.append, gently=False)
     try:
-        preparing.begin()
+        preparing.want(PLAIN_PAINT, soon=True)
         preparing.want(jobs)
         with Progress("preparing brushes", len(jobs)) as tell:
             while preparing.busy:

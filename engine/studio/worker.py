@@ -65,10 +65,11 @@ Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  
 
 
 def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> Bench:
-    from engine.studio.preparing.preparing import Preparing
+    from engine.studio.preparing.job_queue import PLAIN_PAINT
+    from engine.studio.preparing.processes import Preparing
 
     preparing = Preparing()
-    preparing.begin()  # its processes load while the studio does
+    preparing.want(PLAIN_PAINT, soon=True)  # its processes load while the studio does
 
     from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba

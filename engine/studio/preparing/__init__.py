@@ -1,1 +1,1 @@
-"""Kernels compiled in the background, and what waits for them."""
+"""The first start: brushes are made ready by processes beside the window, and what needs one meanwhile waits."""

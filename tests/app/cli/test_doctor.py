@@ -7,15 +7,16 @@ from app.__main__ import main
 
 def test_doctor_prepares_what_is_not_ready(tmp_path, monkeypatch, capsys):
     """One line on a pipe; what is ready is not done again; where nothing can be kept, that is said."""
-    from engine.studio.preparing import preparing
+    from engine.studio.preparing.noted import NOTE
+    from engine.studio.preparing.processes import Preparing
 
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     program = "import sys\nfor line in sys.stdin: print('{\"done\": true}', flush=True)"
-    monkeypatch.setattr(preparing.Preparing.__init__, "__defaults__", (2, print, ("-c", program), True))
+    monkeypatch.setattr(Preparing.__init__, "__defaults__", (2, print, ("-c", program), True))
     assert main(["doctor", "--prepare"]) == 0
     assert capsys.readouterr() == ("all brushes are ready\n", "")
-    assert len(json.loads((tmp_path / preparing.NOTE).read_text())["ready"]) >= 60
-    monkeypatch.setattr(preparing.Preparing.__init__, "__defaults__", (2, print, ("-c", "raise SystemExit(1)"), True))
+    assert len(json.loads((tmp_path / NOTE).read_text())["ready"]) >= 60
+    monkeypatch.setattr(Preparing.__init__, "__defaults__", (2, print, ("-c", "raise SystemExit(1)"), True))
     assert main(["doctor", "--prepare"]) == 0
     capsys.readouterr()
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "none"))

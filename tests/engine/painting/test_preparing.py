@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from engine.studio.preparing import preparing as module
-from engine.studio.preparing.preparing import Job, Preparing
+from engine.studio.preparing import noted
+from engine.studio.preparing.job_queue import Job
+from engine.studio.preparing.processes import Preparing
 
 ROOT = Path(__file__).parents[3]
 # Stands in for a process that compiles: does as the job says, and writes down what it "compiled".
@@ -90,7 +91,7 @@ def test_jobs_are_done_in_order_and_none_twice(folder, make):
 def test_what_is_picked_jumps_the_queue(folder, make):
     preparing = make(1)
     preparing.want([job("a", takes=0.5), job("b"), job("c"), job("d")])
-    while not preparing._working:
+    while not preparing._queue.working:
         preparing.wait(0.01)
     preparing.want([job("c")], soon=True)
     preparing.want([job("x")], soon=True)
@@ -112,12 +113,12 @@ def test_while_somebody_paints_one_process_works_unless_a_job_is_waited_for(fold
     most = 0
     while preparing.busy:
         preparing.wait(0.05)
-        most = max(most, len(preparing._working))
+        most = max(most, len(preparing._queue.working))
     assert most == 1
     preparing.want([job("u1", takes=0.5), job("u2", takes=0.5)], soon=True)
     while preparing.busy:
         preparing.wait(0.05)
-        most = max(most, len(preparing._working))
+        most = max(most, len(preparing._queue.working))
     assert most == 2
 
 
@@ -142,24 +143,24 @@ def test_what_is_ready_is_remembered(folder, make):
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"for": 1}', '{"for": "STAMP", "ready": 3}', "\udc80"])
 def test_a_note_that_is_damaged_or_of_another_version_is_nothing(folder, make, text):
-    note = folder / module.NOTE
-    note.write_bytes(text.replace("STAMP", module.stamp()).encode(errors="surrogateescape"))
+    note = folder / noted.NOTE
+    note.write_bytes(text.replace("STAMP", noted.stamp()).encode(errors="surrogateescape"))
     preparing = make(1)
     preparing.want([job("a")])
     assert compiled(folder, preparing) == ["a"]
-    assert json.loads(note.read_text())["for"] == module.stamp()
+    assert json.loads(note.read_text())["for"] == noted.stamp()
 
 
 def test_another_processor_or_numba_has_a_note_of_its_own(monkeypatch):
     from llvmlite import binding
 
-    first = module.stamp()
-    assert module.stamp() == first
+    first = noted.stamp()
+    assert noted.stamp() == first
     with monkeypatch.context() as patch:
-        patch.setattr(module, "version", lambda name: "0.1")
-        assert module.stamp() != first
+        patch.setattr(noted, "version", lambda name: "0.1")
+        assert noted.stamp() != first
     monkeypatch.setattr(binding, "get_host_cpu_name", lambda: "i486")
-    assert module.stamp() != first
+    assert noted.stamp() != first
 
 
 def test_without_a_folder_to_write_to_nothing_waits(tmp_path, monkeypatch):
@@ -184,7 +185,8 @@ KILLED = """
 import sys, time
 sys.path.insert(0, sys.argv[1])
 import engine
-from engine.studio.preparing.preparing import COMMIT, Preparing
+from engine.studio.preparing.job_queue import COMMIT
+from engine.studio.preparing.processes import Preparing
 preparing = Preparing(1, gently=False)
 preparing.want([COMMIT])
 while preparing.count < 1:

@@ -1,0 +1,120 @@
+"""What is to be made ready: jobs, and their order.
+
+A job is a brush that is exercised (`exercise`).  Light on purpose: importing it loads no numba.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+from engine.brush.settings import Brush
+from engine.brush.settings import to_json as brush_to_json
+from engine.makers import definitions
+from engine.studio.requests import Swatch
+
+
+@dataclass(frozen=True)
+class Job:
+    """Something to be exercised, as JSON: told to a process."""
+
+    line: str
+
+    @cached_property
+    def key(self) -> str:
+        """What tells it from others."""
+        return hashlib.sha256(self.line.encode()).hexdigest()[:16]
+
+
+def job_of(swatch: Swatch) -> Job:
+    """What compiles all that a swatch's brush needs.  Colours and the pixels' number are not part of it."""
+    told = brush_to_json(swatch.brush)
+    told.pop("colour", None)
+    textures = definitions.to_json(swatch.textures)
+    line = {"kind": swatch.kind, "brush": told, "textures": textures, "size": (104, 44)}
+    return Job(json.dumps(line, sort_keys=True))
+
+
+PLAIN = job_of(Swatch("", Brush(), (104, 44)))
+COMMIT, FILES = (Job(json.dumps({"kind": kind})) for kind in ("commit", "files"))
+PLAIN_PAINT = (PLAIN, COMMIT)  # what the first strokes of plain paint need
+
+
+def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
+    """The jobs of brushes, most likely first: those that grow examples last, and files after the first."""
+    listed = sorted(swatches, key=lambda swatch: swatch.brush.mode == "example")
+    jobs = tuple(dict.fromkeys(map(job_of, listed)))
+    return (*jobs[:1], FILES, *jobs[1:])
+
+
+class JobQueue:
+    """Jobs that are to be done, in order, and the kernels that processes, by their numbers, compile now.
+
+    No two processes compile one kernel: a job that comes to another's waits until that is there.  Whoever calls has
+    the lock of all that share it.
+    """
+
+    def __init__(self) -> None:
+        self.working: dict[str, Job] = {}  # by their keys
+        self._jobs: list[Job] = []  # to be done, in order
+        self._urgent: set[str] = set()  # keys of those that are waited for
+        self._blocked: dict[str, str] = {}  # key of a job: the kernel of another process that it waits for
+        self._claimed: dict[str, int] = {}  # kernel: number of the process that compiles it
+
+    def __len__(self) -> int:
+        """Those that are not done."""
+        return len(self._jobs) + len(self.working)
+
+    @property
+    def untaken(self) -> int:
+        """Those that no process has taken."""
+        return len(self._jobs)
+
+    def add(self, jobs: Iterable[Job], soon: bool) -> None:
+        """Jobs that are to be done, once each; `soon`: before all others, also where they are in the queue already."""
+        told = [job for job in dict.fromkeys(jobs) if job.key not in self.working]
+        if soon:
+            self._urgent |= {job.key for job in told}
+            self._jobs = told + [job for job in self._jobs if job not in told]
+        else:
+            self._jobs += [job for job in told if job not in self._jobs]
+
+    def take(self, urgent: bool) -> Job | None:
+        """The next job that a process may begin now; `urgent`: of those that are waited for."""
+        for job in self._jobs:
+            if (job.key in self._urgent or not urgent) and self._blocked.get(job.key) not in self._claimed:
+                self._jobs.remove(job)
+                self.working[job.key] = job
+                return job
+        return None
+
+    def put_back(self, job: Job, kernel: str) -> None:
+        """A job waits for a kernel of another process: after those that are waited for, before those not tried."""
+        del self.working[job.key]
+        self._blocked[job.key] = kernel
+        tried = sum(other.key in self._urgent or other.key in self._blocked for other in self._jobs)
+        self._jobs.insert(0 if job.key in self._urgent else tried, job)
+
+    def end(self, job: Job) -> None:
+        """A job is done, or will not be."""
+        del self.working[job.key]
+        self._blocked.pop(job.key, None)
+
+    def clear(self) -> None:
+        """No more jobs are begun."""
+        self._jobs.clear()
+
+    def claim(self, kernel: str, number: int) -> bool:
+        """Whether a process may compile a kernel: no other does."""
+        return self._claimed.setdefault(kernel, number) == number
+
+    def compiled(self, kernel: str) -> None:
+        """A kernel is there."""
+        self._claimed.pop(kernel, None)
+
+    def leave(self, number: int) -> None:
+        """A process has gone, and compiles nothing."""
+        self._claimed = {kernel: other for kernel, other in self._claimed.items() if other != number}
