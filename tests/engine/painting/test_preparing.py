@@ -24,6 +24,8 @@ def tell(**told):
     print(json.dumps(told), flush=True)
 for line in sys.stdin:
     job = json.loads(line)
+    while not os.path.exists(sys.argv[1] + job.get("after", "")):
+        time.sleep(0.01)
     blocked = ""
     for kernel in job["kernels"]:
         if os.path.exists(sys.argv[1] + kernel):
@@ -33,6 +35,7 @@ for line in sys.stdin:
             blocked = kernel
             break
         if job.get("dies"):
+            open(sys.argv[1] + "claimed", "w").close()
             os._exit(1)
         time.sleep(job.get("takes", 0.0))
         open(sys.argv[1] + kernel, "w").close()
@@ -125,7 +128,8 @@ def test_while_somebody_paints_one_process_works_unless_a_job_is_waited_for(fold
 def test_a_process_that_dies_costs_its_job_and_no_other(folder, make):
     preparing = make(2)
     bad = job("bad", dies=True)
-    preparing.want([job("a"), bad, job("b"), job("c"), job("bad", "d")])
+    # The last comes to the kernel of the one that dies when that one has asked for it, however slow its process is.
+    preparing.want([job("a"), bad, job("b"), job("c"), job("bad", "d", after="claimed")])
     assert sorted(compiled(folder, preparing)) == ["a", "b", "bad", "c", "d"]
     assert preparing.ready(bad)
     assert len(make.faults) == 1
