@@ -202,7 +202,9 @@ def fit(
             _gather(sums[c], x)
     b = np.empty((3, m), np.float64)
     for c in range(3):
-        b[c] = _solution(sums[c], m)
+        solution = _solution(sums[c], m)
+        for i in range(m):  # b[c] = solution compiles the text of a mismatch of shapes, too: 4 s
+            b[c, i] = solution[i]
     return b
 
 
