@@ -8,7 +8,7 @@ NAME.base.png what they began with if that was a mask.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -27,7 +27,6 @@ from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
-from engine.studio.requests import Request, Swatch
 from engine.texture.example.parameters import Parameters, changed, read_toml
 
 OWN = "Own"  # the group of the artist's own
@@ -42,10 +41,9 @@ REACH = 8  # levels from a stroke's to that of the example's pixels
 TOO_FINE = 4  # levels that a stroke may be coarser: each makes four times the pixels
 DEPTHS = (-99, 99)
 NOWHERE = Path()  # the files of those that only the painting has
-SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
 NAME_CAP = 40  # characters
+_SETTLE = 0.08  # seconds from one painting of the sample stroke to the next
 TABS = ("palette", "region", "settings")
-SAMPLE = "example sample"  # what the picture of a stroke is called
 KIND = "example"  # of textures
 
 
@@ -184,8 +182,8 @@ class ExampleState:
     sampled: tuple[int, int] = (0, 0)  # width and height of the picture of a stroke, framebuffer pixels
     sampling: str = ""  # the entry whose picture of a stroke was asked for last
     seen: str = ""  # and the one whose picture is there
-    _hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
-    _sampling: Following = field(default_factory=lambda: Following(SETTLE))
+    hung: dict[str, Any] = field(default_factory=dict)  # what thumbnails of those of the painting were asked for
+    following: Following = field(default_factory=lambda: Following(_SETTLE))
 
     @property
     def entry(self) -> Entry | None:
@@ -270,23 +268,6 @@ class ExampleState:
             return brush
         return replace(brush, example_level=-max(self.size, 0))
 
-    def ask(self, post: Callable[[Request], None], now: float) -> None:
-        """Posts the sample stroke that the panel shows, no faster than it can be seen."""
-        entry = self.entry
-        drafted = self.tab == "settings"
-        wanted = None if entry is None else (*self.needs(entry, drafted), self.sampled, self.size, entry.here)
-        if self._sampling.due(wanted, now) and wanted is not None and min(self.sampled) > 0:
-            self.sampling = self.chosen
-            post(sample(*wanted[:4]))
-
-    def ask_thumbnails(self, post: Callable[[Request], None], side: int) -> None:
-        """Posts the pictures of those that only the painting has: a stroke each, pixels of the framebuffer square."""
-        for entry in self.entries:
-            if entry.here is not None and self._hung.get(entry.ident) != (entry.here, side):
-                self._hung[entry.ident] = entry.here, side
-                brush = Brush(radius=side / 5, mode="example", example=entry.name, hardness=1.0, example_detail=1)
-                post(Swatch(f"example {entry.ident}", brush, (side, side), soon=True))
-
 
 def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
     """The command that makes an example's texture; `told`: parameters other than its own.
@@ -319,14 +300,6 @@ def _is(entry: Entry, told: Mapping[str, Any], state: ExampleState) -> bool:
     if told.get("path" if entry.own else "bundled") != (str(entry.picture) if entry.own else entry.name):
         return False
     return any(defined_by(one, KIND, told) for one in (definition(entry, Map()), state.command(entry)))
-
-
-def sample(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], octaves: int = 0) -> Swatch:
-    """A broad stroke with an example, which is so many octaves larger than it is."""
-    radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
-    brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
-    brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
-    return Swatch(SAMPLE, brush, size, textures=needs, soon=True)
 
 
 def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:

@@ -11,7 +11,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions import Action
 from app.desk.desk import Desk
-from app.desk.examples import example_state, example_use, example_work, thumbnails
+from app.desk.examples import example_pictures, example_state, example_use, example_work, thumbnails
 from app.desk.examples.example_state import Entry
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
@@ -48,8 +48,8 @@ class ExamplesPanel(Panel):
         desk.thumbnails(state.entries, side)
         # Not while examples are made ready, or the engine would wait for it, and strokes for the engine.
         if desk.known.preparing is None and state.tab != "region":
-            state.ask(desk.post, now)
-        state.ask_thumbnails(desk.post, side)
+            example_pictures.ask_sample(state, desk.post, now)
+        example_pictures.ask_thumbnails(state, desk.post, side)
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
         """A stroke in the region."""
@@ -177,7 +177,7 @@ class ExamplesPanel(Panel):
         imgui.set_cursor_pos_y(top + line)  # with buttons and without
         tall = room.y - 2 * line
         state.sampled = max(1, round(room.x)), max(1, round(tall))
-        shown = desk.pictures.get(example_state.SAMPLE) if entry else None
+        shown = desk.pictures.get(example_pictures.SAMPLE) if entry else None
         hint = "A stroke with this example" if entry else "Click on one to try it"
         corner = w.picture(shown, (room.x, tall), hint, name="sample")
         if shown is not None and state.seen != state.chosen:  # it is of another one yet
@@ -207,7 +207,7 @@ def _painted(desk: Desk, scene: RegionScene, now: float) -> None:
 
 def _sampled(desk: Desk, picture: Picture, _now: float) -> None:
     """The picture of a stroke is of the example that it was asked for with."""
-    if picture.ident == example_state.SAMPLE:
+    if picture.ident == example_pictures.SAMPLE:
         desk.examples.seen = desk.examples.sampling
 
 

@@ -9,7 +9,8 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.desk.desk import Desk
 from app.desk.examples import example_work
-from app.desk.examples.example_state import SAMPLE, Entry
+from app.desk.examples.example_pictures import SAMPLE
+from app.desk.examples.example_state import Entry
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 

@@ -7,7 +7,7 @@ from examples_at_hand import named, scene_with
 from immutables import Map
 
 from app.desk import palette
-from app.desk.examples import example_state, example_use, example_work, thumbnails
+from app.desk.examples import example_pictures, example_state, example_use, example_work, thumbnails
 from app.desk.presets import Preset
 from engine.brush.settings import Brush
 from engine.makers.definitions import defined_by
@@ -140,11 +140,11 @@ def test_the_sample_stroke_is_asked_for_when_it_changes_and_not_too_often(desk, 
     example_use.choose(desk, entry)
     state.tab, state.sampled = "settings", (200, 100)
     for now in (10.0, 10.01, 10.5):
-        state.ask(posted.append, now)
+        example_pictures.ask_sample(state, posted.append, now)
     assert len(posted) == 1
     for k, now in enumerate((11.0, 11.01, 11.02, 11.2)):
         state.set(entry, "kappa", float(k))
-        state.ask(posted.append, now)
+        example_pictures.ask_sample(state, posted.append, now)
     assert [type(request) for request in posted] == [Swatch] * 3
     assert posted[-1].textures[0].arguments["kappa"] == 3.0
     assert state.at_home(replace(desk.hand.brush, example_level=77)).example_level == 0
@@ -183,12 +183,12 @@ def test_their_thumbnails_are_strokes_asked_for_once(desk, posted):
     made.ask((named(desk, "Rag"),), 32)
     assert made.take() == []
     for side in (60, 60, 90):
-        state.ask_thumbnails(posted.append, side)
+        example_pictures.ask_thumbnails(state, posted.append, side)
     desk.learn(scene=scene_with(("Rag", {"sha": "2"})))
     example_use.gather(desk)
-    state.ask_thumbnails(posted.append, 90)
+    example_pictures.ask_thumbnails(state, posted.append, 90)
     assert [(swatch.ident, swatch.size[0]) for swatch in posted] == [("example here Rag", n) for n in (60, 90, 90)]
     example_use.choose(desk, named(desk, "Rag"))
     state.sampled = (200, 100)
-    state.ask(posted.append, 10.0)
+    example_pictures.ask_sample(state, posted.append, 10.0)
     assert (posted[-1].brush.example, posted[-1].textures) == ("Rag", ())

@@ -1,0 +1,41 @@
+"""The pictures that the panel of examples asks the engine for: a stroke with the one that is chosen, and thumbnails of
+those that only the painting has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from app.desk.examples.example_state import ExampleState
+from engine.brush.settings import Brush
+from engine.painting.commands import DefineTexture
+from engine.studio.requests import Request, Swatch
+
+SAMPLE = "example sample"  # what the picture of a stroke is called
+
+
+def ask_sample(state: ExampleState, post: Callable[[Request], None], now: float) -> None:
+    """Posts the sample stroke that the panel shows, no faster than it can be seen.  `now`: seconds."""
+    entry = state.entry
+    drafted = state.tab == "settings"
+    wanted = None if entry is None else (*state.needs(entry, drafted), state.sampled, state.size, entry.here)
+    if state.following.due(wanted, now) and wanted is not None and min(state.sampled) > 0:
+        state.sampling = state.chosen
+        post(_stroke(*wanted[:4]))
+
+
+def ask_thumbnails(state: ExampleState, post: Callable[[Request], None], side: int) -> None:
+    """Posts the pictures of those that only the painting has: a stroke each, pixels of the framebuffer square."""
+    for entry in state.entries:
+        if entry.here is not None and state.hung.get(entry.ident) != (entry.here, side):
+            state.hung[entry.ident] = entry.here, side
+            brush = Brush(radius=side / 5, mode="example", example=entry.name, hardness=1.0, example_detail=1)
+            post(Swatch(f"example {entry.ident}", brush, (side, side), soon=True))
+
+
+def _stroke(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], octaves: int) -> Swatch:
+    """A broad stroke with an example, which is so many octaves larger than it is."""
+    radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
+    brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
+    brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))
+    return Swatch(SAMPLE, brush, size, textures=needs, soon=True)
