@@ -15,7 +15,7 @@ from app import theme
 from app.desk.desk import Desk
 from app.tools import TOOLS
 
-PATIENCE = 0.35  # seconds that something grows before that is shown
+_PATIENCE = 0.35  # seconds that something grows before that is shown
 MARKS = 16  # at most
 _SHAPES = {"pan": glfw.RESIZE_ALL_CURSOR, "turn": glfw.RESIZE_ALL_CURSOR, "zoom": glfw.CROSSHAIR_CURSOR}
 
@@ -57,7 +57,7 @@ def draw_outline(desk: Desk) -> None:
 def draw_growing(desk: Desk) -> None:
     """A small ring over what still grows, filled as far as it is done; not at once, so that little work shows none."""
     growing, radius = desk.known.growing, 7.0 * desk.scale
-    if growing is None or time.monotonic() - desk.known.grows < PATIENCE:
+    if growing is None or time.monotonic() - desk.known.grows < _PATIENCE:
         return
     painter, (x0, y0, x1, y1) = imgui.get_background_draw_list(), desk.free_area()
     middles: list[tuple[float, float]] = []

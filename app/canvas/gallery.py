@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from engine.numeric.address import Rect
 
-PAPER = 244  # grey of the paper under pictures with holes
+_PAPER = 244  # grey of the paper under pictures with holes
 
 
 class Gallery:
@@ -24,7 +24,7 @@ class Gallery:
     def hang(self, name: str, pixels: np.ndarray) -> None:
         """A picture, uint8 (h, w, 4) premultiplied, over paper."""
         alpha = pixels[..., 3:].astype(np.uint16)
-        flat = (pixels[..., :3] + (255 - alpha) * PAPER // 255).clip(0, 255).astype(np.uint8)
+        flat = (pixels[..., :3] + (255 - alpha) * _PAPER // 255).clip(0, 255).astype(np.uint8)
         self._of(name, pixels.shape[1], pixels.shape[0]).write(np.ascontiguousarray(flat), alignment=1)
 
     def touch(self, name: str, size: tuple[int, int], box: Rect, pixels: np.ndarray) -> None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from app.canvas.view import Place, View, distance
 
 PACE = 0.055  # seconds in which the rest of the way falls to 1/e
-NEAR = 1.0 / 512  # levels: close enough to arrive
+_NEAR = 1.0 / 512  # levels: close enough to arrive
 
 
 class Glide:
@@ -72,7 +72,7 @@ class Glide:
         if self._left > seconds:
             view = view.zoomed(rest * seconds / self._left)
             self._left -= seconds
-        elif abs(rest) < NEAR or self._left > 0:
+        elif abs(rest) < _NEAR or self._left > 0:
             view, self._target, self._left = replace(view, level=level, fraction=fraction), None, 0.0
         else:
             view = view.zoomed(rest * (1 - math.exp(-seconds / PACE)))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from engine.numeric.analysis import Analysis
 
-PIXELS = 400_000_000
+_PIXELS = 400_000_000
 LAGS = 16  # displacements told of the autocorrelation
 
 
@@ -83,8 +83,8 @@ def _read(path: str) -> tuple[np.ndarray, list[str]]:
 
     found = opened(path)
     frame = found.painting.frame
-    if frame.area > PIXELS:
-        raise Refused(f"{path}: found a frame of {frame.width} x {frame.height}, expected at most {PIXELS} pixels")
+    if frame.area > _PIXELS:
+        raise Refused(f"{path}: found a frame of {frame.width} x {frame.height}, expected at most {_PIXELS} pixels")
     out = np.empty((frame.height, frame.width, 4), np.uint8)
     root, row = folded(grown(path, found).root), 0
     with Progress("drawing", frame.height) as tell:

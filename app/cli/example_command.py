@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from engine.texture.example.parameters import Parameters
 
 # Options that stand for a field of the parameter file, and what reads them.
-FIELDS: dict[str, type] = {"kappa": float, "neighbourhood": int, "levels": int, "every": int, "method": str}
+_FIELDS: dict[str, type] = {"kappa": float, "neighbourhood": int, "levels": int, "every": int, "method": str}
 ABOUT = "Fills the white part of a picture with a texture like an example, rim and transparency included"
-PIXELS = 1 << 27  # of a region's picture
+_PIXELS = 1 << 27  # of a region's picture
 
 
 def run(words: list[str]) -> int:
@@ -77,7 +77,7 @@ def _parameters(given: argparse.Namespace) -> Parameters:
     from engine.texture.example.parameters import Parameters, changed
 
     parameters = read_parameters(given.params) if given.params else Parameters()
-    told = {name: getattr(given, name) for name in FIELDS if getattr(given, name) is not None}
+    told = {name: getattr(given, name) for name in _FIELDS if getattr(given, name) is not None}
     try:
         return changed(parameters, told, "--")
     except FieldError as error:
@@ -85,9 +85,9 @@ def _parameters(given: argparse.Namespace) -> Parameters:
 
 
 def _check_size(given: argparse.Namespace, region: np.ndarray) -> None:
-    if region.size > PIXELS:
+    if region.size > _PIXELS:
         height, width = region.shape
-        raise Refused(f"{given.region}: found {width} x {height} pixels, expected at most {PIXELS} in all")
+        raise Refused(f"{given.region}: found {width} x {height} pixels, expected at most {_PIXELS} in all")
 
 
 def _fill(exemplar: Exemplar, region: np.ndarray, given: argparse.Namespace) -> np.ndarray:

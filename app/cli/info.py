@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
 
-WIDE = 2048  # pixels: how finely bounds are found
+_WIDE = 2048  # pixels: how finely bounds are found
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -104,7 +104,7 @@ def _plot(plot: Plot) -> dict[str, Any]:
 
 def bounds(pyramid: Pyramid) -> list[int] | None:
     """[L, X, Y, W, H]: the smallest rectangle that holds all paint, to a pixel of L, the finest level at which it is no
-    more than WIDE pixels wide and high; None if there is no paint.
+    more than _WIDE pixels wide and high; None if there is no paint.
 
     What is stored reaches far beyond the paint at coarse levels, so it is searched from the coarsest on.
     """
@@ -112,11 +112,11 @@ def bounds(pyramid: Pyramid) -> list[int] | None:
     if level is None:
         return None
     finest, rect = level, pyramid.bounds(level)
-    while max(rect.width, rect.height) > WIDE:
+    while max(rect.width, rect.height) > _WIDE:
         level -= 1
         rect = pyramid.bounds(level)
     found = _painted(pyramid, level, rect.grown(2))
-    while found is not None and level < finest and max(found.width, found.height) <= WIDE // 2:
+    while found is not None and level < finest and max(found.width, found.height) <= _WIDE // 2:
         finer = _painted(pyramid, level + 1, found.zoomed(1).grown(2))
         if finer is None:
             break

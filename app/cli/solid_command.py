@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 SIDES = 4, 2048
 SLICES = 5  # of the cube, on the sheet
-GAP = 4  # pixels between pictures on the sheet
+_GAP = 4  # pixels between pictures on the sheet
 SHADES = (1.0, 0.86, 0.72)  # of the top, the left and the right face
 ITERATIONS = 6
 EACH = 64  # bytes of memory for each channel of a voxel
@@ -130,7 +130,7 @@ def sheet(voxels: np.ndarray) -> np.ndarray:
     for picture in [*row, drawn]:
         above = (height - len(picture)) // 2
         below = height - len(picture) - above
-        padded.append(np.pad(picture, ((above, below), (0, GAP), (0, 0)), constant_values=1.0))
+        padded.append(np.pad(picture, ((above, below), (0, _GAP), (0, 0)), constant_values=1.0))
     return np.rint(np.concatenate(padded, axis=1) * 255.0).astype(np.uint8)
 
 

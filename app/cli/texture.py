@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from engine.texture.record import Instance
 
 ROWS, TOGETHER = 256, 1 << 25  # of a strip: rows, and pixels at most
-COLUMNS = 2048  # of the pieces in which a strip is made
+_COLUMNS = 2048  # of the pieces in which a strip is made
 
 
 class Maker(NamedTuple):
@@ -197,8 +197,8 @@ def _strips(instance: Instance, whole: Rect, depth: int) -> Iterator[np.ndarray]
     rows = max(16, min(ROWS, TOGETHER // whole.width))
     for y in range(whole.y0, whole.y1, rows):
         pieces = []
-        for x in range(whole.x0, whole.x1, COLUMNS):
-            rect = Rect(x, y, min(x + COLUMNS, whole.x1), min(y + rows, whole.y1))
+        for x in range(whole.x0, whole.x1, _COLUMNS):
+            rect = Rect(x, y, min(x + _COLUMNS, whole.x1), min(y + rows, whole.y1))
             s = np.clip(0.5 + 0.5 * instance.appearance(0, rect).astype(np.float64), 0.0, 1.0)
             pieces.append(np.moveaxis(np.floor(s * full + 0.5).astype(kind), 0, -1))
         yield np.ascontiguousarray(np.concatenate(pieces, axis=1))

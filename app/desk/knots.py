@@ -10,7 +10,7 @@ from bisect import bisect_right
 Knots = tuple[tuple[float, float], ...]
 
 CAP = 64  # knots of a curve
-GAP = 1 / 512  # between the inputs of neighbours
+_GAP = 1 / 512  # between the inputs of neighbours
 STRAIGHT: Knots = ((0.0, 0.0), (1.0, 1.0))
 
 
@@ -34,8 +34,8 @@ def nearest(knots: Knots, x: float, y: float, reach: float) -> int | None:
 def added(knots: Knots, x: float, y: float) -> tuple[Knots, int | None]:
     """With one more knot, and its number; None where there is no room for it."""
     i = bisect_right(knots, (x, float("inf")))
-    lo = knots[i - 1][0] + GAP if i else 0.0
-    hi = knots[i][0] - GAP if i < len(knots) else 1.0
+    lo = knots[i - 1][0] + _GAP if i else 0.0
+    hi = knots[i][0] - _GAP if i < len(knots) else 1.0
     if len(knots) >= CAP or lo > hi:
         return knots, None
     return (*knots[:i], _knot(min(max(x, lo), hi), y), *knots[i:]), i
@@ -43,8 +43,8 @@ def added(knots: Knots, x: float, y: float) -> tuple[Knots, int | None]:
 
 def moved(knots: Knots, i: int, x: float, y: float) -> Knots:
     """Knot `i` brought to (x, y), or as near as its neighbours let it."""
-    lo = knots[i - 1][0] + GAP if i else 0.0
-    hi = knots[i + 1][0] - GAP if i + 1 < len(knots) else 1.0
+    lo = knots[i - 1][0] + _GAP if i else 0.0
+    hi = knots[i + 1][0] - _GAP if i + 1 < len(knots) else 1.0
     if lo > hi:
         x = knots[i][0]
     return (*knots[:i], _knot(min(max(x, lo), hi), y), *knots[i + 1 :])

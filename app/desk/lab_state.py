@@ -18,7 +18,7 @@ SETTLE = 0.15  # seconds without change before strokes are shown with the textur
 FIRST = Map({"shape": "noise", "b": 1.4})  # the shape of a lab just opened
 SIZES = (128, 256, 512)
 PICTURED = ("image", "canvas", "texture")  # shapes that are the spectrum of a picture
-FULL, LIGHT = 0.8, 0.6  # opacity that hides nearly all of a paper, and one that shows it
+_FULL, _LIGHT = 0.8, 0.6  # opacity that hides nearly all of a paper, and one that shows it
 PAINTED = ("painted", "own")  # phases that have a sheet
 WHITE, BLACK = "#ffffff", "#000000"
 
@@ -175,4 +175,4 @@ def lightened(brush: Brush, pen: bool) -> Brush:
     """The brush as it shows a paper that it got just now: full coverage fills every hollow of the grain, so one that
     covers fully covers less, unless a pen's pressure sees to that, or an edge that leaves the inside lighter."""
     felt = (pen and "opacity" in brush.dynamics) or brush.edge is not None
-    return brush if felt or brush.opacity <= FULL else replace(brush, opacity=LIGHT)
+    return brush if felt or brush.opacity <= _FULL else replace(brush, opacity=_LIGHT)

@@ -18,9 +18,9 @@ SIZES = (128, 256, 512)
 LEVELS, ORIENTATIONS, ITERATIONS = 4, 4, 5
 STAGES = 5  # of a series that goes with the pen's pressure
 SMALLEST = 8  # pixels along a side of an example
-PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+_PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
-Curve = str | Knots | None
+_Curve = str | Knots | None
 Spot = tuple[int, int | None]  # a subband: level, orientation
 
 
@@ -41,7 +41,7 @@ class MatchState:
     weight: float = 0.5
     split: int = 2
     pressed: bool = False  # the weight goes with the pen's pressure
-    bands: dict[Spot, tuple[float, Curve]] = field(default_factory=dict)
+    bands: dict[Spot, tuple[float, _Curve]] = field(default_factory=dict)
     axes: list[float] = field(default_factory=lambda: [1.0, 1.0, 1.0, 1.0])
     chosen: Spot = (0, 0)
     marking: int | None = None
@@ -103,7 +103,7 @@ class MatchState:
         """Takes a picture that was dropped on an example's place, or elsewhere on the panel, where it is the first;
         False if it is none or was dropped on something else."""
         for index, (x0, y0, x1, y1) in self.spots.items():
-            if x0 <= x < x1 and y0 <= y < y1 and path.suffix.lower() in PICTURES:
+            if x0 <= x < x1 and y0 <= y < y1 and path.suffix.lower() in _PICTURES:
                 self.show_file(index if index < 2 and self.examples[0] is not None else 0, path)
                 return True
         return False
@@ -132,7 +132,7 @@ class MatchState:
         post(MatchUse(name, self.maker, arguments))
 
 
-def _band(spot: Spot, change: tuple[float, Curve]) -> Map[str, Any]:
+def _band(spot: Spot, change: tuple[float, _Curve]) -> Map[str, Any]:
     level, orientation = spot
     gain, curve = change
     given: dict[str, Any] = {"level": level, "gain": gain}

@@ -13,9 +13,9 @@ import numpy as np
 
 from engine.studio.results import Picture
 
-MOST = 100_000_000  # pixels of a picture that is made small
+_MOST = 100_000_000  # pixels of a picture that is made small
 MOST_BYTES = 4 << 20  # of the small picture in a painting
-THUMBNAIL = "Thumbnails/thumbnail.png"  # in an OpenRaster file
+_THUMBNAIL = "Thumbnails/thumbnail.png"  # in an OpenRaster file
 PAPER, FIELD = (244, 244, 244, 255), (29, 29, 29, 255)  # sRGB: below pictures with holes, and around them
 PAINTING, PICTURES = ".ora", (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
@@ -84,7 +84,7 @@ def preview(path: Path, side: int) -> np.ndarray | None:
 
     try:
         with Image.open(io.BytesIO(_thumbnail(path)) if path.suffix.lower() == PAINTING else path) as picture:
-            if picture.width * picture.height > MOST:
+            if picture.width * picture.height > _MOST:
                 return None
             picture.draft("RGB", (2 * side, 2 * side))  # a JPEG is read small
             picture.thumbnail((side, side), reducing_gap=2.0)
@@ -101,4 +101,4 @@ def _thumbnail(path: Path) -> bytes:
     from engine.files.zip_reader import ZipArchive  # here: the window is up before the engine is loaded
 
     with path.open("rb") as file:
-        return ZipArchive(file, path.name).read(THUMBNAIL, MOST_BYTES)
+        return ZipArchive(file, path.name).read(_THUMBNAIL, MOST_BYTES)

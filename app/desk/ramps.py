@@ -12,7 +12,7 @@ from app.desk.colours import RGB, from_hex, to_hex
 Stops = tuple[tuple[float, str], ...]
 
 FEWEST, MOST = 2, 8
-GAP = 0.004  # between neighbours
+_GAP = 0.004  # between neighbours
 PLAIN: Stops = ((0.0, "#000000"), (1.0, "#ffffff"))
 
 
@@ -39,8 +39,8 @@ def colour_at(stops: Stops, place: float) -> RGB:
 def added(stops: Stops, place: float) -> tuple[Stops, int | None]:
     """With one more stop of the colour that is there already, and its number; None where there is no room."""
     i = sum(p <= place for p, _ in stops)
-    lo = stops[i - 1][0] + GAP if i else 0.0
-    hi = stops[i][0] - GAP if i < len(stops) else 1.0
+    lo = stops[i - 1][0] + _GAP if i else 0.0
+    hi = stops[i][0] - _GAP if i < len(stops) else 1.0
     if len(stops) >= MOST or lo > hi:
         return stops, None
     place = min(max(place, lo), hi)
@@ -49,8 +49,8 @@ def added(stops: Stops, place: float) -> tuple[Stops, int | None]:
 
 def moved(stops: Stops, i: int, place: float) -> Stops:
     """Stop `i` brought to a place, or as near as its neighbours let it."""
-    lo = stops[i - 1][0] + GAP if i else 0.0
-    hi = stops[i + 1][0] - GAP if i + 1 < len(stops) else 1.0
+    lo = stops[i - 1][0] + _GAP if i else 0.0
+    hi = stops[i + 1][0] - _GAP if i + 1 < len(stops) else 1.0
     place = min(max(place, lo), hi) if lo <= hi else stops[i][0]
     return (*stops[:i], (round(place, 4), stops[i][1]), *stops[i + 1 :])
 

@@ -14,7 +14,7 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.tools import TOOLS
 
-PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
+_PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
 
 
 def draw(desk: Desk, pointer_name: str) -> None:
@@ -70,7 +70,7 @@ def _work(desk: Desk) -> str:
         word = "Saving" if desk.known.writing.saving else "Writing"
         grown = f", growing {desk.known.writing.grown * 100:.0f} %" if desk.known.writing.grown < 1.0 else ""
         return f"{icons.DISK} {word}{grown}"
-    if desk.known.preparing is not None and time.monotonic() - desk.known.preparing > PATIENCE:
+    if desk.known.preparing is not None and time.monotonic() - desk.known.preparing > _PATIENCE:
         return f"{icons.WAIT} examples: getting ready"
     brushes = desk.known.prepared
     if brushes.ready < brushes.of:

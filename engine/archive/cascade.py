@@ -11,7 +11,7 @@ from engine.numeric.address import Rect
 from engine.texture.planes import Planes
 
 SMALL = 1 << 21  # pixels of a level up to which it is held as a whole
-KEPT = 16  # levels held at a time: between them and the coarsest there may be many
+_KEPT = 16  # levels held at a time: between them and the coarsest there may be many
 
 Held = tuple[Rect, Planes | None]
 
@@ -48,7 +48,7 @@ class Cascade:
                 rect = self._rects.get(k)
                 if rect is not None and rect.area <= SMALL:
                     self._held[k] = rect, self._at(k, rect)
-                self._held.pop(k - KEPT, None)
+                self._held.pop(k - _KEPT, None)
             self._next = max(self._next, level + 1)
 
     def _at(self, level: int, rect: Rect) -> Planes | None:

@@ -41,7 +41,7 @@ STRIDE = 4  # of the pixels by which terms are found,
 FEW = 1 << 12  # unless a tile has no more than these
 SQUARE = 4  # tiles along the side of a square that is evaluated at a time
 SHARED = 8  # inks whose appearance is held for a whole square
-NOTHING = Rect(0, 0, 0, 0)
+_NOTHING = Rect(0, 0, 0, 0)
 ONE = 1 << 30  # unit of p, q, s
 TERM_CAP = 1 << 40  # |p|, |q|, |s| in that unit
 
@@ -89,7 +89,7 @@ def needed(tiles: Sequence[Tile] | Sequence[Coded]) -> dict[int, Rect]:
     """By level, the even rectangle around all tiles of it."""
     found: dict[int, Rect] = {}
     for key, record, *_ in tiles:
-        found[key.level] = found.get(key.level, NOTHING).union(_at(key, record).evened())
+        found[key.level] = found.get(key.level, _NOTHING).union(_at(key, record).evened())
     return found
 
 
@@ -173,7 +173,7 @@ class _Seen:
         places: dict[Instance, Rect] = {}
         for tile, there in zip(tiles, inks, strict=True):
             for ink in there:
-                places[ink] = places.get(ink, NOTHING).union(tile.at)
+                places[ink] = places.get(ink, _NOTHING).union(tile.at)
         self._level = tiles[0].key.level
         shared = len(places) <= SHARED
         self._held = {ink: (at, _appearance(ink, self._level, at)) for ink, at in places.items()} if shared else {}

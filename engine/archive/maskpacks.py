@@ -30,7 +30,7 @@ TILES = 1 << 14  # in a pack
 PLAIN = TILE_SIDE * TILE_SIDE // 8  # bytes of a tile in the stream
 HEAD_CAP = 24 << 20  # bytes of the head
 DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of a row or column, with its sign
-LEVEL = 1
+_LEVEL = 1
 _ADDRESS = re.compile("-?[0-9a-f]+")
 _FULL = np.ones((1, TILE_SIDE, TILE_SIDE), np.uint8)  # most tiles are: they are one array
 _FULL.flags.writeable = False
@@ -53,7 +53,7 @@ def pack(masks: Mapping[Key, np.ndarray], keys: Sequence[Key]) -> bytes:
             runs.append([f"{row:x}", f"{column:x}", 1])
     bits = np.packbits(np.concatenate([masks[key] for key in keys]) > 0, axis=-1)
     head = dumps(runs).encode()
-    return b"".join([MAGIC, struct.pack("<I", len(head)), head, isal_zlib.compress(bits.tobytes(), LEVEL)])
+    return b"".join([MAGIC, struct.pack("<I", len(head)), head, isal_zlib.compress(bits.tobytes(), _LEVEL)])
 
 
 def unpack(data: bytes, name: str, count: int) -> Tiles:

@@ -32,7 +32,7 @@ from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
-MAGIC = b"inkfall\x02"
+_MAGIC = b"inkfall\x02"
 TILES = 256  # in a pack
 BYTES = 32 << 20  # of all tiles of a pack, about
 BLOCK = 1 << 22  # of all tiles of a block, about
@@ -43,7 +43,7 @@ DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
 RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
 T = TypeVar("T", bound=tuple[Any, ...])
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
-LEVEL = 1
+_LEVEL = 1
 _ADDRESS = re.compile("-?[0-9a-f]+")
 
 
@@ -82,10 +82,10 @@ def pack(tiles: Sequence[Coded]) -> bytes:
         lines.append([*line, *more])
     for run in _runs(tiles, BLOCK, TILES):
         plain = tilecode.encoded([record.data for _, record, _ in run])
-        bodies.append(isal_zlib.compress(plain, LEVEL))
+        bodies.append(isal_zlib.compress(plain, _LEVEL))
         blocks.append([len(run), len(plain), len(bodies[-1])])
     head = dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode()
-    return b"".join([MAGIC, struct.pack("<I", len(head)), head, *bodies])
+    return b"".join([_MAGIC, struct.pack("<I", len(head)), head, *bodies])
 
 
 # ---- reading ----
@@ -107,7 +107,7 @@ def _data_size(shape: tuple[int, int, int], bits: int) -> int:
 
 _FORMATS = {
     packs_of_format_1.MAGIC: _Format(packs_of_format_1.decoded, packs_of_format_1.encoded_size, exact=True),
-    MAGIC: _Format(tilecode.decoded, _data_size, exact=False),
+    _MAGIC: _Format(tilecode.decoded, _data_size, exact=False),
 }
 
 

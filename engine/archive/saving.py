@@ -50,7 +50,7 @@ from engine.texture.image import ImageSource
 
 MIMETYPE = b"image/openraster"
 MERGED_SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
-THUMBNAIL = 256
+_THUMBNAIL = 256
 MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
 IN_MEMORY = 256 << 20  # bytes of all pictures that are kept in memory before they go into the file
 WORKERS = 2
@@ -227,7 +227,7 @@ class Plan:
 
     def _thumbnail(self) -> _Png:
         """At most 256 x 256: the level that is just large enough, reduced by exact area means."""
-        size = fitted(self._frame.width, self._frame.height, THUMBNAIL)
+        size = fitted(self._frame.width, self._frame.height, _THUMBNAIL)
         level, frame = self._level, self._frame
         while (
             min(frame.width // 2 - size[0], frame.height // 2 - size[1]) >= 0 and max(frame.width, frame.height) > 1024

@@ -17,7 +17,7 @@ from engine.texture.record import Instance
 
 _SPAN = 4  # px to each side over which the texture's slope is taken
 
-Kernel = Callable[[Operating, Operand], Stamp | None]
+_Kernel = Callable[[Operating, Operand], Stamp | None]
 
 
 def _toward(edit: Operating, at: Operand) -> Stamp | None:
@@ -95,7 +95,7 @@ def _laid(edit: Operating, at: Operand, paint: np.ndarray, inks: tuple[Instance,
     return Stamp(keep, add, inks, plain=True)
 
 
-KERNELS: dict[str, Kernel] = {
+KERNELS: dict[str, _Kernel] = {
     "toward": _toward,
     "clone": _clone,
     "displace": _displace,

@@ -24,7 +24,7 @@ _STEP = np.float32(1.0 / 255.0)  # to each side, for the slope of a formula
 _TINY = np.float32(1e-6)
 
 Targets = tuple[np.ndarray, np.ndarray]  # colours aimed at and slopes, float32 (3, n) each
-Kernel = Callable[[Operating, Operand, np.ndarray], Targets]  # of straight colours, float32 (3, n)
+_Kernel = Callable[[Operating, Operand, np.ndarray], Targets]  # of straight colours, float32 (3, n)
 
 
 def change(edit: Operating, at: Operand) -> Stamp:
@@ -129,7 +129,7 @@ def _formula(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
     return t, s
 
 
-KERNELS: dict[str, Kernel] = {name: partial(_channel, loop) for name, loop in tones.CHANNELS.items()} | {
+KERNELS: dict[str, _Kernel] = {name: partial(_channel, loop) for name, loop in tones.CHANNELS.items()} | {
     "saturate": _saturate,
     "hue": _hue,
     "gradient": _gradient,

@@ -21,7 +21,7 @@ from engine.checks.values import described
 from engine.numeric.formula import FORMULA_CAP, FormulaError, Tree, parse
 
 STOPS_CAP = 8
-REACH_CAP = 32.0
+_REACH_CAP = 32.0
 SHIFT_CAP = 64.0
 OFFSET_CAP = 2**31
 OpValue = str | Map[str, Any]
@@ -83,7 +83,7 @@ def _amount(default: float, tooltip: str, lo: float = 0.0, hi: float = 1.0) -> P
 
 
 def _reach(tooltip: str) -> Parameter:
-    return Parameter("reach", "Reach", 4.0, tooltip, "number", 1.0, REACH_CAP, (1.0, REACH_CAP), "px", True)
+    return Parameter("reach", "Reach", 4.0, tooltip, "number", 1.0, _REACH_CAP, (1.0, _REACH_CAP), "px", True)
 
 
 _BY = ("luminance", "texture")

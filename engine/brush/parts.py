@@ -18,7 +18,7 @@ from engine.checks.values import described
 from engine.numeric.curves import CURVES, EDGES, Shape
 
 COMPONENTS_CAP = 8
-LEVEL_LIMIT = 4096
+_LEVEL_LIMIT = 4096
 WIDTH_CAP = 4.0  # radii
 TIPS = ("sample", "window")
 
@@ -155,8 +155,8 @@ def surface_json(part: Surface) -> Any:
 
 
 def _level(value: Any, place: str) -> int:
-    if not isinstance(value, int) or isinstance(value, bool) or abs(value) > LEVEL_LIMIT:
-        raise BrushError(place, described(value), f"an integer from -{LEVEL_LIMIT} to {LEVEL_LIMIT}")
+    if not isinstance(value, int) or isinstance(value, bool) or abs(value) > _LEVEL_LIMIT:
+        raise BrushError(place, described(value), f"an integer from -{_LEVEL_LIMIT} to {_LEVEL_LIMIT}")
     return value
 
 

@@ -10,7 +10,7 @@ from engine.brush.checks import BrushError
 
 # x, y in pixels of the stroke's level from its origin; pressure 0..1; tilt_x, tilt_y in degrees; t in seconds.
 COLUMNS = 6
-REACH = 2.0**31  # px from the stroke's origin
+_REACH = 2.0**31  # px from the stroke's origin
 _DEFAULTS = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
 
@@ -31,8 +31,8 @@ def cleaned(points: np.ndarray | Sequence[Sequence[float]]) -> tuple[np.ndarray,
         good = whole[:, 0] & whole[:, 1] & ~np.isnan(table[:, 2])
         table[:, 3:][~whole[:, 3:]] = 0.0
         table = table[good]
-    if len(table) and np.abs(table[:, :2]).max() > REACH:
-        row, column = np.argwhere(np.abs(table[:, :2]) > REACH)[0]
+    if len(table) and np.abs(table[:, :2]).max() > _REACH:
+        row, column = np.argwhere(np.abs(table[:, :2]) > _REACH)[0]
         raise BrushError(f"point {row}, {'xy'[column]}", f"{table[row, column]:g}", "at most 2^31 px from the origin")
     np.clip(table[:, 2], 0.0, 1.0, out=table[:, 2])
     return table, len(given) - len(table)

@@ -10,7 +10,7 @@ from engine.brush.stamp import Stamp
 from engine.numeric.address import TILE, TileKey
 from engine.texture.planes import COLOURS, Planes
 
-REACH_CAP = 32  # px: how far on each side a pass looks
+_REACH_CAP = 32  # px: how far on each side a pass looks
 _ALPHA = 3
 
 
@@ -27,7 +27,7 @@ class Smoothing(Covered):
         keep = self.keep(key)
         if keep is None:
             return None
-        reach = min(max(round(self.brush.radius / 4.0), 1), REACH_CAP)
+        reach = min(max(round(self.brush.radius / 4.0), 1), _REACH_CAP)
         around = self.read(key.rect.grown(2 * reach)).data[:COLOURS]
         mean = coat.local_mean(np.ascontiguousarray(around), reach)
         add = np.empty((COLOURS, TILE, TILE), np.float32)

@@ -20,7 +20,7 @@ from engine.checks.values import described, is_integer, is_within
 from engine.files.fault import shown
 
 BYTES_CAP = 8 << 20  # of one line or document
-NAME_CAP = 256  # characters
+_NAME_CAP = 256  # characters
 _LONE = re.compile("[\ud800-\udfff]")
 # What no XML file can hold: names end up in stack.xml.
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ufffe\uffff]")
@@ -155,7 +155,7 @@ class Fields:
             raise self.fault(name, "true or false")
         return value
 
-    def text(self, name: str, default: Any = REQUIRED, *, cap: int = NAME_CAP) -> Any:
+    def text(self, name: str, default: Any = REQUIRED, *, cap: int = _NAME_CAP) -> Any:
         """A string of 1 to `cap` characters without control characters."""
         expected = f"a text of 1 to {cap} printable characters"
         value = self.take(name, default, expected)
@@ -181,7 +181,7 @@ class Fields:
         return out
 
 
-def is_name(value: Any, cap: int = NAME_CAP) -> bool:
+def is_name(value: Any, cap: int = _NAME_CAP) -> bool:
     """Tells whether a value may name a layer or texture: a text, not too long, that stack.xml can hold."""
     return isinstance(value, str) and 0 < len(value) <= cap and not _UNPRINTABLE.search(value)
 

@@ -10,9 +10,9 @@ from isal import isal_zlib
 
 from engine.files.png_writer import srgb_profile
 
-STRIP = 1 << 19  # bytes of pixels in a strip, about
+_STRIP = 1 << 19  # bytes of pixels in a strip, about
 CLASSIC = (1 << 32) - (1 << 25)  # what classic TIFF can address, less room for the tags
-LEVEL = 1
+_LEVEL = 1
 
 
 def write_tiff(file: BinaryIO, size: tuple[int, int], depth: int, strips: Iterable[np.ndarray]) -> None:
@@ -24,7 +24,7 @@ def write_tiff(file: BinaryIO, size: tuple[int, int], depth: int, strips: Iterab
     import tifffile
 
     width, height = size
-    rows = max(1, min(height, STRIP // (width * depth // 2)))
+    rows = max(1, min(height, _STRIP // (width * depth // 2)))
     dtype = np.dtype(np.uint8 if depth == 8 else np.uint16)
     big = width * height * depth // 2 * 1.01 > CLASSIC
     with tifffile.TiffWriter(file, bigtiff=big, byteorder="<") as writer:
@@ -48,7 +48,7 @@ def deflated(block: np.ndarray) -> bytes:
     """One strip as stored: each sample less its left neighbour, little-endian, zlib."""
     ahead = block.copy()
     ahead[:, 1:] -= block[:, :-1]
-    return isal_zlib.compress(np.ascontiguousarray(ahead, ahead.dtype.newbyteorder("<")), LEVEL)
+    return isal_zlib.compress(np.ascontiguousarray(ahead, ahead.dtype.newbyteorder("<")), _LEVEL)
 
 
 def regrouped(strips: Iterable[np.ndarray], shape: tuple[int, int], rows: int) -> Iterator[np.ndarray]:

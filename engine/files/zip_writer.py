@@ -17,7 +17,7 @@ from isal import igzip_lib, isal_zlib
 from engine.files.zip_reader import DEFLATED, END, END64, END64_PLACE, ENTRY, FULL16, FULL32, LOCAL, STORED
 
 DATE = (1 << 5) | 1  # 1 January 1980, as MS-DOS has it
-WIDE = 20  # bytes of the local ZIP64 field
+_WIDE = 20  # bytes of the local ZIP64 field
 
 
 @dataclass(frozen=True)

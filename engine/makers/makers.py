@@ -108,8 +108,8 @@ def _the_same(members: Fields, source: ImageSource) -> ImageSource:
     return source
 
 
-Maker = Callable[[DefineTexture, Group, Around], Texture]
-MAKERS: dict[str, Maker] = {
+_Maker = Callable[[DefineTexture, Group, Around], Texture]
+MAKERS: dict[str, _Maker] = {
     **{name: _procedural for name, row in KINDS.items() if not row.pictured},
     "image": _image,
     "canvas": _canvas,

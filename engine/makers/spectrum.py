@@ -33,7 +33,7 @@ from engine.strokes.paint_stroke import LiveStroke
 SPAN = 4096.0  # the loudest amplitude to that of a value of 1 / ln SPAN: 72 dB from white to black
 SIDES = (8, 1024)  # least and most pixels along a side
 SHAPES_CAP, STROKES_CAP = 64, 4096
-FURTHEST = 1 << 24  # pixels from the corner at which a stroke's points may begin
+_FURTHEST = 1 << 24  # pixels from the corner at which a stroke's points may begin
 WINDOWS = 8  # along a side of a picture
 PHASES = ("random", "zero", "painted", "own")
 PICTURED = ("image", "canvas", "texture")  # shapes that are the spectrum of a file, of the canvas, of another texture
@@ -132,8 +132,8 @@ def _stroke(value: Any, where: str) -> c.Stroke:
         raise FieldError(where, "another command", "a stroke")
     if command.level != 0:
         raise FieldError(f"{where}.level", str(command.level), "0")
-    if max(map(abs, command.origin)) > FURTHEST:
-        raise FieldError(f"{where}.origin", described(list(command.origin)), f"two integers within {FURTHEST}")
+    if max(map(abs, command.origin)) > _FURTHEST:
+        raise FieldError(f"{where}.origin", described(list(command.origin)), f"two integers within {_FURTHEST}")
     if command.layer not in (None, *SHEETS):
         raise FieldError(f"{where}.layer", repr(command.layer), f"one of {', '.join(SHEETS)}")
     return command

@@ -15,7 +15,7 @@ from engine.numeric.regions import colour_count, false_colours, packed, region_c
 from engine.numeric.spectra import radial_mean, radial_window
 
 ANALYSED_SIDE = 1024  # pixels: of what is larger, the middle is looked at
-REACH = 4
+_REACH = 4
 _WEIGHTS = (0.2126, 0.7152, 0.0722)
 
 
@@ -63,7 +63,7 @@ class Analysis:
     @cached_property
     def predictor(self) -> Predictor:
         """The all-pole filter fitted to the brightness."""
-        return fit(self.grey, REACH)
+        return fit(self.grey, _REACH)
 
     @cached_property
     def all_pole(self) -> np.ndarray:

@@ -12,8 +12,8 @@ import numpy as np
 
 KNOTS_CAP = 64
 
-Knots = tuple[tuple[float, float], ...]
-Shape = str | Knots  # a name, or knots (in, out)
+_Knots = tuple[tuple[float, float], ...]
+Shape = str | _Knots  # a name, or knots (in, out)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from engine.numeric.analysis import autocorrelation, middle
 from engine.numeric.prediction import noise_at
 from engine.numeric.spectra import normalised
 
-SMALLEST, USUAL, LARGEST = 32, 128, 512  # pixels along a window: chosen without being asked for, and allowed
+_SMALLEST, USUAL, LARGEST = 32, 128, 512  # pixels along a window: chosen without being asked for, and allowed
 PHASES = ("window", "zero", "random")
 _LOOKED_AT = 512  # pixels along the part from which a window's size is chosen
 _ENOUGH = 0.15  # of the autocorrelation: less of it is taken for none
@@ -34,7 +34,7 @@ def suggested_window(planes: np.ndarray) -> int:
     count = np.bincount(distance[inside])
     near = np.bincount(distance[inside], weights=found[inside]) / np.maximum(count, 1)
     reach = int(np.flatnonzero(near > _ENOUGH).max(initial=1)) + 1
-    out: int = max(1, min(max(8 * reach, SMALLEST), USUAL, *planes.shape[1:]))
+    out: int = max(1, min(max(8 * reach, _SMALLEST), USUAL, *planes.shape[1:]))
     return out
 
 

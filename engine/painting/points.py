@@ -10,12 +10,12 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import described
 
 POINTS_CAP = 1_000_000  # of one stroke
-REACH = float(1 << 24)  # pixels from a stroke's origin to its points
+_REACH = float(1 << 24)  # pixels from a stroke's origin to its points
 
 # Columns of a stroke's points: name, default, lowest and highest value.
 POINT_COLUMNS = (
-    ("x", 0.0, -REACH, REACH),
-    ("y", 0.0, -REACH, REACH),
+    ("x", 0.0, -_REACH, _REACH),
+    ("y", 0.0, -_REACH, _REACH),
     ("pressure", 1.0, 0.0, 1.0),
     ("tilt_x", 0.0, -90.0, 90.0),
     ("tilt_y", 0.0, -90.0, 90.0),
@@ -67,7 +67,7 @@ def fitted(given: np.ndarray) -> tuple[np.ndarray, int]:
     if ((table >= _LOWEST) & (table <= _HIGHEST)).all():
         return table, 0
     table[:, 3:] = np.nan_to_num(table[:, 3:], nan=0.0, posinf=0.0, neginf=0.0)
-    good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= REACH).all(axis=1)
+    good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= _REACH).all(axis=1)
     return np.clip(table[good], _LOWEST, _HIGHEST), int((~good).sum())
 
 

@@ -14,9 +14,9 @@ from engine.canvas.reading import layer_planes
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 
-STRIP = 1 << 22  # pixels of a strip, about
+_STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 256
-COLUMNS = 1024  # of the pieces in which layers are evaluated
+_COLUMNS = 1024  # of the pieces in which layers are evaluated
 TOGETHER = 1 << 25  # pixels of all layers' parts of a band, about: half a gigabyte
 HELD = 64  # layers for which a piece has that size; for more it is narrower
 
@@ -35,7 +35,7 @@ def folded(root: Group) -> Group:
 
 def bands(rect: Rect) -> Iterator[Rect]:
     """The rectangle in strips of whole rows, from the top."""
-    rows = max(16, min(ROWS, STRIP // max(1, rect.width)))
+    rows = max(16, min(ROWS, _STRIP // max(1, rect.width)))
     for y in range(rect.y0, rect.y1, rows):
         yield Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1))
 
@@ -44,7 +44,7 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
     """The composited picture of `rect` from the top: float32 (4, n, w) premultiplied, clamped for display; the same
     array every time.  Cancelled is raised between pieces."""
     count = sum(1 for _ in layers.layers(root))
-    columns = max(128, COLUMNS * HELD // max(HELD, count))
+    columns = max(128, _COLUMNS * HELD // max(HELD, count))
     out: np.ndarray | None = None
     for band in bands(rect):
         if out is None:

@@ -21,7 +21,7 @@ from engine.texture.example.exemplar import ExampleLevel, Exemplar, analysed
 from engine.texture.example.parameters import Parameters, read_toml
 
 VERSION = 2  # of the analysis: another one, another hash
-KEPT = 64  # analyses at most; the ones unused for longest go first
+_KEPT = 64  # analyses at most; the ones unused for longest go first
 PARAMETERS_CAP = 1 << 20  # bytes of a parameter file
 # What of the parameters the analysis depends on.
 _ANALYSED = ("levels", "channels", "alpha", "boundary", "smooth", "block")
@@ -122,5 +122,5 @@ def _read(place: Path, pixels: np.ndarray, parameters: Parameters) -> Exemplar:
 
 def _tidy(folder: Path) -> None:
     held = sorted(folder.glob("*.npz"), key=lambda path: path.stat().st_mtime)
-    for path in held[:-KEPT]:
+    for path in held[:-_KEPT]:
         path.unlink()

@@ -21,7 +21,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 
 STEPS_CAP = 4096
-FURTHEST = 1 << 24  # pixels from the corner at which a stroke may begin
+_FURTHEST = 1 << 24  # pixels from the corner at which a stroke may begin
 SMOOTH, PASSES = 2, 3  # pixels that one smoothing reaches, and how often it is done
 SPACING = 0.1  # of the dabs of a round brush, in radii: their union has no scallops
 _HALF_STEP = 1 / 512  # of 8-bit colours, which lie on the grid only nearly
@@ -86,8 +86,8 @@ def _stroke(members: Fields, picture: np.ndarray) -> np.ndarray:
     assert isinstance(stroke, c.Stroke)
     if stroke.level != 0:
         raise FieldError(f"{place}.level", str(stroke.level), "0")
-    if max(map(abs, stroke.origin)) > FURTHEST:
-        raise FieldError(f"{place}.origin", described(list(stroke.origin)), f"two integers within {FURTHEST}")
+    if max(map(abs, stroke.origin)) > _FURTHEST:
+        raise FieldError(f"{place}.origin", described(list(stroke.origin)), f"two integers within {_FURTHEST}")
     _, height, width = picture.shape
     taken = np.zeros((height, width), np.bool_)
     lay(taken, Footprint(stroke.brush, stroke.origin, within=Rect(0, 0, width, height)), stroke.points)
@@ -98,7 +98,7 @@ def _like(members: Fields, picture: np.ndarray) -> np.ndarray:
     """Where a picture is like the pixel `at`, in every channel by at most `tolerance` (0..1); `contiguous`: only what
     hangs together with it."""
     about = Fields(members.take("like"), members.at("like"))
-    x, y = about.integers("at", 2, limit=FURTHEST)
+    x, y = about.integers("at", 2, limit=_FURTHEST)
     _, height, width = picture.shape
     if not (0 <= x < width and 0 <= y < height):
         raise about.fault("at", f"a pixel of the example, {width} x {height}")

@@ -16,8 +16,8 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.easel import Easel
 
-MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
-STRIP = 256  # rows read in one step
+_MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
+_STRIP = 256  # rows read in one step
 _FLOOR = 60.0  # decibels below the loudest that are still told from silence
 _RGB = ((18, 18, 21), (196, 92, 58), (255, 244, 214), (70, 130, 215))
 _DARK, _MID, _LIGHT, _COLD = (np.array(rgb, np.float32) for rgb in _RGB)
@@ -52,7 +52,7 @@ class Examiner(Owned):
 
     def _found(self, level: int, area: Rect) -> Iterator[results.Found]:
         """Everything known so far, again and again."""
-        while area.area > MOST:
+        while area.area > _MOST:
             level, area = level - 1, area.zoomed(-1)
         lines = {"Size": f"{area.width:,} × {area.height:,} px", "Level": str(level)}
         pictures: list[str] = []
@@ -62,9 +62,9 @@ class Examiner(Owned):
 
         rings: tuple[tuple[float, float, float], ...] = ()
         pixels = np.empty((area.height, area.width, 4), np.uint8)
-        for top in range(0, area.height, STRIP):
-            strip = Rect(area.x0, area.y0 + top, area.x1, min(area.y0 + top + STRIP, area.y1))
-            pixels[top : top + STRIP] = to_rgba8(self._easel.picture(level, strip))
+        for top in range(0, area.height, _STRIP):
+            strip = Rect(area.x0, area.y0 + top, area.x1, min(area.y0 + top + _STRIP, area.y1))
+            pixels[top : top + _STRIP] = to_rgba8(self._easel.picture(level, strip))
             yield told()
         facts = Analysis(pixels)
         lines["Colours"] = f"{facts.colours:,}"

@@ -25,7 +25,7 @@ from engine.studio import results
 
 KEPT = 100  # states before the present one that are held as pixels; those before them are painted anew
 DIM, TINT = np.float32(0.22), np.array((28, 32, 40), np.float32)  # how much of what is outside shows over what; sRGB
-CHECKER, LIGHT, DARK = 8, 226, 198  # the paper under a picture with holes: side of its squares, pixels; greys
+CHECKER, _LIGHT, _DARK = 8, 226, 198  # the paper under a picture with holes: side of its squares, pixels; greys
 
 Steps = tuple[Map[str, Any], ...]
 
@@ -249,7 +249,7 @@ def over_paper(picture: np.ndarray) -> np.ndarray:
     """Returns a picture, premultiplied RGBA, float32 (4, h, w), over a checker: uint8 (h, w, 3)."""
     _, height, width = picture.shape
     rows, columns = np.arange(height) // CHECKER, np.arange(width) // CHECKER
-    paper = np.where((rows[:, None] + columns) % 2, np.float32(DARK), np.float32(LIGHT))
+    paper = np.where((rows[:, None] + columns) % 2, np.float32(_DARK), np.float32(_LIGHT))
     flat = picture[:3] * np.float32(255) + (1 - picture[3]) * paper
     found: np.ndarray = (flat + np.float32(0.5)).clip(0, 255).astype(np.uint8).transpose(1, 2, 0)
     return np.ascontiguousarray(found)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from engine.brush.settings import Brush
     from engine.painting.commands import Command, DefineTexture
 
-NOTHING: Map[str, Any] = Map()
+_NOTHING: Map[str, Any] = Map()
 SCREEN_TILE = 256  # pixels along a side of a screen tile
 
 
@@ -131,7 +131,7 @@ class LabSet:
     seed: int = 0
     part: str = "real"
     forward: bool = False
-    field: Map[str, Any] = NOTHING
+    field: Map[str, Any] = _NOTHING
     sheet: str = "amplitude"
 
 

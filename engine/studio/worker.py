@@ -58,10 +58,10 @@ class Bench(Protocol):
         ...
 
 
-LOGGER = logging.getLogger("inkfall")
+_LOGGER = logging.getLogger("inkfall")
 PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
-PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
-Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
+_PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
+_Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
 
 
 def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> Bench:
@@ -80,7 +80,7 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> 
 class Worker:
     """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread."""
 
-    def __init__(self, wake: Callable[[], None], make: Maker = _studio) -> None:
+    def __init__(self, wake: Callable[[], None], make: _Maker = _studio) -> None:
         self._wake, self._make = wake, make
         self._posted: deque[Request] = deque()
         self._look: Look | None = None
@@ -113,7 +113,7 @@ class Worker:
     def turn(self, end: float | None) -> None:
         """Open work, and what plays, is begun until `end`, by the monotonic clock, then after the next call; None: at
         any time.  Swatches, which take longer, wait until then.  For a window that wants the processor now and then: no
-        piece waits longer than `PATIENCE`, and no swatch than `LONGER`.  Commands are not held up; what they have to
+        piece waits longer than `_PATIENCE`, and no swatch than `LONGER`.  Commands are not held up; what they have to
         show is not later than it would be, if the turn begins as a frame ends."""
         if end == self._turn:
             return
@@ -185,7 +185,7 @@ class Worker:
         turn = swatch_in = 0.0
         if self._turn is not None:
             if now >= self._turn:
-                turn = max(0.0, self._worked + PATIENCE - now)
+                turn = max(0.0, self._worked + _PATIENCE - now)
             swatch_in = max(0.0, self._asked + LONGER - now)
         open_in = turn if bench.pending else math.inf
         play_in = math.inf if bench.due is None else max(turn, bench.due - now)
@@ -200,7 +200,7 @@ class Worker:
         try:
             bench = self._make(self._send, self.post)
         except Exception as error:
-            LOGGER.error("the paint engine did not load", exc_info=error)
+            _LOGGER.error("the paint engine did not load", exc_info=error)
             self._send(Note("The paint engine did not load", bad=True, fault=True))
             return
         self._work(bench)

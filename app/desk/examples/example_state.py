@@ -36,8 +36,8 @@ _RANK = {OWN: 0, HERE: 1, "Watercolour": 2, "Paper": 3}  # others follow, by nam
 MASK, PICTURE, PARAMETERS = ".mask.png", ".png", ".toml"
 STEPS, BASE = ".region.json", ".base.png"
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
-SIZES = (-2, -1, 0, 1, 2)  # octaves by which a texture is larger than the canvas pixels seen when it was chosen
-REACH = 8  # levels from a stroke's to that of the example's pixels
+_SIZES = (-2, -1, 0, 1, 2)  # octaves by which a texture is larger than the canvas pixels seen when it was chosen
+_REACH = 8  # levels from a stroke's to that of the example's pixels
 TOO_FINE = 4  # levels that a stroke may be coarser: each makes four times the pixels
 DEPTHS = (-99, 99)
 NOWHERE = Path()  # the files of those that only the painting has
@@ -153,13 +153,13 @@ def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
 
 def within_reach(brush: Brush, level: int) -> bool:
     """Whether a stroke at a level may have the size that a brush gives its texture."""
-    return brush.example_level is None or -REACH <= brush.example_level - level <= TOO_FINE
+    return brush.example_level is None or -_REACH <= brush.example_level - level <= TOO_FINE
 
 
 @dataclass(slots=True)
 class ExampleState:
-    """`chosen`: the entry that is painted with or looked at, by its ident; `size`: one of SIZES; `base`: the level that
-    was shown when it was chosen; `eraser`: the depth that the eraser takes away, None for everything; `drafts`: by
+    """`chosen`: the entry that is painted with or looked at, by its ident; `size`: one of `_SIZES`; `base`: the level
+    that was shown when it was chosen; `eraser`: the depth that the eraser takes away, None for everything; `drafts`: by
     ident, parameters that are being tried; `used`: those that are painted with; `regions`: those that are being
     painted; `spot`: where the region is on the screen, corner and pixels of the screen per pixel of it."""
 

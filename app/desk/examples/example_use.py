@@ -13,7 +13,7 @@ from engine.brush.settings import Brush
 from engine.painting.commands import Swap
 from engine.studio.requests import Do, GetReady
 
-NEAR = 1  # levels: an example that is chosen so near to where the last one was has the same pixels
+_NEAR = 1  # levels: an example that is chosen so near to where the last one was has the same pixels
 
 
 def gather(desk: Desk) -> None:
@@ -40,7 +40,7 @@ def choose(desk: Desk, entry: Entry) -> None:
     """The brush paints with an example from now on, as large as its pixels are where the view is now."""
     state, level = desk.examples, desk.view.shown_level
     state.chosen = entry.ident
-    if not desk.hand.brush.row.grows or abs(level - state.base) > NEAR:
+    if not desk.hand.brush.row.grows or abs(level - state.base) > _NEAR:
         state.base = level
     if not desk.hand.brush.row.grows:  # the tip and the width of a pencil, say, are not for this
         desk.hand.take(Brush(radius=state.radius, hardness=1.0), "")

@@ -19,7 +19,7 @@ from engine.numeric.formula import FORMULA_CAP, FUNCTIONS, NAMES, FormulaError, 
 
 BESIDE = (64, 0)  # pixels: what a clone of the layer itself begins with; without, it changes nothing
 OFFSETS = (-512.0, 512.0)  # that the sliders offer
-REST = 0.4  # seconds without typing before a formula is taken: each is compiled
+_REST = 0.4  # seconds without typing before a formula is taken: each is compiled
 ECHO = 13  # characters of a formula shown on each side of its mistake
 FORMULAS = (
     ("Towards the colour", "colour - pic"),
@@ -149,7 +149,7 @@ class Operations:
         if changed:
             self._text = self._text[:FORMULA_CAP]
             self._fault, self._typed = fault(self._text), now
-        if self._fault is None and self._text != self._known and (left or now - self._typed > REST):
+        if self._fault is None and self._text != self._known and (left or now - self._typed > _REST):
             self._known = self._text
             desk.hand.change(op=Map({"formula": self._text}))
         if self._fault is not None:

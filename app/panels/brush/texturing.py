@@ -23,7 +23,7 @@ from engine.brush.parts import Edge, Surface, Tip
 P = TypeVar("P", Surface, Tip)
 
 SCALES = (-6, 6)  # levels of a grain that the slider offers
-PAPER = "Cold-pressed paper"  # that a brush gets first
+_PAPER = "Cold-pressed paper"  # that a brush gets first
 _START: dict[str, Any] = {
     "density": Surface("rock", 0.9, "threshold", parameters=Map({"period": 18.0, "roughness": 0.3})),
     "grain": Surface("rock", 0.8, parameters=Map({"period": 6.0, "roughness": 0.6})),
@@ -81,7 +81,7 @@ class Texturing:
     def _start(self, desk: Desk, name: str) -> Any:
         """What it was before, unless that needs a texture of another painting."""
         held = self._kept[name]
-        first = next((paper for paper in desk.known.papers if paper.name == PAPER), None)
+        first = next((paper for paper in desk.known.papers if paper.name == _PAPER), None)
         if held is _START["grain"] and first is not None:
             texture_rows.bring(desk, first.grain.texture)
             return first.grain

@@ -21,9 +21,9 @@ from engine.studio.results import CurveRow
 Curve = str | Knots | None
 Rows = Sequence[CurveRow]
 
-SIDE = 15  # of the canvas, in heights of the font
+_SIDE = 15  # of the canvas, in heights of the font
 LINES = 4  # of the grid each way
-REACH = 0.045  # how near to a knot the pointer takes hold of it
+_REACH = 0.045  # how near to a knot the pointer takes hold of it
 FINE = 0.004  # what a curve drawn by hand may lose when it becomes knots
 _GONE = -1
 
@@ -65,7 +65,7 @@ class CurveEditor:
     def _popup(self, label: str, curve: Curve, rows: Rows) -> tuple[bool, Curve]:
         if not imgui.begin_popup(f"edit {label}"):
             return False, curve
-        before, side = curve, imgui.get_font_size() * SIDE
+        before, side = curve, imgui.get_font_size() * _SIDE
         imgui.text_disabled(label.partition("##")[0])
         button, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
         named = w.choice(
@@ -109,18 +109,18 @@ class CurveEditor:
     def _drawn(self, shape: Knots, at: tuple[float, float]) -> Knots | None:
         """The curve with the pen's newest piece in it; None when the pen does nothing."""
         if imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left):
-            before, self._pen = self._pen or knots.at_edge(at, REACH), at
+            before, self._pen = self._pen or knots.at_edge(at, _REACH), at
             return knots.drawn(shape, before, at)
         was, self._pen = self._pen, None
         if was is None:
             return None
-        return knots.thinned(knots.drawn(shape, was, knots.at_edge(was, REACH)), FINE)
+        return knots.thinned(knots.drawn(shape, was, knots.at_edge(was, _REACH)), FINE)
 
     def _knotted(self, curve: Curve, shape: Knots, at: tuple[float, float]) -> Knots | None:
         """The curve with a knot added, moved or taken away; None when nothing is done to it."""
         held, near = _knots(curve, shape), None
         if imgui.is_item_hovered():
-            near = knots.nearest(held, *at, REACH)
+            near = knots.nearest(held, *at, _REACH)
         removing = imgui.is_mouse_clicked(imgui.MouseButton_.right) or (
             imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
         )
@@ -139,7 +139,7 @@ class CurveEditor:
         return knots.moved(held, self._held, *at)
 
     def _dots(self, corner: ImVec2, side: float, held: Knots, at: tuple[float, float]) -> None:
-        painter, near = imgui.get_window_draw_list(), knots.nearest(held, *at, REACH)
+        painter, near = imgui.get_window_draw_list(), knots.nearest(held, *at, _REACH)
         for i, (x, y) in enumerate(held):
             place = ImVec2(corner.x + x * side, corner.y + (1.0 - y) * side)
             lit = i == self._held or (self._held is None and i == near)
@@ -150,7 +150,7 @@ class CurveEditor:
 def _beside(corner: ImVec2, end: ImVec2) -> None:
     """Has the next pop-up open beside a row and not over it: towards the middle of the window, and inside it."""
     room, em = imgui.get_io().display_size, imgui.get_font_size()
-    gap, high = em * 0.9, em * (SIDE + 7)
+    gap, high = em * 0.9, em * (_SIDE + 7)
     y = max(min(corner.y - em, room.y - high), 0.0)
     if corner.x > room.x / 2:
         imgui.set_next_window_pos(ImVec2(corner.x - gap, y), imgui.Cond_.appearing, ImVec2(1, 0))

@@ -16,11 +16,11 @@ from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
 from engine.studio.requests import Swatch
 
-PICTURE = (44, 28)  # of a texture, points
+_PICTURE = (44, 28)  # of a texture, points
 NAME = 116  # width of its name, points
 ACROSS = 2
 PERIOD = 96.0  # pixels, at most, that a texture's repeat has in its picture
-DARK, LIGHT = "#22262c", "#f2f2f2"  # what it leads from and to
+_DARK, _LIGHT = "#22262c", "#f2f2f2"  # what it leads from and to
 
 
 def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | None:
@@ -87,7 +87,7 @@ def listed(desk: Desk, current: str = "", without: tuple[str, ...] = ()) -> str 
 def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
     """A texture's picture beside a label, to be pressed."""
     scale, corner = desk.scale, imgui.get_cursor_screen_pos()
-    wide, tall = (size * scale for size in PICTURE)
+    wide, tall = (size * scale for size in _PICTURE)
     pressed = imgui.selectable(f"##{label} {name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
     w.tooltip(f"{label}\n{hint}".strip())
     if not imgui.is_item_visible():
@@ -113,7 +113,7 @@ def _picture(desk: Desk, name: str) -> Any:
         period = {row.name: row for row in texture_rows.rows(desk, name)}.get("period")
         usual = texture_rows.own(desk, name).get("period", period.default if period else PERIOD)
         given = Map() if period is None else Map(period=max(period.lo, min(usual, round(PERIOD * desk.scale))))
-        brush = Brush(16.0, colour=DARK, ink=(Component(name, 1.0, LIGHT, given),))
-        size = (int(PICTURE[0] * desk.scale), int(PICTURE[1] * desk.scale))
+        brush = Brush(16.0, colour=_DARK, ink=(Component(name, 1.0, _LIGHT, given),))
+        size = (int(_PICTURE[0] * desk.scale), int(_PICTURE[1] * desk.scale))
         desk.post(Swatch(ident, brush, size, "fill", textures=texture_rows.brought(desk, name), soon=True))
     return desk.pictures.get(ident)

@@ -23,7 +23,7 @@ from app.panels.dialogs import file_list
 from engine.studio.requests import Export, Save
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
-PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+_PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 SAVES = (".ora",)
 EXPORTS = (".png", ".tif")
 Then = Callable[[Desk, Path], None]
@@ -192,7 +192,7 @@ def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:
     def choose(d: Desk, path: Path) -> None:
         d.lab.change(shapes=(Map({"shape": "image", "path": str(path.absolute())}),))
 
-    return _chooser("Begin with a picture's spectrum", _folder(desk), PICTURES, False, choose)
+    return _chooser("Begin with a picture's spectrum", _folder(desk), _PICTURES, False, choose)
 
 
 def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
@@ -201,14 +201,14 @@ def choosing_example(index: int) -> Callable[[Desk], SystemDialog | Browser]:
     def choose(d: Desk, path: Path) -> None:
         d.match.show_file(index, path)
 
-    return lambda desk: _chooser("Make a texture like a picture", _folder(desk), PICTURES, False, choose)
+    return lambda desk: _chooser("Make a texture like a picture", _folder(desk), _PICTURES, False, choose)
 
 
 def choosing_own(desk: Desk) -> SystemDialog | Browser:
     """For an example of the artist's own."""
-    return _chooser("Add an example", _folder(desk), PICTURES, False, example_work.add)
+    return _chooser("Add an example", _folder(desk), _PICTURES, False, example_work.add)
 
 
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture to paint with."""
-    return _chooser("Paint with a picture", _folder(desk), PICTURES, False, pictured.from_file)
+    return _chooser("Paint with a picture", _folder(desk), _PICTURES, False, pictured.from_file)

@@ -14,7 +14,7 @@ from app.desk.folders import size_text
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 
-PICTURE = 34.0  # the side of a small picture, points
+_PICTURE = 34.0  # the side of a small picture, points
 _SIZE, _DATE = 6.0, 8.8  # widths of the columns, ems
 _FLAGS = imgui.SelectableFlags_.allow_double_click | imgui.SelectableFlags_.no_auto_close_popups
 
@@ -22,7 +22,7 @@ _FLAGS = imgui.SelectableFlags_.allow_double_click | imgui.SelectableFlags_.no_a
 def draw(desk: Desk, folder: Path, rows: Sequence[FileRow], chosen: str) -> FileRow | None:
     """Draws those that are in sight into the present window, and has their pictures made; gives the one clicked on."""
     clicked, seen = None, []
-    side = PICTURE * desk.scale
+    side = _PICTURE * desk.scale
     height = side + 4 * desk.scale
     clipper = imgui.ListClipper()
     clipper.begin(len(rows), height + imgui.get_style().item_spacing.y)
@@ -56,7 +56,7 @@ def _contents(desk: Desk, folder: Path, row: FileRow, side: float) -> None:
 
 def _picture(desk: Desk, folder: Path, row: FileRow, corner: ImVec2) -> None:
     """A file's picture in the middle of its place; a sign while there is none."""
-    painter, side = imgui.get_window_draw_list(), PICTURE * desk.scale
+    painter, side = imgui.get_window_draw_list(), _PICTURE * desk.scale
     shown = None if row.folder else desk.pictures.get(previews.ident(folder, row))
     if shown is None:
         sign = icons.FOLDER if row.folder else icons.IMAGE

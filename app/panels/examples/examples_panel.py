@@ -24,7 +24,7 @@ from engine.studio.results import Picture, RegionScene, Scene
 
 TILE = 68.0  # side of a thumbnail, points, at least
 NAME = 0.82  # of the font's size
-SIDE = 250.0  # width of what is told of the one chosen, points
+_SIDE = 250.0  # width of what is told of the one chosen, points
 _STILL = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
 _TABS = (
     ("palette", "Palette", "All examples: click one to paint with it"),
@@ -101,7 +101,7 @@ class ExamplesPanel(Panel):
 
     def _palette(self, desk: Desk) -> None:
         gap = imgui.get_style().item_spacing.x
-        left = imgui.get_content_region_avail().x - SIDE * desk.scale - gap
+        left = imgui.get_content_region_avail().x - _SIDE * desk.scale - gap
         imgui.begin_child("all examples", ImVec2(left, 0), 0, _STILL)
         self._filters(desk)
         imgui.begin_child("thumbnails", ImVec2(0, 0))

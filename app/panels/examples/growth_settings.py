@@ -14,7 +14,7 @@ from app.desk.examples.example_state import Entry
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 
-SIDE = 0.46  # of the room for the settings
+_SIDE = 0.46  # of the room for the settings
 BROADEST = 1.6  # of the picture: width to height
 
 
@@ -81,7 +81,7 @@ class GrowthSettings:
         if entry is None:
             return
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
-        wide = min((1 - SIDE) * room.x, BROADEST * room.y)
+        wide = min((1 - _SIDE) * room.x, BROADEST * room.y)
         desk.examples.sampled = max(1, round(wide)), max(1, round(room.y))
         w.picture(desk.pictures.get(SAMPLE), (wide, room.y), "A stroke with these settings")
         imgui.same_line(0, gap)

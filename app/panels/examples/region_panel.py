@@ -19,7 +19,7 @@ from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 
 GROW = 1.15  # of the brush, by a key
-SIDE = 232.0  # width of the tools, points
+_SIDE = 232.0  # width of the tools, points
 _WAYS = (
     ("in", "Paint in", "A stroke adds to the region"),
     ("out", "Paint out", "A stroke takes away from the region"),
@@ -42,7 +42,7 @@ class RegionPanel:
         if region is None:
             return
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
-        imgui.begin_child("region picture", ImVec2(room.x - SIDE * desk.scale - gap, 0))
+        imgui.begin_child("region picture", ImVec2(room.x - _SIDE * desk.scale - gap, 0))
         self._picture(desk, region)
         imgui.end_child()
         imgui.same_line()

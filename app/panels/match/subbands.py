@@ -10,7 +10,7 @@ from app import theme
 from app.desk.match_state import MatchState, Spot
 from app.panels.controls import widgets as w
 
-MOST = 4.0  # gain at the right end; 1 is in the middle
+_MOST = 4.0  # gain at the right end; 1 is in the middle
 _LABEL = 2.6  # width of the column of labels, in heights of the font
 _STILL = 1.0, None
 

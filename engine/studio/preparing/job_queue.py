@@ -38,9 +38,9 @@ def job_of(swatch: Swatch) -> Job:
     return Job(json.dumps(line, sort_keys=True))
 
 
-PLAIN = job_of(Swatch("", Brush(), (104, 44)))
+_PLAIN = job_of(Swatch("", Brush(), (104, 44)))
 COMMIT, FILES = (Job(json.dumps({"kind": kind})) for kind in ("commit", "files"))
-PLAIN_PAINT = (PLAIN, COMMIT)  # what the first strokes of plain paint need
+PLAIN_PAINT = (_PLAIN, COMMIT)  # what the first strokes of plain paint need
 
 
 def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:

@@ -19,8 +19,8 @@ from engine.studio.preparing.compile_process import PROGRAM, CompileProcess
 from engine.studio.preparing.job_queue import Job, JobQueue
 from engine.studio.preparing.noted import Noted, folder
 
-LOGGER = logging.getLogger("inkfall")
-MOST = 8  # processes: each takes some 200 MB
+_LOGGER = logging.getLogger("inkfall")
+_MOST = 8  # processes: each takes some 200 MB
 REST = 1.0  # seconds after a stroke for which only one process works
 
 
@@ -34,11 +34,11 @@ class Preparing:
     def __init__(
         self,
         processes: int | None = None,
-        report: Callable[[str], None] = LOGGER.error,
+        report: Callable[[str], None] = _LOGGER.error,
         program: tuple[str, ...] = PROGRAM,
         gently: bool = True,
     ) -> None:
-        self._cores = processes if processes is not None else min(MOST, cores())
+        self._cores = processes if processes is not None else min(_MOST, cores())
         self._report, self._program, self._gently = report, program, gently
         self._queue = JobQueue()
         self._noted = Noted()
