@@ -11,7 +11,10 @@ COUNT = 65536.0
 
 
 def snap(values):
-    return np.rint(values * COUNT) / COUNT
+    out = values * COUNT
+    np.rint(out, out)
+    out /= COUNT
+    return out
 
 
 def product(a, b):
@@ -23,12 +26,17 @@ def expand(p):
     """(C, h + 2, w + 2) to (C, 2h, 2w)."""
     mid = p[:, 1:-1, 1:-1]
     out = np.empty((p.shape[0], 2 * mid.shape[1], 2 * mid.shape[2]))
+    nine = 9 * mid  # all that follows is exact in float64, in whatever order
     for dy in (0, 1):
         for dx in (0, 1):
             rows = slice(0, -2) if dy == 0 else slice(2, None)
             columns = slice(0, -2) if dx == 0 else slice(2, None)
-            mixed = 9 * mid + 3 * p[:, rows, 1:-1] + 3 * p[:, 1:-1, columns] + p[:, rows, columns]
-            out[:, dy::2, dx::2] = snap(mixed / 16)
+            mixed = p[:, rows, 1:-1] + p[:, 1:-1, columns]
+            mixed *= 3
+            mixed += nine
+            mixed += p[:, rows, columns]
+            mixed /= 16
+            out[:, dy::2, dx::2] = snap(mixed)
     return out
 
 
@@ -54,7 +62,10 @@ def children_of(marks):
 
 
 class Dense:
-    """All levels of a square canvas centred on the origin; arrays cover [-H, H) with H = half(level)."""
+    """All levels of a square canvas centred on the origin; arrays cover [-H, H) with H = half(level).
+
+    An array of a level is never written to once it stands in `v` or `d`: another takes its place.
+    """
 
     def __init__(self, coarsest, finest, half0, inks):
         self.coarsest, self.finest, self.inks = coarsest, finest, list(inks)
@@ -63,14 +74,13 @@ class Dense:
             k: half0 << k if k >= 0 else max(4, 2 * -(-half0 // (2 << -k))) for k in range(coarsest, finest + 1)
         }
         self.v = {k: np.zeros((self.planes, 2 * h, 2 * h)) for k, h in self.half.items()}
-        self.d = {k: a.copy() for k, a in self.v.items()}
+        self.d = dict(self.v)
 
     def snapshot(self):
-        return {k: a.copy() for k, a in self.v.items()}, {k: a.copy() for k, a in self.d.items()}
+        return dict(self.v), dict(self.d)
 
     def restore(self, state):
-        self.v = {k: a.copy() for k, a in state[0].items()}
-        self.d = {k: a.copy() for k, a in state[1].items()}
+        self.v, self.d = dict(state[0]), dict(state[1])
 
     def up(self, a, k, fill=0.0):
         """expand from level k - 1 to level k, `fill` outside."""
@@ -105,13 +115,13 @@ class Dense:
     def paint(self, m, x0, y0, keep, add, spares_alpha=False):
         """v' = snap(A v) + B at level m, but not of alpha if that is spared; keep (h, w), add (planes, h, w) on the
         grid."""
-        residuals = {k: d[3].copy() for k, d in self.d.items()}
+        residuals = {k: d[3] for k, d in self.d.items()}
         h, (rows, columns) = self.half[m], keep.shape
         a = np.ones((2 * h, 2 * h))
         b = np.zeros((self.planes, 2 * h, 2 * h))
         a[y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = keep
         b[:, y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = add
-        old = {k: v.copy() for k, v in self.v.items()}
+        old = dict(self.v)
         new = product(np.broadcast_to(a, self.v[m].shape), self.v[m]) + b
         new[3] = old[m][3] if spares_alpha else np.clip(new[3], 0, 1)
         self.v[m] = new
@@ -156,4 +166,4 @@ class Dense:
             touched |= spread[spare : spread.shape[0] - spare, spare : spread.shape[1] - spare]
         residual = self.v[k] - predicted
         residual[:3] -= self.texture(k, self.v[k][4:])
-        self.d[k][:, touched] = residual[:, touched]
+        self.d[k] = np.where(touched, residual, self.d[k])
