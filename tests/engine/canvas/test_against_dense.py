@@ -22,7 +22,12 @@ TEXTURES = merged(
         instance("sawtooth", {"period": 5.5, "phase": 0.3}, 2, 3),
     ),
 )
-COARSEST, FINEST, HALF = -16, 4, 12
+COARSEST, FINEST = -16, 4
+WIDE, NARROW = (
+    12,
+    8,
+)  # half the canvas's side at level 0: at the finest, what is painted spreads over 4 or 2 tiles' width
+CASES = [(0, WIDE, NOISE), (6, WIDE, TEXTURES), (7, NARROW, TEXTURES), *((n, NARROW, NOISE) for n in range(1, 6))]
 
 
 def compare(pyramid, dense, cache, inks):
@@ -31,19 +36,19 @@ def compare(pyramid, dense, cache, inks):
         np.testing.assert_array_equal(got, dense.v[k], err_msg=f"level {k}")
 
 
-def visit(pyramid, rng, cache):
+def visit(pyramid, rng, cache, half):
     for _ in range(int(rng.integers(0, 12))):
         k = int(rng.integers(-6, FINEST + 3))
-        reach = HALF << max(k, 0)
+        reach = half << max(k, 0)
         x, y = (int(rng.integers(-reach, reach)) for _ in "xy")
         evaluate(pyramid, k, Rect.at(x, y, int(rng.integers(1, 300)), int(rng.integers(1, 200))), cache)
 
 
-@pytest.mark.parametrize(("seed", "inks"), [*((n, NOISE) for n in range(6)), (6, TEXTURES), (7, TEXTURES)])
-def test_every_level_equals_the_dense_reference(seed, inks):
+@pytest.mark.parametrize(("seed", "half", "inks"), CASES)
+def test_every_level_equals_the_dense_reference(seed, half, inks):
     rng = np.random.default_rng(seed)
     cache = TileCache(int(rng.choice([0, 3 << 20, 64 << 20])))
-    dense = Dense(COARSEST, FINEST, HALF, inks)
+    dense = Dense(COARSEST, FINEST, half, inks)
     states, references = [Pyramid()], [dense.snapshot()]
     unvisited = [states[0]]
     for n in range(40):
@@ -51,7 +56,7 @@ def test_every_level_equals_the_dense_reference(seed, inks):
             back = int(rng.integers(1, min(4, len(states))))
             states, references, unvisited = states[:-back], references[:-back], unvisited[:-back]
             dense.restore(references[-1])
-        m, x, y, keep, add = random_stroke(rng, FINEST, HALF, inks)
+        m, x, y, keep, add = random_stroke(rng, FINEST, half, inks)
         spares_alpha = bool(rng.random() < 0.2)
         if spares_alpha:
             keep, add = as_raster_op(rng, keep, add)
@@ -63,7 +68,7 @@ def test_every_level_equals_the_dense_reference(seed, inks):
         references.append(dense.snapshot())
         committed = evaluate(states[-1], m, edit.rect, cache)
         np.testing.assert_array_equal(spread_planes(shown, inks), spread_planes(committed, inks))
-        visit(states[-1], rng, cache)
+        visit(states[-1], rng, cache, half)
         if rng.random() < 0.3:
             states[-1] = fold(states[-1])
         if rng.random() < 0.2:
