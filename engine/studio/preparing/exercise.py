@@ -45,7 +45,7 @@ def run(told: dict[str, Any]) -> None:
         return
     brush = brush_from_json(told["brush"])
     textures = definitions.read(told["textures"], "textures")
-    if brush.mode == "example":
+    if brush.row.grows:
         warming.paint()
     else:
         drawn(brush, textures)

@@ -45,7 +45,7 @@ PLAIN_PAINT = (_PLAIN, COMMIT)  # what the first strokes of plain paint need
 
 def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
     """The jobs of brushes, most likely first: those that grow examples last, and files after the first."""
-    listed = sorted(swatches, key=lambda swatch: swatch.brush.mode == "example")
+    listed = sorted(swatches, key=lambda swatch: swatch.brush.row.grows)
     jobs = tuple(dict.fromkeys(map(job_of, listed)))
     return (*jobs[:1], FILES, *jobs[1:])
 

@@ -38,10 +38,11 @@ class Sketch:
         """One request more; the level and the pixels that look different by it."""
         match request:
             case q.Begin():
-                self._open = request.brush.mode in ("paint", "erase")
+                row = request.brush.row
+                self._open = row.lays_ink or row.takes_away
                 if self._open:
                     stroke = LiveStroke(Painting(), request.level, request.origin, _plain(request.brush))
-                    self._strokes.append((stroke, request.brush.mode == "erase"))
+                    self._strokes.append((stroke, row.takes_away))
             case q.Points() if self._open:
                 stroke = self._strokes[-1][0]
                 try:

@@ -139,7 +139,7 @@ def test_sweep_takes_only_what_dead_processes_left(tmp_path):
 
 CHILD = """
 import sys
-from engine.painting.atomic import replacing
+from engine.files.atomic import replacing
 n = 0
 while True:
     n += 1

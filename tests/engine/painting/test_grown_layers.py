@@ -21,7 +21,7 @@ from engine.painting.grown import settled
 from engine.painting.rendering import folded, reach, sheets, strips
 from engine.session.apply import Around, Painting, apply
 from engine.session.history import difference
-from engine.strokes.scenery import Scenery
+from engine.strokes.scenery import reader
 
 
 @pytest.fixture(scope="module")
@@ -92,9 +92,7 @@ def test_a_copied_layer_has_it_too(states):
     last = states[-1]
     twice = layers.duplicate(last.root, "upper", "again")
     assert layers.find(twice, "again").growth is layers.find(last.root, "upper").growth
-    clone = {"mode": "raster", "op": {"name": "clone", "layer": "upper", "offset": [0, 0]}}
-    brush = c.parse({"do": "stroke", "points": [[0, 0]], "brush": clone}).brush
-    read = Scenery(brush, last.root, 0, (0, 0), 1, None).scene.source
+    read = reader(last.root, "upper", 0, None)  # as a stroke that clones it does
     upper = layers.find(last.root, "upper")
     assert np.array_equal(read(FRAME).rgba, layer_planes(upper, 0, FRAME))
     assert not np.array_equal(read(FRAME).rgba, evaluate(upper.pyramid, 0, FRAME).rgba)
