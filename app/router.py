@@ -41,6 +41,8 @@ class Router:
             if event.kind in ("move", "wheel") or event.button == self._button:
                 self._send(event)
             return
+        if event.kind == "down" and event.button in self._panel_buttons:
+            self._forget(event.button)
         covered = bool(self._panel_buttons) or self.layout.covers(event.x, event.y)
         desk.pointer.over_canvas = not covered
         io = imgui.get_io()
@@ -52,6 +54,13 @@ class Router:
         elif event.kind == "up" and event.button in self._panel_buttons:
             self._panel_buttons.discard(event.button)
             io.add_mouse_button_event(_IMGUI_BUTTON[event.button], False)
+
+    def _forget(self, button: int) -> None:
+        """Lets a button go that is pressed again: nobody told that it was released.  What it was on is not pressed."""
+        self._panel_buttons.discard(button)
+        io = imgui.get_io()
+        io.add_mouse_pos_event(_AWAY, _AWAY)
+        io.add_mouse_button_event(_IMGUI_BUTTON[button], False)
 
     def _wheel(self, event: PenEvent, covered: bool) -> None:
         if covered:

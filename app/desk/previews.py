@@ -15,7 +15,6 @@ from engine.studio.results import Picture
 
 _MOST = 100_000_000  # pixels of a picture that is made small
 MOST_BYTES = 4 << 20  # of the small picture in a painting
-_THUMBNAIL = "Thumbnails/thumbnail.png"  # in an OpenRaster file
 PAPER, FIELD = (244, 244, 244, 255), (29, 29, 29, 255)  # sRGB: below pictures with holes, and around them
 PAINTING, PICTURES = ".ora", (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
@@ -58,10 +57,7 @@ class Previews:
 
     def take(self) -> list[Picture]:
         """What is ready."""
-        found = []
-        while self._ready:
-            found.append(self._ready.popleft())
-        return found
+        return [self._ready.popleft() for _ in range(len(self._ready))]
 
     def _work(self) -> None:
         while True:
@@ -71,13 +67,13 @@ class Previews:
                 return
             if name not in self._begun:
                 self._begun.add(name)
-                small = preview(path, side)
+                small = small_picture(path, side)
                 if small is not None:
                     self._ready.append(Picture(name, small))
                     self._wake()
 
 
-def preview(path: Path, side: int) -> np.ndarray | None:
+def small_picture(path: Path, side: int) -> np.ndarray | None:
     """A file's picture on paper in the middle of a field, uint8 RGBA (side, side, 4), opaque; None if it has none, or
     one that is damaged or too large."""
     from PIL import Image  # here: it takes its time to load
@@ -98,7 +94,8 @@ def preview(path: Path, side: int) -> np.ndarray | None:
 
 
 def _thumbnail(path: Path) -> bytes:
-    from engine.files.zip_reader import ZipArchive  # here: the window is up before the engine is loaded
+    from engine.archive.saving import THUMB  # here: the window is up before the engine is loaded
+    from engine.files.zip_reader import ZipArchive
 
     with path.open("rb") as file:
-        return ZipArchive(file, path.name).read(_THUMBNAIL, MOST_BYTES)
+        return ZipArchive(file, path.name).read(THUMB, MOST_BYTES)

@@ -44,7 +44,7 @@ def say_taken(window: Any) -> None:
     nothing where the window system is not X11: there GLFW's own answer is right."""
     if not sys.platform.startswith("linux") or glfw.get_platform() != glfw.PLATFORM_X11:
         return
-    display_of: Callable[[], Any] = glfw.get_x11_display
+    display_of: Callable[[], ct.c_void_p] = glfw.get_x11_display
     x, display = _library(), ct.cast(display_of(), ct.c_void_p)
     atoms = {name: x.XInternAtom(display, name.encode(), 0) for name in ("XdndSelection", "XdndFinished")}
     source = x.XGetSelectionOwner(display, atoms["XdndSelection"])

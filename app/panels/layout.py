@@ -129,10 +129,10 @@ class Layout:
             desk.view = desk.view.held(desk.view.to_canvas(x, y), *desk.middle())
 
     def _begin(self, name: str, box: tuple[float, float, float, float], flags: int = 0) -> bool:
-        x, y, width, height = box
-        self._covered.append((x, y, x + width, y + height))
-        imgui.set_next_window_pos(ImVec2(x, y))
-        imgui.set_next_window_size(ImVec2(width, height))
+        x0, y0, x1, y1 = (round(edge) for edge in (box[0], box[1], box[0] + box[2], box[1] + box[3]))
+        self._covered.append((x0, y0, x1, y1))  # whole pixels, as imgui draws it: a press on any of them is the panel's
+        imgui.set_next_window_pos(ImVec2(x0, y0))
+        imgui.set_next_window_size(ImVec2(x1 - x0, y1 - y0))
         return imgui.begin(name, None, _FIXED | flags)[0]
 
     def _menu(self, desk: Desk) -> float:

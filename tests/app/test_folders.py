@@ -10,7 +10,7 @@ from PIL import Image
 from app.desk import previews
 from app.desk.files import carried_out
 from app.desk.folders import ReadFolder, size_text
-from app.desk.previews import FileRow, Previews, preview
+from app.desk.previews import FileRow, Previews, small_picture
 from engine.painting.value import Painting
 from engine.studio.filing import documents
 
@@ -56,7 +56,7 @@ def test_a_picture_lies_on_paper_in_the_middle_of_its_field(tmp_path):
     pixels = np.zeros((20, 40, 4), np.uint8)
     pixels[:, :20] = 200, 10, 10, 255
     Image.fromarray(pixels).save(tmp_path / "half.png")
-    small = preview(tmp_path / "half.png", 32)
+    small = small_picture(tmp_path / "half.png", 32)
     assert small.shape == (32, 32, 4)
     assert (small[..., 3] == 255).all()
     assert (small[:7] == previews.FIELD).all()
@@ -69,13 +69,13 @@ def test_files_without_a_picture_have_none(tmp_path):
     Image.new("RGB", (50, 50)).save(whole)
     for name, data in (("torn.png", whole.read_bytes()[:60]), ("empty.jpg", b""), ("no.ora", b"PK\3\4 no")):
         (tmp_path / name).write_bytes(data)
-        assert preview(tmp_path / name, 16) is None
-    assert preview(tmp_path / "not-there.png", 16) is None
+        assert small_picture(tmp_path / name, 16) is None
+    assert small_picture(tmp_path / "not-there.png", 16) is None
 
 
 def test_a_painting_shows_its_thumbnail(tmp_path):
     documents.save(tmp_path / "empty.ora", Painting(), None)
-    assert preview(tmp_path / "empty.ora", 16).shape == (16, 16, 4)
+    assert small_picture(tmp_path / "empty.ora", 16).shape == (16, 16, 4)
 
 
 def test_pictures_are_made_once_and_again_when_the_file_has_changed(tmp_path):
