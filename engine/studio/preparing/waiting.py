@@ -117,8 +117,8 @@ class Waiting:
             with refusing(bool(looks) and not late and self._preparing.busy):
                 done = self._studio.step()
         except NotCompiled:
-            self._unseen = self._unseen or now
-            self._line.restart()
+            if not self._line.restart():  # else the sketch, which lacks nothing, can be seen at once
+                self._unseen = self._unseen or now
             easel.viewer.changed(lambda level: [])  # nothing has, but all is to be looked at again
             return True
         self._unseen = None if looks else self._unseen

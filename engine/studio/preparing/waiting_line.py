@@ -62,12 +62,15 @@ class WaitingLine:
                 self._draw()
         self._tried = self._preparing.count
 
-    def restart(self) -> None:
-        """The stroke on the easel, if there is one, cannot be shown: it waits, to be begun anew."""
+    def restart(self) -> bool:
+        """The stroke on the easel cannot be shown: it waits, to be begun anew; False if there is none."""
         self._tried = self._preparing.count
-        if self._studio.easel.live is not None:
-            self._take_back()
-            self._draw()
+        if self._studio.easel.live is None:
+            return False
+        self._take_back()
+        self._preparing.want((self._needed(),), soon=True)
+        self._draw()
+        return True
 
     def finish(self) -> None:
         """Does all that waits, and compiles what it lacks."""

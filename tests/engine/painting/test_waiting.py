@@ -164,6 +164,26 @@ def test_what_its_exercise_left_out_is_compiled_in_the_end():
     assert easel.log == [(3.0, 1.0)]
 
 
+def test_a_stroke_that_cannot_be_shown_is_sketched_at_once():
+    """Nothing is compiled meanwhile: the picture is looked at again without it."""
+    kernels, easel, waiting, _ = made()
+    kernels.come("begin 3.0", "lay 3.0")
+    for request in stroke(ROCK, 1)[:-1]:
+        waiting.do(request)
+    easel.pending = easel.viewer.pending = 1
+    easel.step = lambda: easel._need("see") if easel.live is not None else easel.log.append("seen")
+    waiting.step()
+    assert easel.live is None
+    assert waiting.waits
+    assert kernels.jobs[-1][1]
+    assert waiting.pending == 1
+    waiting.step()
+    assert easel.log == ["seen"]
+    kernels.come("see")
+    waiting.play()
+    assert easel.live == [3.0, 1.0]
+
+
 def test_closing_does_what_waits():
     kernels, easel, waiting, _ = made()
     for request in [*stroke(ROCK, 1), q.Save("p.ora")]:
