@@ -6,7 +6,7 @@ from typing import Any
 
 from app.canvas.screen import Screen, ScreenTile, cells, near_first
 from app.desk.desk import Desk, Hear
-from app.trace import trace
+from app.trace import TRACED, trace
 from engine.studio import results
 from engine.studio.requests import Look
 
@@ -20,6 +20,7 @@ class Tiles:
         self._screen = screen
         self._asked: tuple[Any, ...] = ()
         self._serial: int | None = None  # of the painting that is shown
+        self._bare = TRACED  # no paint has been shown so far, and somebody wants to know
         self.hears: dict[type, Hear] = {
             results.Patch: self._patch,
             results.Same: self._same,
@@ -42,6 +43,9 @@ class Tiles:
 
     def _patch(self, desk: Desk, patch: results.Patch, now: float) -> None:
         self._screen.upload(patch, desk.view, now)
+        if self._bare and patch.pixels.any():
+            self._bare = False
+            trace("first paint")
 
     def _same(self, _desk: Desk, same: results.Same, _now: float) -> None:
         for tile in same.tiles:

@@ -37,6 +37,8 @@ def draw(desk: Desk, pointer_name: str) -> None:
         right -= width
         imgui.same_line(right)
         imgui.text_unformatted(label)
+        if label:
+            w.named(f"status: {label}")
         w.tooltip(hint)
         right -= 1.4 * imgui.get_font_size()
     imgui.dummy(ImVec2(0, 0))

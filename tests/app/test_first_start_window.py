@@ -1,0 +1,49 @@
+"""The first start of the window, with no kernel compiled: who paints at once sees it, while brushes become ready."""
+
+import re
+import time
+
+import numpy as np
+import pytest
+
+FROM, TO = (500, 400), (620, 430)
+PREPARING = re.compile(r"Preparing brushes, (\d+) of (\d+)$")
+
+
+@pytest.fixture
+def fresh(program, tmp_path, monkeypatch):
+    """A program whose cache of kernels is empty."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    return program()
+
+
+def prepared(program, seconds=90.0):
+    """The numbers that the status line tells."""
+    end = time.monotonic() + seconds
+    while True:
+        told = [found for _, name in program.boxes() if (found := PREPARING.search(name))]
+        if told:
+            return int(told[0][1]), int(told[0][2])
+        assert time.monotonic() < end, program.log.read_text()
+        time.sleep(0.05)
+
+
+@pytest.mark.timeout(280)
+def test_a_stroke_is_seen_long_before_all_brushes_are_ready(fresh):
+    fresh.do("mousemove", *FROM, "mousedown", 1, "mousemove", *TO)
+    fresh.wait_for("first paint")
+    fresh.do("mouseup", 1)
+    ready, of = prepared(fresh)
+    assert 0 <= ready < of
+    assert of >= 60
+    events = [line.split(":")[0] for line in fresh.log.read_text().splitlines() if not line.startswith("box ")]
+    assert [name for name in events if name in ("first frame", "first paint", "all brushes ready")] == [
+        "first frame",
+        "first paint",
+    ]
+    fresh.park()
+    time.sleep(0.5)
+    seen = fresh.screen()[FROM[1] - 3 : FROM[1] + 4, FROM[0] : FROM[0] + 12]  # as far as the stabiliser came
+    unpainted = fresh.screen()[600, 500]
+    assert np.abs(seen.astype(int) - unpainted).max() > 60
