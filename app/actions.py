@@ -136,7 +136,7 @@ def _escape(desk: Desk) -> None:
     desk.hand.use("brush")
 
 
-def free_name(desk: Desk, stem: str) -> str:
+def next_layer_name(desk: Desk, stem: str) -> str:
     """`stem` with the first number that no layer has yet."""
     taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
     n = 1
@@ -146,7 +146,7 @@ def free_name(desk: Desk, stem: str) -> str:
 
 
 def _add(kind: str, stem: str) -> Callable[[Desk], None]:
-    return lambda desk: desk.post(Do(c.AddLayer(free_name(desk, stem), kind=kind)))
+    return lambda desk: desk.post(Do(c.AddLayer(next_layer_name(desk, stem), kind=kind)))
 
 
 def _active(desk: Desk) -> str:
@@ -157,7 +157,7 @@ def _active(desk: Desk) -> str:
 
 def _duplicate(desk: Desk) -> None:
     name = _active(desk)
-    desk.post(Do(c.DuplicateLayer(name, free_name(desk, f"{name} copy"))))
+    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} copy"))))
 
 
 def _remove(desk: Desk) -> None:

@@ -11,7 +11,7 @@ import glfw  # isort: skip
 from imgui_bundle import imgui
 
 from app.canvas.overlay import Overlay
-from app.canvas.screen import Plan, Screen
+from app.canvas.screen import Screen, ScreenPlan
 from app.desk.desk import Desk
 
 assert imgui_bundle
@@ -22,7 +22,7 @@ class Drawing:
 
     def __init__(self, window: Any, screen: Screen, overlay: Overlay) -> None:
         self._window, self._screen, self._overlay = window, screen, overlay
-        self._plan: Plan | None = None  # of the canvas, as it was last drawn
+        self._plan: ScreenPlan | None = None  # of the canvas, as it was last drawn
         self.drawn = False
 
     def draw(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:

@@ -39,7 +39,7 @@ def run(path: str | None = None, play: str | None = None) -> int:
 
     WindowError if there is no display or no OpenGL 3.3.
     """
-    window = opened()
+    window = opened_window()
     window.frame()
     trace("first frame")
     open_log()
@@ -71,7 +71,7 @@ def _told(worker: Any) -> int:
     return 1 if faults else 0
 
 
-def opened() -> Window:
+def opened_window() -> Window:
     """The window, nothing drawn yet.  WindowError if there is no display, no OpenGL 3.3, or a library is missing."""
     rest = threading.Thread(target=_load, args=("app.window",))
     rest.start()

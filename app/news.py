@@ -8,7 +8,7 @@ from pathlib import Path
 from app.desk import flight
 from app.desk.desk import Desk, Hear
 from app.desk.files import Done
-from app.desk.known import Known, told
+from app.desk.known import Known, known_after
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
@@ -66,7 +66,7 @@ class News:
 
     def _hear(self, result: Result | Done, now: float) -> None:
         before = self._desk.known
-        self._desk.known = told(before, result, now)
+        self._desk.known = known_after(before, result, now)
         for hear in self._who(type(result)):
             hear(self._desk, result, now)
         _trace(before, self._desk.known)

@@ -56,7 +56,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         return
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
-    example_use.reach(desk)
+    example_use.fit_within_reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)

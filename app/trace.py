@@ -24,7 +24,7 @@ def trace(what: str) -> None:
     sys.stderr.flush()
 
 
-def place(window: str, name: str, box: Box) -> None:
+def note_place(window: str, name: str, box: Box) -> None:
     """Notes where a control of a window lies in this frame; a second one of a name gets a number."""
     if not TRACED:
         return

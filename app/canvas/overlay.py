@@ -83,7 +83,7 @@ class Overlay:
         waits for all that was begun when it turns from one picture to the other.
         """
         lists = [one for one in self._lists if one._owner_name != _UNDER]
-        groups = grouped([self._sheets[one._owner_name] for one in lists])
+        groups = grouped_sheets([self._sheets[one._owner_name] for one in lists])
         for group in groups:
             if (group.box, group.sheets) not in self._drawn:
                 self._render_box(data, group.box, [lists[n] for n in group.lists])
@@ -181,7 +181,7 @@ def _touched(data: imgui.ImDrawData, told: Told) -> Box:
     return (left, top, right, bottom) if left < right and top < bottom else NOTHING
 
 
-def grouped(sheets: Sequence[Sheet]) -> list[Group]:
+def grouped_sheets(sheets: Sequence[Sheet]) -> list[Group]:
     """All sheets that touch anything, from the lowest to the topmost, in groups whose boxes do not overlap."""
     groups: list[Group] = []
     for n, sheet in enumerate(sheets):

@@ -52,7 +52,7 @@ class _Held:
 
 
 @dataclass(slots=True)
-class Plan:
+class ScreenPlan:
     """What the canvas is to show.  Cells of each pass: nine floats each, as canvas.vert reads them; the paper needs
     only where they lie.  Plans that are equal look alike."""
 
@@ -185,7 +185,7 @@ class Screen:
             return oldest.layer
         return self._free.pop()
 
-    def draw(self, plan: Plan) -> None:
+    def draw(self, plan: ScreenPlan) -> None:
         """Draws the canvas."""
         view = plan.view
         self._set_uniforms(view, plan.frame)
@@ -219,12 +219,12 @@ class Screen:
         p["phase"], p["blend"] = tuple(phase), view.fraction
         p["light"], p["dark"] = LIGHT, DARK
 
-    def plan(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> Plan:
+    def plan(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> ScreenPlan:
         """What to draw, decided before anything is drawn.
 
         `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
         """
-        plan = Plan(view, frame, insets, self._uploads)
+        plan = ScreenPlan(view, frame, insets, self._uploads)
         exact = not view.fraction and not view.angle
         for tile in cells(view, view.shown_level):
             held = self._touch(tile)
@@ -253,7 +253,7 @@ class Screen:
             self._held.move_to_end(tile)
         return held
 
-    def _descendants(self, plan: Plan, view: View, tile: ScreenTile, depth: int) -> None:
+    def _descendants(self, plan: ScreenPlan, view: View, tile: ScreenTile, depth: int) -> None:
         """Finer tiles, shrunk, for a place left by zooming out."""
         for n in (0, 1, 2, 3):
             child = ScreenTile(tile.level + 1, tile.x * 2 + (n & 1), tile.y * 2 + (n >> 1))

@@ -164,7 +164,7 @@ class View:
         return replace(self, width=width, height=height)
 
 
-def fitted(frame: Rect, area: tuple[float, float, float, float], width: int, height: int) -> View:
+def view_of(frame: Rect, area: tuple[float, float, float, float], width: int, height: int) -> View:
     """The level-0 rectangle `frame` shown upright in the screen rectangle `area` (x0, y0, x1, y1), with a margin."""
     x0, y0, x1, y1 = area
     w, h = max(1, frame.width), max(1, frame.height)

@@ -9,7 +9,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output, grown, opened
+from app.cli.output import checked_output, grown, opened_painting
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -79,14 +79,14 @@ def _read(path: str) -> tuple[np.ndarray, list[str]]:
     import numpy as np
 
     from engine.numeric.colour import to_rgba8
-    from engine.painting.rendering import folded, strips
+    from engine.painting.rendering import folded_layers, strips
 
-    found = opened(path)
+    found = opened_painting(path)
     frame = found.painting.frame
     if frame.area > _PIXELS:
         raise Refused(f"{path}: found a frame of {frame.width} x {frame.height}, expected at most {_PIXELS} pixels")
     out = np.empty((frame.height, frame.width, 4), np.uint8)
-    root, row = folded(grown(path, found).root), 0
+    root, row = folded_layers(grown(path, found).root), 0
     with Progress("drawing", frame.height) as tell:
         for strip in strips(root, 0, frame):
             out[row : row + strip.shape[1]] = to_rgba8(strip)

@@ -39,7 +39,7 @@ def run_command(name: str, words: list[str]) -> int:
     module = importlib.import_module(f"app.cli.{MODULES.get(name, name)}")
     parser = Parser(prog=f"inkfall {name}", description=module.__doc__, allow_abbrev=False)
     module.declare(parser)
-    status: int = module.run(parser.parse_args(joined(words)))
+    status: int = module.run(parser.parse_args(joined_options(words)))
     return status
 
 
@@ -65,7 +65,7 @@ def run_option(words: list[str], commands: Mapping[str, str]) -> int:
     return 0
 
 
-def joined(words: list[str]) -> list[str]:
+def joined_options(words: list[str]) -> list[str]:
     """`--rect -4,0,0,8,8` as `--rect=-4,0,0,8,8`: argparse would take the value for an option."""
     out: list[str] = []
     for word in words:

@@ -74,12 +74,12 @@ def _check_paths(given: argparse.Namespace) -> None:
 def _parameters(given: argparse.Namespace) -> Parameters:
     from engine.checks.field_error import FieldError
     from engine.strokes.example_files import read_parameters
-    from engine.texture.example.parameters import Parameters, changed
+    from engine.texture.example.parameters import Parameters, with_values
 
     parameters = read_parameters(given.params) if given.params else Parameters()
     told = {name: getattr(given, name) for name in _FIELDS if getattr(given, name) is not None}
     try:
-        return changed(parameters, told, "--")
+        return with_values(parameters, told, "--")
     except FieldError as error:
         raise Refused(str(error)) from None
 

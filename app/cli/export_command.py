@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from app.cli.arguments import rectangle
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output, grown, opened, picture_of, rect_of
+from app.cli.output import checked_output, grown, opened_painting, picture_of, rect_of
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def run(options: argparse.Namespace) -> int:
         raise Refused("--depth: found 16 for an .ora, expected it for a picture")
     if os.path.exists(options.out) and os.path.samefile(options.painting, options.out):
         raise Refused(f"{options.out}: found the painting itself, expected another file to write to")
-    found = opened(options.painting)
+    found = opened_painting(options.painting)
     from engine.canvas.layers import LayerError, find
 
     if options.layer is not None:

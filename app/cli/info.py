@@ -8,7 +8,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from app.cli.outcome import DONE
-from app.cli.output import opened
+from app.cli.output import opened_painting
 
 if TYPE_CHECKING:
     from engine.archive.imports import Opened
@@ -28,7 +28,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
-    told = facts(opened(options.painting, tell=not options.json))
+    told = facts(opened_painting(options.painting, tell=not options.json))
     told = {"file": options.painting, "file_bytes": os.path.getsize(options.painting), **told}
     if options.json:
         print(json.dumps(told))
@@ -80,7 +80,7 @@ def _row(root: Group, node: Node) -> dict[str, Any]:
             "levels": sorted(pyramid.levels),
             "tiles": sum(len(stored) for stored in pyramid.levels.values()),
             "bytes": pyramid.nbytes,
-            "bounds": bounds(pyramid),
+            "bounds": painted_bounds(pyramid),
         }
         if node.growth:
             row["examples"] = [_plot(plot) for plot in node.growth]
@@ -102,7 +102,7 @@ def _plot(plot: Plot) -> dict[str, Any]:
     }
 
 
-def bounds(pyramid: Pyramid) -> list[int] | None:
+def painted_bounds(pyramid: Pyramid) -> list[int] | None:
     """[L, X, Y, W, H]: the smallest rectangle that holds all paint, to a pixel of L, the finest level at which it is no
     more than _WIDE pixels wide and high; None if there is no paint.
 

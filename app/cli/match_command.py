@@ -39,7 +39,7 @@ WHOLE = (
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Example:
+class ExampleArgument:
     """A picture: float32 (C, h, w) in 0..1, grey, RGB or premultiplied RGBA; and the bits of its samples."""
 
     path: str
@@ -64,14 +64,14 @@ def run(name: str, words: list[str]) -> int:
     check_memory(height * width, examples, f"{width} x {height}", 44 + 12 * thread_count())
     pattern = _pattern(name, given, [example.planes for example in examples], (height, width))
     beginning = _beginning(pattern, start, given.seed, (height, width))
-    from engine.texture.matching import matching, picture
+    from engine.texture.matching import matched_colours, matching
 
     with threads() as pool:
         planes = finished("matching", matching(pattern, beginning, given.iterations, pool, given.exact))
     depth = given.depth or max(example.bits for example in examples)
-    pixels = pixels_of(picture(pattern, planes), depth)
+    pixels = pixels_of(matched_colours(pattern, planes), depth)
     write(given.out, pixels)
-    tell(given, told(given, pattern.shape, pixels) | {"size": [width, height]})
+    tell(given, summary(given, pattern.shape, pixels) | {"size": [width, height]})
     return DONE
 
 
@@ -132,7 +132,7 @@ def part(text: str) -> float:
     return float(text)
 
 
-def read(path: str, out: str) -> Example:
+def read(path: str, out: str) -> ExampleArgument:
     """A picture file; Refused or FileError says what is wrong with it."""
     from engine.files.images import read_image
     from engine.files.limits import LIMITS
@@ -145,12 +145,12 @@ def read(path: str, out: str) -> Example:
     bits = 8 * pixels.dtype.itemsize
     planes = from_rgba8(pixels) if bits == 8 else from_rgba16(pixels)
     if (planes[3] != 1.0).any():
-        return Example(path, planes, bits)
+        return ExampleArgument(path, planes, bits)
     grey = (planes[1] == planes[0]).all() and (planes[2] == planes[0]).all()
-    return Example(path, planes[: 1 if grey else 3], bits)
+    return ExampleArgument(path, planes[: 1 if grey else 3], bits)
 
 
-def check_memory(pixels: int, examples: list[Example], asked: str, each: int) -> None:
+def check_memory(pixels: int, examples: list[ExampleArgument], asked: str, each: int) -> None:
     """Refused, if so many pixels of `each` bytes for each channel, beside the examples, are beyond the machine."""
     from engine.files.limits import memory_cap
 
@@ -173,7 +173,7 @@ def _pattern(name: str, given: argparse.Namespace, examples: list[np.ndarray], s
     return MIXES[given.how](examples[0], examples[1], shape, Mix(given.weight, given.split))
 
 
-def _beginning(pattern: Pattern, start: Example | None, seed: int, size: tuple[int, int]) -> np.ndarray:
+def _beginning(pattern: Pattern, start: ExampleArgument | None, seed: int, size: tuple[int, int]) -> np.ndarray:
     """Noise, or the start picture stretched to the size, along its own axes of colour."""
     import numpy as np
 
@@ -243,7 +243,7 @@ def write(path: str, pixels: np.ndarray) -> None:
         write_png(file, pixels)
 
 
-def told(given: argparse.Namespace, shape: Shape, pixels: np.ndarray) -> dict[str, Any]:
+def summary(given: argparse.Namespace, shape: Shape, pixels: np.ndarray) -> dict[str, Any]:
     """What there is to tell of a texture: the pyramid may have fewer levels than were asked for."""
     return {
         "written": given.out,

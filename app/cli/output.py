@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from engine.painting.value import Painting
 
 
-def opened(path: str, tell: bool = True) -> Opened:
+def opened_painting(path: str, tell: bool = True) -> Opened:
     """The painting in an .ora; what was lost or replaced on the way is told on standard error."""
     from engine.archive.opening import open_painting
 

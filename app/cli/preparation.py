@@ -18,7 +18,7 @@ def prepare() -> str:
 
     Failed if some could not be made ready, or nothing can be kept.
     """
-    found, _ = presets.load(presets.bundled_folder())
+    found, _ = presets.load_brushes(presets.bundled_folder())
     jobs = expected(Swatch("", preset.brush, _PICTURE, textures=preset.textures) for preset in found)
     faults: list[str] = []
     preparing = Preparing(report=faults.append, gently=False)

@@ -34,16 +34,16 @@ def run(words: list[str]) -> int:
     side = given.size
     match_command.check_memory(side**3, [example], f"{side}, a cube of {side} voxels each way", EACH)
     from engine.texture import solid
-    from engine.texture.matching import Shape, picture
+    from engine.texture.matching import Shape, matched_colours
 
     shape = Shape("steerable", given.levels, given.orientations)
     wanted = solid.patterns(example.planes, side, shape)
     start = solid.noise(wanted.oriented.colours.count, side, given.seed)
     with match_command.threads() as pool:
         cubes = match_command.finished("growing", solid.matching(wanted, start, given.iterations, pool))
-    voxels = _voxels(picture(wanted.oriented, cubes), given.depth or example.bits)
+    voxels = _voxels(matched_colours(wanted.oriented, cubes), given.depth or example.bits)
     write(voxels)
-    facts = match_command.told(given, wanted.oriented.shape, voxels) | {"size": [side, side, side]}
+    facts = match_command.summary(given, wanted.oriented.shape, voxels) | {"size": [side, side, side]}
     if given.png is not None:
         match_command.write(given.png, sheet(voxels))
         facts["sheet"] = given.png

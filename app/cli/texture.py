@@ -100,7 +100,7 @@ def _parser(name: str) -> Parser:
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits; 16 for height fields")
     if name != "spectrum":
         parser.add_argument(
-            "--origin", type=place, default=(0, 0), metavar="X,Y", help="place of the window on the endless field"
+            "--origin", type=read_place, default=(0, 0), metavar="X,Y", help="place of the window on the endless field"
         )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     declared: dict[str, dict[str, Any]] = {
@@ -127,7 +127,7 @@ _PHASES = {
 }
 
 
-def place(text: str) -> tuple[int, int]:
+def read_place(text: str) -> tuple[int, int]:
     """`X,Y`: integers of any size."""
     if not re.fullmatch(r"[+-]?[0-9]{1,2000},[+-]?[0-9]{1,2000}", text):
         raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected X,Y: two integers")

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from app.canvas.glide import Glide
-from app.canvas.view import Place, View, fitted
+from app.canvas.view import Place, View, view_of
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.hand import Hand
@@ -154,7 +154,7 @@ class Desk:
     def fit(self) -> None:
         """Shows the whole frame."""
         self.glide.stop()
-        self.view = fitted(self.known.frame, self.free_area(), self.view.width, self.view.height)
+        self.view = view_of(self.known.frame, self.free_area(), self.view.width, self.view.height)
 
     def look_at(self, place: Place, zoom: float, seconds: float = 0.0) -> None:
         """Brings a place into the middle at a real zoom level, in some seconds."""

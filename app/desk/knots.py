@@ -41,7 +41,7 @@ def added(knots: Knots, x: float, y: float) -> tuple[Knots, int | None]:
     return (*knots[:i], _knot(min(max(x, lo), hi), y), *knots[i:]), i
 
 
-def moved(knots: Knots, i: int, x: float, y: float) -> Knots:
+def moved_knot(knots: Knots, i: int, x: float, y: float) -> Knots:
     """Knot `i` brought to (x, y), or as near as its neighbours let it."""
     lo = knots[i - 1][0] + _GAP if i else 0.0
     hi = knots[i + 1][0] - _GAP if i + 1 < len(knots) else 1.0
@@ -55,7 +55,7 @@ def removed(knots: Knots, i: int) -> Knots:
     return knots if len(knots) <= 2 else (*knots[:i], *knots[i + 1 :])
 
 
-def drawn(knots: Knots, start: tuple[float, float], end: tuple[float, float]) -> Knots:
+def drawn_curve(knots: Knots, start: tuple[float, float], end: tuple[float, float]) -> Knots:
     """The curve by hand: 64 knots side by side, those between two points of the pen on the line between them."""
     (x0, y0), (x1, y1) = sorted((start, end))
     first, last = round(x0 * (CAP - 1)), round(x1 * (CAP - 1))

@@ -72,7 +72,7 @@ class Known:
         return tuple(found)
 
 
-def told(known: Known, result: object, now: float) -> Known:
+def known_after(known: Known, result: object, now: float) -> Known:
     """What is known after a result that came at a time; the same if it tells nothing of this."""
     teller = _TELLERS.get(type(result))
     news = {} if teller is None else teller(known, result, now)

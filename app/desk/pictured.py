@@ -17,7 +17,7 @@ NAME_LENGTH = 24
 
 def from_file(desk: Desk, path: Path) -> None:
     """Asks for a texture made of a picture file; it joins the ink as soon as it is there."""
-    name = free_name(desk, path.stem)
+    name = free_texture_name(desk, path.stem)
     _define(desk, DefineTexture(name, "image", Map({"path": str(path.absolute())})))
 
 
@@ -25,12 +25,12 @@ def from_view(desk: Desk) -> None:
     """Asks for a texture made of what the window shows of the canvas, at the level shown."""
     rect = seen(desk)
     arguments = {"rect": (desk.view.shown_level, rect.x0, rect.y0, rect.width, rect.height), "detail": DETAIL}
-    _define(desk, DefineTexture(free_name(desk, "View"), "canvas", Map(arguments)))
+    _define(desk, DefineTexture(free_texture_name(desk, "View"), "canvas", Map(arguments)))
 
 
 def kept_view(desk: Desk) -> str:
     """Defines a texture of what the window shows of the canvas, which does not join the ink; its name."""
-    rect, name = seen(desk), free_name(desk, "View")
+    rect, name = seen(desk), free_texture_name(desk, "View")
     arguments = {"rect": (desk.view.shown_level, rect.x0, rect.y0, rect.width, rect.height)}
     desk.post(Do(DefineTexture(name, "canvas", Map(arguments))))
     return name
@@ -50,7 +50,7 @@ def _define(desk: Desk, command: DefineTexture) -> None:
     desk.post(Do(command))
 
 
-def free_name(desk: Desk, stem: str) -> str:
+def free_texture_name(desk: Desk, stem: str) -> str:
     """A name that no texture has yet."""
     stem = "".join(c for c in stem if c.isprintable())[:NAME_LENGTH].strip() or "Picture"
     taken = {row.name for row in desk.known.tables.kinds} | set(desk.known.scene.textures if desk.known.scene else ())

@@ -62,7 +62,7 @@ def own_folder() -> Path:
     return platformdirs.user_config_path("inkfall") / "brushes"
 
 
-def load(folder: Path) -> tuple[list[Preset], list[str]]:
+def load_brushes(folder: Path) -> tuple[list[Preset], list[str]]:
     """The presets of a folder by file name, and a line for each file that is none."""
     presets, faults = _all(folder, _read)
     presets.sort(key=lambda p: (_GROUP_RANK.get(p.group, 1), p.group, _order(p)))
@@ -136,7 +136,7 @@ def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
     return ranked[0][1] if wanted and ranked else None
 
 
-def free_name(name: str, presets: Iterable[Preset]) -> str:
+def free_brush_name(name: str, presets: Iterable[Preset]) -> str:
     """The name itself, or with a number, so that no bundled preset has it; one of the artist's own is replaced."""
     name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"
     taken = {p.name.lower() for p in presets if p.path is None or p.path.parent == bundled_folder()}
@@ -147,7 +147,7 @@ def free_name(name: str, presets: Iterable[Preset]) -> str:
     return wanted
 
 
-def save(preset: Preset, folder: Path) -> Path:
+def save_brush(preset: Preset, folder: Path) -> Path:
     """Writes a preset as a file of the user's folder, in place of the one of that name."""
     folder.mkdir(parents=True, exist_ok=True)
     path = _own_path(preset.name, folder)

@@ -28,11 +28,11 @@ class TakeStock(FileWork):
 
     def carry_out(self) -> Stock:
         """Reads presets, papers and examples, those that come along and the artist's own."""
-        bundled, faults = presets.load(presets.bundled_folder())
-        own, more = presets.load(presets.own_folder())
+        bundled, faults = presets.load_brushes(presets.bundled_folder())
+        own, more = presets.load_brushes(presets.own_folder())
         papers, torn = presets.load_papers(presets.papers_folder())
-        given, bad = example_state.load(example_state.bundled_folder(), False)
-        kept, lost = example_state.load(example_state.own_folder(), True)
+        given, bad = example_state.load_examples(example_state.bundled_folder(), False)
+        kept, lost = example_state.load_examples(example_state.own_folder(), True)
         examples = example_state.arranged([*given, *kept])
         return Stock((*bundled, *own), tuple(papers), tuple(examples), (*faults, *more, *torn, *bad, *lost))
 

@@ -183,7 +183,7 @@ def unpacked(state: ValuatorState) -> dict[int, float]:
     return out
 
 
-def decoded(event: DeviceEvent, device: Device | None) -> PenEvent | None:
+def pen_event(event: DeviceEvent, device: Device | None) -> PenEvent | None:
     """The record of an XI_Motion, XI_ButtonPress or XI_ButtonRelease; None for what means nothing here."""
     kind, detail = event.evtype, event.detail
     fields: dict[str, float | int | bool] = {}
@@ -346,7 +346,7 @@ class XInput2Pointer:
             return
         if cookie.evtype in (MOTION, BUTTON_PRESS, BUTTON_RELEASE):
             report = ct.cast(cookie.data, ct.POINTER(DeviceEvent)).contents
-            found = decoded(report, self._devices.get(report.sourceid))
+            found = pen_event(report, self._devices.get(report.sourceid))
             if found is not None:
                 self._queue.append(found)
         else:

@@ -124,7 +124,7 @@ class Layout:
         strip, self._strip = self._strip, desk.strip
         desk.insets = insets
         left, top, right, bottom = (round(inset) for inset in insets)
-        trace.place("canvas", "canvas", (left, top, desk.view.width - right, desk.view.height - bottom))
+        trace.note_place("canvas", "canvas", (left, top, desk.view.width - right, desk.view.height - bottom))
         if strip != self._strip and not desk.painting:
             desk.view = desk.view.held(desk.view.to_canvas(x, y), *desk.middle())
 

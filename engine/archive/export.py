@@ -18,7 +18,7 @@ from engine.files.tiff_writer import write_tiff
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.grown import settled_root
-from engine.painting.rendering import Progress, folded, strips
+from engine.painting.rendering import Progress, folded_layers, strips
 from engine.painting.value import Painting
 
 PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
@@ -77,7 +77,7 @@ def export(
     root = picture.painting.root
     if picture.layer is not None:
         root = layers.alone(layers.find(root, picture.layer))
-    root = folded(settled_root(root))
+    root = folded_layers(settled_root(root))
     to_pixels = to_rgba8 if picture.depth == 8 else to_rgba16
 
     def rows() -> Iterator[np.ndarray]:

@@ -35,7 +35,7 @@ class GroundEntry:
     gone: tuple[TileKey, ...] = ()
 
 
-def lay(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> Pyramid:
+def lay_ground(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> Pyramid:
     """A layer that begins with a picture, uint8 or uint16 RGBA (h, w, 4), at (x, y) of level 0; `png`: the same
     picture as a PNG, where it is at hand."""
     rect = Rect.at(x, y, pixels.shape[1], pixels.shape[0])
@@ -77,7 +77,7 @@ def entry(pyramid: Pyramid, member: str) -> GroundEntry | None:
 def restored(found: GroundEntry, png: bytes, where: str, limits: Limits) -> Pyramid:
     """The ground laid down again from its PNG, without the tiles that are gone.  FileError if that is none."""
     pixels = PngReader(io.BytesIO(png), where, limits).read()
-    pyramid = lay(pixels, *found.at, png)
+    pyramid = lay_ground(pixels, *found.at, png)
     levels = pyramid.levels
     for key in found.gone:
         tiles = levels.get(key.level)
@@ -107,7 +107,7 @@ def to_json(found: GroundEntry) -> dict[str, Any]:
     return {"member": found.member, "at": list(found.at), "gone": [list(key) for key in found.gone]}
 
 
-def parse(value: Any, where: str) -> GroundEntry:
+def read_ground(value: Any, where: str) -> GroundEntry:
     """FieldError names the member that is wrong."""
     members = Fields(value, where)
     x, y = members.integers("at", 2, limit=PLACE_LIMIT)

@@ -30,7 +30,7 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.recording import Recording
-from engine.painting.rendering import Progress, Stop, check
+from engine.painting.rendering import Progress, Stop, check_cancelled
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
@@ -97,19 +97,19 @@ def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) 
     held: list[np.ndarray] = []
     count = 0
     for band in bands:
-        check(cancelled)
+        check_cancelled(cancelled)
         held.append(band)
         count += band.shape[0] * band.shape[1]
         if count > grounds.LAID:
             return _committed(chain(held, bands), x, y, cancelled)
-    return grounds.lay(held[0] if len(held) == 1 else np.concatenate(held), x, y) if held else Pyramid()
+    return grounds.lay_ground(held[0] if len(held) == 1 else np.concatenate(held), x, y) if held else Pyramid()
 
 
 def _committed(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop) -> Pyramid:
     """The same, part by part."""
     pyramid = Pyramid()
     for rows in _regrouped(bands, y):
-        check(cancelled)
+        check_cancelled(cancelled)
         pyramid = commit(pyramid, Pasted(rows, Rect.at(x, y, rows.shape[1], len(rows))))
         y += len(rows)
     return pyramid
@@ -266,7 +266,7 @@ class _Import:
         return layer
 
     def _paint(self, entry: LayerEntry) -> Pyramid:
-        check(self._cancelled)
+        check_cancelled(self._cancelled)
         if not self._usable(entry):
             self._notes.append(f"layer {shown(entry.name, 30)}: no PNG {shown(entry.src)}; left empty")
             return Pyramid()

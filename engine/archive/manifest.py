@@ -249,7 +249,7 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
         held.packs[common["id"]] = _packs(members)
         ground = members.take("ground", None)
         if ground is not None:
-            held.grounds[common["id"]] = grounds.parse(ground, f"{where}.ground")
+            held.grounds[common["id"]] = grounds.read_ground(ground, f"{where}.ground")
         plots = _list(members, "plots") if "plots" in members else []
         if plots:
             held.plots[common["id"]] = tuple(

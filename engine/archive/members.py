@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from engine.archive.manifest import MANIFEST, Manifest
 from engine.files.fault import FileError, shown
 from engine.files.zip_reader import ZipArchive
-from engine.painting.rendering import Stop, check
+from engine.painting.rendering import Stop, check_cancelled
 
 WORKERS = 2
 PIECE = 1 << 20
@@ -89,7 +89,7 @@ class Members:
     def _sum(self, name: str) -> str:
         """The SHA-256 of a member, which is kept in memory where it will be needed."""
         if name in self._grounds:
-            check(self._cancelled)
+            check_cancelled(self._cancelled)
             with self._reading:
                 self._kept[name] = self._archive.read(name, self._archive.members[name].size)
             return hashlib.sha256(self._kept[name]).hexdigest()
@@ -97,7 +97,7 @@ class Members:
         with self._reading:
             stream = self._archive.open(name)
         while True:
-            check(self._cancelled)
+            check_cancelled(self._cancelled)
             with self._reading:
                 piece = stream.read(PIECE)
             if not piece:

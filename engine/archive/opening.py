@@ -31,7 +31,7 @@ from engine.files.stack_xml import parse_stack
 from engine.files.strict_json import loads
 from engine.files.zip_reader import ZipArchive
 from engine.painting.recording import Recording, read_from
-from engine.painting.rendering import Progress, Stop, check
+from engine.painting.rendering import Progress, Stop, check_cancelled
 from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
 from engine.texture.example.tiles import Tiles
@@ -152,7 +152,7 @@ class _Opening:
             }
             try:
                 for layer in list(layers.layers(root)):
-                    check(self._cancelled)
+                    check_cancelled(self._cancelled)
                     tiles = list(self._tiles(manifest.packs[layer.id], members, sources))
                     ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
                     pyramid = grounds.with_tiles(ground, self._levels(tiles))
@@ -180,7 +180,7 @@ class _Opening:
         return root, tuple(marks)
 
     def _masks(self, members: Members, member: str, count: int) -> Tiles:
-        check(self._cancelled)
+        check_cancelled(self._cancelled)
         stored = members.stored(member)
         return maskpacks.unpack(stored.checked(), stored.where, count)
 
@@ -207,7 +207,7 @@ class _Opening:
         with ThreadPoolExecutor(WORKERS, "open") as pool:
             try:
                 for pack in packs:
-                    check(self._cancelled)
+                    check_cancelled(self._cancelled)
                     stored = members.stored(pack.member)
                     waiting.append((pack, pool.submit(_unpack, pack, stored, sources)))
                     if len(waiting) > AHEAD:

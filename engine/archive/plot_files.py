@@ -31,7 +31,7 @@ from engine.strokes.example_stroke import FURTHEST
 from engine.strokes.example_textures import KIND, Origin, exemplar_of, key_of, parameters_of
 from engine.texture.example import region as regions
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar
-from engine.texture.example.parameters import FIELDS, Parameters, changed
+from engine.texture.example.parameters import FIELDS, Parameters, with_values
 from engine.texture.example.region import Region
 from engine.texture.example.tiles import NONE, TILE_SIDE, Tiles
 from engine.texture.image import ImageSource
@@ -157,7 +157,7 @@ def parse_example(value: Any, where: str) -> ExampleEntry:
     told = members.take("parameters", expected="an object")
     if not isinstance(told, dict):
         raise members.fault("parameters", "an object")
-    parameters = changed(Parameters(), told, f"{where}.parameters.")
+    parameters = with_values(Parameters(), told, f"{where}.parameters.")
     detail = members.integer("detail", lo=0, hi=DETAIL_CAP)
     return ExampleEntry(members.text("picture"), members.text("mask", None), parameters, detail)
 

@@ -41,10 +41,10 @@ from engine.files.zip_writer import ZipWriter
 from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
-from engine.numeric.shrink import box_reduce, fitted
+from engine.numeric.shrink import box_reduce, fitted_size
 from engine.painting.grown import settled_root
 from engine.painting.recording import Recording
-from engine.painting.rendering import Progress, Stop, check, folded, reach, sheets, strips
+from engine.painting.rendering import Progress, Stop, check_cancelled, folded_layers, reach, sheets, strips
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 
@@ -80,8 +80,8 @@ def save(
     cannot be done, Cancelled if it was asked for; either way nothing has changed.
     """
     try:
-        painting = replace(snapshot.painting, root=folded(settled_root(snapshot.painting.root)))
-        plan = Plan(painting, snapshot.recording, cancelled)
+        painting = replace(snapshot.painting, root=folded_layers(settled_root(snapshot.painting.root)))
+        plan = SavePlan(painting, snapshot.recording, cancelled)
         with replacing(path, verify=lambda part: _verify(part, path, plan)) as file:
             writer = ZipWriter(file)
             writer.add("mimetype", MIMETYPE)
@@ -98,7 +98,7 @@ def save(
         progress(1.0)
 
 
-def _made(plan: Plan, cancelled: Stop) -> Generator[tuple[Job, Product], None, None]:
+def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], None, None]:
     """The members, each with its bytes: those of our own as they are made, a few ahead, then all pictures.
 
     The pictures are one long piece of work, so it is begun first.
@@ -126,7 +126,7 @@ def _made(plan: Plan, cancelled: Stop) -> Generator[tuple[Job, Product], None, N
 
 
 def _next(waiting: deque[tuple[Job, Future[Product]]], cancelled: Stop) -> tuple[Job, Product]:
-    check(cancelled)
+    check_cancelled(cancelled)
     job, future = waiting.popleft()
     return job, future.result()
 
@@ -143,7 +143,7 @@ def _add(writer: ZipWriter, name: str, product: Product, deflate: bool) -> None:
     product.close()
 
 
-def _verify(part: Path, path: str | os.PathLike[str], plan: Plan) -> None:
+def _verify(part: Path, path: str | os.PathLike[str], plan: SavePlan) -> None:
     """Reads the finished file back as a stranger would."""
     try:
         with open(part, "rb") as file:
@@ -158,7 +158,7 @@ def _verify(part: Path, path: str | os.PathLike[str], plan: Plan) -> None:
         raise WriteError(path, f"the file written cannot be read back ({error.message})") from error
 
 
-class Plan:
+class SavePlan:
     """All members of a painting's file, and where each layer's paint goes."""
 
     def __init__(self, painting: Painting, recording: Recording | None, cancelled: Stop) -> None:
@@ -227,7 +227,7 @@ class Plan:
 
     def _thumbnail(self) -> _Png:
         """At most 256 x 256: the level that is just large enough, reduced by exact area means."""
-        size = fitted(self._frame.width, self._frame.height, _THUMBNAIL)
+        size = fitted_size(self._frame.width, self._frame.height, _THUMBNAIL)
         level, frame = self._level, self._frame
         while (
             min(frame.width // 2 - size[0], frame.height // 2 - size[1]) >= 0 and max(frame.width, frame.height) > 1024

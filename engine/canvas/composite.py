@@ -27,7 +27,7 @@ class Read(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class CompositeStep:
     """One operation on the picture so far: its source is a layer, or the steps of an isolated group.
 
     `over`: the operator is src-over.
@@ -35,7 +35,7 @@ class Step:
 
     row: blend.Blend
     opacity: np.float32
-    source: Layer | tuple[Step, ...]
+    source: Layer | tuple[CompositeStep, ...]
     over: bool
 
     @property
@@ -45,12 +45,12 @@ class Step:
 
 
 # What a block needs of a step: its pixels, (4, n) read-only, None if empty, or a list to be composited first.
-_Found = list[tuple[Step, "np.ndarray | _Found | None"]]
+_Found = list[tuple[CompositeStep, "np.ndarray | _Found | None"]]
 
 
-def steps(root: Group) -> tuple[Step, ...]:
+def steps(root: Group) -> tuple[CompositeStep, ...]:
     """What to composite, bottom first: invisible nodes left out, groups that pass through dissolved."""
-    out: list[Step] = []
+    out: list[CompositeStep] = []
     for node in root.children:
         row = blend.BLENDS[node.blend]
         if not node.visible or (node.opacity == 0 and not row.outside):
@@ -60,7 +60,7 @@ def steps(root: Group) -> tuple[Step, ...]:
             continue
         source = node if isinstance(node, Layer) else steps(node)
         if source or row.outside:
-            out.append(Step(row, np.float32(node.opacity), source, row.name == "src-over"))
+            out.append(CompositeStep(row, np.float32(node.opacity), source, row.name == "src-over"))
     return tuple(out)
 
 
@@ -91,7 +91,7 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     return out
 
 
-def _gather(plan: tuple[Step, ...], level: int, rect: Rect, read: Read) -> _Found:
+def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read) -> _Found:
     """The sources that matter for a block, bottom first; read from the top down to the first that covers it all."""
     found: _Found = []
     for step in reversed(plan):
@@ -141,7 +141,7 @@ def _pair_at(found: _Found, i: int) -> bool:
     return isinstance(found[i][1], np.ndarray) and isinstance(found[i + 1][1], np.ndarray)
 
 
-def _apply(step: Step, source: np.ndarray | None, target: np.ndarray, empty: bool) -> bool:
+def _apply(step: CompositeStep, source: np.ndarray | None, target: np.ndarray, empty: bool) -> bool:
     """One source onto the target, which holds nothing yet if `empty`; whether it is empty afterwards."""
     if source is None:
         return empty or step.row.outside

@@ -37,9 +37,9 @@ from engine.texture.matching import (
     Pattern,
     Shape,
     analysed,
+    matched_colours,
     matching,
     noise,
-    picture,
     started,
 )
 from engine.texture.mixing import MIXES, Mix
@@ -129,7 +129,7 @@ def steps(plan: Plan) -> Iterator[Made]:
         pattern = pattern_of(plan, k)
         yield Made(k / plan.stages)
         for step in matching(pattern, _beginning(plan, pattern), plan.iterations):
-            colours = None if step.planes is None else _valid(picture(pattern, step.planes))
+            colours = None if step.planes is None else _valid(matched_colours(pattern, step.planes))
             if colours is not None:
                 shown = [*done, *[colours] * (plan.stages - k)]
                 colours = np.concatenate(shown, axis=1)

@@ -18,7 +18,7 @@ from engine.files.strict_json import Fields
 from engine.makers import spectrum
 from engine.numeric import impulse, spectra
 from engine.numeric.grid import snapped
-from engine.painting.capture import Place
+from engine.painting.capture import PictureSource
 from engine.painting.commands import SEED_LIMIT
 
 SAMPLE_CAP = 1 << 22  # pixels of a sample that is made
@@ -37,14 +37,14 @@ class Sample:
     found: Map[str, Any] = _NOTHING
 
 
-Maker = Callable[[Fields, Place], Sample]
+Maker = Callable[[Fields, PictureSource], Sample]
 
 
-def of_spectrum(members: Fields, place: Place) -> Sample:
+def of_spectrum(members: Fields, place: PictureSource) -> Sample:
     """An amplitude spectrum, from a picture or painted, becomes a sample (section 5.1)."""
     if "path" not in members and "rect" not in members:
         design = spectrum.read(members.all())
-        return Sample(spectrum.picture(spectrum.sample(spectrum.drawn(design, place.shape), design)))
+        return Sample(spectrum.spectrum_picture(spectrum.sample(spectrum.drawn(design, place.shape), design)))
     given = place.picture(members)
     height, width = given.shape[1:]
     _check_size(members, given)
@@ -60,10 +60,10 @@ def of_spectrum(members: Fields, place: Place) -> Sample:
     loudness = _planes(given)  # premultiplied: what is transparent is silent
     design = spectrum.Design((width, height), phase=phase, seed=seed, part=_PARTS[part], forward=forward)
     sheets = spectrum.Sheets(loudness if forward else spectra.symmetric(loudness), turns)
-    return Sample(spectrum.picture(spectrum.sample(sheets, design)))
+    return Sample(spectrum.spectrum_picture(spectrum.sample(sheets, design)))
 
 
-def of_picture(members: Fields, place: Place) -> Sample:
+def of_picture(members: Fields, place: PictureSource) -> Sample:
     """A picture as it is, or a spectrum's sample, to be scattered (section 5.2)."""
     if "path" not in members and "rect" not in members:
         return of_spectrum(members, place)
@@ -72,7 +72,7 @@ def of_picture(members: Fields, place: Place) -> Sample:
     return Sample(_pictured(flattened(given)))
 
 
-def of_photograph(members: Fields, place: Place) -> Sample:
+def of_photograph(members: Fields, place: PictureSource) -> Sample:
     """Windowed pieces of a photograph, averaged as spectra, become an impulse response (section 5.3).
 
     A coloured one keeps its mean colour, and its contrast as `spread`.
@@ -86,7 +86,7 @@ def of_photograph(members: Fields, place: Place) -> Sample:
     if phase not in impulse.PHASES:
         raise members.fault("phase", f"one of {', '.join(impulse.PHASES)}")
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
-    response = impulse.response(planes, window, average, phase, seed)
+    response = impulse.impulse_response(planes, window, average, phase, seed)
     found: dict[str, Any] = {"window": window, "average": average}
     means = np.full((1, 1, 1), 0.5, np.float32)
     if len(planes) == 3:
@@ -111,7 +111,7 @@ def _planes(rgba: np.ndarray) -> np.ndarray:
     return rgba[:1] if grey else rgba[:3]
 
 
-def _phases(members: Fields, place: Place, size: tuple[int, int]) -> np.ndarray:
+def _phases(members: Fields, place: PictureSource, size: tuple[int, int]) -> np.ndarray:
     """The phases that a picture tells, 0..1 for -pi..pi, 1/2 where it is transparent: float32 (1, h, w)."""
     given = place.picture(Fields({"path": members.text("phase", cap=4096)}, ""))
     if given.shape[1:] != size:

@@ -19,7 +19,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.makers import heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, USUAL, kind_of
-from engine.painting.capture import Place, captured, read_picture
+from engine.painting.capture import PictureSource, captured, read_picture
 from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around, Texture
 from engine.strokes import example_textures
@@ -69,7 +69,7 @@ def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Aro
         raise members.fault("field", f"one of {', '.join(FIELDS)}")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        sample = make(members, Place(around.folder, root, around.pictures))
+        sample = make(members, PictureSource(around.folder, root, around.pictures))
         parameters = sample.found.update(parameters)
         rgba = sample.rgba
         if field == "tile" and rgba.shape[2] < NARROWEST:
@@ -84,7 +84,7 @@ def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
     members = Fields(thawed(command.arguments), "")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        sample = heeger_bergen.of_examples(command.maker, members, Place(around.folder, root, around.pictures))
+        sample = heeger_bergen.of_examples(command.maker, members, PictureSource(around.folder, root, around.pictures))
         parameters = sample.found.update(parameters)
         source = ImageSource.of(command.name, sample.rgba)
     return Texture(kind_of(command), parameters, source)

@@ -317,7 +317,7 @@ def sample(sheets: Sheets, design: Design) -> np.ndarray:
     return spectra.texture_of(painted, phase, design.part, design.forward)
 
 
-def picture(texture: np.ndarray) -> np.ndarray:
+def spectrum_picture(texture: np.ndarray) -> np.ndarray:
     """A sample as the picture that brushes and files hold: float32 (4, h, w) on the grid, (S + 1) / 2 over alpha 1."""
     out = np.ones((4, *texture.shape[1:]), np.float32)
     out[:3] = np.clip(np.float32(0.5) + np.float32(0.5) * texture, 0.0, 1.0)

@@ -38,7 +38,7 @@ def suggested_window(planes: np.ndarray) -> int:
     return out
 
 
-def response(planes: np.ndarray, window: int, average: int, phase: str = "window", seed: int = 0) -> np.ndarray:
+def impulse_response(planes: np.ndarray, window: int, average: int, phase: str = "window", seed: int = 0) -> np.ndarray:
     """The impulse response of a picture float32 (c, h, w): float32 (c, n, m), mean 0, deviation `spectra.SPREAD`.
 
     n and m are `window`, or a side of the picture where that is shorter.  The amplitudes are the root of the mean

@@ -12,7 +12,7 @@ import numpy as np
 from engine.numeric.kernel import kernel
 
 
-def fitted(width: int, height: int, limit: int) -> tuple[int, int]:
+def fitted_size(width: int, height: int, limit: int) -> tuple[int, int]:
     """The largest size of the same shape within `limit` x `limit`, never larger than the original, at least 1 x 1."""
     longest = max(width, height, limit)
     return max(1, round(width * limit / longest)), max(1, round(height * limit / longest))

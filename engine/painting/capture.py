@@ -34,7 +34,7 @@ _NO_PICTURES: Map[str, ImageSource] = Map()
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PictureSource:
     """Where pictures come from: files, paths starting from a folder; the canvas; those known by their sha."""
 
     folder: Path | None

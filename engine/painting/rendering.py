@@ -24,7 +24,7 @@ Stop = Callable[[], bool] | None
 Progress = Callable[[float], None] | None  # gets the part done, 0..1
 
 
-def folded(root: Group) -> Group:
+def folded_layers(root: Group) -> Group:
     """The same tree with nothing pending, so that no strip settles it anew."""
     for layer in list(layers.layers(root)):
         settled = fold(layer.pyramid)
@@ -51,7 +51,7 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
             out = np.empty((4, band.height, band.width), np.float32)
         strip = out[:, : band.height]
         for x in range(band.x0, band.x1, columns):
-            check(cancelled)
+            check_cancelled(cancelled)
             piece = Rect(x, band.y0, min(x + columns, band.x1), band.y1)
             rows, across = piece.slices(band)
             strip[:, rows, across] = composite(root, level, piece, _reader(piece))
@@ -72,7 +72,7 @@ def sheets(
         band = Rect(frame.x0, y, frame.x1, min(y + rows, frame.y1))
         known: dict[int, np.ndarray] = {}
         for layer in all_layers:
-            check(cancelled)
+            check_cancelled(cancelled)
             part = places[layer.id].intersect(band)
             if not part.empty:
                 found = layer_planes(layer, level, part)
@@ -107,7 +107,7 @@ def _nothing(planes: np.ndarray) -> bool:
     return not planes[3].max() and not planes[:3].max() and not planes[:3].min()
 
 
-def check(cancelled: Stop) -> None:
+def check_cancelled(cancelled: Stop) -> None:
     """Raises Cancelled if the one who asked says so."""
     if cancelled is not None and cancelled():
         raise Cancelled

@@ -23,7 +23,7 @@ STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Step:
+class Undoable:
     """`lost`, `gained`: bytes held only by the painting before, and only by the one after."""
 
     before: Painting
@@ -39,8 +39,8 @@ class History(Owned):
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1) -> None:
-        self._done: deque[Step] = deque()
-        self._undone: list[Step] = []
+        self._done: deque[Undoable] = deque()
+        self._undone: list[Undoable] = []
         self._bytes_cap, self._keep = bytes_cap, keep
         self.held = 0  # bytes
 
@@ -58,7 +58,7 @@ class History(Owned):
         """A step was done: nothing that was undone can be redone any more."""
         self.held -= sum(step.gained + STEP_OVERHEAD for step in self._undone)
         self._undone.clear()
-        step = Step(before, after, *difference(before.root, after.root))
+        step = Undoable(before, after, *difference(before.root, after.root))
         self._done.append(step)
         self.held += step.lost + STEP_OVERHEAD
         self._forget()
@@ -81,12 +81,12 @@ class History(Owned):
         """The layers as they are now, further refined, are `root`."""
         if self._done:
             step = self._done[-1]
-            new = Step(step.before, replace(step.after, root=root), *difference(step.before.root, root))
+            new = Undoable(step.before, replace(step.after, root=root), *difference(step.before.root, root))
             self._done[-1] = new
             self.held += new.lost - step.lost
         if self._undone:
             step = self._undone[-1]
-            new = Step(replace(step.before, root=root), step.after, *difference(root, step.after.root))
+            new = Undoable(replace(step.before, root=root), step.after, *difference(root, step.after.root))
             self._undone[-1] = new
             self.held += new.gained - step.gained
 

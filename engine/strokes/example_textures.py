@@ -30,7 +30,7 @@ from engine.painting.textures import Around, Texture
 from engine.strokes.example_files import kept, read_mask, read_parameters
 from engine.strokes.example_region import STEPS_CAP, followed
 from engine.texture.example.exemplar import EXAMPLE_SIDE, Exemplar, shrunk
-from engine.texture.example.parameters import FIELDS, Parameters, changed
+from engine.texture.example.parameters import FIELDS, Parameters, with_values
 from engine.texture.image import ImageSource
 
 KIND = "example"
@@ -178,7 +178,7 @@ def _regular(path: Path) -> None:
 
 def parameters_of(texture: Texture) -> Parameters:
     """Gives the parameters by which an example texture is grown.  FieldError names what is wrong."""
-    return changed(Parameters(), {name: texture.parameters[name] for name in FIELDS if name in texture.parameters})
+    return with_values(Parameters(), {name: texture.parameters[name] for name in FIELDS if name in texture.parameters})
 
 
 def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:

@@ -128,7 +128,7 @@ class Lab(Owned):
 
     def _source(self, name: str) -> ImageSource:
         assert self._texture is not None
-        return ImageSource.of(name, spectrum.picture(self._texture))
+        return ImageSource.of(name, spectrum.spectrum_picture(self._texture))
 
     def _define(self, command: c.DefineTexture) -> None:
         """Defines the texture in the painting; its sample is here already, and is not made of the strokes again."""

@@ -18,7 +18,7 @@ from engine.checks.owned import Owned
 from engine.makers import spectrum
 from engine.makers.spectrum import Design, Sheets
 from engine.painting import commands as c
-from engine.painting.capture import Place
+from engine.painting.capture import PictureSource
 from engine.painting.points import rounded
 from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
@@ -180,7 +180,7 @@ class LabSpectrum(Owned):
 
     def _look(self, shape: Map[str, Any]) -> np.ndarray:
         session = self._easel.session
-        return Place(session.folder, session.painting.root, session.around().pictures).shape(shape)
+        return PictureSource(session.folder, session.painting.root, session.around().pictures).shape(shape)
 
 
 def _scaled(stroke: c.Stroke, x: float, y: float) -> c.Stroke:

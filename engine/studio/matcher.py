@@ -25,7 +25,7 @@ from engine.makers import heeger_bergen
 from engine.makers.heeger_bergen import Plan
 from engine.numeric.colour_axes import ColourAxes
 from engine.painting import commands as c
-from engine.painting.capture import Place
+from engine.painting.capture import PictureSource
 from engine.studio import faults, results
 from engine.studio import requests as q
 from engine.studio.easel import Easel
@@ -200,7 +200,7 @@ class _Pictures:
         key = (json.dumps(_naming(members), sort_keys=True), *self._stamp(members))
         known = self._known.get(key)
         if known is None or known[0] is not root:
-            found = Place(session.folder, session.painting.root).picture(members)
+            found = PictureSource(session.folder, session.painting.root).picture(members)
             while len(self._known) >= _KEPT:
                 self._known.pop(next(iter(self._known)))
             known = self._known[key] = root, found

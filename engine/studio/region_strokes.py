@@ -231,7 +231,7 @@ class Regions(Owned):
         box, held.dirty = held.dirty, None
         size = held.whole.width, held.whole.height
         if box is not None:
-            pixels = results.frozen(shown(held.flat, held.inside, box))
+            pixels = results.frozen(region_picture(held.flat, held.inside, box))
             self._send(results.PicturePart(f"region {self._ident}", size, box, pixels))
         if held.live is None:
             self._send(held.scene(self._ident))
@@ -255,7 +255,7 @@ def over_paper(picture: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(found)
 
 
-def shown(flat: np.ndarray, inside: np.ndarray, box: Rect) -> np.ndarray:
+def region_picture(flat: np.ndarray, inside: np.ndarray, box: Rect) -> np.ndarray:
     """Returns a part of a picture, uint8 (h, w, 3), with what is outside its region dimmed and the edge marked."""
     whole = Rect(0, 0, inside.shape[1], inside.shape[0])
     around = box.grown(1).intersect(whole)

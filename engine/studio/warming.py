@@ -48,14 +48,14 @@ class Warming:
 
     def _run(self) -> None:
         try:
-            paint()
+            paint_once()
         except Exception as error:
             self._send(faults.told(error, "while painting with examples was made ready"))
         finally:
             self._send(results.GotReady())
 
 
-def paint() -> None:
+def paint_once() -> None:
     """Paints with an example, looks at it from all sides, and takes some away."""
     painting = Painting(seed=1, textures=Map({"a": _texture()}))
     grows = Brush(radius=28.0, mode="example", example="a", hardness=1.0, example_detail=1)

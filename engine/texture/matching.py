@@ -172,7 +172,7 @@ def matched(
     return last.planes
 
 
-def picture(pattern: Pattern, planes: np.ndarray) -> np.ndarray:
+def matched_colours(pattern: Pattern, planes: np.ndarray) -> np.ndarray:
     """The colours (C, h, w) of matched planes, float32 in 0..1 on the grid."""
     return snapped(pattern.colours.colours(planes))
 

@@ -95,7 +95,7 @@ class Response:
 
 
 @lru_cache(maxsize=8)
-def response(source: ImageSource, period: int) -> Response:
+def sample_response(source: ImageSource, period: int) -> Response:
     """The zero-mean sample under the radial Gaussian window."""
     native = _native(source, period, finer(source, period, LARGEST))
     own = _windowed(native)
@@ -108,7 +108,7 @@ def response(source: ImageSource, period: int) -> Response:
 def finest(source: ImageSource, period: int) -> tuple[Impulse, Continuation]:
     """The finest octaves of the impulse response, at the native level, and how they continue it.  Only who zooms in
     needs them."""
-    top, form = _top(response(source, period).own.phases[0, 0])
+    top, form = _top(sample_response(source, period).own.phases[0, 0])
     held = float(np.square(top, dtype=np.float64).sum())
     top = _windowed(top)
     left = float(np.square(top, dtype=np.float64).sum())
@@ -127,7 +127,7 @@ def _windowed(planes: np.ndarray) -> np.ndarray:
 @lru_cache(maxsize=32)
 def seen(source: ImageSource, period: int, coarser: int) -> Impulse:
     """The impulse response some levels above the native one."""
-    return response(source, period).own.seen(coarser)
+    return sample_response(source, period).own.seen(coarser)
 
 
 def _mean(planes: np.ndarray) -> np.ndarray:

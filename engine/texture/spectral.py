@@ -192,13 +192,15 @@ class Sparse(_Spectral):
     @property
     def centre(self) -> np.ndarray:
         """Gives the mean of the field: float32 (1 or 3, 1, 1)."""
-        own = sample.response(self.source, self.period).mean if self.coloured else np.zeros((1, 1, 1), np.float32)
+        own = (
+            sample.sample_response(self.source, self.period).mean if self.coloured else np.zeros((1, 1, 1), np.float32)
+        )
         return own + np.float32(self.mean)
 
     def impulse(self, level: int) -> sparse.Impulse:
         """The impulse response at a level from the base to the native one."""
         if level >= self.native:
-            return sample.response(self.source, self.period).own
+            return sample.sample_response(self.source, self.period).own
         return sample.seen(self.source, self.period, self.native - level)
 
     @property

@@ -23,7 +23,7 @@ import specimens  # noqa: E402
 from app.cli.solid_command import cube  # noqa: E402
 from engine.numeric.pyramid import reduce  # noqa: E402
 from engine.texture import matching, mixing, solid  # noqa: E402
-from engine.texture.matching import Pattern, Shape, matched, picture  # noqa: E402
+from engine.texture.matching import Pattern, Shape, matched, matched_colours  # noqa: E402
 from engine.texture.mixing import Mix  # noqa: E402
 
 SIDE, GAP = 128, 6  # px, of a texture and between them
@@ -52,7 +52,7 @@ def mixtures(found: dict[str, Picture]) -> list[Pattern]:
 
 def grown(pattern: Pattern, seed: int = 1) -> Picture:
     start = matching.noise(pattern.colours.count, (SIDE, SIDE), seed)
-    return picture(pattern, matched(pattern, start))
+    return matched_colours(pattern, matched(pattern, start))
 
 
 def voxels(example: Picture, threads: Executor, side: int = VOXELS) -> np.ndarray:
@@ -60,7 +60,7 @@ def voxels(example: Picture, threads: Executor, side: int = VOXELS) -> np.ndarra
     wanted = solid.patterns(example, side, Shape())
     *_, last = solid.matching(wanted, solid.noise(wanted.oriented.colours.count, side, 1), threads=threads)
     assert last.planes is not None
-    return coloured(picture(wanted.oriented, last.planes))
+    return coloured(matched_colours(wanted.oriented, last.planes))
 
 
 def coloured(planes: Picture) -> np.ndarray:

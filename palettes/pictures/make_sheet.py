@@ -130,7 +130,7 @@ class Sheet:
 
 def main() -> None:
     sheet = Sheet()
-    found, faults = presets.load(presets.bundled_folder())
+    found, faults = presets.load_brushes(presets.bundled_folder())
     papers, more = presets.load_papers(presets.papers_folder())
     if faults or more:
         raise SystemExit("\n".join(faults + more))

@@ -21,11 +21,11 @@ def test_any_editing_leaves_knots_that_a_brush_accepts(gestures):
         if what == "add":
             curve, _ = knots.added(curve, x, y)
         elif what == "move":
-            curve = knots.moved(curve, i % len(curve), x, y)
+            curve = knots.moved_knot(curve, i % len(curve), x, y)
         elif what == "remove":
             curve = knots.removed(curve, i % len(curve))
         elif what == "draw":
-            curve, pen = knots.drawn(curve, pen, (x, y)), (x, y)
+            curve, pen = knots.drawn_curve(curve, pen, (x, y)), (x, y)
         else:
             curve = knots.thinned(curve, z / 10)
         assert len(curve) >= 2
@@ -52,14 +52,14 @@ def test_a_knot_added_on_the_curve_changes_nothing_and_can_be_found_and_taken_aw
 
 def test_a_knot_does_not_pass_its_neighbour():
     curve, _ = knots.added(knots.STRAIGHT, 0.5, 0.5)
-    pushed = knots.moved(curve, 1, 4.0, -3.0)
+    pushed = knots.moved_knot(curve, 1, 4.0, -3.0)
     assert 0.99 < pushed[1][0] < 1.0
     assert pushed[1][1] == 0.0
 
 
 def test_a_curve_drawn_by_hand_follows_the_pen_whichever_way_it_goes():
-    there = knots.drawn(knots.STRAIGHT, (0.2, 0.8), (0.6, 0.4))
-    back = knots.drawn(knots.STRAIGHT, (0.6, 0.4), (0.2, 0.8))
+    there = knots.drawn_curve(knots.STRAIGHT, (0.2, 0.8), (0.6, 0.4))
+    back = knots.drawn_curve(knots.STRAIGHT, (0.6, 0.4), (0.2, 0.8))
     assert there == back
     assert len(there) == knots.CAP
     assert abs(knots.at(there, 0.4) - 0.6) < 0.01
@@ -75,7 +75,7 @@ def test_a_curve_drawn_by_hand_begins_and_ends_at_the_edges_though_the_pen_does_
         (points[2], knots.at_edge(points[2], 0.05)),
     ]
     for start, end in pairs:
-        drawn = knots.drawn(drawn, start, end)
+        drawn = knots.drawn_curve(drawn, start, end)
     assert (drawn[0][1], drawn[-1][1]) == (0.9, 0.3)
     assert max(abs(a[1] - b[1]) for a, b in pairwise(drawn)) < 0.05
 
@@ -85,4 +85,4 @@ def test_thinning_keeps_the_shape():
     few = knots.thinned(wave, 0.02)
     assert len(few) < 30
     assert max(abs(knots.at(few, x) - y) for x, y in wave) <= 0.0201
-    assert knots.thinned(knots.drawn(knots.STRAIGHT, (0, 0), (1, 1)), 0.001) == knots.STRAIGHT
+    assert knots.thinned(knots.drawn_curve(knots.STRAIGHT, (0, 0), (1, 1)), 0.001) == knots.STRAIGHT

@@ -4,7 +4,7 @@ from dataclasses import FrozenInstanceError, replace
 
 import pytest
 
-from app.desk.known import Known, told
+from app.desk.known import Known, known_after
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
@@ -20,7 +20,7 @@ def test_it_is_replaced_never_changed():
     known = Known()
     with pytest.raises(FrozenInstanceError):
         known.pending = 3
-    assert told(known, Pending(3), 1.0).pending == 3
+    assert known_after(known, Pending(3), 1.0).pending == 3
     assert known.pending == 0
 
 
@@ -29,38 +29,38 @@ def test_it_is_replaced_never_changed():
     [(SCENE, "scene", SCENE), (Writing(2), "writing", Writing(2))],
 )
 def test_what_the_engine_tells_is_known(result, name, value):
-    assert getattr(told(Known(), result, 1.0), name) == value
+    assert getattr(known_after(Known(), result, 1.0), name) == value
 
 
 def test_what_tells_nothing_of_it_leaves_the_same_record():
     known = Known()
-    assert told(known, Note("a line"), 1.0) is known
+    assert known_after(known, Note("a line"), 1.0) is known
 
 
 def test_what_is_being_opened_is_known_until_it_is_there_or_cannot_be():
-    begun = told(Known(opening="a.png"), SCENE, 1.0)  # the empty painting of the start
+    begun = known_after(Known(opening="a.png"), SCENE, 1.0)  # the empty painting of the start
     assert begun.opening == "a.png"
-    assert told(begun, Note("Wrote b.png"), 1.0).opening == "a.png"
-    assert told(begun, replace(SCENE, serial=1), 1.0).opening == ""
-    assert told(begun, Note("a.png: found nothing", bad=True), 1.0).opening == ""
-    assert told(Known(opening="a.png"), replace(SCENE, serial=1), 1.0).opening == ""
+    assert known_after(begun, Note("Wrote b.png"), 1.0).opening == "a.png"
+    assert known_after(begun, replace(SCENE, serial=1), 1.0).opening == ""
+    assert known_after(begun, Note("a.png: found nothing", bad=True), 1.0).opening == ""
+    assert known_after(Known(opening="a.png"), replace(SCENE, serial=1), 1.0).opening == ""
 
 
 def test_the_engine_is_ready_with_its_tables():
     tables = Ready(blends=(("normal", "Normal", "As it is"),))
-    known = told(Known(), tables, 1.0)
+    known = known_after(Known(), tables, 1.0)
     assert known.ready
     assert known.tables is tables
-    assert told(Known(preparing=0.5), GotReady(), 1.0).preparing is None
+    assert known_after(Known(preparing=0.5), GotReady(), 1.0).preparing is None
 
 
 def test_what_grows_is_known_since_it_began_and_forgotten_when_it_is_done():
-    begun = told(Known(), Growing(0.1, PLACE), 5.0)
-    more = told(begun, Growing(0.4, PLACE), 7.0)
+    begun = known_after(Known(), Growing(0.1, PLACE), 5.0)
+    more = known_after(begun, Growing(0.4, PLACE), 7.0)
     assert (more.growing, more.grows) == (Growing(0.4, PLACE), 5.0)
     for end in (Growing(1.0, PLACE), Growing(0.5)):
-        assert told(more, end, 9.0).growing is None
-    assert told(told(more, Growing(1.0), 9.0), Growing(0.0, PLACE), 11.0).grows == 11.0
+        assert known_after(more, end, 9.0).growing is None
+    assert known_after(known_after(more, Growing(1.0), 9.0), Growing(0.0, PLACE), 11.0).grows == 11.0
 
 
 def test_a_frame_is_there_before_the_painting_is():
@@ -79,7 +79,7 @@ def seen_with(active, *hidden):
     for name in hidden:
         made = apply(made, c.SetLayer(name, visible=False))
     listed = tuple(rows(made.root))
-    return told(Known(), Scene(Rect(0, 0, 8, 8), listed, active, False, False, modified=False, path=None), 1.0)
+    return known_after(Known(), Scene(Rect(0, 0, 8, 8), listed, active, False, False, modified=False, path=None), 1.0)
 
 
 def test_what_hides_the_layer_that_is_painted_on_is_known():

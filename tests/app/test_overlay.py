@@ -9,7 +9,7 @@ from imgui_bundle.imgui import backends
 
 from app import theme
 from app.canvas.gallery import Gallery
-from app.canvas.overlay import NOTHING, Overlay, Sheet, grouped
+from app.canvas.overlay import NOTHING, Overlay, Sheet, grouped_sheets
 
 SIZE = (320, 240)
 _PLAIN = (
@@ -193,7 +193,7 @@ BOXES = st.tuples(*[st.integers(0, 60)] * 4).map(lambda b: (b[0], b[1], b[0] + b
 @given(st.lists(BOXES | st.just(NOTHING), max_size=12))
 def test_groups_do_not_overlap_and_keep_the_order(boxes):
     sheets = [Sheet(((), b"", b"", SIZE), box) for box in boxes]
-    groups = grouped(sheets)
+    groups = grouped_sheets(sheets)
     places = [n for group in groups for n in group.lists]
     assert sorted(places) == [n for n, box in enumerate(boxes) if box != NOTHING]
     for group in groups:
@@ -210,4 +210,4 @@ def test_groups_do_not_overlap_and_keep_the_order(boxes):
 
 def test_windows_side_by_side_are_groups_of_their_own():
     sheets = [Sheet(((), b"", b"", SIZE), box) for box in ((0, 0, 10, 20), (10, 0, 30, 20), (0, 20, 30, 30))]
-    assert [group.box for group in grouped(sheets)] == [sheet.box for sheet in sheets]
+    assert [group.box for group in grouped_sheets(sheets)] == [sheet.box for sheet in sheets]

@@ -44,7 +44,7 @@ def folder_with(tmp_path, **members):
 
 
 def preset(tmp_path, *textures):
-    found, faults = presets.load(folder_with(tmp_path, textures=list(textures)))
+    found, faults = presets.load_brushes(folder_with(tmp_path, textures=list(textures)))
     assert not faults
     return found[0]
 
@@ -181,8 +181,8 @@ def test_the_thumbnail_knows_them(tmp_path):
 
 def test_saved_and_read_again(tmp_path):
     found = preset(tmp_path, FUR, PAPER)
-    path = presets.save(Preset("My fur", found.brush, textures=found.textures), tmp_path / "own")
-    (again,), faults = presets.load(tmp_path / "own")
+    path = presets.save_brush(Preset("My fur", found.brush, textures=found.textures), tmp_path / "own")
+    (again,), faults = presets.load_brushes(tmp_path / "own")
     assert not faults
     assert again.path == path
     assert (again.brush, again.textures) == (found.brush, found.textures)
@@ -206,7 +206,7 @@ FAULTY = {
 
 @pytest.mark.parametrize(("textures", "message"), FAULTY.values(), ids=FAULTY)
 def test_faulty_definitions_are_told_with_the_file(tmp_path, textures, message):
-    found, faults = presets.load(folder_with(tmp_path, textures=textures))
+    found, faults = presets.load_brushes(folder_with(tmp_path, textures=textures))
     assert not found
     assert faults[0].startswith("fur.json: ")
     assert message in faults[0]

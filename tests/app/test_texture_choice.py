@@ -33,10 +33,10 @@ def test_each_texture_is_offered_once_and_the_paintings_own_is_meant():
     names = [name for name, _ in texture_rows.names(made)]
     assert names.count("linen") == names.count("fur") == names.count("rock") == 1
     assert "image" not in names
-    assert texture_rows.kind_of(made, "linen") == "sparse"
-    assert texture_rows.kind_of(made, "fur") == "sparse"
-    assert texture_rows.kind_of(made, "rock") == "rock"
-    assert texture_rows.kind_of(made, "no such") == "no such"
+    assert texture_rows.texture_kind(made, "linen") == "sparse"
+    assert texture_rows.texture_kind(made, "fur") == "sparse"
+    assert texture_rows.texture_kind(made, "rock") == "rock"
+    assert texture_rows.texture_kind(made, "no such") == "no such"
 
 
 def test_a_texture_of_the_brushes_is_brought_once_and_not_where_it_is_already():

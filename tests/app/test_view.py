@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.canvas.glide import Glide
-from app.canvas.view import Place, View, distance, fitted, place_of_pixel, zoom_text
+from app.canvas.view import Place, View, distance, place_of_pixel, view_of, zoom_text
 from engine.numeric.address import Rect
 
 LEVELS = st.integers(-40, 200)
@@ -117,7 +117,7 @@ def test_mirroring_swaps_left_and_right():
 
 def test_fitting_shows_the_whole_frame_in_the_free_area():
     frame = Rect(-100, 50, 4000, 2000)
-    view = fitted(frame, (250, 24, 990, 770), 1280, 800)
+    view = view_of(frame, (250, 24, 990, 770), 1280, 800)
     x0, y0 = view.pixel_to_screen(0, frame.x0, frame.y0)
     x1, y1 = view.pixel_to_screen(0, frame.x1, frame.y1)
     assert x0 > 250

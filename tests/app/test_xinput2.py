@@ -25,7 +25,7 @@ def pen(name="Stylus"):
 
 def test_places_keep_their_fractions_and_times_become_seconds():
     event, _keep = report(x.MOTION)
-    found = x.decoded(event, None)
+    found = x.pen_event(event, None)
     assert (found.kind, found.x, found.y, found.time) == ("move", 10.25, 20.75, 5.0)
     assert found.pressure == 1.0
     assert not found.pen
@@ -33,7 +33,7 @@ def test_places_keep_their_fractions_and_times_become_seconds():
 
 def test_pressure_is_normalised_by_the_range_of_its_axis():
     event, _keep = report(x.MOTION, values={0: 500.0, 1: 600.0, 2: 8191.0, 3: -32.0})
-    found = x.decoded(event, pen())
+    found = x.pen_event(event, pen())
     assert found.pen
     assert found.pressure == 1.0
     assert found.tilt_x == -32.0
@@ -42,9 +42,9 @@ def test_pressure_is_normalised_by_the_range_of_its_axis():
 def test_an_axis_that_did_not_change_keeps_its_value():
     device = pen()
     first, _a = report(x.BUTTON_PRESS, detail=1, values={2: 4095.5})
-    assert x.decoded(first, device).pressure == pytest.approx(0.5)
+    assert x.pen_event(first, device).pressure == pytest.approx(0.5)
     second, _b = report(x.MOTION, values={0: 1.0, 4: 30.0})
-    found = x.decoded(second, device)
+    found = x.pen_event(second, device)
     assert found.pressure == pytest.approx(0.5)
     assert found.tilt_y == 30.0
 
@@ -52,9 +52,9 @@ def test_an_axis_that_did_not_change_keeps_its_value():
 def test_the_mouse_moving_in_between_does_not_take_the_pens_pressure():
     device = pen()
     first, _a = report(x.MOTION, values={2: 8191.0})
-    x.decoded(first, device)
+    x.pen_event(first, device)
     mouse, _b = report(x.MOTION, values={0: 3.0, 1: 4.0})
-    assert x.decoded(mouse, x.Device("Mouse")).pressure == 1.0
+    assert x.pen_event(mouse, x.Device("Mouse")).pressure == 1.0
     assert device.last["pressure"] == 1.0
 
 
@@ -75,29 +75,29 @@ def test_tilt_in_other_units_becomes_degrees():
 @pytest.mark.parametrize(("detail", "dx", "dy"), [(4, 0, 1), (5, 0, -1), (6, 1, 0), (7, -1, 0)])
 def test_buttons_four_to_seven_are_the_wheel(detail, dx, dy):
     event, _keep = report(x.BUTTON_PRESS, detail=detail)
-    found = x.decoded(event, None)
+    found = x.pen_event(event, None)
     assert (found.kind, found.dx, found.dy) == ("wheel", dx, dy)
     event, _keep = report(x.BUTTON_RELEASE, detail=detail)
-    assert x.decoded(event, None) is None
+    assert x.pen_event(event, None) is None
 
 
 @pytest.mark.parametrize(("detail", "button"), [(1, 1), (2, 2), (3, 3)])
 def test_presses_and_releases(detail, button):
     for kind, word in ((x.BUTTON_PRESS, "down"), (x.BUTTON_RELEASE, "up")):
         event, _keep = report(kind, detail=detail)
-        found = x.decoded(event, None)
+        found = x.pen_event(event, None)
         assert (found.kind, found.button) == (word, button)
 
 
 def test_other_buttons_mean_nothing():
     event, _keep = report(x.BUTTON_PRESS, detail=9)
-    assert x.decoded(event, None) is None
+    assert x.pen_event(event, None) is None
 
 
 def test_the_eraser_is_known_by_its_name():
     event, _keep = report(x.MOTION, values={2: 1.0})
-    assert x.decoded(event, pen("Wacom Intuos Pen eraser")).eraser
-    assert not x.decoded(event, pen("Wacom Intuos Pen stylus")).eraser
+    assert x.pen_event(event, pen("Wacom Intuos Pen eraser")).eraser
+    assert not x.pen_event(event, pen("Wacom Intuos Pen stylus")).eraser
 
 
 def test_masks_have_the_bits_that_the_protocol_counts():

@@ -182,9 +182,9 @@ class Stages:
             open_painting(path)
 
     def _warming(self) -> None:
-        from engine.studio.warming import paint
+        from engine.studio.warming import paint_once
 
-        paint()
+        paint_once()
 
 
 def _empty() -> None:
@@ -194,9 +194,9 @@ def _empty() -> None:
 
 
 def _presets() -> list[Preset]:
-    from app.desk.presets import bundled_folder, load
+    from app.desk.presets import bundled_folder, load_brushes
 
-    found, _ = load(bundled_folder())
+    found, _ = load_brushes(bundled_folder())
     return found
 
 

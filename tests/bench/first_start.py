@@ -31,7 +31,7 @@ from app.desk import presets
 from engine.brush.settings import Brush
 from engine.studio import requests as q, results
 from engine.studio.worker import Worker
-found = presets.load(presets.bundled_folder())[0]
+found = presets.load_brushes(presets.bundled_folder())[0]
 worker = Worker(lambda: None)
 worker.post(q.Look(((0, 0, 0, -1),)))
 worker.post(q.Begin(0, (0, 0), Brush()))

@@ -19,7 +19,7 @@ from bench.likeness import rim
 from engine.numeric.address import Rect
 from engine.texture.example import show
 from engine.texture.example.exemplar import PAD, Exemplar, analysed, premultiplied
-from engine.texture.example.parameters import Parameters, changed
+from engine.texture.example.parameters import Parameters, with_values
 from engine.texture.example.region import empty, painted, refined
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -67,7 +67,7 @@ def _exemplar(name: str, side: int) -> Exemplar:
     mask = Image.open(FOLDER / f"{name}.mask.png").convert("L").resize(size, Image.Resampling.BOX)
     told = tomllib.loads((FOLDER / f"{name}.toml").read_text("utf-8"))
     told = {field: value for field, value in told.items() if field not in ("group", "levels")}
-    return analysed(np.asarray(small), np.asarray(mask) >= 128, changed(Parameters(), told))
+    return analysed(np.asarray(small), np.asarray(mask) >= 128, with_values(Parameters(), told))
 
 
 def drawn(size: int) -> np.ndarray:

@@ -64,7 +64,7 @@ def _matched(example: np.ndarray, side: int, threads: Executor | None = None) ->
     """From picture to picture."""
     pattern = matching.analysed(example, SHAPE.within((side, side)))
     start = matching.noise(pattern.colours.count, (side, side), 1)
-    return matching.picture(pattern, matching.matched(pattern, start, TURNS, threads))
+    return matching.matched_colours(pattern, matching.matched(pattern, start, TURNS, threads))
 
 
 def _against_plain(example: np.ndarray, side: int, repeats: int) -> Iterator[Figure | Skipped]:

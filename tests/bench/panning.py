@@ -20,7 +20,7 @@ from typing import Any
 
 from app.desk.examples import example_use
 from app.input.events import LEFT, MIDDLE, PenEvent
-from app.loop import SWITCH, opened
+from app.loop import SWITCH, opened_window
 from app.window import Window
 from bench.zooming import processor_times, until
 from engine.painting.commands import Undo
@@ -40,7 +40,7 @@ Pan = tuple[Frames, Frames, dict[str, float]]  # frames; how late the loop besid
 def main(blocks: int) -> dict[str, Any]:
     """By what goes on: the seconds of each frame, by which a loop beside it wakes late, and the processor time of a
     frame, by thread."""
-    window = opened()
+    window = opened_window()
     window.frame()
     sys.setswitchinterval(SWITCH)
     worker = Worker(window.pace.told)

@@ -16,7 +16,7 @@ from typing import Any
 
 from app.canvas.screen import cells
 from app.canvas.view import Place
-from app.loop import SWITCH, opened  # first: it imports imgui before glfw
+from app.loop import SWITCH, opened_window  # first: it imports imgui before glfw
 from app.window import Window
 from engine.studio.requests import Open
 from engine.studio.worker import Worker
@@ -27,7 +27,7 @@ SMOOTH = 0.016
 
 
 def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float) -> dict[str, Any]:
-    window = opened()
+    window = opened_window()
     window.frame()
     sys.setswitchinterval(SWITCH)
     worker = Worker(window.pace.told)

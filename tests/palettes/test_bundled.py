@@ -59,7 +59,7 @@ def test_script_writes_the_same_recording_again(tmp_path):
 
 
 def test_presets_are_whole_and_can_paint():
-    found, faults = palette.load(PALETTES / "brushes")
+    found, faults = palette.load_brushes(PALETTES / "brushes")
     assert not faults
     assert len(found) >= 16
     assert len({p.name for p in found}) == len(found)
@@ -69,7 +69,7 @@ def test_presets_are_whole_and_can_paint():
 
 def test_every_preset_brings_all_it_needs_and_draws_itself():
     """On an empty painting, as the window's thumbnails are painted."""
-    found, faults = palette.load(PALETTES / "brushes")
+    found, faults = palette.load_brushes(PALETTES / "brushes")
     assert not faults
     for preset in found:
         picture = painted(Swatch(preset.name, preset.brush, (104, 44), textures=preset.textures), Painting())
@@ -78,14 +78,14 @@ def test_every_preset_brings_all_it_needs_and_draws_itself():
 
 
 def test_there_are_brushes_of_spectral_textures():
-    makers = [{command.maker for command in p.textures} for p in palette.load(PALETTES / "brushes")[0]]
+    makers = [{command.maker for command in p.textures} for p in palette.load_brushes(PALETTES / "brushes")[0]]
     assert sum(bool(found) and found <= {"spectrum", "sparse", "impulse"} for found in makers) >= 16
 
 
 @pytest.mark.parametrize("name", ["Thaw", "Stony grass"])
 def test_the_pen_chooses_between_two_matched_textures(name):
     """A light touch paints the first example, a hard one the second: their colours, and how rough they are."""
-    (preset,) = (found for found in palette.load(PALETTES / "brushes")[0] if found.name == name)
+    (preset,) = (found for found in palette.load_brushes(PALETTES / "brushes")[0] if found.name == name)
     (command,) = preset.textures
     painting = apply(Painting(Rect.at(0, 0, 200, 80)), command)
 
@@ -120,7 +120,7 @@ def test_script_cuts_the_same_examples_again(tmp_path):
 
 
 def test_brushes_that_grow_examples_show_more_than_their_rims_in_their_thumbnails():
-    found = [preset for preset in palette.load(PALETTES / "brushes")[0] if preset.group == "Examples"]
+    found = [preset for preset in palette.load_brushes(PALETTES / "brushes")[0] if preset.group == "Examples"]
     assert len(found) >= 8
     assert all(preset.brush.mode == "example" for preset in found)
     (brick,) = (preset for preset in found if preset.name == "Brick in plaster")

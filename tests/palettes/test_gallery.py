@@ -59,7 +59,7 @@ def test_the_sheet_of_brushes_shows_what_is_painted():
     assert spec.loader is not None
     sheet = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(sheet)
-    found = {preset.name: preset for preset in presets.load(presets.bundled_folder())[0]}
+    found = {preset.name: preset for preset in presets.load_brushes(presets.bundled_folder())[0]}
     for name in ("Fur", "Rust", "Leaves"):  # one that paints, one that changes what is there, one that grows
         painting = sheet.painted(found[name].brush, found[name].textures)
         size = (sheet.WIDE, sheet.TALL)

@@ -59,7 +59,7 @@ def test_papers_lie_still_and_repeat_by_their_size_at_every_level(paper, level):
 
 
 def test_one_name_is_one_texture_wherever_it_comes_from():
-    found, _ = presets.load(presets.bundled_folder())
+    found, _ = presets.load_brushes(presets.bundled_folder())
     first: dict[str, object] = {}
     for source in (*found, *PAPERS):
         for command in source.textures:

@@ -27,7 +27,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, loads
 from engine.makers.definitions import defined_by
 from engine.painting.commands import DefineTexture
-from engine.texture.example.parameters import Parameters, changed, read_toml
+from engine.texture.example.parameters import Parameters, read_toml, with_values
 
 OWN = "Own"  # the group of the artist's own
 HERE = "In this painting"  # the group of those that only the painting has
@@ -91,7 +91,7 @@ def own_folder() -> Path:
     return platformdirs.user_data_path("inkfall") / "examples"
 
 
-def load(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
+def load_examples(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
     """The examples of a folder by group and name, and a line for each file of parameters, or mask, that is none."""
     found, faults = [], []
     pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith((MASK, BASE))) if folder.is_dir() else ()
@@ -222,7 +222,7 @@ class ExampleState:
 
     def draft(self, entry: Entry) -> Parameters:
         """The parameters that the settings show."""
-        return changed(entry.parameters, self.drafts.get(entry.ident, self.used.get(entry.ident, Map())))
+        return with_values(entry.parameters, self.drafts.get(entry.ident, self.used.get(entry.ident, Map())))
 
     def set(self, entry: Entry, name: str, value: Any) -> None:
         """Another value of one of them."""

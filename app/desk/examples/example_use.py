@@ -44,10 +44,10 @@ def choose(desk: Desk, entry: Entry) -> None:
         state.base = level
     if not desk.hand.brush.row.grows:  # the tip and the width of a pencil, say, are not for this
         desk.hand.take(Brush(radius=state.radius, hardness=1.0), "")
-    take(desk)
+    take_example(desk)
 
 
-def take(desk: Desk) -> None:
+def take_example(desk: Desk) -> None:
     """The brush gets the chosen example with its settings, the painting with the first stroke; without one, the palette
     opens."""
     state, entry = desk.examples, desk.examples.entry
@@ -80,19 +80,19 @@ def adopt(desk: Desk) -> None:
     entry = next(found, None) if told is not None else None
     state.chosen = entry.ident if entry is not None else ""
     state.size, state.depth = -brush.example_detail, round(brush.depth or 0)
-    fit(desk)
+    fit_size(desk)
 
 
-def fit(desk: Desk) -> None:
+def fit_size(desk: Desk) -> None:
     """The texture's size goes by the pixels that are seen now."""
     desk.examples.base = desk.view.shown_level
     follow(desk)
 
 
-def reach(desk: Desk) -> None:
+def fit_within_reach(desk: Desk) -> None:
     """Before a stroke: the texture's size is fitted anew where the view is too far from where it was chosen."""
     if desk.hand.brush.row.grows and not example_state.within_reach(desk.hand.brush, desk.view.shown_level):
-        fit(desk)
+        fit_size(desk)
         desk.say("The texture’s size was set too far away: it fits this zoom now")
 
 
@@ -100,7 +100,7 @@ def swap(desk: Desk, x: float, y: float) -> None:
     """The texture at a point of the screen becomes like the chosen example."""
     level = desk.view.shown_level
     desk.examples.swapping = False
-    take(desk)
+    take_example(desk)
     palette.provide(desk)
     if desk.hand.brush.example is not None:
         at = desk.view.to_canvas(x, y).pixel(level)

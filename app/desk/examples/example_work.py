@@ -13,7 +13,7 @@ from app.desk import palette, presets
 from app.desk.desk import Desk, FileWork
 from app.desk.examples import example_state, own_example_files
 from app.desk.examples.example_state import Entry
-from app.desk.examples.example_use import choose, gather, take
+from app.desk.examples.example_use import choose, gather, take_example
 from app.desk.examples.region_state import RegionState
 from engine.studio.requests import RegionClose, RegionOpen, RegionSaved
 from engine.studio.results import RegionScene
@@ -29,7 +29,7 @@ class Listing(NamedTuple):
 
 
 def _listed(name: str) -> Listing:
-    entries, faults = example_state.load(example_state.own_folder(), True)
+    entries, faults = example_state.load_examples(example_state.own_folder(), True)
     return Listing(tuple(entries), tuple(faults), name)
 
 
@@ -73,7 +73,7 @@ class _Add(FileWork):
         name, smaller = own_example_files.add(self.path)
         listing = _listed(name)
         entry = next(entry for entry in listing.entries if entry.name == name)
-        return _Added(listing, smaller, own_example_files.opened(entry))
+        return _Added(listing, smaller, own_example_files.opening_of(entry))
 
     def arrive(self, desk: Desk, found: _Added) -> None:
         _relist(desk, found.listing)
@@ -97,7 +97,7 @@ class _Edit(FileWork):
     entry: Entry
 
     def carry_out(self) -> RegionOpen:
-        return own_example_files.opened(self.entry)
+        return own_example_files.opening_of(self.entry)
 
     def arrive(self, desk: Desk, found: RegionOpen) -> None:
         desk.post(found)
@@ -119,7 +119,7 @@ def edit(desk: Desk) -> None:
         state.tab = "region"
 
 
-def told(desk: Desk, scene: RegionScene) -> None:
+def take_scene(desk: Desk, scene: RegionScene) -> None:
     """Takes over what the engine tells of a region; one that was just opened is shown."""
     state, known = desk.examples, desk.examples.regions.get(scene.ident)
     if known is not None:
@@ -189,7 +189,7 @@ def use_settings(desk: Desk) -> None:
         desk.work(_KeepParameters(entry, state.draft(entry)))
         return
     state.used[entry.ident] = state.drafts.get(entry.ident, state.used.get(entry.ident, Map()))
-    take(desk)
+    take_example(desk)
 
 
 def _settle(desk: Desk, entry: Entry, kept: Parameters) -> None:
@@ -283,7 +283,7 @@ class _Delete(FileWork):
         desk.say(f"The example was not deleted: {fault}", bad=True)
 
 
-def delete(desk: Desk, entry: Entry) -> None:
+def delete_example(desk: Desk, entry: Entry) -> None:
     """Takes one of the artist's own away.  A painting that has it keeps it; a brush does not paint with it any more."""
     desk.work(_Delete(entry))
 

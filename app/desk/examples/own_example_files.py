@@ -26,7 +26,7 @@ STEPS_CAP, STEPS_BYTES = 4096, 1 << 21  # in the definition of a texture, which 
 Steps = tuple[Map[str, Any], ...]
 
 
-def opened(entry: Entry) -> RegionOpen:
+def opening_of(entry: Entry) -> RegionOpen:
     """What the engine needs for painting an example's region."""
     from engine.painting.capture import read_picture  # here: the engine is loaded by now
 
@@ -67,7 +67,7 @@ def pixels_of(path: Path) -> np.ndarray:
 def add(path: Path) -> tuple[str, bool]:
     """Makes an example of a picture file: its name, and whether it had to be made smaller."""
     pixels, smaller = fitting(pixels_of(path))
-    name = free_name(path.stem)
+    name = free_file_name(path.stem)
     _write(_place(name, PICTURE), pixels)
     write_region(name, pixels[..., 3] > 0)
     write_parameters(name, Parameters())
@@ -76,7 +76,7 @@ def add(path: Path) -> tuple[str, bool]:
 
 def copy(entry: Entry, parameters: Parameters) -> str:
     """Makes an example of the artist's own of any, with other parameters: its name."""
-    (pixels, inside), name = cut_out(entry), free_name(entry.given or entry.name)
+    (pixels, inside), name = cut_out(entry), free_file_name(entry.given or entry.name)
     _write(_place(name, PICTURE), pixels)
     base = None if entry.base is None else _masked(entry.base)
     write_region(name, inside, entry.steps, base)
@@ -133,7 +133,7 @@ def delete(name: str) -> None:
         _place(name, ending).unlink(missing_ok=True)
 
 
-def free_name(stem: str) -> str:
+def free_file_name(stem: str) -> str:
     """A file name that no example of the artist's own has yet."""
     plain = "".join(c if c.isalnum() or c in " -_" else "-" for c in stem).strip(" -")[:NAME_CAP].strip() or "example"
     taken = {path.name.lower() for path in example_state.own_folder().glob("*")}

@@ -95,7 +95,7 @@ class BrushList:
         w.tooltip("Part of a brush’s name, or of its group’s; Enter takes the nearest")
         nearest = presets.nearest(desk.known.presets, self._find) if entered else None
         if nearest is not None:
-            take(desk, nearest)
+            hold(desk, nearest)
             self._find = ""
         imgui.same_line(0, gap)
         if w.icon_button("all brushes", icons.GRID, "All brushes at once", size=side):
@@ -135,7 +135,7 @@ class BrushList:
         taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
         w.named(preset.name)
         if taken:
-            take(desk, preset)
+            hold(desk, preset)
         if not imgui.is_item_visible():  # most are scrolled away
             return taken
         self._ask(desk, preset)
@@ -163,7 +163,7 @@ def _picture(desk: Desk, preset: Preset) -> Swatch:
     return Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures)
 
 
-def take(desk: Desk, preset: Preset) -> None:
+def hold(desk: Desk, preset: Preset) -> None:
     """Paints with a brush from now on, in its own colours where they belong together; Shift keeps the size."""
     radius = desk.hand.brush.radius
     palette.take(desk, preset)

@@ -135,7 +135,7 @@ class BrushPanel:
             if w.text_button(row.label, row.tooltip, width=words[i] + spare):
                 desk.hand.use("brush")
                 if row.grows and desk.hand.brush.example is None:
-                    example_use.take(desk)
+                    example_use.take_example(desk)
                 else:
                     desk.hand.change(mode=row.name)
             imgui.pop_style_color()

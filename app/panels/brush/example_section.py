@@ -39,7 +39,7 @@ def draw(desk: Desk) -> None:
     fits = state.base == desk.view.shown_level
     hint = "Fit to this zoom: the texture gets the pixels that are seen now. Strokes of another size do not join"
     if w.icon_button("fit texture", icons.FIT, hint, enabled=not fits, size=side):
-        example_use.fit(desk)
+        example_use.fit_size(desk)
     changed, depth = w.stepper("Depth", state.depth, DEPTHS, _DEPTH)
     if changed:
         state.depth = depth

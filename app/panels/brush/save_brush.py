@@ -27,7 +27,7 @@ class SaveBrush:
         imgui.same_line(0, 0)
         imgui.set_cursor_pos_x(imgui.get_style().window_padding.x + right - side)
         if w.icon_button("save brush", icons.DISK, "Save this brush under a name", size=side):
-            self._name = presets.free_name(desk.hand.preset or "My brush", desk.known.presets)
+            self._name = presets.free_brush_name(desk.hand.preset or "My brush", desk.known.presets)
             imgui.open_popup("save brush")
         if not imgui.begin_popup("save brush"):
             return
@@ -39,7 +39,7 @@ class SaveBrush:
         entered, self._name = imgui.input_text("##name", self._name, imgui.InputTextFlags_.enter_returns_true)
         w.named("name")
         w.tooltip("Its name among your own brushes")
-        name = presets.free_name(self._name, desk.known.presets)
+        name = presets.free_brush_name(self._name, desk.known.presets)
         if any(p.name == name and p.group == presets.OWN for p in desk.known.presets):
             imgui.text_disabled("Replaces your brush of this name")
         elif name != " ".join(self._name.split()):
@@ -61,7 +61,7 @@ class _Keep(FileWork):
     stay: tuple[str, ...]
 
     def carry_out(self) -> Path:
-        return presets.save(self.preset, presets.own_folder())
+        return presets.save_brush(self.preset, presets.own_folder())
 
     def arrive(self, desk: Desk, found: Path) -> None:
         preset, name = replace(self.preset, path=found), self.preset.name

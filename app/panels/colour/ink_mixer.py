@@ -120,7 +120,7 @@ class InkPanel:
         parameters = texture_rows.sliders(desk, component.texture, component.parameters)
         if parameters != component.parameters:
             component = replace(component, parameters=parameters)
-        if texture_rows.kind_of(desk, component.texture) == "series":
+        if texture_rows.texture_kind(desk, component.texture) == "series":
             component = _pressing(component)
         hint = "A curve that this texture's values go through: harder, softer, turned round"
         changed, curve = self._curves.row("Shaping", component.shaping, desk.known.tables.curves, hint)
@@ -132,7 +132,7 @@ class InkPanel:
     def _extent(self, desk: Desk) -> None:
         """Scattered textures can keep their marks whole at the stroke's rim."""
         if desk.hand.brush.extent or any(
-            texture_rows.kind_of(desk, part.texture) == "sparse" for part in desk.hand.brush.ink
+            texture_rows.texture_kind(desk, part.texture) == "sparse" for part in desk.hand.brush.ink
         ):
             changed, on = imgui.checkbox("Whole marks at the rim", desk.hand.brush.extent)
             w.named("Whole marks at the rim")

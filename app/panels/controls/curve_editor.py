@@ -110,11 +110,11 @@ class CurveEditor:
         """The curve with the pen's newest piece in it; None when the pen does nothing."""
         if imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left):
             before, self._pen = self._pen or knots.at_edge(at, _REACH), at
-            return knots.drawn(shape, before, at)
+            return knots.drawn_curve(shape, before, at)
         was, self._pen = self._pen, None
         if was is None:
             return None
-        return knots.thinned(knots.drawn(shape, was, knots.at_edge(was, _REACH)), FINE)
+        return knots.thinned(knots.drawn_curve(shape, was, knots.at_edge(was, _REACH)), FINE)
 
     def _knotted(self, curve: Curve, shape: Knots, at: tuple[float, float]) -> Knots | None:
         """The curve with a knot added, moved or taken away; None when nothing is done to it."""
@@ -136,7 +136,7 @@ class CurveEditor:
             self._held = None
         if self._held is None or not 0 <= self._held < len(held):
             return None
-        return knots.moved(held, self._held, *at)
+        return knots.moved_knot(held, self._held, *at)
 
     def _dots(self, corner: ImVec2, side: float, held: Knots, at: tuple[float, float]) -> None:
         painter, near = imgui.get_window_draw_list(), knots.nearest(held, *at, _REACH)

@@ -83,11 +83,11 @@ def brought(desk: Desk, name: str) -> tuple[DefineTexture, ...]:
 
 def rows(desk: Desk, texture: str) -> tuple[Any, ...]:
     """The parameters of a texture, from the table of its kind."""
-    kind = kind_of(desk, texture)
+    kind = texture_kind(desk, texture)
     return next((tuple(row.parameters) for row in desk.known.tables.kinds if row.name == kind), ())
 
 
-def kind_of(desk: Desk, texture: str) -> str:
+def texture_kind(desk: Desk, texture: str) -> str:
     """The kind of a texture: of the painting, of those still to come into it, or built in."""
     defined = dict(desk.known.scene.texture_kinds) if desk.known.scene else {}
     if texture in defined:

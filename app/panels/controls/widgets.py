@@ -48,7 +48,7 @@ def placed(label: str, corner: ImVec2, end: ImVec2) -> None:
     least, most = imgui.get_window_draw_list().get_clip_rect_min(), imgui.get_window_draw_list().get_clip_rect_max()
     left, top = round(max(corner.x, least.x)), round(max(corner.y, least.y))
     right, bottom = round(min(end.x, most.x)), round(min(end.y, most.y))
-    trace.place(window, text or hidden.lstrip("#"), (left, top, right, bottom))
+    trace.note_place(window, text or hidden.lstrip("#"), (left, top, right, bottom))
 
 
 def icon_button(

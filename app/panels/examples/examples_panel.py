@@ -191,7 +191,7 @@ class ExamplesPanel(Panel):
         painting = entry is not None and desk.hand.stroke_mode().grows and desk.hand.tool == "brush"
         text = f"{icons.BRUSH} Painting" if painting else f"{icons.BRUSH} Paint"
         if w.text_button(f"{text}###paint", "Paint with this example", enabled=entry is not None, width=wide):
-            example_use.take(desk)
+            example_use.take_example(desk)
         imgui.pop_style_color()
         imgui.same_line()
         hint = "Then click on a painted texture: it becomes like this one"
@@ -202,7 +202,7 @@ class ExamplesPanel(Panel):
 
 
 def _painted(desk: Desk, scene: RegionScene, now: float) -> None:
-    example_work.told(desk, scene)
+    example_work.take_scene(desk, scene)
 
 
 def _sampled(desk: Desk, picture: Picture, _now: float) -> None:

@@ -27,7 +27,7 @@ class OwnExamples:
         if example_work.users(desk, entry):
             self._entry, self._opens = entry, "delete example"
         else:
-            example_work.delete(desk, entry)
+            example_work.delete_example(desk, entry)
 
     def menu(self, desk: Desk, entry: Entry) -> None:
         """What a right click on its thumbnail opens, and a double click."""
@@ -90,6 +90,6 @@ class OwnExamples:
         done = w.text_button("Delete", "Delete it; this cannot be taken back", width=em * 6)
         imgui.same_line()
         if done:
-            example_work.delete(desk, entry)
+            example_work.delete_example(desk, entry)
         if w.text_button("Cancel", "Keep it", width=em * 6) or done:
             imgui.close_current_popup()

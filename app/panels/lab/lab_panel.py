@@ -217,7 +217,7 @@ class LabPanel(Panel):
             imgui.pop_style_color()
 
     def _use(self, desk: Desk, how: str, using: str) -> None:
-        name = using or pictured.free_name(desk, "Texture")
+        name = using or pictured.free_texture_name(desk, "Texture")
         if not using:
             desk.lab.use(desk.post, name)
         desk.hand.take(with_texture(desk.hand.brush, how, name, desk.pointer.pen))

@@ -183,7 +183,7 @@ class MatchingPanel(Panel):
             imgui.push_style_color(Col.button, theme.vec(theme.RAISED if i else theme.ACCENT_SOFT))
             label = f"{icons.WAIT} making…" if busy and i == 0 else f"{icon} {text}".strip()
             if w.text_button(f"{label}##{how}", hint, enabled=good and not busy, width=wide):
-                match.use(desk.post, how, pictured.free_name(desk, _stem(desk)))
+                match.use(desk.post, how, pictured.free_texture_name(desk, _stem(desk)))
             imgui.pop_style_color()
 
     def _welcome(self, desk: Desk) -> None:

@@ -46,14 +46,14 @@ def run(told: dict[str, Any]) -> None:
     brush = brush_from_json(told["brush"])
     textures = definitions.read(told["textures"], "textures")
     if brush.row.grows:
-        warming.paint()
+        warming.paint_once()
     else:
-        drawn(brush, textures)
+        draw_once(brush, textures)
     width, height = told["size"]
     painted(q.Swatch("", brush, (width, height), told["kind"], textures=textures), Painting())
 
 
-def drawn(brush: Brush, textures: Sequence[c.DefineTexture] = ()) -> None:
+def draw_once(brush: Brush, textures: Sequence[c.DefineTexture] = ()) -> None:
     """A stroke over paint as the pen draws it, seen at several levels while it grows and after, and taken back."""
     studio = Studio(lambda result: None, lambda request: None)
     try:

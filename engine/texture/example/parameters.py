@@ -99,7 +99,7 @@ FIELDS: Mapping[str, Field] = {
 assert tuple(FIELDS) == tuple(field.name for field in fields(Parameters))
 
 
-def changed(parameters: Parameters, values: Mapping[str, Any], place: str = "") -> Parameters:
+def with_values(parameters: Parameters, values: Mapping[str, Any], place: str = "") -> Parameters:
     """With other values for some fields; FieldError at `place` and field for one that does not fit."""
     for name, value in values.items():
         check(name, value, f"{place}{name}")
@@ -139,7 +139,7 @@ def read_toml(data: bytes) -> Parameters:
             raise FieldError(f"line {line_of(text, field)}, {field}", _shown(name), "a name to list the example under")
     for field, value in told.items():
         check(field, value, f"line {line_of(text, field)}, {_clipped(field)}")
-    return changed(Parameters(), told)
+    return with_values(Parameters(), told)
 
 
 def line_of(text: str, field: str) -> int:

@@ -25,7 +25,7 @@ def posted():
 @pytest.fixture
 def desk(own, posted):
     made = Desk(View(Place(0, 0, 0), 0, 0.0, 800, 600), posted.append)
-    regions = Regions(lambda r: example_work.told(made, r) if isinstance(r, RegionScene) else None)
+    regions = Regions(lambda r: example_work.take_scene(made, r) if isinstance(r, RegionScene) else None)
 
     def post(request):
         """Regions are painted at once; all else that is asked for is only noted."""

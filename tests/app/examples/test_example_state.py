@@ -48,7 +48,7 @@ def test_sizes_go_by_the_zoom_at_which_it_was_chosen(desk, size, level, detail):
     example_use.follow(desk)
     desk.view = desk.view.zoomed(-3)
     assert (desk.hand.brush.example_level, desk.hand.brush.example_detail) == (level, detail)
-    example_use.fit(desk)
+    example_use.fit_size(desk)
     assert desk.hand.brush.example_level == level - 3
 
 
@@ -57,7 +57,7 @@ def test_strokes_too_far_from_the_size_fit_it_anew(desk):
     for levels, fitted in ((8, False), (-13, True), (-1, False)):
         desk.view = desk.view.zoomed(levels)
         before = desk.hand.brush.example_level
-        example_use.reach(desk)
+        example_use.fit_within_reach(desk)
         assert (desk.hand.brush.example_level != before) == fitted
         level, brush = desk.stroke_brush(eraser=False)
         assert abs(brush.example_level - level) <= 8
@@ -102,7 +102,7 @@ def test_a_kept_brush_with_an_example_fits_what_is_seen(desk):
 
 def test_growing_without_an_example_opens_the_palette(desk):
     desk.strip = ""
-    example_use.take(desk)
+    example_use.take_example(desk)
     assert desk.strip == "examples"
     assert desk.hand.brush.mode == "paint"
 

@@ -156,7 +156,7 @@ def test_a_bundled_region_is_saved_as_a_copy(desk, own):
     example_work.save_region(desk)
     assert desk.message[1]
     assert own_example_files.cut_out(state.entry)[1].any()
-    example_work.delete(desk, state.entry)
+    example_work.delete_example(desk, state.entry)
     assert not list(own.iterdir())
     assert state.entry is None
 
@@ -195,10 +195,10 @@ def test_who_paints_with_ones_own_is_told_and_keeps_on_painting_when_it_is_delet
     example_use.gather(desk)
     assert example_work.users(desk, rock) == "this painting"
     assert example_work.users(desk, sand) == "the brush “Mine”"
-    example_work.delete(desk, sand)
+    example_work.delete_example(desk, sand)
     assert (desk.hand.brush.mode, desk.hand.preset, desk.examples.chosen) == ("paint", "Pen", "")
     example_use.choose(desk, rock)
-    example_work.delete(desk, rock)
+    example_work.delete_example(desk, rock)
     assert (desk.hand.brush.example, desk.hand.needs) == ("Rock", ())
     assert desk.examples.entry.here is not None
 
@@ -209,7 +209,7 @@ def test_ones_own_settings_are_kept_in_its_file(desk, tmp_path):
     for name, value in (("kappa", 4.5), ("channels", "luminance"), ("feather", 0), ("neighbourhood", 5)):
         state.set(state.entry, name, value)
     example_work.use_settings(desk)
-    (read,), faults = example_state.load(example_state.own_folder(), True)
+    (read,), faults = example_state.load_examples(example_state.own_folder(), True)
     assert not faults
     assert read.parameters == replace(Parameters(), kappa=4.5, channels="luminance", feather=0, neighbourhood=5)
     example_work.keep_settings(desk)
@@ -221,13 +221,13 @@ def test_a_file_of_parameters_that_is_none_is_told_by_its_line(own):
     own.mkdir()
     picture(own / "a.png")
     (own / "a.toml").write_text('group = "X"\nkappa = "much"\n')
-    (entry,), (fault,) = example_state.load(own, True)
+    (entry,), (fault,) = example_state.load_examples(own, True)
     assert entry.parameters == Parameters()
     assert fault.startswith("a.toml: line 2, kappa")
 
 
 @pytest.mark.parametrize("stem", ["", "///", "..", "a\0b", "x" * 400, "Größe"])
 def test_any_stem_makes_a_name(stem, own):
-    name = own_example_files.free_name(stem)
+    name = own_example_files.free_file_name(stem)
     assert 0 < len(name) <= 40
     assert not set(name) & set("/\\\0.")

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from skimage.transform import resize_local_mean
 
-from engine.numeric.shrink import box_reduce, fitted
+from engine.numeric.shrink import box_reduce, fitted_size
 
 
 @settings(deadline=None, max_examples=40)
@@ -38,10 +38,10 @@ def test_keeps_mean_order_and_displayability():
 
 
 def test_fitted_sizes():
-    assert fitted(1920, 1080, 256) == (256, 144)
-    assert fitted(100, 50, 256) == (100, 50)
-    assert fitted(10, 100000, 256) == (1, 256)
-    assert fitted(300, 300, 256) == (256, 256)
+    assert fitted_size(1920, 1080, 256) == (256, 144)
+    assert fitted_size(100, 50, 256) == (100, 50)
+    assert fitted_size(10, 100000, 256) == (1, 256)
+    assert fitted_size(300, 300, 256) == (256, 256)
 
 
 @pytest.mark.parametrize(("width", "height"), [(0, 5), (5, 0), (11, 5), (5, 11)])

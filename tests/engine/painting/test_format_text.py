@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from PIL import Image
 
-from engine.archive.grounds import lay
+from engine.archive.grounds import lay_ground
 from engine.archive.saving import Snapshot, save
 from engine.brush.settings import Brush
 from engine.canvas.evaluate import evaluate
@@ -225,7 +225,7 @@ def test_a_stranger_reads_what_was_painted_on_a_picture(tmp_path):
     session = Session()
     session.do(c.AddLayer("Photo"))
     (layer,) = layers(session.painting.root)
-    root = replace(session.painting.root, children=(replace(layer, pyramid=lay(pixels, 41, 23)),))
+    root = replace(session.painting.root, children=(replace(layer, pyramid=lay_ground(pixels, 41, 23)),))
     session.painting = replace(session.painting, root=root)
     check(session, tmp_path / "bare.ora", PLACES)
     stroke(session, 1, [[180, 150], [260, 190]], radius=14, colour="#2060a0")

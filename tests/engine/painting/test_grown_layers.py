@@ -18,7 +18,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.difference import areas
 from engine.painting.grown import settled
-from engine.painting.rendering import folded, reach, sheets, strips
+from engine.painting.rendering import folded_layers, reach, sheets, strips
 from engine.session.apply import Around, Painting, apply
 from engine.session.history import difference
 from engine.strokes.scenery import reader
@@ -75,7 +75,7 @@ def test_strips_and_sheets_show_it(states):
     upper = layers.find(last.root, "upper")
     assert upper.growth
     wanted = picture(last, 0, FRAME)
-    strip = np.concatenate([part.copy() for part in strips(folded(last.root), 0, FRAME)], axis=1)
+    strip = np.concatenate([part.copy() for part in strips(folded_layers(last.root), 0, FRAME)], axis=1)
     assert np.array_equal(strip, wanted)
     places = {layer.id: reach(layer, 0, FRAME) for layer in layers.layers(last.root)}
     for layer in layers.layers(last.root):
@@ -100,7 +100,7 @@ def test_a_copied_layer_has_it_too(states):
 
 def test_a_picture_under_it_is_no_ground_any_more(states):
     pixels = np.full((80, 96, 4), 200, np.uint8)
-    sheet = layers.Layer(1, "A", pyramid=grounds.lay(pixels, 0, 0))
+    sheet = layers.Layer(1, "A", pyramid=grounds.lay_ground(pixels, 0, 0))
     assert grounds.whole(sheet, FRAME)
     growth = layers.find(states[-1].root, "upper").growth
     assert not grounds.whole(replace(sheet, growth=growth), FRAME)

@@ -22,7 +22,7 @@ from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import expand
 from engine.painting.commands import parse
-from engine.painting.rendering import folded
+from engine.painting.rendering import folded_layers
 from engine.session.apply import Painting, apply
 from engine.texture.rock import Rock
 from engine.texture.table import from_key
@@ -32,7 +32,7 @@ def painted(*strokes):
     painting = Painting(Rect(0, 0, 300, 300), 3)
     for points, level, brush in strokes:
         painting = apply(painting, parse({"do": "stroke", "points": points, "level": level, "brush": brush}))
-    return next(layers(folded(painting.root))).pyramid
+    return next(layers(folded_layers(painting.root))).pyramid
 
 
 def ink(texture, colour="#e0d0b0", amount=0.5, **parameters):

@@ -14,7 +14,7 @@ from engine.canvas.layers import layers
 from engine.files.fault import FileError
 from engine.makers.makers import MAKERS
 from engine.numeric.address import Rect
-from engine.numeric.impulse import corners, response, suggested_window
+from engine.numeric.impulse import corners, impulse_response, suggested_window
 from engine.numeric.spectra import SPREAD
 from engine.painting import recording as r
 from engine.painting.commands import parse, to_json
@@ -197,7 +197,7 @@ def test_averaging_lowers_the_variance_of_the_spectrum():
     truth /= np.sqrt((truth**2).mean())
 
     def fault(average):
-        found = np.abs(np.fft.fft2(response(photo, 32, average)[0]))
+        found = np.abs(np.fft.fft2(impulse_response(photo, 32, average)[0]))
         found /= np.sqrt((found**2).mean())
         return np.sqrt(((found - truth) ** 2).mean())
 
@@ -209,7 +209,7 @@ def test_averaging_lowers_the_variance_of_the_spectrum():
 def test_channels_keep_their_strengths(phase):
     grain = noise_of(np.outer(np.hanning(9), np.hanning(9)), (96, 96))
     photo = np.stack([grain, 0.5 * grain, -0.25 * grain])
-    found = response(photo, 32, 6, phase)
+    found = impulse_response(photo, 32, 6, phase)
     assert found.std() == pytest.approx(SPREAD, rel=0.01)
     assert found.mean(axis=(1, 2)) == pytest.approx([0, 0, 0], abs=1e-4)
     deviations = found.std(axis=(1, 2))

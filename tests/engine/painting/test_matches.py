@@ -26,14 +26,14 @@ from engine.makers.makers import MAKERS
 from engine.numeric.address import Rect
 from engine.numeric.grid import Q
 from engine.painting import recording as r
-from engine.painting.capture import Place
+from engine.painting.capture import PictureSource
 from engine.painting.commands import parse
 from engine.session.apply import Around, Painting, Refusal, apply
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.texture.adjusting import Band, adjusted
 from engine.texture.image import ImageSource
-from engine.texture.matching import Shape, analysed, noise, picture
+from engine.texture.matching import Shape, analysed, matched_colours, noise
 from engine.texture.matching import matched as matched_planes
 
 FRAME = Rect.at(0, 0, 48, 40)
@@ -126,10 +126,10 @@ def test_it_replays_and_reopens_without_its_examples(folder, name, weight):
 
 def test_it_is_the_texture_that_the_engine_makes(folder):
     made = replay(lines(DEFINITIONS["match"], folder=folder)).painting.textures["t"]
-    example = Place(folder, None).picture(Fields({"path": "colour.png"}, ""))[:3]
+    example = PictureSource(folder, None).picture(Fields({"path": "colour.png"}, ""))[:3]
     pattern = analysed(example, Shape("steerable", 2, 4))
     planes = matched_planes(pattern, noise(pattern.colours.count, (24, 32), 0))
-    assert np.array_equal(made.source.data[:3], picture(pattern, planes))
+    assert np.array_equal(made.source.data[:3], matched_colours(pattern, planes))
     assert made.instance({}, 0, 0).roughness == made.parameters["roughness"]
 
 
@@ -151,7 +151,7 @@ def test_another_example_under_the_same_path_is_told(folder):
 
 def test_steps_come_one_by_one_and_end_with_the_texture(folder):
     members = Fields({key: v for key, v in DEFINITIONS["series"].items() if key not in ("do", "name", "maker")}, "")
-    plan = heeger_bergen.read("mix", members, Place(folder, None))
+    plan = heeger_bergen.read("mix", members, PictureSource(folder, None))
     made = list(heeger_bergen.steps(plan))
     done = [step.done for step in made]
     assert done == sorted(done)
@@ -219,7 +219,7 @@ def test_a_louder_subband_is_louder_in_the_texture():
     louder = adjusted(pattern, [Band(0, 1, 2.0)])
     start = noise(pattern.colours.count, (48, 48), 1)
     for place, ordered in (
-        analysed(picture(louder, matched_planes(louder, start)), louder.shape, pattern.colours).bands[0].items()
+        analysed(matched_colours(louder, matched_planes(louder, start)), louder.shape, pattern.colours).bands[0].items()
     ):
         before = pattern.bands[0][place].std()
         ratio = ordered.std() / before
@@ -262,7 +262,7 @@ def torn(folder):
     alpha = alpha.point(lambda value: min(max(3 * value - 300, 0), 255))
     colours.putalpha(alpha)
     colours.save(folder / "torn.png")
-    return Place(folder, None).picture(Fields({"path": "torn.png"}, ""))
+    return PictureSource(folder, None).picture(Fields({"path": "torn.png"}, ""))
 
 
 TORN = texture("match", path="torn.png", size=[64, 48], levels=3)
@@ -286,7 +286,7 @@ def test_alpha_is_matched_with_the_colours(folder):
     pattern = analysed(example, Shape("steerable", 3, 4))
     planes = matched_planes(pattern, noise(pattern.colours.count, (48, 64), 0))
     assert pattern.colours.count == 4
-    wanted = picture(pattern, planes)
+    wanted = matched_colours(pattern, planes)
     assert np.array_equal(made, np.minimum(wanted, wanted[3]))
 
 
@@ -347,7 +347,7 @@ def test_what_was_recorded_before_alpha_counted_is_as_it_was(folder):
     assert made.opaque
     pattern = analysed(without, Shape("steerable", 3, 4))
     planes = matched_planes(pattern, noise(pattern.colours.count, (48, 64), 0))
-    assert np.array_equal(made.data[:3], picture(pattern, planes))
+    assert np.array_equal(made.data[:3], matched_colours(pattern, planes))
     both = texture("mix", path="torn.png", pattern="torn.png", how="average", **SMALL, examples=[sha, sha])
     assert replay(lines(both, folder=folder)).painting.textures["t"].source.opaque
     with pytest.raises(FileError, match="are not those recorded"):

@@ -10,7 +10,7 @@ from engine.numeric.address import Rect
 from engine.strokes.example_region import followed
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.region_strokes import KEPT, Regions, over_paper, shown
+from engine.studio.region_strokes import KEPT, Regions, over_paper, region_picture
 
 HEIGHT, WIDTH = 40, 60
 WHOLE = Rect(0, 0, WIDTH, HEIGHT)
@@ -154,7 +154,7 @@ def test_whatever_is_done_the_steps_mean_what_is_seen_and_undo_takes_all_of_it_b
         else:
             post.stroke(*about[0], kept=False)
         assert np.array_equal(post.scene.inside, post.meant())
-        assert np.array_equal(post.seen, shown(over_paper(post.picture), post.scene.inside, WHOLE))
+        assert np.array_equal(post.seen, region_picture(over_paper(post.picture), post.scene.inside, WHOLE))
     last = post.scene
     steps = len(last.steps)
     assert np.array_equal(post(q.RegionTravel("a", -steps)).inside, post.first)
@@ -166,7 +166,7 @@ def test_whatever_is_done_the_steps_mean_what_is_seen_and_undo_takes_all_of_it_b
 def test_what_is_outside_is_dimmed_and_the_edge_is_light():
     flat, inside = np.full((HEIGHT, WIDTH, 3), 200, np.uint8), np.zeros((HEIGHT, WIDTH), bool)
     inside[10:30, 10:30] = True
-    seen = shown(flat, inside, WHOLE).astype(int)
+    seen = region_picture(flat, inside, WHOLE).astype(int)
     assert (seen[12:28, 12:28] == 200).all()
     assert (seen[0:8] < 100).all()
     assert (seen[15, 9] > 200).all()

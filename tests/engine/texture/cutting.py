@@ -14,7 +14,7 @@ import numpy as np
 from scipy.ndimage import map_coordinates
 
 from engine.texture import matching, solid
-from engine.texture.matching import Shape, analysed, matched, picture
+from engine.texture.matching import Shape, analysed, matched, matched_colours
 
 DIRECTIONS, SHIFTS = 8, 4
 
@@ -25,13 +25,13 @@ def solid_of(example: np.ndarray, side: int, seed: int = 1) -> np.ndarray:
     start = solid.noise(wanted.oriented.colours.count, side, seed)
     with ThreadPoolExecutor(2) as threads:
         *_, last = solid.matching(wanted, start, threads=threads)
-    return picture(wanted.oriented, last.planes)
+    return matched_colours(wanted.oriented, last.planes)
 
 
 def flat_of(example: np.ndarray, side: int, seed: int) -> np.ndarray:
     """The same in a plane, (C, side, side)."""
     pattern = analysed(example, Shape().within((side, side)))
-    return picture(pattern, matched(pattern, matching.noise(pattern.colours.count, (side, side), seed)))
+    return matched_colours(pattern, matched(pattern, matching.noise(pattern.colours.count, (side, side), seed)))
 
 
 def along_axes(cube: np.ndarray) -> Iterator[np.ndarray]:

@@ -10,7 +10,7 @@ from quality import noise_like, unlikeness
 
 from engine.numeric.colour_axes import axes_of
 from engine.texture import matching
-from engine.texture.matching import Shape, analysed, matched, noise, picture, started
+from engine.texture.matching import Shape, analysed, matched, matched_colours, noise, started
 
 SIDE = 128
 
@@ -18,7 +18,7 @@ SIDE = 128
 def made(example, size=(SIDE, SIDE), shape=None, seed=3, **more):
     pattern = analysed(example, (shape or Shape()).within(size))
     *_, last = matching.matching(pattern, noise(pattern.colours.count, size, seed), **more)
-    return picture(pattern, last.planes)
+    return matched_colours(pattern, last.planes)
 
 
 def closed(example, other, result, shape=None):
@@ -149,11 +149,11 @@ def test_tables_are_as_good_as_ranks():
 def test_a_start_picture_leaves_its_traces():
     example, start = specimens.sand(), specimens.wood()
     pattern = analysed(example, Shape())
-    found = picture(pattern, matched(pattern, started(pattern, axes_of(start).planes(start), 1)))
+    found = matched_colours(pattern, matched(pattern, started(pattern, axes_of(start).planes(start), 1)))
     assert closed(example, specimens.sand(seed=40), found) > 0.6  # a bit like each of the two
     alike = np.corrcoef(found[0].ravel(), start[0].ravel())[0, 1]
     assert alike > 0.3 > abs(np.corrcoef(made(example)[0].ravel(), start[0].ravel())[0, 1]) + 0.1
-    flat = picture(pattern, matched(pattern, started(pattern, np.zeros((0, SIDE, SIDE), np.float32), 1)))
+    flat = matched_colours(pattern, matched(pattern, started(pattern, np.zeros((0, SIDE, SIDE), np.float32), 1)))
     assert closed(example, specimens.sand(seed=40), flat) > 0.95
 
 

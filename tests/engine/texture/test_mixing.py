@@ -7,7 +7,7 @@ from quality import channels_of, unlikeness
 
 from engine.numeric import histograms
 from engine.numeric.colour_axes import axes_of
-from engine.texture.matching import PYRAMIDS, Shape, analysed, matched, noise, picture
+from engine.texture.matching import PYRAMIDS, Shape, analysed, matched, matched_colours, noise
 from engine.texture.mixing import MIXES, Mix, average, bands, coarsened, palette
 
 SIDE = 96
@@ -15,7 +15,7 @@ FIRST, SECOND = specimens.granite((SIDE, SIDE)), specimens.bark((SIDE, SIDE))
 
 
 def made(pattern, seed=2):
-    return picture(pattern, matched(pattern, noise(pattern.colours.count, (SIDE, SIDE), seed)))
+    return matched_colours(pattern, matched(pattern, noise(pattern.colours.count, (SIDE, SIDE), seed)))
 
 
 def shape(kind="steerable"):
@@ -97,7 +97,7 @@ def test_any_two_pictures(how):
         for second in (grey, tiny, flat, glass):
             pattern = MIXES[how](first, second, Shape().within((20, 24)), Mix())
             count = pattern.colours.count
-            found = picture(pattern, matched(pattern, noise(count, (20, 24), 1), 2))
+            found = matched_colours(pattern, matched(pattern, noise(count, (20, 24), 1), 2))
             assert found.shape[0] in {len(first), len(second)}
             assert np.isfinite(found).all()
             assert found.min() >= 0.0

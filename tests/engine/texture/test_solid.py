@@ -11,7 +11,7 @@ from scipy.ndimage import map_coordinates
 
 from engine.numeric.colour_axes import axes_of
 from engine.texture import matching, solid
-from engine.texture.matching import Shape, analysed, matched, picture
+from engine.texture.matching import Shape, analysed, matched, matched_colours
 
 SIDE = 32
 
@@ -19,7 +19,7 @@ SIDE = 32
 def made(example, side=SIDE, seed=1, shape=None, **more):
     wanted = solid.patterns(example, side, shape or Shape())
     *_, last = solid.matching(wanted, solid.noise(wanted.oriented.colours.count, side, seed), **more)
-    return picture(wanted.oriented, last.planes)
+    return matched_colours(wanted.oriented, last.planes)
 
 
 def planes_of(cube):
@@ -56,7 +56,7 @@ def test_planes_look_like_the_example(name):
     for seed in range(3):
         pattern = analysed(example, Shape().within((SIDE, SIDE)))
         start = matching.noise(pattern.colours.count, (SIDE, SIDE), seed)
-        flat.append(unlikeness(picture(pattern, matched(pattern, start)), example))
+        flat.append(unlikeness(matched_colours(pattern, matched(pattern, start)), example))
     found = [unlikeness(plane, example) for plane in planes_of(cube)]
     assert np.mean(found) < 1.15 * np.mean(flat), np.mean(found) / np.mean(flat)
     assert max(found) < 1.5 * np.mean(flat), max(found) / np.mean(flat)
@@ -71,7 +71,7 @@ def test_planes_askew_look_like_the_example(name):
     """As much as pieces of a flat texture that were cut out of it, and so do not tile either."""
     example, cube = grown(name)
     pattern = analysed(example, Shape().within((SIDE, SIDE)))
-    whole = picture(pattern, matched(pattern, matching.noise(pattern.colours.count, (2 * SIDE, 2 * SIDE), 0)))
+    whole = matched_colours(pattern, matched(pattern, matching.noise(pattern.colours.count, (2 * SIDE, 2 * SIDE), 0)))
     pieces = [whole[:, y : y + SIDE, x : x + SIDE] for y in (0, SIDE) for x in (0, SIDE)]
     flat = np.mean([unlikeness(piece, example) for piece in pieces])
     half, third = 2.0**-0.5, 6.0**-0.5
@@ -119,7 +119,7 @@ def test_no_single_plane_is_unlike_the_example():
     flat = []
     for seed in range(4):
         start = matching.noise(pattern.colours.count, (64, 64), seed)
-        flat.append(unlikeness(picture(pattern, matched(pattern, start)), example))
+        flat.append(unlikeness(matched_colours(pattern, matched(pattern, start)), example))
     cube = made(example, 64)
     for shift, step in ((0, 1), (21, 4)):
         moved = np.roll(cube, (shift,) * 3, (1, 2, 3))
@@ -142,7 +142,7 @@ def test_no_direction_is_preferred(granite):
     """Of an example that prefers none: differences along x, y and z are as large, and as in a flat texture."""
     example, cube = granite
     pattern = analysed(example, Shape().within((SIDE, SIDE)))
-    flat = picture(pattern, matched(pattern, matching.noise(pattern.colours.count, (SIDE, SIDE), 1)))
+    flat = matched_colours(pattern, matched(pattern, matching.noise(pattern.colours.count, (SIDE, SIDE), 1)))
     found = [np.abs(np.diff(cube, axis=axis)).mean() for axis in (1, 2, 3)]
     assert max(found) < 1.06 * min(found)
     assert np.mean(found) == pytest.approx(np.abs(np.diff(flat, axis=1)).mean(), rel=0.1)
