@@ -1,6 +1,6 @@
 """The first start, with no kernel compiled: from the process to the first dab, and to the last brush.
 
-In the real window, where a stroke is begun as soon as it takes input; without Xvfb or xdotool, in the engine alone.
+In the real window, where a stroke is begun as soon as its tools take one; without Xvfb or xdotool, in the engine alone.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ def _painted(program: subprocess.Popen[str], environment: dict[str, str]) -> Tim
     assert program.stderr is not None
     for line in program.stderr:
         event, _, told = line.partition(": ")
-        if event == "first frame":
+        if event == "engine ready":  # tools take no press before
             subprocess.run(["xdotool", *moves[:3], "mousedown", "1", *moves[3:]], env=environment, check=True)
         elif event == "first paint":
             dab, (worked, _) = _seconds(told), processors(program.pid)
