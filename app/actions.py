@@ -245,7 +245,7 @@ MENUS = ("File", "Edit", "Tools", "Layer", "View", "Help")
 
 
 def by_key(keys: str) -> Action | None:
-    """The action that a key press such as `Ctrl+S` means."""
+    """Returns the action that a key press such as `Ctrl+S` means."""
     return _BY_KEY.get(keys)
 
 
@@ -261,6 +261,6 @@ def perform(desk: Desk, action: Action) -> bool:
 
 
 def tip(name: str) -> str:
-    """An action's hint with its keys, for tooltips."""
+    """Returns an action's hint with its keys, for tooltips."""
     action = ACTIONS[name]
     return f"{action.hint}  ({action.keys[0]})" if action.keys else action.hint

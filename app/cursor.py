@@ -30,7 +30,7 @@ def shape(desk: Desk, panning: bool) -> int:
 
 
 def draw_frame(desk: Desk) -> None:
-    """The frame's edge, so that it shows under paint that goes beyond it."""
+    """Draws the frame's edge, so that it shows under paint that goes beyond it."""
     r, view = desk.known.frame, desk.view
     corners = [view.pixel_to_screen(0, x, y) for x, y in ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))]
     painter = imgui.get_background_draw_list()
@@ -41,7 +41,7 @@ def draw_frame(desk: Desk) -> None:
 
 
 def draw_outline(desk: Desk) -> None:
-    """The brush's circle, above the canvas and below the panels; or the rectangle that is being marked."""
+    """Draws the brush's circle, above the canvas and below the panels; or the rectangle that is being marked."""
     if desk.match.marked is not None:
         _draw_marked(desk.match.marked)
     if desk.match.marking is not None or desk.examples.swapping:
@@ -55,7 +55,8 @@ def draw_outline(desk: Desk) -> None:
 
 
 def draw_growing(desk: Desk) -> None:
-    """A small ring over what still grows, filled as far as it is done; not at once, so that little work shows none."""
+    """Draws a small ring over what still grows, filled as far as it is done; not at once, so that little work shows
+    none."""
     growing, radius = desk.known.growing, 7.0 * desk.scale
     if growing is None or time.monotonic() - desk.known.grows < _PATIENCE:
         return
@@ -77,7 +78,7 @@ def draw_growing(desk: Desk) -> None:
 
 
 def apart(places: list[tuple[float, float]], least: float) -> list[tuple[float, float]]:
-    """Those that no place before them is nearer to than that: as marks they would lie on one another."""
+    """Returns those that no place before them is nearer to than that: as marks they would lie on one another."""
     found: list[tuple[float, float]] = []
     for place in places:
         if all(math.dist(place, other) >= least for other in found):

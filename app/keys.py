@@ -30,7 +30,7 @@ _MODIFIERS = ((glfw.MOD_CONTROL | glfw.MOD_SUPER, "Ctrl"), (glfw.MOD_ALT, "Alt")
 
 
 def key_name(key: int, scancode: int) -> str:
-    """The key as its label reads on the artist's keyboard; empty for one that means nothing."""
+    """Returns the key as its label reads on the artist's keyboard; empty for one that means nothing."""
     if key in _NAMED:
         return _NAMED[key]
     label: Any = glfw.get_key_name(key, scancode)
@@ -40,7 +40,7 @@ def key_name(key: int, scancode: int) -> str:
 
 
 def chord(key: int, scancode: int, mods: int) -> str:
-    """The press with its modifiers, as in the action table."""
+    """Returns the press with its modifiers, as in the action table."""
     name = key_name(key, scancode)
     if not name:
         return ""

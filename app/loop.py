@@ -72,7 +72,8 @@ def _told(worker: Any) -> int:
 
 
 def opened_window() -> Window:
-    """The window, nothing drawn yet.  WindowError if there is no display, no OpenGL 3.3, or a library is missing."""
+    """Returns the window, nothing drawn yet.  WindowError if there is no display, no OpenGL 3.3, or a library is
+    missing."""
     rest = threading.Thread(target=_load, args=("app.window",))
     rest.start()
     handle = _open_window()

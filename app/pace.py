@@ -112,7 +112,8 @@ class Pace:
             self.worker.turn(end)
 
     def _still(self, painting: bool) -> float:
-        """Seconds from one frame to the next where no event comes between: a slow one is followed by as long a rest."""
+        """Returns seconds from one frame to the next where no event comes between: a slow one is followed by as long
+        a rest."""
         if self._by_turns or (not self._drawn and not painting):
             return STILL
         return min(STILL, max(PACE, 2 * self._took))

@@ -34,7 +34,7 @@ class Router:
         self._field_until = 0.0
 
     def pointer(self, event: PenEvent) -> None:
-        """One pointer event."""
+        """Takes one pointer event."""
         desk = self.desk
         desk.pointer.x, desk.pointer.y, desk.pointer.pen = event.x, event.y, event.pen
         if self.gesture is not None:
@@ -87,7 +87,7 @@ class Router:
         self._send(None)
 
     def _chosen(self, event: PenEvent) -> Gesture:
-        """The gesture that this press begins."""
+        """Returns the gesture that this press begins."""
         held = self._keys
         ctrl = bool({glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL} & held)
         shift = bool({glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT} & held)
@@ -123,7 +123,7 @@ class Router:
             self.gesture = None
 
     def key(self, key: int, scancode: int, action: int, mods: int) -> None:
-        """One key event; those that a text field or a dialog wants are left to it."""
+        """Takes one key event; those that a text field or a dialog wants are left to it."""
         if action == glfw.RELEASE:
             self._keys.discard(key)
             return
@@ -149,7 +149,7 @@ class Router:
         self.cancel()
 
     def hover(self) -> None:
-        """What the pointer is over, now that the panels are drawn: a dialog may have opened under it."""
+        """Finds what the pointer is over, now that the panels are drawn: a dialog may have opened under it."""
         at = self.desk.pointer
         if at.over_canvas and self.gesture is None and self.layout.covers(at.x, at.y):
             at.over_canvas = False
@@ -162,7 +162,7 @@ class Router:
 
     @property
     def typing(self) -> bool:
-        """Whether what is typed may be for a text field."""
+        """Tells whether what is typed may be for a text field."""
         field = imgui.get_io().want_text_input or self.layout.dialogs.open or self.layout.popup
         return field or time.monotonic() < self._field_until
 

@@ -60,12 +60,12 @@ def vec(colour: tuple[float, ...], alpha: float = 1.0) -> ImVec4:
 
 
 def packed(colour: tuple[float, ...], alpha: float = 1.0) -> int:
-    """The 32-bit colour that draw lists take."""
+    """Returns the 32-bit colour that draw lists take."""
     return imgui.color_convert_float4_to_u32(vec(colour, alpha))
 
 
 def load_fonts(io: Any) -> None:
-    """Text and icons as one font; glyphs are rasterised when first shown, at any size."""
+    """Loads text and icons as one font; glyphs are rasterised when first shown, at any size."""
     io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto" / "Roboto-Regular.ttf"), FONT_SIZE)
     icons = imgui.ImFontConfig()
     icons.merge_mode = True

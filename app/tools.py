@@ -39,14 +39,14 @@ Gesture = Generator[None, PenEvent, None]
 
 
 def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, start: float) -> list[float]:
-    """A pen event as a row of stroke points."""
+    """Returns a pen event as a row of stroke points."""
     x, y = view.to_canvas(event.x, event.y).offset(level, *origin)
     pressure = event.pressure if event.pen else 1.0
     return [x, y, pressure, event.tilt_x, event.tilt_y, event.time - start]
 
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:
-    """A stroke, at the level that is shown."""
+    """Returns a stroke, at the level that is shown."""
     if not desk.known.ready:
         desk.say("The paint engine is still loading")
         return
@@ -83,7 +83,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
 
 
 def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
-    """A stroke in the texture lab's spectrum."""
+    """Returns a stroke in the texture lab's spectrum."""
     lab = desk.lab
     built_in = frozenset(row.name for row in desk.known.tables.kinds if not row.pictured)
     brush = lab.brush(desk.hand.brush, to_hex(desk.hand.colour), first.eraser, built_in)
@@ -191,7 +191,8 @@ def mark(desk: Desk, first: PenEvent) -> Gesture:
 
 
 def paint_region(desk: Desk, first: PenEvent) -> Gesture:
-    """A stroke in the region of an example; as all strokes it may be dropped.  A click takes a colour out of it."""
+    """Returns a stroke in the region of an example; as all strokes it may be dropped.  A click takes a colour out of
+    it."""
     state, region = desk.examples, desk.examples.region
     if region is None:
         return
@@ -218,7 +219,7 @@ def paint_region(desk: Desk, first: PenEvent) -> Gesture:
 
 
 def swap(desk: Desk, first: PenEvent) -> Gesture:
-    """What was painted with an example, at the place touched, becomes like the chosen one."""
+    """Returns what was painted with an example, at the place touched, becomes like the chosen one."""
     event = first
     while event.kind != "up":
         event = yield

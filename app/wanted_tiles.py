@@ -63,7 +63,7 @@ class Tiles:
 
 
 def _ring(seen: list[ScreenTile]) -> list[ScreenTile]:
-    """The tiles just outside the visible ones."""
+    """Returns the tiles just outside the visible ones."""
     level = seen[0].level
     x0, y0, x1, y1 = seen[0].x - 1, seen[0].y - 1, seen[-1].x + 1, seen[-1].y + 1
     edge = [(x, y) for x in range(x0, x1 + 1) for y in (y0, y1)] + [(x, y) for y in range(y0 + 1, y1) for x in (x0, x1)]

@@ -76,7 +76,7 @@ class Window:
         self.desk.say("The paint engine is still loading")
 
     def _hearers(self, kind: type) -> list[Hear]:
-        """Those of its parts who hear results of a type."""
+        """Returns those of its parts who hear results of a type."""
         if kind is results.Picture:
             return [lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels)]
         if kind is results.PicturePart:
@@ -165,7 +165,7 @@ class Window:
             self.pace.wait(moving, self.desk.painting, imgui.get_io().want_text_input)
 
     def closed(self) -> bool:
-        """Whether the window is to go; asks about unsaved changes first."""
+        """Tells whether the window is to go; asks about unsaved changes first."""
         if glfw.window_should_close(self.handle):
             glfw.set_window_should_close(self.handle, False)
             with self._guard.spare("closing"):

@@ -48,7 +48,7 @@ def _kernels_folder() -> str:
 
 
 def _own(folder: Path) -> bool:
-    """Whether nobody else can write to a folder, as far as the system tells."""
+    """Tells whether nobody else can write to a folder, as far as the system tells."""
     if not hasattr(os, "getuid"):
         return True
     about = folder.stat()
@@ -56,7 +56,7 @@ def _own(folder: Path) -> bool:
 
 
 def _passing_folder() -> str:
-    """A folder that goes with the process; one that cannot be made where that fails: nothing is kept then."""
+    """Returns a folder that goes with the process; one that cannot be made where that fails: nothing is kept then."""
     try:
         folder = tempfile.mkdtemp(prefix="inkfall-kernels-")
     except OSError:

@@ -97,12 +97,12 @@ class KernelFile:
                 path.unlink()
 
     def path(self, key: tuple[Any, ...]) -> Path:
-        """Where the code for `key` is kept: signature, processor, and hashes of the function's code."""
+        """Tells where the code for `key` is kept: signature, processor, and hashes of the function's code."""
         told = re.sub(r" at 0x[0-9a-fA-F]+", "", f"{self._stamp} {key!r}")
         return self._folder / f"{self._base}.{hashlib.sha256(told.encode()).hexdigest()[:20]}{ENDING}"
 
     def load(self, key: tuple[Any, ...]) -> object | None:
-        """What was saved for `key`; None if there is nothing, or it is damaged."""
+        """Returns what was saved for `key`; None if there is nothing, or it is damaged."""
         path = self.path(key)
         found = _read(path)
         if found is None and _local.watch is not None and not _local.compiling:
@@ -158,8 +158,8 @@ class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]
 
 @cache
 def stamp(path: Path) -> str:
-    """A hash of a module's source and of those modules of the engine that it imports: their constants and inlined
-    functions are part of its kernels."""
+    """Returns a hash of a module's source and of those modules of the engine that it imports: their constants and
+    inlined functions are part of its kernels."""
     seen: set[Path] = set()
     _gather(path.resolve(), seen)
     total = hashlib.sha256()

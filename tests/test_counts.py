@@ -56,7 +56,7 @@ def house(tmp_path, **modules):
 ROWS = "\n".join(f"    value = value * {n} + radius" for n in range(7))
 BAD = {
     "modules above 400 lines": {"app__a": "x = 1\n" * 401},
-    "functions above 40 lines": {"app__a": "def _f():\n" + "    x = 1\n" * 40},
+    "functions above 40 lines": {"app__a": "def _f():\n" + "    x = 1\n" * 41},
     "classes above 15 methods": {"app__a": "class _A:\n" + "".join(f"    def _{n}(self): ...\n" for n in range(16))},
     "folders above 20 files": {f"app__panels__m{n}": "" for n in range(21)},
     "floors": {

@@ -22,23 +22,23 @@ class Gallery:
         self._fresh: set[int] = set()
 
     def hang(self, name: str, pixels: np.ndarray) -> None:
-        """A picture, uint8 (h, w, 4) premultiplied, over paper."""
+        """Hangs a picture, uint8 (h, w, 4) premultiplied, over paper."""
         alpha = pixels[..., 3:].astype(np.uint16)
         flat = (pixels[..., :3] + (255 - alpha) * _PAPER // 255).clip(0, 255).astype(np.uint8)
         self._of(name, pixels.shape[1], pixels.shape[0]).write(np.ascontiguousarray(flat), alignment=1)
 
     def touch(self, name: str, size: tuple[int, int], box: Rect, pixels: np.ndarray) -> None:
-        """A part, uint8 (h, w, 3), of a picture of `size` (width, height)."""
+        """Hangs a part, uint8 (h, w, 3), of a picture of `size` (width, height)."""
         viewport = (box.x0, box.y0, box.width, box.height)
         self._of(name, *size).write(np.ascontiguousarray(pixels), viewport=viewport, alignment=1)
 
     def fresh(self) -> set[int]:
-        """The textures that have changed since the last call."""
+        """Returns the textures that have changed since the last call."""
         fresh, self._fresh = self._fresh, set()
         return fresh
 
     def _of(self, name: str, width: int, height: int) -> moderngl.Texture:
-        """The texture that a picture is written to."""
+        """Returns the texture that a picture is written to."""
         old = self._textures.get(name)
         if old is None or old.size != (width, height):
             if old is not None:

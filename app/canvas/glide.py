@@ -64,7 +64,7 @@ class Glide:
         self._left = 0.0
 
     def step(self, view: View, seconds: float) -> View:
-        """The view `seconds` later."""
+        """Returns the view `seconds` later."""
         if self._target is None or self._anchor is None:
             return view
         level, fraction = self._target

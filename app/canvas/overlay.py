@@ -138,7 +138,7 @@ def _render(data: imgui.ImDrawData, lists: list[imgui.ImDrawList]) -> None:
 def _sheet(
     data: imgui.ImDrawData, one: imgui.ImDrawList, size: tuple[int, int], known: Sheet | None, fresh: Set[int]
 ) -> Sheet:
-    """What a list tells; `known` itself if that looks the same."""
+    """Returns what a list tells; `known` itself if that looks the same."""
     vertices, indices = one.vtx_buffer, one.idx_buffer
     told = (
         tuple(_command(command) for command in one.cmd_buffer if command.elem_count),
@@ -161,7 +161,7 @@ def _bytes(address: int, count: int) -> bytes:
 
 
 def _touched(data: imgui.ImDrawData, told: Told) -> Box:
-    """The smallest box around the pixels of the screen that a list may touch: 0, 0, 0, 0 if it touches none."""
+    """Returns the smallest box around the pixels of the screen that a list may touch: 0, 0, 0, 0 if it touches none."""
     commands, vertices, indices, size = told
     at = np.frombuffer(vertices, np.float32).reshape(-1, imgui.VERTEX_SIZE // 4)[:, :2]
     corner = np.frombuffer(indices, np.uint32 if imgui.INDEX_SIZE == 4 else np.uint16)
@@ -182,7 +182,7 @@ def _touched(data: imgui.ImDrawData, told: Told) -> Box:
 
 
 def grouped_sheets(sheets: Sequence[Sheet]) -> list[Group]:
-    """All sheets that touch anything, from the lowest to the topmost, in groups whose boxes do not overlap."""
+    """Returns all sheets that touch anything, from the lowest to the topmost, in groups whose boxes do not overlap."""
     groups: list[Group] = []
     for n, sheet in enumerate(sheets):
         if sheet.box == NOTHING:

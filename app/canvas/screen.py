@@ -67,7 +67,7 @@ class ScreenPlan:
 
 
 def cells(view: View, level: int) -> list[ScreenTile]:
-    """The tiles of `level` that the screen meets, row by row."""
+    """Returns the tiles of `level` that the screen meets, row by row."""
     r = view.visible(level)
     return [
         ScreenTile(level, x, y)
@@ -89,7 +89,7 @@ def near_first(view: View, tiles: list[ScreenTile], x: float, y: float) -> list[
 
 
 def shader_source(name: str) -> str:
-    """A file of the `shaders` folder, which lies beside the packages, in a checkout as in an installation."""
+    """Returns a file of the `shaders` folder, which lies beside the packages, in a checkout as in an installation."""
     return (Path(__file__).resolve().parents[2] / "shaders" / name).read_text("utf-8")
 
 
@@ -142,7 +142,7 @@ class Screen:
         self._free = list(range(layers))[::-1]
 
     def revision(self, tile: ScreenTile) -> int:
-        """The revision of the painting that a tile shows; -1 where it is not held."""
+        """Returns the revision of the painting that a tile shows; -1 where it is not held."""
         held = self._held.get(tile)
         return held.revision if held else -1
 
@@ -220,7 +220,7 @@ class Screen:
         p["light"], p["dark"] = LIGHT, DARK
 
     def plan(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> ScreenPlan:
-        """What to draw, decided before anything is drawn.
+        """Returns what to draw, decided before anything is drawn.
 
         `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
         """
@@ -265,7 +265,8 @@ class Screen:
 
 
 def _free(view: View, insets: Insets) -> tuple[int, int, int, int]:
-    """The part of the screen that panels leave free, as GL has it: x, y of the lower left corner, width, height."""
+    """Returns the part of the screen that panels leave free, as GL has it: x, y of the lower left corner, width,
+    height."""
     left, top, right, bottom = (max(0, math.floor(inset)) for inset in insets)
     return left, bottom, max(0, view.width - left - right), max(0, view.height - top - bottom)
 
@@ -284,7 +285,8 @@ def _ancestor_part(tile: ScreenTile, up: int) -> tuple[float, float, float]:
 
 
 def frame_on_screen(view: View, frame: Rect | None) -> tuple[float, float, float, float]:
-    """The level-0 frame seen from the view's centre: screen pixels before turning; everything when there is none."""
+    """Returns the level-0 frame seen from the view's centre: screen pixels before turning; everything when there is
+    none."""
     if frame is None:
         return -1e9, -1e9, 1e9, 1e9
     n = max(view.shown_level, 0)

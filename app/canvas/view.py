@@ -31,7 +31,7 @@ class Place:
     exponent: int
 
     def refined(self, exponent: int) -> Place:
-        """The same point with at least `exponent` fractional bits."""
+        """Returns the same point with at least `exponent` fractional bits."""
         n = exponent - self.exponent
         return self if n <= 0 else Place(self.x << n, self.y << n, exponent)
 
@@ -43,7 +43,7 @@ class Place:
         return Place(fine.x + (x << n), fine.y + (y << n), fine.exponent)
 
     def pixel(self, level: int) -> tuple[int, int]:
-        """The pixel of `level` that holds this point."""
+        """Returns the pixel of `level` that holds this point."""
         n = level - self.exponent
         return _shifted(self.x, n), _shifted(self.y, n)
 
@@ -60,7 +60,7 @@ def _small(units: int) -> float:
 
 
 def place_of_pixel(level: int, x: int, y: int) -> Place:
-    """The top-left corner of a pixel."""
+    """Returns the top-left corner of a pixel."""
     if level < 0:
         return Place(x << -level, y << -level, 0)
     return Place(x, y, level)
@@ -84,7 +84,7 @@ class View:
 
     @property
     def shown_level(self) -> int:
-        """The level whose pixels are nearest to screen pixels: 0.71 to 1.41 of them."""
+        """Returns the level whose pixels are nearest to screen pixels: 0.71 to 1.41 of them."""
         return self.level + (1 if self.fraction >= 0.5 else 0)
 
     def scale(self, level: int) -> float:
@@ -98,18 +98,18 @@ class View:
         return flip * cos, -sin, flip * sin, cos
 
     def _canvas_vector(self, dx: float, dy: float) -> tuple[float, float]:
-        """A screen vector in pixels of the view's level."""
+        """Returns a screen vector in pixels of the view's level."""
         a, b, c, d = self.matrix()  # orthogonal: the inverse is the transpose
         s = 2.0**-self.fraction
         return (a * dx + c * dy) * s, (b * dx + d * dy) * s
 
     def to_canvas(self, x: float, y: float) -> Place:
-        """The place under a screen point."""
+        """Returns the place under a screen point."""
         dx, dy = self._canvas_vector(x - self.width / 2, y - self.height / 2)
         return self.centre.moved(dx, dy, self.level)
 
     def to_screen(self, place: Place) -> tuple[float, float]:
-        """Where a place shows; clamped when it is very far away."""
+        """Tells where a place shows; clamped when it is very far away."""
         level = self.shown_level
         x, y = self.centre.pixel(level)
         cx, cy = self.centre.offset(level, x, y)
@@ -117,7 +117,7 @@ class View:
         return self._screen_point(px - cx, py - cy, level)
 
     def pixel_to_screen(self, level: int, x: int, y: int) -> tuple[float, float]:
-        """Where the top-left corner of a pixel shows: exact integer difference first, then a small float."""
+        """Tells where the top-left corner of a pixel shows: exact integer difference first, then a small float."""
         cx, cy = self.centre.offset(level, x, y)
         return self._screen_point(-cx, -cy, level)
 
@@ -127,7 +127,7 @@ class View:
         return self.width / 2 + (a * dx + b * dy) * s, self.height / 2 + (c * dx + d * dy) * s
 
     def visible(self, level: int) -> Rect:
-        """The pixels of `level` that the screen meets."""
+        """Returns the pixels of `level` that the screen meets."""
         a, b, c, d = self.matrix()
         s = self.scale(level)
         w = (abs(a) * self.width + abs(c) * self.height) / (2 * s)
@@ -165,7 +165,8 @@ class View:
 
 
 def view_of(frame: Rect, area: tuple[float, float, float, float], width: int, height: int) -> View:
-    """The level-0 rectangle `frame` shown upright in the screen rectangle `area` (x0, y0, x1, y1), with a margin."""
+    """Returns the level-0 rectangle `frame` shown upright in the screen rectangle `area` (x0, y0, x1, y1), with a
+    margin."""
     x0, y0, x1, y1 = area
     w, h = max(1, frame.width), max(1, frame.height)
     zoom = math.log2(min(max(x1 - x0, 16.0) / w, max(y1 - y0, 16.0) / h) * 0.94)
@@ -182,7 +183,7 @@ def distance(view: View, level: int, fraction: float) -> float:
 
 
 def zoom_text(level: int, fraction: float) -> str:
-    """The magnification as people read it: `x 1,048,576`, `x 1.15 quintillion`, `1:4`, `1:1`."""
+    """Returns the magnification as people read it: `x 1,048,576`, `x 1.15 quintillion`, `1:4`, `1:1`."""
     sign = "x " if level + fraction >= 0 else "1:"
     zoom = abs(level + fraction)
     if zoom < 1e-9:

@@ -96,7 +96,7 @@ def _read(path: str) -> tuple[np.ndarray, list[str]]:
 
 
 def _facts(found: Analysis) -> dict[str, Any]:
-    """What there is to know, ready for JSON."""
+    """Returns what there is to know, ready for JSON."""
     height, width = found.pixels.shape[:2]
     frequencies, measured, fitted = found.radial
     high, wide = found.grey.shape

@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def examination() -> dict[str, Any]:
-    """What there is, each by its name; an absent thing is said to be absent."""
+    """Returns what there is, each by its name; an absent thing is said to be absent."""
     return {
         "inkfall": _version("inkfall"),
         "python": platform.python_version(),
@@ -84,7 +84,7 @@ def examination() -> dict[str, Any]:
 
 
 def display() -> str | None:
-    """The display a window would open on; None if there is none."""
+    """Returns the display a window would open on; None if there is none."""
     if sys.platform in ("win32", "darwin"):
         return "the desktop"
     for name in ("WAYLAND_DISPLAY", "DISPLAY"):
@@ -110,7 +110,7 @@ def opengl(timeout: float = 20.0) -> dict[str, str] | str:
 
 
 def tablets() -> list[str]:
-    """Names of the pen devices that the kernel lists; empty where it has no such list."""
+    """Returns names of the pen devices that the kernel lists; empty where it has no such list."""
     try:
         text = INPUT_DEVICES.read_text(errors="replace")
     except OSError:

@@ -91,7 +91,7 @@ def _check_size(given: argparse.Namespace, region: np.ndarray) -> None:
 
 
 def _fill(exemplar: Exemplar, region: np.ndarray, given: argparse.Namespace) -> np.ndarray:
-    """Pixels of the picture: RGBA (h, w, 4) of the example's type."""
+    """Returns pixels of the picture: RGBA (h, w, 4) of the example's type."""
     from engine.numeric.address import Rect
     from engine.texture.example import show
     from engine.texture.example.region import empty, painted, refining

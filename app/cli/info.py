@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def facts(found: Opened) -> dict[str, Any]:
-    """What there is to know of a painting, ready for JSON."""
+    """Returns what there is to know of a painting, ready for JSON."""
     from engine.canvas import layers
 
     painting, frame = found.painting, found.painting.frame
@@ -88,7 +88,7 @@ def _row(root: Group, node: Node) -> dict[str, Any]:
 
 
 def _plot(plot: Plot) -> dict[str, Any]:
-    """What was painted with one example at one depth; its rectangle and pixels are those of its level."""
+    """Returns what was painted with one example at one depth; its rectangle and pixels are those of its level."""
     from engine.canvas.growth import bounds
 
     masks = plot.region.masks[0].values()
@@ -125,7 +125,7 @@ def painted_bounds(pyramid: Pyramid) -> list[int] | None:
 
 
 def _painted(pyramid: Pyramid, level: int, rect: Rect) -> Rect | None:
-    """The smallest rectangle of the pixels in `rect` that are not empty."""
+    """Returns the smallest rectangle of the pixels in `rect` that are not empty."""
     import numpy as np
 
     from engine.canvas.evaluate import evaluate

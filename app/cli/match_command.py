@@ -48,7 +48,7 @@ class ExampleArgument:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Height and width."""
+        """Returns height and width."""
         return self.planes.shape[1], self.planes.shape[2]
 
 
@@ -103,7 +103,7 @@ def _parser(name: str) -> Parser:
 
 
 def add_common(parser: Parser, iterations: int) -> None:
-    """The options of every maker that matches histograms."""
+    """Declares the options of every maker that matches histograms."""
     parser.add_argument("--levels", type=whole(0, 16), default=4, metavar="N", help="of the pyramid (default 4)")
     parser.add_argument("--orientations", type=whole(1, 16), default=4, metavar="K", help="at each level (default 4)")
     parser.add_argument(
@@ -133,7 +133,7 @@ def part(text: str) -> float:
 
 
 def read(path: str, out: str) -> ExampleArgument:
-    """A picture file; Refused or FileError says what is wrong with it."""
+    """Returns a picture file; Refused or FileError says what is wrong with it."""
     from engine.files.images import read_image
     from engine.files.limits import LIMITS
     from engine.numeric.colour import from_rgba8, from_rgba16
@@ -174,7 +174,7 @@ def _pattern(name: str, given: argparse.Namespace, examples: list[np.ndarray], s
 
 
 def _beginning(pattern: Pattern, start: ExampleArgument | None, seed: int, size: tuple[int, int]) -> np.ndarray:
-    """Noise, or the start picture stretched to the size, along its own axes of colour."""
+    """Returns noise, or the start picture stretched to the size, along its own axes of colour."""
     import numpy as np
 
     from engine.numeric.colour_axes import axes_of
@@ -209,7 +209,7 @@ def threads() -> Iterator[Executor | None]:
 
 
 def finished(label: str, steps: Iterable[Step]) -> np.ndarray:
-    """The planes of the last step; a bar tells how far it is."""
+    """Returns the planes of the last step; a bar tells how far it is."""
     planes = None
     with Progress(label, 100) as bar:
         for step in steps:
@@ -220,7 +220,7 @@ def finished(label: str, steps: Iterable[Step]) -> np.ndarray:
 
 
 def pixels_of(colours: np.ndarray, bits: int) -> np.ndarray:
-    """Pixels (h, w, C), uint8 or uint16, of colours (C, h, w); alpha is not premultiplied in them."""
+    """Returns pixels (h, w, C), uint8 or uint16, of colours (C, h, w); alpha is not premultiplied in them."""
     import numpy as np
 
     from engine.numeric.colour import to_rgba8, to_rgba16
@@ -244,7 +244,7 @@ def write(path: str, pixels: np.ndarray) -> None:
 
 
 def summary(given: argparse.Namespace, shape: Shape, pixels: np.ndarray) -> dict[str, Any]:
-    """What there is to tell of a texture: the pyramid may have fewer levels than were asked for."""
+    """Returns what there is to tell of a texture: the pyramid may have fewer levels than were asked for."""
     return {
         "written": given.out,
         "channels": pixels.shape[-1],

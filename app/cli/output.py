@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def opened_painting(path: str, tell: bool = True) -> Opened:
-    """The painting in an .ora; what was lost or replaced on the way is told on standard error."""
+    """Returns the painting in an .ora; what was lost or replaced on the way is told on standard error."""
     from engine.archive.opening import open_painting
 
     with Progress("opening", 100) as progress:
@@ -32,7 +32,7 @@ def opened_painting(path: str, tell: bool = True) -> Opened:
 
 
 def grown(path: str, found: Opened) -> Painting:
-    """What was opened, with all that was painted with examples grown; it is told if that is not what it was."""
+    """Returns what was opened, with all that was painted with examples grown; it is told if that is not what it was."""
     from engine.archive.plot_files import OTHERWISE, otherwise
     from engine.painting.grown import settled
 
@@ -43,7 +43,7 @@ def grown(path: str, found: Opened) -> Painting:
 
 
 def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
-    """The path's ending in lower case, if it is one of `endings` and its folder can be written to."""
+    """Returns the path's ending in lower case, if it is one of `endings` and its folder can be written to."""
     if path is None:
         return None
     ending = Path(path).suffix.lower()
@@ -61,14 +61,14 @@ def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
 
 
 def rect_of(at: Rectangle) -> tuple[int, Rect]:
-    """The level, and the rectangle in its pixels."""
+    """Returns the level, and the rectangle in its pixels."""
     from engine.numeric.address import Rect
 
     return at.level, Rect.at(at.x, at.y, at.width, at.height)
 
 
 def picture_of(painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8) -> Picture:
-    """A rectangle of a painting, or its frame, as a picture to export."""
+    """Returns a rectangle of a painting, or its frame, as a picture to export."""
     from engine.archive.export import PICTURE_SIDE, Picture
 
     if at is None:

@@ -16,7 +16,7 @@ _RAMP = np.array([(8, 6, 18), (66, 20, 98), (150, 42, 92), (226, 96, 44), (252, 
 
 
 def sheet(found: Analysis) -> np.ndarray:
-    """The whole sheet: uint8 RGB (h, w, 3)."""
+    """Returns the whole sheet: uint8 RGB (h, w, 3)."""
     height, width = found.pixels.shape[:2]
     whole = max(height, width) <= max(found.grey.shape)
     shown = f"{width} x {height} pixels" if whole else f"middle of {width} x {height} pixels"
@@ -44,7 +44,7 @@ def sheet(found: Analysis) -> np.ndarray:
 
 
 def _side(found: Analysis) -> int:
-    """The side of what the spectra were made of, so that all panels show the same part."""
+    """Returns the side of what the spectra were made of, so that all panels show the same part."""
     side: int = max(found.grey.shape)
     return side
 
@@ -71,7 +71,7 @@ def _shown(pixels: np.ndarray, whole: bool = False) -> Image.Image:
 
 
 def _spectrum(power: np.ndarray, like: np.ndarray | None = None) -> np.ndarray:
-    """The logarithm of a spectrum by the ramp, RGB; on the scale of another, if one is given."""
+    """Returns the logarithm of a spectrum by the ramp, RGB; on the scale of another, if one is given."""
     top = float((power if like is None else like).max())
     if not top > 0.0:
         return _ramped(np.zeros(power.shape))
@@ -94,7 +94,7 @@ def _signed(values: np.ndarray) -> Image.Image:
 
 
 def _curves(found: Analysis) -> Image.Image:
-    """Mean power over frequency, both logarithmic: measured and all-pole."""
+    """Returns mean power over frequency, both logarithmic: measured and all-pole."""
     panel = Image.new("RGB", (SIDE, SIDE), tuple(c + 10 for c in _PAPER))
     draw, font = ImageDraw.Draw(panel), _font(12)
     frequencies, measured, fitted = found.radial

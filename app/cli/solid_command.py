@@ -68,7 +68,7 @@ def _parser() -> Parser:
 
 
 def _writer(out: str) -> Callable[[np.ndarray], None]:
-    """What writes voxels to a place that was looked at first."""
+    """Returns what writes voxels to a place that was looked at first."""
     if out.lower().endswith(".npy"):
         checked_output(out, (".npy",))
         return lambda voxels: _write_array(out, voxels)
@@ -113,7 +113,8 @@ def _write_slices(folder: Path, voxels: np.ndarray) -> None:
 
 
 def sheet(voxels: np.ndarray) -> np.ndarray:
-    """A row of slices and the cube, for the eye: uint8 RGB (h, w, 3) of voxels (n, n, n, C), transparency as grey."""
+    """Returns a row of slices and the cube, for the eye: uint8 RGB (h, w, 3) of voxels (n, n, n, C), transparency as
+    grey."""
     import numpy as np
 
     n, channels = len(voxels), voxels.shape[-1]

@@ -136,7 +136,7 @@ def read_place(text: str) -> tuple[int, int]:
 
 
 def _defined(name: str, given: argparse.Namespace) -> Texture:
-    """The texture, by the same command as in a recording."""
+    """Returns the texture, by the same command as in a recording."""
     from immutables import Map
 
     from engine.canvas import layers
@@ -188,7 +188,7 @@ def _write(given: argparse.Namespace, instance: Instance, size: tuple[int, int])
 
 
 def _strips(instance: Instance, whole: Rect, depth: int) -> Iterator[np.ndarray]:
-    """Rows of the texture as pixels: uint8 or uint16 (n, w, channels)."""
+    """Yields rows of the texture as pixels: uint8 or uint16 (n, w, channels)."""
     import numpy as np
 
     from engine.numeric.address import Rect

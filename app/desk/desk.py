@@ -142,7 +142,7 @@ class Desk:
             self.asked.show("save as")
 
     def free_area(self) -> tuple[float, float, float, float]:
-        """The part of the screen that no panel covers."""
+        """Returns the part of the screen that no panel covers."""
         left, top, right, bottom = self.insets
         return left, top, self.view.width - right, self.view.height - bottom
 
@@ -163,7 +163,7 @@ class Desk:
         self.view = self.glide.fly(self.view, there, seconds)
 
     def stroke_brush(self, eraser: bool) -> tuple[int, Brush]:
-        """The level of a stroke begun now, and the brush with its radius in pixels of that level."""
+        """Returns the level of a stroke begun now, and the brush with its radius in pixels of that level."""
         level = self.view.shown_level
         held, mode = self.hand.dipped(), self.hand.stroke_mode(eraser)
         brush = replace(held, radius=held.radius / self.view.scale(level), mode=mode.name)

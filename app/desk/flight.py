@@ -20,8 +20,8 @@ def fly(desk: Desk, looked: Looked, _now: float) -> None:
 
 
 def middle(origin: float, size: float, fraction: float) -> int:
-    """The middle of a span of pixels of a level and a fraction, in 2^-16 pixels of the whole level; exact for integers
-    of any size at a whole level."""
+    """Returns the middle of a span of pixels of a level and a fraction, in 2^-16 pixels of the whole level; exact
+    for integers of any size at a whole level."""
     whole = int(origin // 1)
     rest = round((origin - whole + size / 2) * 2.0 ** (SUBPIXEL - fraction))
     scale = round(2.0 ** (64 - fraction))  # pixels of the finer level are smaller

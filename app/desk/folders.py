@@ -51,7 +51,7 @@ def _row(entry: os.DirEntry[str]) -> FileRow:
 
 
 def size_text(size: int) -> str:
-    """A number of bytes as it is shown: at most three digits before the unit."""
+    """Returns a number of bytes as it is shown: at most three digits before the unit."""
     shown, unit = float(size), 0
     while round(shown) >= 1000 and unit < len(_UNITS) - 1:
         shown, unit = shown / 1000, unit + 1

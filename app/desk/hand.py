@@ -38,37 +38,37 @@ class Hand:
 
     @property
     def brush(self) -> Brush:
-        """The brush; its radius is in pixels of the screen, its colour counts only in `dipped`."""
+        """Returns the brush; its radius is in pixels of the screen, its colour counts only in `dipped`."""
         return self._brush
 
     @property
     def preset(self) -> str:
-        """The name under which it was taken, or saved; empty if it has none."""
+        """Returns the name under which it was taken, or saved; empty if it has none."""
         return self._preset
 
     @property
     def needs(self) -> tuple[DefineTexture, ...]:
-        """The textures that it came with."""
+        """Returns the textures that it came with."""
         return self._needs
 
     @property
     def tool(self) -> str:
-        """A row of app.tools.TOOLS."""
+        """Returns a row of app.tools.TOOLS."""
         return self._tool
 
     @property
     def erasing(self) -> bool:
-        """Whether the brush erases; never with another tool."""
+        """Tells whether the brush erases; never with another tool."""
         return self._erasing
 
     def stroke_mode(self, eraser: bool = False) -> Mode:
-        """What a stroke does: the row of the brush's mode, or of what erasing with it is; `eraser`: the pen's other end
-        touches the canvas."""
+        """Returns what a stroke does: the row of the brush's mode, or of what erasing with it is; `eraser`: the
+        pen's other end touches the canvas."""
         row = self._brush.row
         return MODES[row.eraser] if self._erasing or eraser else row
 
     def dipped(self) -> Brush:
-        """The brush with the colour on it."""
+        """Returns the brush with the colour on it."""
         return replace(self._brush, colour=to_hex(self.colour))
 
     def take(self, brush: Brush, preset: str | None = None, needs: tuple[DefineTexture, ...] | None = None) -> None:

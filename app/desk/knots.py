@@ -15,7 +15,7 @@ STRAIGHT: Knots = ((0.0, 0.0), (1.0, 1.0))
 
 
 def at(knots: Knots, x: float) -> float:
-    """The curve's output; level before the first knot and after the last."""
+    """Returns the curve's output; level before the first knot and after the last."""
     i = bisect_right(knots, (x, float("inf")))
     if i == 0:
         return knots[0][1]
@@ -26,7 +26,7 @@ def at(knots: Knots, x: float) -> float:
 
 
 def nearest(knots: Knots, x: float, y: float, reach: float) -> int | None:
-    """The knot nearest to a point, if it is within `reach`."""
+    """Returns the knot nearest to a point, if it is within `reach`."""
     distance, i = min(((kx - x) ** 2 + (ky - y) ** 2, i) for i, (kx, ky) in enumerate(knots))
     return i if distance <= reach * reach else None
 
@@ -56,7 +56,8 @@ def removed(knots: Knots, i: int) -> Knots:
 
 
 def drawn_curve(knots: Knots, start: tuple[float, float], end: tuple[float, float]) -> Knots:
-    """The curve by hand: 64 knots side by side, those between two points of the pen on the line between them."""
+    """Returns the curve by hand: 64 knots side by side, those between two points of the pen on the line between
+    them."""
     (x0, y0), (x1, y1) = sorted((start, end))
     first, last = round(x0 * (CAP - 1)), round(x1 * (CAP - 1))
     out = []
@@ -71,7 +72,7 @@ def drawn_curve(knots: Knots, start: tuple[float, float], end: tuple[float, floa
 
 
 def at_edge(point: tuple[float, float], reach: float) -> tuple[float, float]:
-    """A point of the pen, moved to an edge if it is that near: no piece of the old curve is left there."""
+    """Returns a point of the pen, moved to an edge if it is that near: no piece of the old curve is left there."""
     x, y = point
     return 0.0 if x < reach else 1.0 if x > 1.0 - reach else x, y
 

@@ -41,28 +41,28 @@ class Known:
 
     @property
     def frame(self) -> Rect:
-        """The painting's frame, in pixels of level 0."""
+        """Returns the painting's frame, in pixels of level 0."""
         return self.scene.frame if self.scene else FIRST_FRAME
 
     @property
     def modified(self) -> bool:
-        """Whether the painting has changes that are not saved."""
+        """Tells whether the painting has changes that are not saved."""
         return self.scene is not None and self.scene.modified
 
     @property
     def path(self) -> Path | None:
-        """The painting's file."""
+        """Returns the painting's file."""
         return self.scene.path if self.scene else None
 
     @property
     def active(self) -> LayerRow | None:
-        """The layer or group that is painted on."""
+        """Returns the layer or group that is painted on."""
         scene = self.scene
         return None if scene is None else next((row for row in scene.layers if row.name == scene.active), None)
 
     @property
     def hiding(self) -> tuple[str, ...]:
-        """What hides the layer that is painted on, from the inside out: itself, and groups around it."""
+        """Returns what hides the layer that is painted on, from the inside out: itself, and groups around it."""
         found, row = [], self.active
         rows = {row.name: row for row in self.scene.layers} if self.scene else {}
         while row is not None:
@@ -73,7 +73,7 @@ class Known:
 
 
 def known_after(known: Known, result: object, now: float) -> Known:
-    """What is known after a result that came at a time; the same if it tells nothing of this."""
+    """Returns what is known after a result that came at a time; the same if it tells nothing of this."""
     teller = _TELLERS.get(type(result))
     news = {} if teller is None else teller(known, result, now)
     return replace(known, **news) if news else known

@@ -47,19 +47,19 @@ class LabState:
         self.made = replace(self.made, **changes)
 
     def shape(self, index: int, name: str, value: Any) -> None:
-        """Another number for one of the shapes."""
+        """Sets another number for one of the shapes."""
         shapes = list(self.made.shapes)
         shapes[index] = shapes[index].set(name, value)
         self.change(shapes=tuple(shapes))
 
     @property
     def pictured(self) -> bool:
-        """Whether the spectrum begins with a picture's, which has phases too."""
+        """Tells whether the spectrum begins with a picture's, which has phases too."""
         return any(shape["shape"] in PICTURED for shape in self.made.shapes)
 
     @property
     def endless(self) -> bool:
-        """Whether the texture is a field of scattered copies."""
+        """Tells whether the texture is a field of scattered copies."""
         return self.made.field.get("field") == "sparse"
 
     @property
@@ -68,43 +68,44 @@ class LabState:
         return int(self.made.field.get("period", self.made.size[0]))
 
     def begin_with(self, shapes: tuple[Map[str, Any], ...]) -> None:
-        """Other shapes; without a picture there are no phases of its own."""
+        """Sets other shapes; without a picture there are no phases of its own."""
         self.change(shapes=shapes)
         if self.made.phase == "own" and not self.pictured:
             self.phase("random")
 
     def phase(self, phase: str) -> None:
-        """Other phases; those that are shown can be painted on."""
+        """Sets other phases; those that are shown can be painted on."""
         self.change(phase=phase, sheet=self.made.sheet if phase in PAINTED else "amplitude")
 
     def turn(self, forward: bool) -> None:
-        """The transform the other way: of a pattern as it is, since random phases would leave only noise of it."""
+        """Turns the transform the other way: of a pattern as it is, since random phases would leave only noise of
+        it."""
         usual = ("random", "zero") if forward else ("zero", "random")
         self.change(forward=forward)
         if self.made.phase == usual[0]:
             self.phase(usual[1])
 
     def field(self, name: str, value: Any) -> None:
-        """Another number of the texture; None for its default."""
+        """Sets another number of the texture; None for its default."""
         held = self.made.field
         without = held.delete(name) if name in held else held
         self.change(field=without if value is None else held.set(name, value))
 
     def over(self, x: float, y: float) -> bool:
-        """Whether a point of the screen is on the spectrum."""
+        """Tells whether a point of the screen is on the spectrum."""
         if self.spot is None:
             return False
         left, top, side = self.spot
         return left <= x < left + side and top <= y < top + side
 
     def place(self, x: float, y: float) -> tuple[float, float]:
-        """A point of the screen in pixels of the spectrum."""
+        """Returns a point of the screen in pixels of the spectrum."""
         left, top, side = self.spot if self.spot is not None else (0.0, 0.0, 1.0)
         return (x - left) / side * self.made.size[0], (y - top) / side * self.made.size[1]
 
     def brush(self, brush: Brush, colour: str, eraser: bool, built_in: frozenset[str]) -> Brush:
-        """The artist's brush as it paints in the lab: its textures are those that every painting has (`built_in`).  It
-        changes what is there if it can do so without colours and layers; otherwise it paints."""
+        """Returns the artist's brush as it paints in the lab: its textures are those that every painting has
+        (`built_in`).  It changes what is there if it can do so without colours and layers; otherwise it paints."""
         brush = only_with(brush, built_in)
         row = brush.row
         fits = row.in_lab and (not row.uses_op or _changes(brush))
@@ -136,7 +137,7 @@ class LabState:
 
     @property
     def waiting(self) -> bool:
-        """Whether the lab is about to come to rest."""
+        """Tells whether the lab is about to come to rest."""
         return self._since > 0
 
     def use(self, post: Callable[[Request], None], name: str) -> None:
@@ -147,7 +148,7 @@ class LabState:
 
 
 def _changes(brush: Brush) -> bool:
-    """Whether its op needs neither a colour nor a layer nor a texture that the brush has not."""
+    """Tells whether its op needs neither a colour nor a layer nor a texture that the brush has not."""
     op = chosen(brush.op)
     if op.row is None:
         return True
@@ -155,7 +156,7 @@ def _changes(brush: Brush) -> bool:
 
 
 def only_with(brush: Brush, textures: frozenset[str]) -> Brush:
-    """The brush without the parts that need other textures."""
+    """Returns the brush without the parts that need other textures."""
     parts: dict[str, Any] = {}
     for name in ("density", "grain", "tip"):
         held = getattr(brush, name)
@@ -164,7 +165,7 @@ def only_with(brush: Brush, textures: frozenset[str]) -> Brush:
 
 
 def with_texture(brush: Brush, how: str, texture: str, pen: bool = False) -> Brush:
-    """The brush with a texture in its ink, as its dry brush or as its paper."""
+    """Returns the brush with a texture in its ink, as its dry brush or as its paper."""
     if how == "ink":
         return replace(brush, ink=(Component(texture, 1.0, WHITE),), mode="paint")
     surface: dict[str, Any] = {how: Surface(texture, 0.9)}
@@ -172,7 +173,8 @@ def with_texture(brush: Brush, how: str, texture: str, pen: bool = False) -> Bru
 
 
 def lightened(brush: Brush, pen: bool) -> Brush:
-    """The brush as it shows a paper that it got just now: full coverage fills every hollow of the grain, so one that
-    covers fully covers less, unless a pen's pressure sees to that, or an edge that leaves the inside lighter."""
+    """Returns the brush as it shows a paper that it got just now: full coverage fills every hollow of the grain, so
+    one that covers fully covers less, unless a pen's pressure sees to that, or an edge that leaves the inside
+    lighter."""
     felt = (pen and "opacity" in brush.dynamics) or brush.edge is not None
     return brush if felt or brush.opacity <= _FULL else replace(brush, opacity=_LIGHT)

@@ -60,16 +60,16 @@ class MatchState:
 
     @property
     def maker(self) -> str:
-        """Names the maker that what is set needs."""
+        """Returns names the maker that what is set needs."""
         return "mix" if self.mixing else "match"
 
     @property
     def by_pressure(self) -> bool:
-        """Whether what is used is a series."""
+        """Tells whether what is used is a series."""
         return self.pressed and self.mixing and self.how == "average"
 
     def arguments(self) -> Map[str, Any] | None:
-        """The members of the texture command; None without an example."""
+        """Returns the members of the texture command; None without an example."""
         first, second = self.examples
         if first is None:
             return None
@@ -86,7 +86,7 @@ class MatchState:
         return Map(given)
 
     def show(self, index: int, example: Map[str, Any] | None) -> None:
-        """Another example; taken away, the other takes its place."""
+        """Takes another example; taken away, the other takes its place."""
         self.examples[index], self.marking = example, None
         if self.examples[0] is None:
             self.examples = [self.examples[1], None]
@@ -141,7 +141,7 @@ def _band(spot: Spot, change: tuple[float, _Curve]) -> Map[str, Any]:
 
 
 def title(example: Map[str, Any]) -> str:
-    """What an example is called."""
+    """Returns what an example is called."""
     if "path" in example:
         return Path(example["path"]).name
     level, _, _, width, height = example["rect"]

@@ -22,7 +22,7 @@ def take(desk: Desk, preset: Preset) -> None:
 
 
 def _on_paper(desk: Desk, preset: Preset) -> tuple[Brush, tuple[DefineTexture, ...]]:
-    """The preset's brush on the paper of the present one, and what it needs."""
+    """Returns the preset's brush on the paper of the present one, and what it needs."""
     brush, grain = preset.brush, desk.hand.brush.grain
     along = used(Brush(grain=grain), desk.hand.needs)
     others = {command.name: command for command in preset.textures}
@@ -40,7 +40,8 @@ def lacking(desk: Desk) -> tuple[DefineTexture, ...]:
 
 
 def belonging(desk: Desk) -> tuple[tuple[DefineTexture, ...], tuple[str, ...]]:
-    """The definitions of the textures that the brush refers to, and the names of those that only this painting has."""
+    """Returns the definitions of the textures that the brush refers to, and the names of those that only this
+    painting has."""
     found = {command.name: command for command in desk.hand.needs}
     defined = () if desk.known.scene is None else desk.known.scene.definitions
     told = {name: portable(name, kind, given) for name, kind, given in defined}
@@ -59,7 +60,7 @@ def provide(desk: Desk) -> None:
 
 
 def _fit(desk: Desk) -> tuple[DefineTexture, ...]:
-    """What the painting lacks.  Where it has another texture of that name, the brush takes a free one."""
+    """Returns what the painting lacks.  Where it has another texture of that name, the brush takes a free one."""
     needs = used(desk.hand.brush, desk.hand.needs)
     if not needs:
         return ()

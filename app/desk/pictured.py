@@ -37,7 +37,7 @@ def kept_view(desk: Desk) -> str:
 
 
 def seen(desk: Desk) -> Rect:
-    """The pixels of the level shown that no panel covers."""
+    """Returns the pixels of the level shown that no panel covers."""
     x0, y0, x1, y1 = desk.free_area()
     level = desk.view.shown_level
     corners = [desk.view.to_canvas(x, y).pixel(level) for x in (x0, x1) for y in (y0, y1)]
@@ -51,7 +51,7 @@ def _define(desk: Desk, command: DefineTexture) -> None:
 
 
 def free_texture_name(desk: Desk, stem: str) -> str:
-    """A name that no texture has yet."""
+    """Returns a name that no texture has yet."""
     stem = "".join(c for c in stem if c.isprintable())[:NAME_LENGTH].strip() or "Picture"
     taken = {row.name for row in desk.known.tables.kinds} | set(desk.known.scene.textures if desk.known.scene else ())
     name, number = stem, 1

@@ -48,29 +48,29 @@ DEFAULT = Preset("Round", Brush(radius=12.0))
 
 
 def bundled_folder() -> Path:
-    """The presets that come with the program; the folder lies beside the packages."""
+    """Returns the presets that come with the program; the folder lies beside the packages."""
     return Path(__file__).resolve().parents[2] / "palettes" / "brushes"
 
 
 def papers_folder() -> Path:
-    """The papers that come with the program."""
+    """Returns the papers that come with the program."""
     return bundled_folder().with_name("grains")
 
 
 def own_folder() -> Path:
-    """Where the artist's own presets are kept."""
+    """Tells where the artist's own presets are kept."""
     return platformdirs.user_config_path("inkfall") / "brushes"
 
 
 def load_brushes(folder: Path) -> tuple[list[Preset], list[str]]:
-    """The presets of a folder by file name, and a line for each file that is none."""
+    """Returns the presets of a folder by file name, and a line for each file that is none."""
     presets, faults = _all(folder, _read)
     presets.sort(key=lambda p: (_GROUP_RANK.get(p.group, 1), p.group, _order(p)))
     return presets, faults
 
 
 def load_papers(folder: Path) -> tuple[list[Paper], list[str]]:
-    """The papers of a folder by file name, and a line for each file that is none."""
+    """Returns the papers of a folder by file name, and a line for each file that is none."""
     return _all(folder, _read_paper)
 
 
@@ -90,7 +90,7 @@ def _order(preset: Preset) -> tuple[bool, str]:
 
 
 def _object(path: Path, what: str) -> dict[str, Any]:
-    """The JSON object of a file.  ValueError says what was found and expected."""
+    """Returns the JSON object of a file.  ValueError says what was found and expected."""
     if path.stat().st_size > BYTES_CAP:
         raise ValueError(f"found {path.stat().st_size} bytes, expected {what} of at most {BYTES_CAP}")
     data = json.loads(path.read_text("utf-8"))
@@ -127,8 +127,8 @@ def found(presets: Iterable[Preset], group: str, words: str) -> list[tuple[str, 
 
 
 def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
-    """The preset that `words` mean: the one of that name comes first, then those whose name begins so, then those with
-    all of it in their name."""
+    """Returns the preset that `words` mean: the one of that name comes first, then those whose name begins so, then
+    those with all of it in their name."""
     wanted = " ".join(words.casefold().split())
     listed = [preset for _, members in found(presets, "", words) for preset in members]
     names = [(preset.name.casefold(), preset) for preset in listed]
@@ -137,7 +137,8 @@ def nearest(presets: Iterable[Preset], words: str) -> Preset | None:
 
 
 def free_brush_name(name: str, presets: Iterable[Preset]) -> str:
-    """The name itself, or with a number, so that no bundled preset has it; one of the artist's own is replaced."""
+    """Returns the name itself, or with a number, so that no bundled preset has it; one of the artist's own is
+    replaced."""
     name = " ".join("".join(ch for ch in name if ch.isprintable()).split())[:NAME_CAP] or "My brush"
     taken = {p.name.lower() for p in presets if p.path is None or p.path.parent == bundled_folder()}
     wanted, number = name, 1
@@ -167,7 +168,7 @@ def delete(preset: Preset) -> None:
 
 
 def _own_path(name: str, folder: Path) -> Path:
-    """The file of a name: another one where a brush of another name has it, such as "a b" and "a-b"."""
+    """Returns the file of a name: another one where a brush of another name has it, such as "a b" and "a-b"."""
     stem = "".join(ch if ch.isalnum() else "-" for ch in name.lower()).strip("-") or "brush"
     path, number = folder / f"{stem}.json", 1
     while path.exists() and _name_in(path) != name:

@@ -30,7 +30,7 @@ class FileRow(NamedTuple):
 
 
 def ident(folder: Path, row: FileRow) -> str:
-    """What its picture is called: otherwise once the file has changed."""
+    """Returns what its picture is called: otherwise once the file has changed."""
     return f"file {folder / row.name} {row.changed} {row.size}"
 
 
@@ -56,7 +56,7 @@ class Previews:
             self._thread.start()
 
     def take(self) -> list[Picture]:
-        """What is ready."""
+        """Returns what is ready."""
         return [self._ready.popleft() for _ in range(len(self._ready))]
 
     def _work(self) -> None:
@@ -74,8 +74,8 @@ class Previews:
 
 
 def small_picture(path: Path, side: int) -> np.ndarray | None:
-    """A file's picture on paper in the middle of a field, uint8 RGBA (side, side, 4), opaque; None if it has none, or
-    one that is damaged or too large."""
+    """Returns a file's picture on paper in the middle of a field, uint8 RGBA (side, side, 4), opaque; None if it has
+    none, or one that is damaged or too large."""
     from PIL import Image  # here: it takes its time to load
 
     try:

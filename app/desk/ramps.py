@@ -17,7 +17,7 @@ PLAIN: Stops = ((0.0, "#000000"), (1.0, "#ffffff"))
 
 
 def read(value: object) -> Stops:
-    """The stops that a brush holds; the plain ramp from black to white if it holds none that can be read."""
+    """Returns the stops that a brush holds; the plain ramp from black to white if it holds none that can be read."""
     try:
         stops = tuple((float(place), to_hex(from_hex(colour))) for place, colour in value)  # type: ignore[attr-defined]
     except (TypeError, ValueError):
@@ -27,7 +27,7 @@ def read(value: object) -> Stops:
 
 
 def colour_at(stops: Stops, place: float) -> RGB:
-    """The ramp's colour, as encoded; level before the first stop and after the last."""
+    """Returns the ramp's colour, as encoded; level before the first stop and after the last."""
     before = [s for s in stops if s[0] <= place] or [stops[0]]
     after = [s for s in stops if s[0] > place] or [stops[-1]]
     (p0, c0), (p1, c1) = before[-1], after[0]

@@ -42,6 +42,6 @@ def _imports(frame: FrameType | None) -> bool:
 
 
 def _stack(frame: FrameType) -> list[traceback.FrameSummary]:
-    """The nearest calls, the innermost first; source lines are not looked up, which would open files."""
+    """Returns the nearest calls, the innermost first; source lines are not looked up, which would open files."""
     found = traceback.StackSummary.extract(traceback.walk_stack(frame), limit=6, lookup_lines=False)
     return list(found)

@@ -11,7 +11,7 @@ from app.input.events import PointerSource
 
 
 def pen_source(window: Any) -> PointerSource | None:
-    """A source that knows pens; None where there is none, then GLFW's mouse stays."""
+    """Returns a source that knows pens; None where there is none, then GLFW's mouse stays."""
     try:
         if sys.platform == "win32":
             from app.input.windows import WindowsPointer

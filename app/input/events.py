@@ -37,7 +37,7 @@ class PointerSource(Protocol):
     name: str
 
     def events(self) -> list[PenEvent]:
-        """What came since the last call."""
+        """Returns what came since the last call."""
         ...
 
     def close(self) -> None:

@@ -42,7 +42,7 @@ class GlfwPointer:
         self._add("move", x, y)
 
     def _where(self) -> tuple[float, float]:
-        """The last place reported: at a press, GLFW itself would tell where the pointer is by now."""
+        """Returns the last place reported: at a press, GLFW itself would tell where the pointer is by now."""
         x, y = self._at or glfw.get_cursor_pos(self._window)
         return x, y
 

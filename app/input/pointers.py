@@ -24,12 +24,12 @@ class Pointers:
         self._pen = pen_source(self._window)
 
     def events(self) -> list[PenEvent]:
-        """What came since the last call."""
+        """Returns what came since the last call."""
         found = self._pen.events() if self._pen is not None else []
         return [*found, *self.mouse.events()]
 
     def at(self) -> tuple[float, float]:
-        """Where the mouse is, framebuffer pixels: while something is dragged, no events tell."""
+        """Tells where the mouse is, framebuffer pixels: while something is dragged, no events tell."""
         x, y = glfw.get_cursor_pos(self._window)
         width, height = glfw.get_window_size(self._window)
         wide, tall = glfw.get_framebuffer_size(self._window)

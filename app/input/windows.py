@@ -90,7 +90,7 @@ class WindowsPointer:
         return bool(self._user.GetPointerType(pointer, ct.byref(kind))) and kind.value == _PEN
 
     def _take(self, kind: str, pointer: int) -> None:
-        """All reports since the last message, oldest first."""
+        """Takes in all reports since the last message, oldest first."""
         count, infos = ct.c_uint32(_HISTORY), (_PenInfo * _HISTORY)()
         if not self._user.GetPointerPenInfoHistory(pointer, ct.byref(count), infos):
             return

@@ -33,16 +33,22 @@ class EventMask(ct.Structure):
     _fields_ = (("deviceid", ct.c_int), ("mask_len", ct.c_int), ("mask", ct.POINTER(ct.c_ubyte)))
 
 
+# What every event of the extension begins with.
+_HEADER = (
+    ("type", ct.c_int),
+    ("serial", ct.c_ulong),
+    ("send_event", ct.c_int),
+    ("display", ct.c_void_p),
+    ("extension", ct.c_int),
+    ("evtype", ct.c_int),
+)
+
+
 class Cookie(ct.Structure):
     """XGenericEventCookie."""
 
     _fields_ = (
-        ("type", ct.c_int),
-        ("serial", ct.c_ulong),
-        ("send_event", ct.c_int),
-        ("display", ct.c_void_p),
-        ("extension", ct.c_int),
-        ("evtype", ct.c_int),
+        *_HEADER,
         ("cookie", ct.c_uint),
         ("data", ct.c_void_p),
     )
@@ -70,12 +76,7 @@ class DeviceEvent(ct.Structure):
     """XIDeviceEvent, up to the valuators."""
 
     _fields_ = (
-        ("type", ct.c_int),
-        ("serial", ct.c_ulong),
-        ("send_event", ct.c_int),
-        ("display", ct.c_void_p),
-        ("extension", ct.c_int),
-        ("evtype", ct.c_int),
+        *_HEADER,
         ("time", ct.c_ulong),
         ("deviceid", ct.c_int),
         ("sourceid", ct.c_int),
@@ -173,7 +174,7 @@ class Device:
 
 
 def unpacked(state: ValuatorState) -> dict[int, float]:
-    """The valuators of an event: a mask of numbers, then one value for each bit that is set."""
+    """Returns the valuators of an event: a mask of numbers, then one value for each bit that is set."""
     out: dict[int, float] = {}
     k = 0
     for number in range(state.mask_len * 8):
@@ -184,7 +185,7 @@ def unpacked(state: ValuatorState) -> dict[int, float]:
 
 
 def pen_event(event: DeviceEvent, device: Device | None) -> PenEvent | None:
-    """The record of an XI_Motion, XI_ButtonPress or XI_ButtonRelease; None for what means nothing here."""
+    """Returns the record of an XI_Motion, XI_ButtonPress or XI_ButtonRelease; None for what means nothing here."""
     kind, detail = event.evtype, event.detail
     fields: dict[str, float | int | bool] = {}
     if device is not None and device.pen:
@@ -212,7 +213,7 @@ def pen_event(event: DeviceEvent, device: Device | None) -> PenEvent | None:
 
 
 def mask_of(*kinds: int) -> ct.Array[ct.c_ubyte]:
-    """The bit mask that XISelectEvents takes."""
+    """Returns the bit mask that XISelectEvents takes."""
     mask = (ct.c_ubyte * 4)()
     for kind in kinds:
         mask[kind >> 3] |= 1 << (kind & 7)
@@ -291,7 +292,7 @@ class XInput2Pointer:
         self._lib.x.XFlush(self._display)
 
     def _query(self) -> dict[int, Device]:
-        """The slave pointers by their ids."""
+        """Returns the slave pointers by their ids."""
         count = ct.c_int()
         infos = self._lib.xi.XIQueryDevice(self._display, ALL_DEVICES, count)
         out = {}
@@ -361,7 +362,7 @@ class XInput2Pointer:
         return out
 
     def tablets(self) -> list[str]:
-        """The names of the pens seen."""
+        """Returns the names of the pens seen."""
         return [device.name for device in self._devices.values() if device.pen]
 
     def close(self) -> None:

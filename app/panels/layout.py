@@ -38,12 +38,12 @@ class Layout:
         self._popup, self._strip = False, ""
 
     def covers(self, x: float, y: float) -> bool:
-        """Whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
+        """Tells whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
         return self._popup or any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self._covered)
 
     @property
     def popup(self) -> bool:
-        """Whether a menu, a list or a small window is open above the panels."""
+        """Tells whether a menu, a list or a small window is open above the panels."""
         return self._popup
 
     def dismiss(self) -> None:
@@ -51,7 +51,7 @@ class Layout:
         imgui.internal.close_popup_to_level(max(0, len(imgui.get_current_context().open_popup_stack) - 1), True)
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
-        """The stroke that a press there begins in a panel; None if it begins none."""
+        """Returns the stroke that a press there begins in a panel; None if it begins none."""
         return None if self._popup else self.strip.stroke(desk, x, y)
 
     def hearers(self, kind: type) -> list[Hear]:
@@ -89,7 +89,7 @@ class Layout:
         trace.tell_places()
 
     def _sides(self, desk: Desk, span: tuple[float, float, float], widths: tuple[float, float]) -> None:
-        """The columns; `span`: where they begin, the height of the left one and of the right one.
+        """Draws the columns; `span`: where they begin, the height of the left one and of the right one.
 
         As wide with a scrollbar as without: it takes the margin, and nothing moves when it comes.
         """

@@ -45,7 +45,7 @@ def draw(desk: Desk, pointer_name: str) -> None:
 
 
 def _says(desk: Desk) -> bool:
-    """Whether there is a message, and it still holds."""
+    """Tells whether there is a message, and it still holds."""
     message = desk.message
     return time.monotonic() < message.until and (
         not message.offer or desk.painting or ACTIONS[message.offer].when(desk)
@@ -67,7 +67,7 @@ def _message(desk: Desk) -> None:
 
 
 def _work(desk: Desk) -> str:
-    """What goes on beside the painting."""
+    """Returns what goes on beside the painting."""
     if desk.known.writing.files:
         word = "Saving" if desk.known.writing.saving else "Writing"
         grown = f", growing {desk.known.writing.grown * 100:.0f} %" if desk.known.writing.grown < 1.0 else ""

@@ -53,7 +53,8 @@ class StripPanel:
         return [panel.hears[kind] for panel in self._panels.values() if kind in panel.hears]
 
     def height(self, desk: Desk) -> float:
-        """What it takes of the screen, framebuffer pixels: the same whatever it shows, or the canvas would jump."""
+        """Returns what it takes of the screen, framebuffer pixels: the same whatever it shows, or the canvas would
+        jump."""
         if not desk.strip:
             return 0.0
         return max(STRIPS[desk.strip].height * desk.scale, min(PART * desk.view.height, HIGHEST * desk.scale))
@@ -80,7 +81,7 @@ class StripPanel:
             panel.wants(desk, now)
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
-        """The stroke that a press there begins: in the lab's spectrum, say, or in an example's region."""
+        """Returns the stroke that a press there begins: in the lab's spectrum, say, or in an example's region."""
         panel = self._open(desk)
         return None if panel is None else panel.stroke(desk, x, y)
 

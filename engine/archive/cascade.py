@@ -37,7 +37,7 @@ class Cascade:
         self._lock = threading.Lock()
 
     def at(self, level: int, rect: Rect) -> Planes | None:
-        """What the even `rect` of `level` shows, None where nothing lies."""
+        """Returns what the even `rect` of `level` shows, None where nothing lies."""
         self.hold(level - 1)
         return self._at(level, rect)
 

@@ -36,7 +36,7 @@ class GroundEntry:
 
 
 def lay_ground(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> Pyramid:
-    """A layer that begins with a picture, uint8 or uint16 RGBA (h, w, 4), at (x, y) of level 0; `png`: the same
+    """Returns a layer that begins with a picture, uint8 or uint16 RGBA (h, w, 4), at (x, y) of level 0; `png`: the same
     picture as a PNG, where it is at hand."""
     rect = Rect.at(x, y, pixels.shape[1], pixels.shape[0])
     planes = from_rgba16 if pixels.dtype == np.uint16 else from_rgba8
@@ -48,7 +48,8 @@ def lay_ground(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> 
 
 
 def whole(layer: Layer, frame: Rect) -> bool:
-    """Whether a layer is its ground and nothing else, all of it within `frame`: then its picture shows it fully."""
+    """Tells whether a layer is its ground and nothing else, all of it within `frame`: then its picture shows it
+    fully."""
     ground = layer.pyramid.ground
     if ground is None or layer.growth or layer.pyramid.levels is not ground.levels:
         return False
@@ -56,12 +57,12 @@ def whole(layer: Layer, frame: Rect) -> bool:
 
 
 def painted_since(pyramid: Pyramid) -> list[tuple[TileKey, Record]]:
-    """The records that a layer's ground does not account for: all of them where there is none."""
+    """Returns the records that a layer's ground does not account for: all of them where there is none."""
     return [(key, record) for key, record in pyramid.all_records() if not unchanged(pyramid, key, record)]
 
 
 def entry(pyramid: Pyramid, member: str) -> GroundEntry | None:
-    """How a file names a layer's ground; None if it has none."""
+    """Tells how a file names a layer's ground; None if it has none."""
     if pyramid.ground is None:
         return None
     gone = tuple(
@@ -88,7 +89,7 @@ def restored(found: GroundEntry, png: bytes, where: str, limits: Limits) -> Pyra
 
 
 def with_tiles(ground: Pyramid, levels: dict[int, dict[tuple[int, int], Record]]) -> Pyramid:
-    """A ground, or nothing, with what was painted since in its place."""
+    """Returns a ground, or nothing, with what was painted since in its place."""
     stored = ground.levels
     for level, tiles in levels.items():
         held: Level = stored.get(level, Map())

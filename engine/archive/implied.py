@@ -67,7 +67,7 @@ Coded = tuple[TileKey, Record, Implied | None]
 
 
 def ordered(tiles: Sequence[Tile]) -> list[Tile]:
-    """The tiles from the coarsest level on, those of a square together."""
+    """Returns the tiles from the coarsest level on, those of a square together."""
     return sorted(tiles, key=lambda tile: (*_square(tile[0]), tile[0].y, tile[0].x))
 
 
@@ -76,7 +76,8 @@ def _square(key: TileKey) -> tuple[int, int, int]:
 
 
 def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
-    """Tiles of a pyramid on which nothing waits, the colour that their ink implies taken out where that leaves less."""
+    """Returns tiles of a pyramid on which nothing waits, the colour that their ink implies taken out where that
+    leaves less."""
     if not values.inked:
         return [(key, record, None) for key, record in tiles]
     out: list[Coded] = []
@@ -126,8 +127,8 @@ class _Tile:
         self._place = self._corner.y0 - rect.y0, self._corner.x0 - rect.x0, self.at.y0 & 1, self.at.x0 & 1
 
     def inks(self) -> tuple[Instance, ...]:
-        """The inks that lie here and whose appearance is known, the finer ones first; none if there are too many of
-        those that add texture of their own at this level."""
+        """Returns the inks that lie here and whose appearance is known, the finer ones first; none if there are too
+        many of those that add texture of their own at this level."""
         found = list(self.record.inks)
         top, left, *_ = self._place
         for i, ink in enumerate(self._above.inks):
@@ -139,7 +140,7 @@ class _Tile:
         return () if len(adding) > MOST else tuple([*adding, *others][:MOST])
 
     def arguments(self, inks: tuple[Instance, ...], seen: _Seen) -> _Arguments:
-        """What the kernels need of the tile for these inks."""
+        """Returns what the kernels need of the tile for these inks."""
         sources, own = (
             np.array([COLOURS + 3 * there.index(ink) if ink in there else -1 for ink in inks], np.int64)
             for there in (self._above.inks, self.record.inks)
@@ -202,7 +203,7 @@ def _appearance(ink: Instance, level: int, at: Rect) -> np.ndarray:
 
 
 def _detail(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
-    """What the inks add at a level: float32 (n, 1 or 3, h, w), n = 0 if they add nothing."""
+    """Returns what the inks add at a level: float32 (n, 1 or 3, h, w), n = 0 if they add nothing."""
     if all(ink.base >= level for ink in inks):
         return np.empty((0, 1, 0, 0), np.float32)
     added = [ink.bandpass(level, at) for ink in inks]
@@ -210,7 +211,7 @@ def _detail(inks: Sequence[Instance], level: int, at: Rect) -> np.ndarray:
 
 
 def _stacked(found: Sequence[np.ndarray], at: Rect) -> np.ndarray:
-    """Planes (1 or 3, h, w) each as one array: float32 (n, 1 or 3, h, w)."""
+    """Returns planes (1 or 3, h, w) each as one array: float32 (n, 1 or 3, h, w)."""
     planes = max(len(each) for each in found)
     return np.stack([np.broadcast_to(each, (planes, at.height, at.width)) for each in found]).astype(
         np.float32, copy=False

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric.grid import snap
-from engine.numeric.kernel import Int, Real, inner, kernel
+from engine.numeric.kernel import Array, Int, Real, inner, kernel
 from engine.numeric.pyramid import blend_rows, expand_row
 
 _UNIT = np.float32(2.0**-16)
@@ -27,7 +27,7 @@ _RIDGE = 1e-10  # of the normal equations' trace: of terms that do the same, bot
 
 @kernel
 def lies(values: np.ndarray, plane: Int, top: Int, left: Int, height: Int, width: Int) -> bool:
-    """Whether any of three planes from `plane` on is not zero on a rectangle."""
+    """Tells whether any of three planes from `plane` on is not zero on a rectangle."""
     for c in range(3):
         for y in range(height):
             row = values[plane + c, top + y][left : left + width]
@@ -43,7 +43,8 @@ def lies(values: np.ndarray, plane: Int, top: Int, left: Int, height: Int, width
 def _expanded(
     flat: np.ndarray, height: Int, width: Int, plane: Int, place: np.ndarray, y: Int, t: np.ndarray, line: np.ndarray
 ) -> None:
-    """Row `y` of a plane of the expanded parents, from the even column on; `flat`, all parents of height x width.
+    """Writes row `y` of a plane of the expanded parents, from the even column on; `flat`, all parents of height x
+    width.
 
     (Views of one-dimensional arrays cost least: a row is no more work than it takes to cut it out.)
     """
@@ -82,7 +83,7 @@ def _textured(line: np.ndarray, amplitude: np.ndarray, detail: np.ndarray) -> No
 
 @inner
 def _solve(a: np.ndarray, b: np.ndarray) -> None:
-    """The solution of the positive definite a x = b, in place, by elimination."""
+    """Writes the solution of the positive definite a x = b, in place, by elimination."""
     n = b.size
     for i in range(n):
         for j in range(i + 1, n):
@@ -97,17 +98,8 @@ def _solve(a: np.ndarray, b: np.ndarray) -> None:
 
 
 @inner
-def _sampled(
-    parents: np.ndarray,
-    plane: Int,
-    data: np.ndarray,
-    own: Int,
-    place: np.ndarray,
-    y: Int,
-    stride: Int,
-    line: np.ndarray,
-) -> None:
-    """Every `stride`-th pixel of a row, the parents expanded and the residual added, into `line` float32."""
+def _sampled(parents: Array, plane: Int, data: Array, own: Int, place: Array, y: Int, stride: Int, line: Array) -> None:
+    """Writes every `stride`-th pixel of a row, the parents expanded and the residual added, into `line` float32."""
     if plane < 0:
         line[:] = np.float32(0.0)
     else:
@@ -141,7 +133,7 @@ def _gather(sums: np.ndarray, x: np.ndarray) -> None:
 
 @inner
 def _solution(sums: np.ndarray, m: Int) -> np.ndarray:
-    """What has the smallest squares: float64 (m,), from the sums of products."""
+    """Returns what has the smallest squares: float64 (m,), from the sums of products."""
     a, b, r, trace = np.zeros((m, m), np.float64), np.zeros(m, np.float64), 0, 0.0
     for j in range(m):
         for k in range(j, m + 1):
@@ -162,17 +154,17 @@ def _solution(sums: np.ndarray, m: Int) -> np.ndarray:
 
 @kernel
 def fit(
-    data: np.ndarray,
-    parents: np.ndarray,
-    place: np.ndarray,
-    sources: np.ndarray,
-    own: np.ndarray,
-    seen: np.ndarray,
-    start: np.ndarray,
-    detail: np.ndarray,
+    data: Array,
+    parents: Array,
+    place: Array,
+    sources: Array,
+    own: Array,
+    seen: Array,
+    start: Array,
+    detail: Array,
     stride: Int,
-) -> np.ndarray:
-    """The factors, float64, that leave the smallest squares on every `stride`-th pixel of every such row."""
+) -> Array:
+    """Returns the factors, float64, that leave the smallest squares on every `stride`-th pixel of every such row."""
     n, width = sources.size, (data.shape[2] + stride - 1) // stride
     m = 1 + 2 * n
     sums, x = np.zeros((3, m * (m + 3) // 2, width), np.float64), np.empty((m + 1, width), np.float64)
@@ -209,16 +201,7 @@ def fit(
 
 
 @inner
-def _add(
-    line: np.ndarray,
-    alpha: np.ndarray,
-    amplitude: np.ndarray,
-    s: np.ndarray,
-    p: Real,
-    q: Real,
-    r: Real,
-    first: bool,
-) -> None:
+def _add(line: Array, alpha: Array, amplitude: Array, s: Array, p: Real, q: Real, r: Real, first: bool) -> None:
     """line += p alpha + q amplitude + (amplitude + r alpha) s, or that alone if `first`."""
     if first:
         for i in range(line.size):
@@ -232,7 +215,7 @@ def _add(
 def _exchanged(
     row: np.ndarray, implied: np.ndarray, below: np.ndarray, sign: Int, whole: np.ndarray
 ) -> tuple[Int, Int, Int]:
-    """A row of `exchange`, into `whole` int32: all bits of what is implied, of the row before and after.
+    """Returns a row of `exchange`, into `whole` int32: all bits of what is implied, of the row before and after.
 
     Every sum is cast: int32 added to int32 is int64 otherwise, and half as many fit into a register.
     """
@@ -251,17 +234,17 @@ def _exchanged(
 
 @kernel
 def exchange(
-    data: np.ndarray,
-    parents: np.ndarray,
-    place: np.ndarray,
-    sources: np.ndarray,
-    own: np.ndarray,
-    seen: np.ndarray,
-    start: np.ndarray,
-    detail: np.ndarray,
-    factors: np.ndarray,
+    data: Array,
+    parents: Array,
+    place: Array,
+    sources: Array,
+    own: Array,
+    seen: Array,
+    start: Array,
+    detail: Array,
+    factors: Array,
     sign: Int,
-    out: np.ndarray,
+    out: Array,
 ) -> int:
     """`out`, whose colour planes may be those of `data`, = `data`, to the colour of which implied - (expanded + detail)
     is added (`sign` 1: it is put back) or from which it is taken (-1).

@@ -90,7 +90,7 @@ class Pasted:
 
 
 def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) -> Pyramid:
-    """A pyramid of the rows that `bands` give, uint8 or uint16 RGBA (n, w, 4), from (x, y) of level 0 on.
+    """Returns a pyramid of the rows that `bands` give, uint8 or uint16 RGBA (n, w, 4), from (x, y) of level 0 on.
 
     They are laid down at once and remembered as the layer's ground, if they are not too many.
     """
@@ -106,7 +106,7 @@ def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) 
 
 
 def _committed(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop) -> Pyramid:
-    """The same, part by part."""
+    """Returns the same, part by part."""
     pyramid = Pyramid()
     for rows in _regrouped(bands, y):
         check_cancelled(cancelled)
@@ -116,7 +116,7 @@ def _committed(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop) -> 
 
 
 def _regrouped(bands: Iterator[np.ndarray], y: int) -> Iterator[np.ndarray]:
-    """The same rows in larger groups that end where rows of tiles do."""
+    """Yields the same rows in larger groups that end where rows of tiles do."""
     held: list[np.ndarray] = []
     count = 0
     for band in bands:
@@ -136,7 +136,7 @@ def _regrouped(bands: Iterator[np.ndarray], y: int) -> Iterator[np.ndarray]:
 
 
 def open_image(path: str | os.PathLike[str], limits: Limits = LIMITS, cancelled: Stop = None) -> Opened:
-    """A PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
+    """Returns a PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
     streamed = _png_rows(path, limits, cancelled)
     if streamed is None:
         pixels, meta = read_image(path, limits=limits)
@@ -152,7 +152,8 @@ def open_image(path: str | os.PathLike[str], limits: Limits = LIMITS, cancelled:
 def _png_rows(
     path: str | os.PathLike[str], limits: Limits, cancelled: Stop
 ) -> tuple[Pyramid, tuple[int, int], tuple[str, ...]] | None:
-    """The pyramid of a PNG, read strip by strip, its size and notes; None if it is none, or cannot be opened."""
+    """Returns the pyramid of a PNG, read strip by strip, its size and notes; None if it is none, or cannot be
+    opened."""
     if not os.path.isfile(path):
         return None
     try:
@@ -176,7 +177,7 @@ def read_raster(
     progress: Progress = None,
     cancelled: Stop = None,
 ) -> Opened:
-    """The layers of an OpenRaster file as its pictures show them.  FileError if it is none, or damaged."""
+    """Returns the layers of an OpenRaster file as its pictures show them.  FileError if it is none, or damaged."""
     image = parse_stack(archive.read(STACK, limits.xml), archive.name, limits)
     return _Import(archive, image, limits, progress, cancelled).run()
 
@@ -217,7 +218,7 @@ class _Import:
         return Opened(Painting(frame, 0, root, self._selected or top), self._told())
 
     def _told(self) -> tuple[str, ...]:
-        """The notes, of which nobody reads more than some."""
+        """Returns the notes, of which nobody reads more than some."""
         more = len(self._notes) - NOTES
         return tuple(self._notes[:NOTES]) + ((f"and {more} more like these",) if more > 0 else ())
 
@@ -302,6 +303,6 @@ class _Import:
 
 
 def clean_name(name: str, fallback: str) -> str:
-    """A layer's name made of what a file says: printable, without blanks around it, not too long."""
+    """Returns a layer's name made of what a file says: printable, without blanks around it, not too long."""
     kept = "".join(c if c.isprintable() else " " for c in name)[: layers.MAX_NAME].strip()
     return kept or fallback

@@ -22,7 +22,7 @@ class Job:
 
 
 def pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack], values: Cascade | None = None) -> Iterator[Job]:
-    """The packs of some tiles; `values` of their pyramid, if what ink implies of them may be left out."""
+    """Yields the packs of some tiles; `values` of their pyramid, if what ink implies of them may be left out."""
     for number, group in enumerate(grouped(tiles)):
         name = f"{stem}/{number}.tiles"
         packs.append(Pack(name, len(group), sum(record.data.nbytes for _, record in group)))

@@ -79,7 +79,7 @@ class Manifest:
     synthesis: int = SYNTHESIS  # and of what examples grow into
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
-        """The named textures; FieldError if one cannot be made."""
+        """Returns the named textures; FieldError if one cannot be made."""
         made = {}
         for name, (kind, parameters, *shas) in self.textures.items():
             if any(sha is not None and sha not in pictures for sha in shas):
@@ -94,7 +94,8 @@ class Manifest:
         return Map(made)
 
     def grown_bytes(self) -> int:
-        """What all that was painted with examples takes in memory, about; FieldError if an example cannot be."""
+        """Returns what all that was painted with examples takes in memory, about; FieldError if an example cannot
+        be."""
         sizes = {sha: entry.size for sha, entry in self.pictures.items()}
         return plot_files.cost(self.examples, (plot for plots in self.plots.values() for plot in plots), sizes)
 
@@ -110,7 +111,7 @@ def manifest_json(
     pictures: list[PictureEntry],
     members: Mapping[str, tuple[int, str]],
 ) -> dict[str, Any]:
-    """The JSON of a painting's manifest."""
+    """Returns the JSON of a painting's manifest."""
     frame = painting.frame
     examples = plot_files.entries(painting.root)
     return {
@@ -139,7 +140,7 @@ def manifest_json(
 
 
 def format_of(painting: Painting) -> int:
-    """The format that tells all of a painting."""
+    """Returns the format that tells all of a painting."""
     grown = any(layer.growth for layer in layers.layers(painting.root))
     return FORMAT if grown or any(t.kind == KIND for t in painting.textures.values()) else WITHOUT_EXAMPLES
 
@@ -175,7 +176,7 @@ def _node_json(
 
 
 def parse_manifest(value: Any) -> Manifest:
-    """The manifest that a JSON value tells.  FieldError names the member; LayerError if the tree cannot be."""
+    """Returns the manifest that a JSON value tells.  FieldError names the member; LayerError if the tree cannot be."""
     members = Fields(value, "manifest")
     version = members.integer("inkfall", lo=1, hi=1 << 30)
     if version > FORMAT:

@@ -37,14 +37,14 @@ _FULL.flags.writeable = False
 
 
 def grouped(masks: Tiles) -> Iterator[list[Key]]:
-    """The tiles of a mask, row by row, as many at a time as go into a pack."""
+    """Yields the tiles of a mask, row by row, as many at a time as go into a pack."""
     keys = sorted(masks)
     for start in range(0, len(keys), TILES):
         yield keys[start : start + TILES]
 
 
 def pack(masks: Mapping[Key, np.ndarray], keys: Sequence[Key]) -> bytes:
-    """The pack of some tiles, in their order: the same tiles give the same bytes."""
+    """Returns the pack of some tiles, in their order: the same tiles give the same bytes."""
     runs: list[list[Any]] = []
     for (row, column), before in zip(keys, [None, *keys], strict=False):
         if before == (row, column - 1):
@@ -57,8 +57,8 @@ def pack(masks: Mapping[Key, np.ndarray], keys: Sequence[Key]) -> bytes:
 
 
 def unpack(data: bytes, name: str, count: int) -> Tiles:
-    """The tiles of a pack, `count` as is known from elsewhere; FileError if it is none, before memory is taken for it:
-    `name` is the file's and the member's."""
+    """Returns the tiles of a pack, `count` as is known from elsewhere; FileError if it is none, before memory is
+    taken for it: `name` is the file's and the member's."""
     try:
         return _unpacked(data, count)
     except (FieldError, DeflateError, PackFault) as error:
@@ -84,7 +84,7 @@ def _unpacked(data: bytes, count: int) -> Tiles:
 
 
 def _keys(runs: Any, count: int) -> list[Key]:
-    """The tiles of some runs, `count` of them."""
+    """Returns the tiles of some runs, `count` of them."""
     need(isinstance(runs, list), "head", runs)
     keys: list[Key] = []
     for run in runs:
@@ -112,7 +112,7 @@ def _mask(bits: np.ndarray) -> np.ndarray:
 
 
 def joined(parts: Sequence[Tiles], name: str) -> Tiles:
-    """The tiles of several packs, which follow one another; FileError if they do not."""
+    """Returns the tiles of several packs, which follow one another; FileError if they do not."""
     for one, other in pairwise(parts):
         if max(one) >= min(other):
             raise FileError(name, "packs of masks: found tiles out of order, expected each once, row by row")

@@ -28,7 +28,7 @@ class Stored:
     where: str
 
     def checked(self) -> bytes:
-        """The bytes, if they are those that the manifest names; else FileError."""
+        """Returns the bytes, if they are those that the manifest names; else FileError."""
         if hashlib.sha256(self.data).hexdigest() != self.sha:
             raise FileError(self.where, "its bytes are not those that the manifest names")
         return self.data
@@ -63,13 +63,13 @@ class Members:
         return ""
 
     def stored(self, member: str) -> Stored:
-        """A member that the manifest names; FileError if it does not."""
+        """Returns a member that the manifest names; FileError if it does not."""
         size, sha = self._told(member)
         with self._reading:
             return Stored(self._archive.read(member, size), sha, self.where(member))
 
     def ground(self, member: str) -> bytes:
-        """The picture that a layer began with; FileError if the manifest does not name it."""
+        """Returns the picture that a layer began with; FileError if the manifest does not name it."""
         size, _ = self._told(member)
         if member not in self._kept:
             with self._reading:
@@ -77,17 +77,17 @@ class Members:
         return self._kept[member]
 
     def where(self, member: str) -> str:
-        """How a fault names a member."""
+        """Tells how a fault names a member."""
         return f"{self._archive.name}: member {shown(member)}"
 
     def _told(self, member: str) -> tuple[int, str]:
-        """A member's size in bytes and its SHA-256, as the manifest has them."""
+        """Returns a member's size in bytes and its SHA-256, as the manifest has them."""
         if member not in self._manifest.members:
             raise FileError(self._archive.name, f"{MANIFEST}: {shown(member)} is not among the members")
         return self._manifest.members[member]
 
     def _sum(self, name: str) -> str:
-        """The SHA-256 of a member, which is kept in memory where it will be needed."""
+        """Returns the SHA-256 of a member, which is kept in memory where it will be needed."""
         if name in self._grounds:
             check_cancelled(self._cancelled)
             with self._reading:

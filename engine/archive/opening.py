@@ -53,7 +53,7 @@ def open_painting(
     cancelled: Stop = None,
     limits: Limits = LIMITS,
 ) -> Opened:
-    """The painting in an .ora file.
+    """Returns the painting in an .ora file.
 
     A file of another program, or one of ours that another program changed or stripped, gives its pictures as layers,
     `native` False, and says so in `notes`.  FileError, one line, if the file is none, or damaged.
@@ -101,7 +101,7 @@ class _Opening:
     # ---- whose file it is ----
 
     def _manifest(self) -> tuple[Manifest | None, str]:
-        """The manifest, or None and what to say about that."""
+        """Returns the manifest, or None and what to say about that."""
         if MANIFEST not in self._archive:
             image = parse_stack(self._archive.read(STACK, self._limits.xml), self._archive.name, self._limits)
             ours = bool(image.ours) or any(entry.ours for entry in image.root.layers())
@@ -136,7 +136,7 @@ class _Opening:
         return Opened(painting, notes, True, recording, Map(sources), marks)
 
     def _layers(self, manifest: Manifest, members: Members, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
-        """The layers with what was painted, and how many tiles have another colour than when they were saved.
+        """Returns the layers with what was painted, and how many tiles have another colour than when they were saved.
 
         The colour of a layer that ink implies is put back while the next layers are read.
         """
@@ -185,7 +185,7 @@ class _Opening:
         return maskpacks.unpack(stored.checked(), stored.where, count)
 
     def _ground(self, found: GroundEntry, members: Members) -> Pyramid:
-        """The picture that a layer began with, laid down again."""
+        """Returns the picture that a layer began with, laid down again."""
         return grounds.restored(found, members.ground(found.member), members.where(found.member), self._limits)
 
     def _levels(self, tiles: Sequence[Coded]) -> dict[int, dict[tuple[int, int], Record]]:
@@ -202,7 +202,7 @@ class _Opening:
         return pictures.assembled(entry.name, entry.sha, entry.size, parts, self._archive.name)
 
     def _tiles(self, packs: tuple[Pack, ...], members: Members, sources: Mapping[str, ImageSource]) -> Iterator[Coded]:
-        """All tiles of some packs; the file is read here, unpacking goes on beside."""
+        """Yields all tiles of some packs; the file is read here, unpacking goes on beside."""
         waiting: deque[tuple[Pack, Future[list[Coded]]]] = deque()
         with ThreadPoolExecutor(WORKERS, "open") as pool:
             try:
@@ -227,7 +227,7 @@ class _Opening:
         return tiles
 
     def _recording(self) -> tuple[Recording | None, tuple[str, ...]]:
-        """The commands that led here, and what to say if they are left out."""
+        """Returns the commands that led here, and what to say if they are left out."""
         if RECORDING not in self._archive:
             return None, ()
         size = self._archive.members[RECORDING].size

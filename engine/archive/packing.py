@@ -51,7 +51,7 @@ _ADDRESS = re.compile("-?[0-9a-f]+")
 
 
 def grouped(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
-    """The tiles in runs of a pack's size."""
+    """Yields the tiles in runs of a pack's size."""
     return _runs(tiles, BYTES, TILES)
 
 
@@ -68,7 +68,7 @@ def _runs(tiles: Sequence[T], most: int, count: int) -> Iterator[Sequence[T]]:
 
 
 def pack(tiles: Sequence[Coded]) -> bytes:
-    """The pack of some tiles: the same tiles in the same order give the same bytes."""
+    """Returns the pack of some tiles: the same tiles in the same order give the same bytes."""
     inks: dict[Instance, int] = {}
     lines, blocks, bodies = [], [], []
 
@@ -114,7 +114,7 @@ _FORMATS = {
 def unpack(
     data: bytes, name: str, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None = None
 ) -> list[Coded]:
-    """The tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
+    """Returns the tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
 
     `announced`: the numbers of tiles and of bytes there must be.  FileError if anything is not as it should be, before
     memory is taken for it; `name` is the file's and the member's.
@@ -192,7 +192,7 @@ def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
 
 
 def _whole(values: list[Any], low: int, high: int) -> bool:
-    """Whether all are integers within the range: a loop, since a head has thousands of such lists."""
+    """Tells whether all are integers within the range: a loop, since a head has thousands of such lists."""
     for value in values:  # noqa: SIM110
         if type(value) is not int or not low <= value <= high:
             return False

@@ -18,7 +18,7 @@ MAGIC = b"inkfall\x01"
 
 @inner
 def _whole_row(raw: np.ndarray, start: int, size: int, row: np.ndarray) -> None:
-    """One row of differences from its bytes, which lie `size` apart from `start` on."""
+    """Reads one row of differences from its bytes, which lie `size` apart from `start` on."""
     width = row.size
     low = raw[start : start + width]
     high = raw[start + size : start + size + width]
@@ -36,7 +36,8 @@ def _whole_row(raw: np.ndarray, start: int, size: int, row: np.ndarray) -> None:
 
 @kernel
 def _decode(raw: np.ndarray, out: np.ndarray) -> int:
-    """The tile that bytes `raw` hold into `out`; gives the largest |value|, or -1 if a difference is unknown."""
+    """Returns the tile that bytes `raw` hold into `out`; gives the largest |value|, or -1 if a difference is
+    unknown."""
     planes, height, width = out.shape
     size = height * width
     largest = np.int64(0)

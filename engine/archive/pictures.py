@@ -22,7 +22,7 @@ from engine.texture.record import Instance
 
 
 def sources(painting: Painting) -> dict[str, ImageSource]:
-    """All pictures that a painting needs, by their sha, in the order of it.
+    """Returns all pictures that a painting needs, by their sha, in the order of it.
 
     One that has several names goes by what inks call it, else textures, else plots; among those by the first name.
     """
@@ -50,7 +50,7 @@ def _collected(sources: Iterable[Any]) -> dict[str, ImageSource]:
 
 
 def tiles(source: ImageSource) -> list[Tile]:
-    """A picture on the grid, cut into tiles of whole numbers; ValueError if it does not lie on the grid."""
+    """Returns a picture on the grid, cut into tiles of whole numbers; ValueError if it does not lie on the grid."""
     assert source.data is not None
     steps = np.rint(source.data / np.float32(Q))
     if not (np.array_equal(steps * np.float32(Q), source.data) and np.abs(steps).max() <= RESIDUAL_CAP):
@@ -72,7 +72,7 @@ def _cut(steps: np.ndarray, place: Rect) -> np.ndarray:
 
 
 def assembled(name: str, sha: str, size: tuple[int, int], parts: list[Tile], where: str) -> ImageSource:
-    """The picture of `size` (width, height) again; FileError if its tiles do not cover exactly that."""
+    """Returns the picture of `size` (width, height) again; FileError if its tiles do not cover exactly that."""
     width, height = size
     data = np.empty((4, height, width), np.float32)
     left = dict(_places(width, height))

@@ -71,7 +71,7 @@ class PlotEntry:
 
 
 def origin(plot: Plot) -> Origin:
-    """What a plot's example was read from."""
+    """Returns what a plot's example was read from."""
     found = plot.region.exemplar.origin
     if not isinstance(found, Origin):
         raise ValueError(f"plot {plot.name!r}: its example is of no texture")
@@ -86,8 +86,8 @@ def example_entry(plot: Plot) -> ExampleEntry:
 
 
 def stored(plot: Plot, stem: str) -> tuple[PlotEntry, dict[str, Callable[[], bytes]]]:
-    """How the manifest tells a plot, which is settled, and the members that hold it, with what makes their bytes; their
-    names begin with `stem`."""
+    """Tells how the manifest tells a plot, which is settled, and the members that hold it, with what makes their
+    bytes; their names begin with `stem`."""
     masks, members = plot.region.masks[0], []
     makes: dict[str, Callable[[], bytes]] = {}
     for number, keys in enumerate(maskpacks.grouped(masks)):
@@ -106,7 +106,7 @@ def crc(plot: Plot) -> int:
 
 
 def entries(root: Group) -> dict[str, ExampleEntry]:
-    """The examples of all plots, each once, by their keys in order."""
+    """Returns the examples of all plots, each once, by their keys in order."""
     found = {plot.key: plot for layer in layers.layers(root) for plot in layer.growth}
     return {key: example_entry(plot) for key, plot in sorted(found.items())}
 
@@ -163,7 +163,7 @@ def parse_example(value: Any, where: str) -> ExampleEntry:
 
 
 def _called(name: str) -> str:
-    """The beginning of an example's name in a file, as a place in messages."""
+    """Returns the beginning of an example's name in a file, as a place in messages."""
     return ascii(name[:12])[1:-1]
 
 
@@ -197,7 +197,7 @@ def check_texture(where: str, texture: Texture) -> None:
 
 
 def cost(examples: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], sizes: Mapping[str, tuple[int, int]]) -> int:
-    """Bytes of memory that the plots of a file take when they are grown, about; `sizes`: of its pictures."""
+    """Returns bytes of memory that the plots of a file take when they are grown, about; `sizes`: of its pictures."""
     whole = GROWN * sum(count for plot in plots for _, count in plot.masks)
     for name, entry in examples.items():
         for sha in (entry.picture, entry.mask):
@@ -220,7 +220,7 @@ class Nursery:
     def of(
         cls, entries: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], pictures: Mapping[str, ImageSource]
     ) -> Nursery:
-        """Those that plots are of; FieldError if there is nothing to learn from one."""
+        """Returns those that plots are of; FieldError if there is nothing to learn from one."""
         found: dict[str, tuple[str, Exemplar]] = {}
         for plot in plots:
             if plot.example in found:
@@ -238,8 +238,8 @@ class Nursery:
     def plots(
         self, entries: Sequence[PlotEntry], masks: Callable[[str, int], Tiles], where: str
     ) -> tuple[Growth, list[Mark]]:
-        """The plots of a layer, nothing of them grown yet, and the marks by which to tell later whether they grew as
-        before; `masks` reads so many tiles of a member.  FileError if two take the same place."""
+        """Returns the plots of a layer, nothing of them grown yet, and the marks by which to tell later whether they
+        grew as before; `masks` reads so many tiles of a member.  FileError if two take the same place."""
         plots, marks = [], []
         for entry in entries:
             key, exemplar = self.examples[entry.example]
@@ -265,13 +265,13 @@ class Mark:
 
 
 def otherwise(marks: Sequence[Mark], root: Group) -> bool:
-    """Whether a plot that was grown again, and not painted on since, looks otherwise than when it was saved."""
+    """Tells whether a plot that was grown again, and not painted on since, looks otherwise than when it was saved."""
     plots = [plot for layer in layers.layers(root) for plot in layer.growth if plot.settled]
     return any(mark.masks is plot.region.masks[0] and mark.crc != crc(plot) for mark in marks for plot in plots)
 
 
 def _texture(entry: ExampleEntry, name: str, pictures: Mapping[str, ImageSource]) -> Texture:
-    """The example as a texture that was painted with under some name."""
+    """Returns the example as a texture that was painted with under some name."""
     mask = None if entry.mask is None else replace(pictures[entry.mask], name=name)
     told = Map({field: getattr(entry.parameters, field) for field in FIELDS})
     return Texture(KIND, told, replace(pictures[entry.picture], name=name), mask)
@@ -290,7 +290,7 @@ def _check_apart(plots: Sequence[Plot], where: str) -> None:
 
 
 def region_of(exemplar: Exemplar, seed: int, masks: Tiles) -> Region:
-    """The region of some pixels, as if they had been painted; nothing is refined."""
+    """Returns the region of some pixels, as if they had been painted; nothing is refined."""
     found = [masks]
     for _ in exemplar.levels[1:]:
         found.append(_coarser(found[-1]))

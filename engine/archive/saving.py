@@ -99,7 +99,7 @@ def save(
 
 
 def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], None, None]:
-    """The members, each with its bytes: those of our own as they are made, a few ahead, then all pictures.
+    """Yields the members, each with its bytes: those of our own as they are made, a few ahead, then all pictures.
 
     The pictures are one long piece of work, so it is begun first.
     """
@@ -185,7 +185,7 @@ class SavePlan:
     # ---- pictures for other programs ----
 
     def _is_ground(self, layer: Layer) -> bool:
-        """Whether the picture that a layer began with is its picture still."""
+        """Tells whether the picture that a layer began with is its picture still."""
         return self._level == 0 and grounds.whole(layer, self._frame)
 
     def _place(self, layer: Layer) -> Rect:
@@ -196,7 +196,7 @@ class SavePlan:
         return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
     def pictures(self) -> list[tuple[Job, IO[bytes]]]:
-        """The PNGs of all layers, of them together, and the thumbnail."""
+        """Returns the PNGs of all layers, of them together, and the thumbnail."""
         root, level, places = self._painting.root, self._level, self._places
         files: dict[str, _Png] = {}
         try:
@@ -218,7 +218,7 @@ class SavePlan:
             raise
 
     def _grounds_shown(self) -> list[tuple[Job, IO[bytes]]]:
-        """The pictures of layers that nobody has painted on: those they began with."""
+        """Returns the pictures of layers that nobody has painted on: those they began with."""
         shown: list[tuple[Job, IO[bytes]]] = []
         for layer in layers.layers(self._painting.root):
             if self._is_ground(layer) and layer.pyramid.ground is not None:
@@ -313,7 +313,7 @@ class SavePlan:
 
 
 def _with_sums(stack: StackEntry, sums: dict[str, str]) -> StackEntry:
-    """The tree with the SHA-256 of each layer's picture: shows later whether another program changed it."""
+    """Returns the tree with the SHA-256 of each layer's picture: shows later whether another program changed it."""
     children = tuple(
         _with_sums(child, sums)
         if isinstance(child, StackEntry)

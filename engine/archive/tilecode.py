@@ -35,7 +35,7 @@ def _abs(value: np.int32) -> np.int32:
 
 @inner
 def _small(plane: np.ndarray) -> bool:
-    """Whether all values are -2 to 1: then they are roundings, and differences would make more of them."""
+    """Tells whether all values are -2 to 1: then they are roundings, and differences would make more of them."""
     for y in range(plane.shape[0]):
         row = plane[y]
         bits = np.int32(0)
@@ -66,7 +66,7 @@ def _kind(plane: np.ndarray) -> int:
 
 @inner
 def _sums(row: np.ndarray, before: np.ndarray) -> tuple[np.int32, np.int32, np.int32, np.int32]:
-    """The sums of a row's absolute differences, of each kind.
+    """Returns the sums of a row's absolute differences, of each kind.
 
     They are cast to int32 at every step, since sums of it are int64 otherwise, which takes twice as long; where that
     wraps, beyond all values of pixels, another kind is chosen than the best.
@@ -87,7 +87,7 @@ def _sums(row: np.ndarray, before: np.ndarray) -> tuple[np.int32, np.int32, np.i
 
 @inner
 def _difference(plane: np.ndarray, y: int, kind: int, line: np.ndarray) -> None:
-    """Row `y` of a plane less what `kind` names, wrapping, into `line`."""
+    """Writes row `y` of a plane less what `kind` names, wrapping, into `line`."""
     row = plane[y]
     width = row.size
     if kind >= 2 and y > 0:
@@ -187,7 +187,7 @@ def _lengths(codes: np.ndarray, planes: int, height: int, width: int, lengths: n
 
 @kernel
 def _take(raw: np.ndarray, at: np.ndarray, code: np.uint8, z: np.ndarray) -> None:
-    """The next row of width `code` into `z` uint32 (w + 3,)."""
+    """Takes the next row of width `code` into `z` uint32 (w + 3,)."""
     width = z.size - 3
     if code == 1:
         n = (width + 3) // 4
@@ -220,7 +220,7 @@ def _take(raw: np.ndarray, at: np.ndarray, code: np.uint8, z: np.ndarray) -> Non
 
 @inner
 def _add_before(row: np.ndarray, before: np.ndarray, kind: np.uint8, first: bool) -> None:
-    """A row of differences to the row itself, wrapping."""
+    """Turns a row of differences to the row itself, wrapping."""
     if kind == 1 or kind == 3:
         for i in range(1, row.size):
             row[i] += row[i - 1]
@@ -231,7 +231,7 @@ def _add_before(row: np.ndarray, before: np.ndarray, kind: np.uint8, first: bool
 
 @kernel
 def _decode(raw: np.ndarray, codes: np.ndarray, at: np.ndarray, out: np.ndarray) -> np.int32:
-    """The inverse of `_encode`, `at` (STREAMS,) being where in `raw` the next row of each width lies; gives the
+    """Returns the inverse of `_encode`, `at` (STREAMS,) being where in `raw` the next row of each width lies; gives the
     largest |value|."""
     planes, height, width = out.shape
     z = np.zeros(width + 3, np.uint32)
@@ -257,12 +257,12 @@ def _decode(raw: np.ndarray, codes: np.ndarray, at: np.ndarray, out: np.ndarray)
 
 
 def code_size(shape: tuple[int, int, int]) -> int:
-    """Bytes of the codes of a tile (planes, h, w)."""
+    """Returns bytes of the codes of a tile (planes, h, w)."""
     return shape[0] * (1 + shape[1])
 
 
 def encoded(tiles: Sequence[np.ndarray]) -> bytes:
-    """A run of tiles, each int16 or int32 (planes, h, w), as bytes."""
+    """Returns a run of tiles, each int16 or int32 (planes, h, w), as bytes."""
     samples = sum(data.size for data in tiles)
     rows = sum(data.shape[0] * data.shape[1] for data in tiles)
     codes = np.empty(sum(code_size(data.shape) for data in tiles), np.uint8)

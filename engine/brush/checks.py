@@ -26,14 +26,14 @@ class BrushError(FieldError):
 
 
 def number(value: Any, place: str, lo: float, hi: float) -> float:
-    """A finite number of [lo, hi], as float."""
+    """Returns a finite number of [lo, hi], as float."""
     if not is_within(value, lo, hi):
         raise BrushError(place, described(value), f"a number from {lo:g} to {hi:g}")
     return float(value) + 0.0  # no negative zero
 
 
 def integer(value: Any, place: str, lo: int, hi: int) -> int:
-    """An integer of [lo, hi]."""
+    """Returns an integer of [lo, hi]."""
     if not is_within(value, lo, hi, whole=True):
         raise BrushError(place, described(value), f"an integer from {lo} to {hi}")
     return int(value)
@@ -83,14 +83,14 @@ def knots(value: Any, place: str, most: float = OUTPUT_CAP) -> Knots:
 
 
 def frozen(value: Any) -> Any:
-    """A JSON value with its lists as tuples and its objects as immutable maps."""
+    """Returns a JSON value with its lists as tuples and its objects as immutable maps."""
     if isinstance(value, Mapping):
         return Map({str(name): frozen(part) for name, part in value.items()})
     return tuple(frozen(part) for part in value) if isinstance(value, list | tuple) else value
 
 
 def thawed(value: Any) -> Any:
-    """The plain JSON value of a frozen one; members in order of their names."""
+    """Returns the plain JSON value of a frozen one; members in order of their names."""
     if isinstance(value, Mapping):
         return {name: thawed(value[name]) for name in sorted(value)}
     return [thawed(part) for part in value] if isinstance(value, tuple) else value

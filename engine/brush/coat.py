@@ -21,7 +21,7 @@ def _keep_of(coverage: np.ndarray, keep: np.ndarray) -> bool:
 @or_plain(_keep_of)
 @kernel
 def keep_of(coverage: np.ndarray, keep: np.ndarray) -> bool:
-    """A = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w)."""
+    """Returns a = 1 - snap(M) into `keep`; False if A is 1 everywhere.  Both float32 (h, w)."""
     covered = 0
     for y in range(coverage.shape[0]):
         m, a = coverage[y], keep[y]
@@ -41,7 +41,7 @@ def _weigh_locked(keep: np.ndarray, alpha: np.ndarray, weight: np.ndarray, add_a
 
 
 def weigh(keep: np.ndarray, alpha: np.ndarray, locked: bool, add_alpha: np.ndarray) -> np.ndarray:
-    """The weight of new colour, float32 (h, w): M, or M times `alpha` where that is locked.
+    """Returns the weight of new colour, float32 (h, w): M, or M times `alpha` where that is locked.
 
     Writes the alpha plane of B into `add_alpha`: M, or exactly what A takes from `alpha`.
     """
@@ -136,7 +136,7 @@ def stain(part: np.ndarray, colour: np.ndarray, add: np.ndarray) -> None:
 
 
 def local_mean(planes: np.ndarray, reach: int) -> np.ndarray:
-    """The mean of each pixel's surroundings: two passes of a box of 2 reach + 1 px along each axis.
+    """Returns the mean of each pixel's surroundings: two passes of a box of 2 reach + 1 px along each axis.
 
     `planes`: float32 (n, 128 + 4 reach, 128 + 4 reach) on the grid; returns float32 (n, 128, 128).  The sums are
     exact in float64, so the result does not depend on their order.

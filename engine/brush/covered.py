@@ -61,12 +61,12 @@ class Covered:
 
     @staticmethod
     def ink_of(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink | None:
-        """The ink that strokes of the mode are made with, as `ink.resolve`; None for those that need none."""
+        """Returns the ink that strokes of the mode are made with, as `ink.resolve`; None for those that need none."""
         return None
 
     @staticmethod
     def looks(brush: Brush, ink: Ink | None) -> Looks:
-        """What strokes of the mode look at."""
+        """Returns what strokes of the mode look at."""
         return Looks()
 
     @property
@@ -86,11 +86,11 @@ class Covered:
 
     @property
     def spares_alpha(self) -> bool:
-        """Whether alpha stays as it is, at every level."""
+        """Tells whether alpha stays as it is, at every level."""
         return self.locked
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
-        """The change of one tile, as `stamp.Edit.stamp`."""
+        """Returns the change of one tile, as `stamp.Edit.stamp`."""
         raise NotImplementedError
 
     def keep(self, key: TileKey) -> np.ndarray | None:

@@ -9,7 +9,7 @@ import numpy as np
 from engine.brush.dynamics import FLOW, HARDNESS, OPACITY, RADIUS, SPACING, respond, response
 from engine.brush.samples import cleaned
 from engine.brush.settings import Brush
-from engine.numeric.kernel import kernel
+from engine.numeric.kernel import Array, kernel
 from engine.numeric.stand_in import or_interpreted
 
 DAB = 6  # columns: x, y, radius, opacity, flow, hardness
@@ -35,7 +35,7 @@ class Stroker:
         self.dropped = 0  # points that were no places
 
     def add(self, points: np.ndarray) -> np.ndarray:
-        """The dabs that `points`, float64 (n, 2..6): x, y, pressure, tilt_x, tilt_y, t, add to the stroke.
+        """Returns the dabs that `points`, float64 (n, 2..6): x, y, pressure, tilt_x, tilt_y, t, add to the stroke.
 
         Returns float64 (m, 6): x, y, radius in px; opacity, flow, hardness in 0..1.  Points that are not finite are
         dropped and counted; BrushError beyond 2^31 px.
@@ -61,15 +61,15 @@ class Stroker:
 @or_interpreted()
 @kernel
 def _walk(
-    points: np.ndarray,
-    state: np.ndarray,
-    values: np.ndarray,
-    lo: np.ndarray,
-    hi: np.ndarray,
-    inputs: np.ndarray,
-    outputs: np.ndarray,
-    counts: np.ndarray,
-    dabs: np.ndarray,
+    points: Array,
+    state: Array,
+    values: Array,
+    lo: Array,
+    hi: Array,
+    inputs: Array,
+    outputs: Array,
+    counts: Array,
+    dabs: Array,
 ) -> int:
     """Advances `state` over the points; writes the dabs that fit into `dabs` and returns how many there are."""
     now = np.empty(values.shape[0])

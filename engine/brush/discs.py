@@ -63,7 +63,7 @@ def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray)
 @or_interpreted()
 @kernel
 def highest(discs: np.ndarray) -> float:
-    """The highest ceiling of discs (n, 7)."""
+    """Returns the highest ceiling of discs (n, 7)."""
     most = 0.0
     for i in range(discs.shape[0]):
         most = max(most, discs[i, CEILING])
@@ -83,7 +83,7 @@ def _span(centre: Real, tile: Int) -> tuple[Real, Real]:
 def list_pairs(
     discs: np.ndarray, start: Int, codes: np.ndarray, which: np.ndarray, inside: np.ndarray
 ) -> tuple[int, int]:
-    """The pairs (tile, disc) of the discs from `start` on, disc by disc, until the next might not fit.
+    """Returns the pairs (tile, disc) of the discs from `start` on, disc by disc, until the next might not fit.
 
     Writes the tile as (y + HALF) 2^32 + (x + HALF) into `codes`, the disc's index into `which`, and into `inside`
     whether it covers every pixel of the tile in full.  Returns the number of pairs and the next disc.
@@ -130,7 +130,7 @@ def list_runs(
 @or_interpreted()
 @kernel
 def _join(codes: np.ndarray, which: np.ndarray, inside: np.ndarray, count: Int, runs: np.ndarray) -> int:
-    """The runs among `count` pairs, which are sorted on the way."""
+    """Returns the runs among `count` pairs, which are sorted on the way."""
     for i in range(1, count):  # insertion: stable, and nothing is faster for the few of a frame, or where all is sorted
         code, disc, full = codes[i], which[i], inside[i]
         k = i
@@ -176,7 +176,7 @@ def lay_flat(
 @or_interpreted()
 @kernel
 def wiped(discs: np.ndarray, which: np.ndarray, inside: np.ndarray, ceiling: Real) -> bool:
-    """Whether a disc among these fills the whole tile up to the ceiling."""
+    """Tells whether a disc among these fills the whole tile up to the ceiling."""
     for k in range(which.shape[0]):
         if inside[k] and discs[which[k], RATE] == 1.0 and discs[which[k], CEILING] >= ceiling:
             return True

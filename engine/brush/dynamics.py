@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.brush.settings import SETTINGS, Brush, Curve
-from engine.numeric.kernel import kernel
+from engine.numeric.kernel import Array, kernel
 
 DYNAMIC = ("radius", "opacity", "flow", "hardness", "spacing")
 RADIUS, OPACITY, FLOW, HARDNESS, SPACING = range(len(DYNAMIC))
@@ -32,21 +32,21 @@ class Response(NamedTuple):
 
 
 def knots_of(curve: Curve | None) -> tuple[tuple[float, float], ...]:
-    """The knots of a curve; None is the constant 1."""
+    """Returns the knots of a curve; None is the constant 1."""
     if curve is None:
         return _STEADY
     return _PRESSURE if isinstance(curve, str) else curve
 
 
 def evaluate(curve: Curve | None, pressure: np.ndarray) -> np.ndarray:
-    """The factor that a curve gives at each pressure: float64, of the shape of `pressure`."""
+    """Returns the factor that a curve gives at each pressure: float64, of the shape of `pressure`."""
     inputs, outputs = np.array(knots_of(curve), np.float64).T
     out: np.ndarray = np.interp(pressure, inputs, outputs)
     return out
 
 
 def response(brush: Brush) -> Response:
-    """What the walk along a stroke needs to know of a brush."""
+    """Returns what the walk along a stroke needs to know of a brush."""
     rows = [SETTINGS[name] for name in DYNAMIC]
     knots = [knots_of(brush.dynamics.get(name)) for name in DYNAMIC]
     table = np.zeros((2, len(knots), max(map(len, knots))))
@@ -64,14 +64,7 @@ def response(brush: Brush) -> Response:
 
 @kernel
 def respond(
-    values: np.ndarray,
-    lo: np.ndarray,
-    hi: np.ndarray,
-    inputs: np.ndarray,
-    outputs: np.ndarray,
-    counts: np.ndarray,
-    pressure: float,
-    into: np.ndarray,
+    values: Array, lo: Array, hi: Array, inputs: Array, outputs: Array, counts: Array, pressure: float, into: Array
 ) -> None:
     """Writes the settings at one pressure into `into`, float64 (5,), each clamped to its range."""
     for i in range(values.shape[0]):

@@ -22,7 +22,7 @@ def check(brush: Brush, where: str = "brush") -> None:
 
 
 def class_of(mode: str) -> type[Covered]:
-    """The class of a mode's edits.  BrushError if it makes none."""
+    """Returns the class of a mode's edits.  BrushError if it makes none."""
     named = MODES[mode].edit
     if not named:
         raise BrushError("brush.mode", f'"{mode}"', "a mode that edits what is there")
@@ -31,7 +31,7 @@ def class_of(mode: str) -> type[Covered]:
 
 @lru_cache
 def _loaded(named: str) -> type[Covered]:
-    """The class that "module:class" names; its module is imported when a stroke first needs it."""
+    """Returns the class that "module:class" names; its module is imported when a stroke first needs it."""
     module, _, name = named.partition(":")
     found: type[Covered] = getattr(import_module(module), name)
     return found
@@ -46,7 +46,7 @@ def edit(
     relief: Relief | None = None,
     scene: Scene | None = None,
 ) -> Edit:
-    """The edit that a stroke makes: `mask` as it is now, whatever is painted later.
+    """Returns the edit that a stroke makes: `mask` as it is now, whatever is painted later.
 
     `ink` is what the mode's class made of the brush (`Covered.ink_of`), `scene` what it asked to see
     (`Covered.looks`); `read` gives the old values of any rectangle of the stroke's level; `relief` (`relief.resolve`)

@@ -40,12 +40,12 @@ class Extent:
 
     @property
     def reach(self) -> int:
-        """How far beyond the stroke, and from a change of its coverage, pixels may change."""
+        """Tells how far beyond the stroke, and from a change of its coverage, pixels may change."""
         around = sparse.reach(self.impulse, Rect(0, 0, TILE, TILE))
         return max(-around.x0, -around.y0, around.x1 - TILE, around.y1 - TILE)
 
     def over(self, coverage: Coverage) -> Coverage:
-        """The coverage with edges of whole windows; its tiles are made when they are asked for."""
+        """Returns the coverage with edges of whole windows; its tiles are made when they are asked for."""
         rect = coverage.rect.grown(self.reach)
         keys = {
             near for key in coverage.tiles for near in key.rect.grown(self.reach).intersect(rect).tiles(coverage.level)
@@ -53,7 +53,7 @@ class Extent:
         return Coverage(coverage.level, _Extended(self, coverage.tiles, frozenset(keys)), rect)
 
     def tile(self, tiles: Tiles, key: TileKey) -> np.ndarray:
-        """One tile's coverage: float32 (128, 128)."""
+        """Returns one tile's coverage: float32 (128, 128)."""
         around = sparse.reach(self.impulse, key.rect)
         near = list(around.tiles(key.level))
         sources = tuple(tiles.get(part, 0.0) for part in near)
@@ -106,7 +106,8 @@ class _Extended(Mapping[TileKey, "np.ndarray | float"]):
 def resolve(
     brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str = "brush"
 ) -> Extent | None:
-    """The extent of a brush's strokes at `level`: by the first scattered texture of its ink, or else of its density.
+    """Returns the extent of a brush's strokes at `level`: by the first scattered texture of its ink, or else of its
+    density.
 
     None if it asks for none, or has no such texture, or one of windows wider than 512 px.
     """

@@ -78,7 +78,7 @@ class Footprint:
         return self._taken(discs, boxes, laid)
 
     def _taken(self, discs: np.ndarray, boxes: np.ndarray, laid: int) -> Iterator[tuple[Rect, np.ndarray]]:
-        """What dabs take; `laid` of the stroke's lie before them."""
+        """Yields what dabs take; `laid` of the stroke's lie before them."""
         for first, last, around in _groups(boxes):
             box = around if self._within is None else around.intersect(self._within)
             if box.empty:
@@ -122,7 +122,7 @@ def _moved(rect: Rect, x: int, y: int) -> Rect:
 
 
 def _boxes(discs: np.ndarray) -> np.ndarray:
-    """The pixels that discs may meet: int64 (n, 4), x0, y0, x1, y1."""
+    """Returns the pixels that discs may meet: int64 (n, 4), x0, y0, x1, y1."""
     out = np.empty((len(discs), 4), np.int64)
     outer = discs[:, ROUT]
     for column, centre in ((0, discs[:, CX]), (1, discs[:, CY])):
@@ -146,7 +146,8 @@ def _groups(boxes: np.ndarray) -> Iterator[tuple[int, int, Rect]]:
 
 @inner
 def _half(ceiling: float) -> float:
-    """The u at which a dab of that ceiling covers half: ceiling (1 - u)^2 (1 + 2u) = 1/2; 1/2 but for the tiniest."""
+    """Returns the u at which a dab of that ceiling covers half: ceiling (1 - u)^2 (1 + 2u) = 1/2; 1/2 but for the
+    tiniest."""
     low, high = 0.0, 0.5
     while ceiling < 1.0 and high - low > 1e-9:
         u = 0.5 * (low + high)

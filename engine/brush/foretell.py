@@ -35,7 +35,7 @@ class Foretold:
     paint: np.ndarray
 
     def over(self, rect: Rect) -> np.ndarray:
-        """The paint over a tile: float32 (4, h, w), 0 where the stroke is not."""
+        """Returns the paint over a tile: float32 (4, h, w), 0 where the stroke is not."""
         out = np.zeros((4, rect.height, rect.width), np.float32)
         part = rect.intersect(self.rect)
         if not part.empty:
@@ -56,7 +56,7 @@ def predictor(read: Read, start: tuple[int, int], window: int, reach: int) -> Pr
 
 
 def foretell(coverage: Coverage, read: Read, found: Predictor, seed: int) -> Foretold:
-    """The stroke's pixels from what lies around them; noise by place, under `seed`."""
+    """Returns the stroke's pixels from what lies around them; noise by place, under `seed`."""
     rect = coverage.rect.grown(REACH_CAP)
     mask = np.zeros((rect.height, rect.width), np.bool_)
     for key in coverage.keys:

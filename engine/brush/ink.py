@@ -87,7 +87,7 @@ class Ink:
         return colour, np.concatenate(planes) if planes else np.empty((0, *pressure.shape), np.float32), tuple(inks)
 
     def field(self, key: TileKey) -> np.ndarray:
-        """The ink's colour over a tile of its own level: float32 (3, 128, 128), not to be written to."""
+        """Returns the ink's colour over a tile of its own level: float32 (3, 128, 128), not to be written to."""
         known = self._memo.get(key)
         if known is not None:
             return known
@@ -105,7 +105,8 @@ class Ink:
 def resolve(
     brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str = "brush"
 ) -> Ink:
-    """The ink of a brush for a stroke at `level`; `textures` are those defined by name, before the built-in ones.
+    """Returns the ink of a brush for a stroke at `level`; `textures` are those defined by name, before the built-in
+    ones.
 
     BrushError names the component and the field that is wrong.
     """
@@ -143,7 +144,8 @@ def resolve(
 
 
 def _loaded(found: Mapping[Instance, np.ndarray], swayed: list[Swayed]) -> tuple[Loaded, ...]:
-    """The instances that have an amplitude, sorted by key; those that go with the pressure have none of their own."""
+    """Returns the instances that have an amplitude, sorted by key; those that go with the pressure have none of
+    their own."""
     every = {part.instance: np.zeros(3) for part in swayed} | dict(found)
     moving = {part.instance for part in swayed}
     return tuple(
@@ -154,13 +156,13 @@ def _loaded(found: Mapping[Instance, np.ndarray], swayed: list[Swayed]) -> tuple
 
 
 def _cover(own: Instance) -> Instance | None:
-    """What a texture with alpha hides, as a texture."""
+    """Returns what a texture with alpha hides, as a texture."""
     found: Instance | None = getattr(own, "cover", None)
     return found
 
 
 def _mixed(own: Instance, component: Component, under: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The amplitude of S that a component is, and what it adds to the base colour: float64 (3,) each."""
+    """Returns the amplitude of S that a component is, and what it adds to the base colour: float64 (3,) each."""
     rgb = np.array(component.rgb)
     if _cover(own) is not None:  # premultiplied, 0..1: its own alpha hides the brush's colour
         return component.amount * rgb, np.zeros(3)
@@ -175,7 +177,7 @@ def _mixed(own: Instance, component: Component, under: np.ndarray) -> tuple[np.n
 def named(
     part: Component | Surface | Tip, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str
 ) -> Instance:
-    """The texture that a part of a brush names, bound to `level`.  BrushError at `where` and the field."""
+    """Returns the texture that a part of a brush names, bound to `level`.  BrushError at `where` and the field."""
     name = part.texture
     try:
         defined = textures.get(name)

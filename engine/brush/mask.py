@@ -29,7 +29,7 @@ class Stain(Protocol):
         ...
 
     def part(self, key: TileKey) -> np.ndarray | None:
-        """How much of a tile's paint turns to it, 0..1: float32 (128, 128); None where nothing does."""
+        """Tells how much of a tile's paint turns to it, 0..1: float32 (128, 128); None where nothing does."""
         ...
 
 
@@ -48,7 +48,7 @@ class Coverage:
 
     @cached_property
     def keys(self) -> tuple[TileKey, ...]:
-        """The tiles, sorted by row, then column."""
+        """Returns the tiles, sorted by row, then column."""
         return tuple(sorted(self.tiles, key=lambda key: (key.y, key.x)))
 
     def on_grid(self, key: TileKey) -> np.ndarray:
@@ -85,7 +85,7 @@ class StrokeMask:
 
     @property
     def rect(self) -> Rect:
-        """The pixels of the level that the dabs so far may have covered."""
+        """Returns the pixels of the level that the dabs so far may have covered."""
         if not self._tiles:
             return Rect(0, 0, 0, 0)
         x0, y0, x1, y1 = self._bounds
@@ -93,7 +93,7 @@ class StrokeMask:
         return Rect(left + int(x0 // 1), top + int(y0 // 1), left - int(-x1 // 1), top - int(-y1 // 1))
 
     def coverage(self) -> Coverage:
-        """What is covered so far, as a value that later dabs do not change."""
+        """Returns what is covered so far, as a value that later dabs do not change."""
         self._lent = set(self._tiles)
         return Coverage(self.level, dict(self._tiles), self.rect)
 

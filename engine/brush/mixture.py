@@ -21,8 +21,8 @@ LUMA = np.array(tones.LUMA, np.float32)
 
 
 def mixture(brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int) -> Ink:
-    """The brush's textures mixed to one number, sum a_i s_i: the ink that they would be in white over black; those that
-    go with the pressure are as at full pressure."""
+    """Returns the brush's textures mixed to one number, sum a_i s_i: the ink that they would be in white over black;
+    those that go with the pressure are as at full pressure."""
     ink = tuple(replace(sway.still(part), colour="#ffffff") for part in brush.ink)
     return resolve(replace(brush, colour="#000000", ink=ink), textures, level, seed)
 
@@ -36,11 +36,11 @@ class Mixture:
 
     @property
     def inks(self) -> tuple[Instance, ...]:
-        """The textures, sorted by key."""
+        """Returns the textures, sorted by key."""
         return () if self.ink is None else self.ink.inks
 
     def tile(self, key: TileKey) -> np.ndarray:
-        """The mixture over a tile, not cut off: float32 (128, 128), not to be written to."""
+        """Returns the mixture over a tile, not cut off: float32 (128, 128), not to be written to."""
         if self.ink is None:
             return ONES
         seen = self.ink.field(key)
@@ -58,8 +58,8 @@ class Mixture:
         return luma
 
     def gains(self, inks: tuple[Instance, ...]) -> np.ndarray:
-        """What one unit of each ink adds to the mixture, float32 (n,); 0 for those that are not the brush's, or are
-        coloured."""
+        """Returns what one unit of each ink adds to the mixture, float32 (n,); 0 for those that are not the brush's,
+        or are coloured."""
         own = {part.instance: part.amplitude[0] for part in self.ink.loaded} if self.ink is not None else {}
         # Others may have been painted finer: they have no appearance at this level.
         gains = [own[made] if made in own and _single(cast(Hashable, made), self.level) else 0.0 for made in inks]
@@ -73,5 +73,5 @@ class Mixture:
 
 @lru_cache(256)
 def _single(made: Hashable, level: int) -> bool:
-    """Whether a texture has one number a pixel."""
+    """Tells whether a texture has one number a pixel."""
     return len(cast(Instance, made).appearance(level, Rect(0, 0, 1, 1))) == 1

@@ -16,9 +16,9 @@ class Mode:
 
     `name`: in recordings; `label` and `tooltip`: of its button, and in `inkfall play --help`.
     `edit`: "module:class" of its edits, a `covered.Covered`; "" for a mode that makes none, since it grows an example.
-    `lays_ink`: it lays the brush's own colour and ink.  `takes_away`: it makes what is there less, paint and what is
-    painted with examples; strokes of other modes make paint of the latter where they meet it.  `uses_op`: it does what
-    the brush's `op` says.  `in_lab`: it makes sense on a spectrum.
+    `lays_ink`: it lays the brush's own colour and ink.  `takes_away`: it erases, what is
+    painted with examples too, wholly where it goes; strokes of other modes make paint of that where they meet it.
+    `uses_op`: it does what the brush's `op` says.  `in_lab`: it makes sense on a spectrum.
     `eraser`: the mode that the eraser, or the pen's other end, has with such a brush.
     `section`: what the brush panel shows for it alone, by name.  `unfelt`: members of the brush that do not count.
     `ground`: what small pictures of its strokes are painted on: "" for nothing, "bars" or "colours".
@@ -39,7 +39,7 @@ class Mode:
 
     @property
     def grows(self) -> bool:
-        """Whether its strokes are regions in which an example grows."""
+        """Tells whether its strokes are regions in which an example grows."""
         return not self.edit
 
 

@@ -21,7 +21,7 @@ _Kernel = Callable[[Operating, Operand], Stamp | None]
 
 
 def _toward(edit: Operating, at: Operand) -> Stamp | None:
-    """The brush's colour, laid through its textures."""
+    """Returns the brush's colour, laid through its textures."""
     keep = np.empty_like(ONES)
     if not coat.keep_of(at.weight, keep):
         return None
@@ -36,7 +36,7 @@ def _toward(edit: Operating, at: Operand) -> Stamp | None:
 
 
 def _clone(edit: Operating, at: Operand) -> Stamp | None:
-    """What lies on a layer some way off."""
+    """Returns what lies on a layer some way off."""
     assert edit.scene.source is not None
     dx, dy = edit.op.parameters["offset"]
     rect = at.key.rect
@@ -45,7 +45,7 @@ def _clone(edit: Operating, at: Operand) -> Stamp | None:
 
 
 def _displace(edit: Operating, at: Operand) -> Stamp | None:
-    """What lies around, moved along an angle or down the slopes of the texture."""
+    """Returns what lies around, moved along an angle or down the slopes of the texture."""
     assert edit.read is not None
     distance, angle = edit.op.parameters["distance"], math.radians(edit.op.parameters["angle"])
     along, aside = distance * math.cos(angle), distance * math.sin(angle)
@@ -65,7 +65,7 @@ def _displace(edit: Operating, at: Operand) -> Stamp | None:
 
 
 def _predict(edit: Operating, at: Operand) -> Stamp | None:
-    """What is painted around, continued."""
+    """Returns what is painted around, continued."""
     return None if edit.foretold is None else _laid(edit, at, edit.foretold.over(at.key.rect))
 
 
@@ -78,8 +78,8 @@ def _erase(edit: Operating, at: Operand) -> Stamp | None:
 
 
 def _laid(edit: Operating, at: Operand, paint: np.ndarray, inks: tuple[Instance, ...] = ()) -> Stamp | None:
-    """A = 1 - w, B = w times `paint`, premultiplied float32 (4 + 3n, 128, 128), which is used up; under alpha lock, its
-    straight colour times the alpha that lies there, and w times its alpha."""
+    """Returns a = 1 - w, B = w times `paint`, premultiplied float32 (4 + 3n, 128, 128), which is used up; under
+    alpha lock, its straight colour times the alpha that lies there, and w times its alpha."""
     keep, weight = np.empty_like(ONES), at.weight
     if edit.locked:
         weight = weight * paint[ALPHA]

@@ -28,8 +28,8 @@ _Kernel = Callable[[Operating, Operand, np.ndarray], Targets]  # of straight col
 
 
 def change(edit: Operating, at: Operand) -> Stamp:
-    """The stamp of the edit's op over a tile; its textures go on at finer levels as ink, of the amplitude that the op
-    has there."""
+    """Returns the stamp of the edit's op over a tile; its textures go on at finer levels as ink, of the amplitude
+    that the op has there."""
     row = edit.op.row
     kernel = _formula if row is None else KERNELS[row.kernel]
     inks = merged(at.old.inks, edit.mixture.inks)
@@ -68,7 +68,7 @@ def _mixed(c: np.ndarray, matrix: np.ndarray) -> Targets:
 
 
 def _gradient(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
-    """A ramp's colours, by the pixel's brightness or along the brush's texture."""
+    """Returns a ramp's colours, by the pixel's brightness or along the brush's texture."""
     t, s = np.empty_like(c), np.empty_like(c)
     if edit.op.by_texture:
         index = np.ascontiguousarray(at.texture).reshape(-1)
@@ -90,7 +90,7 @@ def _sharpen(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
 
 
 def _mean(edit: Operating, at: Operand) -> np.ndarray:
-    """The straight colours around each pixel, float32 (3, n): its own where nothing lies around."""
+    """Returns the straight colours around each pixel, float32 (3, n): its own where nothing lies around."""
     assert edit.read is not None
     reach = round(edit.op.parameters["reach"])
     around = edit.read(at.key.rect.grown(2 * reach)).data[:COLOURS]

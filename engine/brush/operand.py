@@ -47,12 +47,12 @@ class Operating(Covered):
 
     @cached_property
     def colour(self) -> np.ndarray:
-        """The brush's colour, float32 (3,)."""
+        """Returns the brush's colour, float32 (3,)."""
         return np.array(self.brush.rgb, np.float32)
 
     @cached_property
     def numbers(self) -> np.ndarray:
-        """The op's numeric parameters in turn, float32 (9,)."""
+        """Returns the op's numeric parameters in turn, float32 (9,)."""
         return numbers(self.op)
 
     @cached_property
@@ -62,7 +62,8 @@ class Operating(Covered):
 
     @cached_property
     def foretold(self) -> Foretold | None:
-        """What the op "predict" fills the stroke with; None where nothing is painted that could be continued."""
+        """Returns what the op "predict" fills the stroke with; None where nothing is painted that could be
+        continued."""
         assert self.read is not None
         memo = self.scene.memo
         if "predictor" not in memo:

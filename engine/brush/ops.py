@@ -48,7 +48,7 @@ class Parameter:
     whole: bool = False
 
     def read(self, value: Any, place: str) -> Any:
-        """The checked, immutable value of a JSON one."""
+        """Returns the checked, immutable value of a JSON one."""
         if self.kind == "number":
             return checks.number(value, place, self.lo, self.hi)
         if self.kind == "choice":
@@ -181,12 +181,12 @@ class Chosen:
 
     @property
     def by_texture(self) -> bool:
-        """Whether the texture tells what is done, and not how strongly."""
+        """Tells whether the texture tells what is done, and not how strongly."""
         return self.parameters.get("by") == "texture"
 
 
 def read(value: Any, place: str) -> OpValue:
-    """The checked value of a brush's `op`: a name, or an immutable object.  BrushError names what is wrong."""
+    """Returns the checked value of a brush's `op`: a name, or an immutable object.  BrushError names what is wrong."""
     if isinstance(value, str):
         op = _row(value, place)
         _missing(op, {}, place)
@@ -206,7 +206,7 @@ def read(value: Any, place: str) -> OpValue:
 
 
 def chosen(op: OpValue, place: str = "brush.op") -> Chosen:
-    """What the op of a brush says, defaults filled in.  BrushError as `read`."""
+    """Returns what the op of a brush says, defaults filled in.  BrushError as `read`."""
     op = read(checks.thawed(op), place)
     if not isinstance(op, str) and "formula" in op:
         return Chosen(None, {}, _formula(op["formula"], f"{place}.formula"))

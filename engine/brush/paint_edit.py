@@ -69,7 +69,7 @@ class Painting(Covered):
         return made
 
     def _sway(self, keep: np.ndarray, key: TileKey, old: Planes) -> tuple[tuple[Instance, ...], np.ndarray]:
-        """The inks under the pen's pressure, and B."""
+        """Returns the inks under the pen's pressure, and B."""
         assert self.ink is not None
         felt = self.scene.pressure
         pressure = felt.on_grid(key) if felt is not None else np.ones((TILE, TILE), np.float32)

@@ -119,7 +119,7 @@ def ink_json(components: tuple[Component, ...]) -> list[dict[str, Any]]:
 
 
 def shaping(value: Any, place: str) -> Shape | None:
-    """A name of CURVES, knots of 0..1 into 0..1, or null."""
+    """Returns a name of CURVES, knots of 0..1 into 0..1, or null."""
     return None if value is None else _shape(value, place, tuple(CURVES))
 
 
@@ -132,7 +132,7 @@ def _shape(value: Any, place: str, names: tuple[str, ...]) -> Shape:
 
 
 def surface(value: Any, place: str) -> Surface:
-    """A texture's name, or an object that holds one."""
+    """Returns a texture's name, or an object that holds one."""
     if isinstance(value, str):
         return Surface(checks.text(value, place, "a texture's name"))
     if not isinstance(value, Mapping):
@@ -161,7 +161,7 @@ def _level(value: Any, place: str) -> int:
 
 
 def edge(value: Any, place: str) -> Edge:
-    """A name of EDGES, or an object."""
+    """Returns a name of EDGES, or an object."""
     if not isinstance(value, Mapping):
         return Edge(_shape(value, place, tuple(EDGES)))
     colour = value.get("colour")
@@ -183,7 +183,7 @@ def edge_json(part: Edge) -> Any:
 
 
 def tip(value: Any, place: str) -> Tip:
-    """A texture's name, or an object that holds one."""
+    """Returns a texture's name, or an object that holds one."""
     if isinstance(value, str):
         return Tip(checks.text(value, place, "a texture's name"))
     if not isinstance(value, Mapping):

@@ -94,8 +94,8 @@ def _heights(
 def _ground(
     part: Surface | None, textures: Mapping[str, Texture | ImageSource], seed: int, where: str
 ) -> Heights | None:
-    """The grain, bound to the coarsest level at which its period still has four pixels, so that all levels, finer and
-    coarser than its own, see one and the same surface."""
+    """Returns the grain, bound to the coarsest level at which its period still has four pixels, so that all levels,
+    finer and coarser than its own, see one and the same surface."""
     found = _heights(part, textures, part.level if part else 0, seed, where)
     if part is None or found is None:
         return None
@@ -134,16 +134,16 @@ class Relief:
 
     @property
     def reach(self) -> int:
-        """How far from a pixel whose coverage changes others may change too, in px."""
+        """Tells how far from a pixel whose coverage changes others may change too, in px."""
         return (self.rim.reach if self.rim else 0) + self.spread
 
     @property
     def spread(self) -> int:
-        """How far beyond its own coverage the stroke goes, in px."""
+        """Tells how far beyond its own coverage the stroke goes, in px."""
         return self.extent.reach if self.extent else 0
 
     def over(self, coverage: Coverage) -> Coverage:
-        """The coverage as this relief thins it; its tiles are made when they are asked for."""
+        """Returns the coverage as this relief thins it; its tiles are made when they are asked for."""
         if self.extent is not None:
             coverage = self.extent.over(coverage)
         if self.density is None and self.grain is None and self.rim is None:
@@ -154,7 +154,7 @@ class Relief:
         return Coverage(coverage.level, _Thinned(self, coverage.tiles), coverage.rect, stain)
 
     def made(self, tiles: Tiles, key: TileKey) -> _Made:
-        """One tile of a coverage, thinned."""
+        """Returns one tile of a coverage, thinned."""
         covered = tiles[key]
         sources = self.rim.around(tiles, key) if self.rim else (covered,)
         known = self._done.get(key)
@@ -222,7 +222,7 @@ def resolve(
     seeds: tuple[int, int],
     where: str = "brush",
 ) -> Relief:
-    """What thins the strokes of a brush at `level`.
+    """Returns what thins the strokes of a brush at `level`.
 
     `seeds`: of the stroke's textures, and of the painting, to which the grain belongs.  BrushError names the field.
     """
@@ -238,7 +238,7 @@ def resolve(
 
 @kernel
 def _dig(coverage: np.ndarray, heights: np.ndarray, amount: np.float32, out: np.ndarray) -> None:
-    """What of M touches the heights g: see the module's text.  All float32 (h, w), amount above 0."""
+    """Writes what of M touches the heights g: see the module's text.  All float32 (h, w), amount above 0."""
     soft = np.float32(SOFTNESS)
     gain = (_ONE + soft) / (soft * amount)
     slope = _ONE / soft

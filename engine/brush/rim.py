@@ -41,7 +41,7 @@ class Rim:
 
     @classmethod
     def of(cls, brush: Brush) -> Rim | None:
-        """The rim that a brush asks for; None if that is nothing."""
+        """Returns the rim that a brush asks for; None if that is nothing."""
         edge: Edge | None = brush.edge
         if edge is None or edge.amount == 0.0 or edge.width == 0.0:
             return None
@@ -51,16 +51,16 @@ class Rim:
 
     @property
     def reach(self) -> int:
-        """How many pixels beyond a tile its distances depend on."""
+        """Tells how many pixels beyond a tile its distances depend on."""
         return math.ceil(self.width)
 
     def around(self, tiles: Tiles, key: TileKey) -> tuple[np.ndarray | float, ...]:
-        """The coverage of the nine tiles around and of `key`, row by row; 0 where there is none."""
+        """Returns the coverage of the nine tiles around and of `key`, row by row; 0 where there is none."""
         return tuple(tiles.get(TileKey(key.level, key.x + i, key.y + j), 0.0) for j in (-1, 0, 1) for i in (-1, 0, 1))
 
     def depths(self, around: tuple[np.ndarray | float, ...]) -> np.ndarray | None:
-        """The distance from the rim in widths, 0..1, of the tile in the middle of nine: float32 (128, 128); None where
-        all of it is 1."""
+        """Returns the distance from the rim in widths, 0..1, of the tile in the middle of nine: float32 (128, 128);
+        None where all of it is 1."""
         if not any(isinstance(part, np.ndarray) or part < self.least for part in around):
             return None
         reach = self.reach
@@ -77,7 +77,7 @@ class Rim:
         return out
 
     def factors(self, depths: np.ndarray) -> np.ndarray:
-        """What coverage is multiplied by: float32 (128, 128)."""
+        """Returns what coverage is multiplied by: float32 (128, 128)."""
         out = depths.copy()
         look_up(out.reshape(-1), self.curve, _ONE, _ZERO)
         if self.amount < 1.0:
@@ -87,12 +87,12 @@ class Rim:
 
     @property
     def within(self) -> float:
-        """The factor a width inside the rim and beyond."""
+        """Returns the factor a width inside the rim and beyond."""
         return 1.0 - self.amount + self.amount * float(self.curve[-1])
 
     def stain(self, depths: np.ndarray) -> np.ndarray:
-        """How far the paint's colour turns to the rim's: float32 (128, 128); `amount` at it, 0 from half a width on:
-        pigment that gathers leaves a line, not a shade."""
+        """Tells how far the paint's colour turns to the rim's: float32 (128, 128); `amount` at it, 0 from half a
+        width on: pigment that gathers leaves a line, not a shade."""
         t = np.maximum(np.float32(1.0) - np.float32(2.0) * depths, np.float32(0.0))
         out: np.ndarray = np.float32(self.amount) * t * t * (np.float32(3.0) - np.float32(2.0) * t)
         return out
@@ -100,8 +100,8 @@ class Rim:
 
 @kernel
 def _distances(inside: np.ndarray, reach: int, scale: np.float32, out: np.ndarray) -> None:
-    """How far each pixel of the middle lies from the nearest pixel that is not inside, less the half pixel to the
-    border between them, times `scale` and at most 1.
+    """Writes how far each pixel of the middle lies from the nearest pixel that is not inside, less the half pixel to
+    the border between them, times `scale` and at most 1.
 
     `inside`: bool (n + 2 reach, n + 2 reach); `out`: float32 (n, n).  First down each column, then along the rows the
     least of the squares' sums: exact, and both loops vectorise.

@@ -15,7 +15,7 @@ _DEFAULTS = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
 
 def cleaned(points: np.ndarray | Sequence[Sequence[float]]) -> tuple[np.ndarray, int]:
-    """Points (n, 2..6) made fit to paint with: float64 (m, 6), and how many were dropped.
+    """Returns points (n, 2..6) made fit to paint with: float64 (m, 6), and how many were dropped.
 
     A point whose x, y or pressure is not a number, or whose x or y is infinite, is dropped; pressure is clamped to
     0..1; a tilt or time that is not finite becomes 0.  BrushError if a point is more than 2^31 px from the origin.

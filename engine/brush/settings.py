@@ -140,7 +140,7 @@ class Brush:
 
     @property
     def row(self) -> Mode:
-        """The row of its mode."""
+        """Returns the row of its mode."""
         return MODES[self.mode]
 
     @property
@@ -150,7 +150,8 @@ class Brush:
 
 
 def from_json(data: Any, where: str = "brush") -> Brush:
-    """The brush that a JSON object describes.  BrushError names the field, what was found and what was expected."""
+    """Returns the brush that a JSON object describes.  BrushError names the field, what was found and what was
+    expected."""
     if not isinstance(data, Mapping):
         raise BrushError(where, described(data), "an object")
     known = {name: read(data[name], f"{where}.{name}") for name, read in _READERS.items() if name in data}
@@ -158,8 +159,8 @@ def from_json(data: Any, where: str = "brush") -> Brush:
 
 
 def to_json(brush: Brush) -> dict[str, Any]:
-    """The JSON object from which `from_json` makes the same brush; what is at its default and rarely used is left
-    out."""
+    """Returns the JSON object from which `from_json` makes the same brush; what is at its default and rarely used is
+    left out."""
     data: dict[str, Any] = {}
     for part in fields(Brush):
         value = getattr(brush, part.name)

@@ -36,7 +36,7 @@ class Smoother:
         self.dropped = 0
 
     def add(self, samples: np.ndarray) -> np.ndarray:
-        """The points, float64 (m, 6), by which `samples`, float64 (n, 2..6), lengthen the path.
+        """Returns the points, float64 (m, 6), by which `samples`, float64 (n, 2..6), lengthen the path.
 
         The path stays half a sample behind the pen until `finish`.  Samples that are not finite are dropped and
         counted; BrushError beyond 2^31 px.
@@ -53,7 +53,7 @@ class Smoother:
         return np.concatenate([first, _pieces(controls, self._tolerance)])
 
     def finish(self) -> np.ndarray:
-        """The last points: to the last sample, where the pen left."""
+        """Returns the last points: to the last sample, where the pen left."""
         if self._raw is None:
             return np.empty((0, COLUMNS))
         before, last = self._recent
@@ -63,7 +63,7 @@ class Smoother:
         return _pieces(np.concatenate([self._recent, end, end]), self._tolerance)
 
     def _steadied(self, samples: np.ndarray) -> np.ndarray:
-        """The samples with positions that follow with the stabiliser's lag: a first-order filter in time."""
+        """Returns the samples with positions that follow with the stabiliser's lag: a first-order filter in time."""
         if not self._lag:
             return samples
         out = samples.copy()
@@ -81,7 +81,7 @@ class Smoother:
 
 
 def _pieces(controls: np.ndarray, tolerance: float) -> np.ndarray:
-    """The polyline of the spline pieces around every control point but the first and the last, each without its
+    """Returns the polyline of the spline pieces around every control point but the first and the last, each without its
     beginning.  A control point given twice makes the curve pass through it."""
     if len(controls) < 3:
         return np.empty((0, COLUMNS))

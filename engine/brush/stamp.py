@@ -41,20 +41,20 @@ class Edit(Protocol):
 
     @property
     def tiles(self) -> Sequence[TileKey]:
-        """The tiles that may change, sorted by row, then column."""
+        """Returns the tiles that may change, sorted by row, then column."""
         ...
 
     @property
     def rect(self) -> Rect:
-        """A rectangle of pixels of `level` outside which nothing changes."""
+        """Returns a rectangle of pixels of `level` outside which nothing changes."""
         ...
 
     @property
     def spares_alpha(self) -> bool:
-        """Whether alpha stays as it is at every level, whatever A is; B of alpha then counts for nothing."""
+        """Tells whether alpha stays as it is at every level, whatever A is; B of alpha then counts for nothing."""
         ...
 
     def stamp(self, key: TileKey, old: Planes) -> Stamp | None:
-        """The change of one tile whose present values are `old`; None if there is none.  Same key and old, same
+        """Returns the change of one tile whose present values are `old`; None if there is none.  Same key and old, same
         stamp."""
         ...

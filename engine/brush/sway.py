@@ -47,7 +47,7 @@ class Swayed:
 
 
 def curve_of(component: Component, place: str) -> checks.Knots | None:
-    """The curve by which the pressure sets a component's weight; None if it has a number or none."""
+    """Returns the curve by which the pressure sets a component's weight; None if it has a number or none."""
     given: Any = component.parameters.get("weight")
     if isinstance(given, str):
         checks.one_of(given, f"{place}.weight", ("pressure",))
@@ -61,6 +61,6 @@ def at_weight(component: Component, weight: float) -> Component:
 
 
 def still(component: Component) -> Component:
-    """A component whose weight goes with the pressure as it is at full pressure."""
+    """Returns a component whose weight goes with the pressure as it is at full pressure."""
     curve = curve_of(component, "weight")
     return component if curve is None else at_weight(component, curve[-1][1])

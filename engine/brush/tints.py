@@ -14,7 +14,7 @@ _MOST = 9
 
 
 def numbers(op: Chosen) -> np.ndarray:
-    """The op's numeric parameters in turn, float32 (9,), 0 where it has none."""
+    """Returns the op's numeric parameters in turn, float32 (9,), 0 where it has none."""
     out = np.zeros(_MOST, np.float32)
     for i, part in enumerate(part for part in (op.row.parameters if op.row else ()) if part.kind == "number"):
         out[i] = np.rint(op.parameters[part.name]) if part.whole else op.parameters[part.name]
@@ -23,14 +23,15 @@ def numbers(op: Chosen) -> np.ndarray:
 
 @lru_cache(32)
 def saturating(amount: float) -> np.ndarray:
-    """The matrix (3, 3), not to be written to, that multiplies what a colour differs from its grey by `amount`;
+    """Returns the matrix (3, 3), not to be written to, that multiplies what a colour differs from its grey by `amount`;
     brightness stays."""
     return amount * np.eye(3) + (1.0 - amount) * np.tile(np.array(tones.LUMA), (3, 1))
 
 
 @lru_cache(32)
 def turning(degrees: float) -> np.ndarray:
-    """The matrix (3, 3), not to be written to, that turns colours about the grey axis; brightness and greys stay."""
+    """Returns the matrix (3, 3), not to be written to, that turns colours about the grey axis; brightness and greys
+    stay."""
     angle = math.radians(degrees)
     cross = np.array([[0.0, -1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 1.0, 0.0]]) / math.sqrt(3.0)
     grey = np.tile(np.array(tones.LUMA), (3, 1))
@@ -42,7 +43,7 @@ def turning(degrees: float) -> np.ndarray:
 
 @lru_cache(32)
 def ramp(stops: tuple[tuple[float, str], ...]) -> np.ndarray:
-    """The colours of a ramp at 1025 places from 0 to 1: float32 (1025, 3), not to be written to."""
+    """Returns the colours of a ramp at 1025 places from 0 to 1: float32 (1025, 3), not to be written to."""
     places = np.linspace(0.0, 1.0, tones.STEPS + 1)
     colours = np.array([checks.rgb(colour) for _, colour in stops])
     columns = [np.interp(places, [place for place, _ in stops], column) for column in colours.T]

@@ -21,7 +21,7 @@ from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect
 from engine.numeric.curves import Shape
 from engine.numeric.hashing import fold_key, mix64
-from engine.numeric.kernel import inlined, kernel
+from engine.numeric.kernel import Array, inlined, kernel
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table
 from engine.texture.grey import LUMINANCE, grey
@@ -70,7 +70,8 @@ class Pattern:
 def resolve(
     brush: Brush, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, where: str = "brush"
 ) -> Pattern | None:
-    """The pattern of a brush's tip for a stroke at `level`; None if its dabs are plain.  BrushError names the field."""
+    """Returns the pattern of a brush's tip for a stroke at `level`; None if its dabs are plain.  BrushError names
+    the field."""
     tip = brush.tip
     if tip is None:
         return None
@@ -89,7 +90,7 @@ def resolve(
 def _laid_out(
     tip: Tip, textures: Mapping[str, Texture | ImageSource], level: int, seed: int, size: int, where: str
 ) -> Instance | ImageSource:
-    """The texture of a tip whose sample is `size` pixels wide, or the picture that is its sample."""
+    """Returns the texture of a tip whose sample is `size` pixels wide, or the picture that is its sample."""
     made = named(tip, textures, level, seed, where)
     if "period" in tip.parameters or not hasattr(made, "period"):
         return made
@@ -106,8 +107,8 @@ def _field(made: Any, curve: Shape | None, size: int) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def _sample(made: Any, curve: Shape | None, size: int) -> tuple[np.ndarray, np.ndarray]:
-    """The sample, of an Instance or an ImageSource, at its size, half of it, and so on, after its curve: `planes` and
-    `sizes` of a Pattern."""
+    """Returns the sample, of an Instance or an ImageSource, at its size, half of it, and so on, after its curve:
+    `planes` and `sizes` of a Pattern."""
     values = _picture(made, size) if isinstance(made, ImageSource) else grey(made, made.base, Rect(0, 0, size, size))
     levels = [_curved(values, curve)]
     while len(levels[-1]) > _SMALLEST:
@@ -116,7 +117,7 @@ def _sample(made: Any, curve: Shape | None, size: int) -> tuple[np.ndarray, np.n
 
 
 def _picture(source: ImageSource, size: int) -> np.ndarray:
-    """A picture's luminance, fitted into a square: float32 (size, size), 0 beside it."""
+    """Returns a picture's luminance, fitted into a square: float32 (size, size), 0 beside it."""
     longest = max(source.width, source.height)
     height, width = (max(1, round(side * size / longest)) for side in (source.height, source.width))
     seen = stretched(source, (height, width), np.arange(height), np.arange(width))
@@ -141,15 +142,7 @@ def _profile(dx2: np.float32, dy2: np.float32, inner: np.float32, scale: np.floa
 
 @kernel
 def _lay_windows(
-    coverage: np.ndarray,
-    discs: np.ndarray,
-    which: np.ndarray,
-    number: int,
-    key: np.uint64,
-    left: int,
-    top: int,
-    field: np.ndarray,
-    n: int,
+    coverage: Array, discs: Array, which: Array, number: int, key: np.uint64, left: int, top: int, field: Array, n: int
 ) -> None:
     """M' = M + max(0, ceiling - M) rate d(r) t, t being a window of `field`, float32 (n n,), in whole pixels."""
     for index in which:
@@ -169,15 +162,7 @@ def _lay_windows(
 
 
 @kernel
-def _lay_samples(
-    coverage: np.ndarray,
-    discs: np.ndarray,
-    which: np.ndarray,
-    left: int,
-    top: int,
-    packed: np.ndarray,
-    sizes: np.ndarray,
-) -> None:
+def _lay_samples(coverage: Array, discs: Array, which: Array, left: int, top: int, packed: Array, sizes: Array) -> None:
     """As `_lay_windows`, t being the sample laid out over the disc's square, of the level that is about as wide as
     the disc, with straight lines between its pixels."""
     for index in which:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from engine.numeric.grid import snap
-from engine.numeric.kernel import forced, inner, kernel
+from engine.numeric.kernel import Array, forced, inner, kernel
 
 _ZERO, _ONE, _TWO, _HALF = np.float32(0), np.float32(1), np.float32(2), np.float32(0.5)
 _TINY = np.float32(1e-6)
@@ -105,7 +105,7 @@ def _posterise(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tu
 
 
 def _separable(function: Channel) -> Loop:
-    """The loop of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n), by the brush's
+    """Returns the loop of a channel function: colours `c` to targets `t` and slopes `s`, float32 (3, n), by the brush's
     `colour` (3,) and the op's `parameters` (9,).  It is compiled when it is first used."""
 
     @kernel
@@ -144,7 +144,7 @@ def mixed(c: np.ndarray, matrix: np.ndarray, t: np.ndarray, s: np.ndarray) -> No
 
 @kernel
 def ramp(index: np.ndarray, table: np.ndarray, t: np.ndarray, s: np.ndarray) -> None:
-    """The colours of `table`, float32 (1025, 3), at `index`, 0..1, and how fast they change along it."""
+    """Writes the colours of `table`, float32 (1025, 3), at `index`, 0..1, and how fast they change along it."""
     steps = np.float32(STEPS)
     for x in range(index.size):
         place = min(max(index[x], _ZERO), _ONE) * steps
@@ -177,7 +177,7 @@ def luma(c: np.ndarray, out: np.ndarray) -> None:
 
 @kernel
 def straight(v: np.ndarray, out: np.ndarray) -> None:
-    """Colour and alpha, float32 (4, n), to straight colours (3, n) within 0..1; black where nothing lies."""
+    """Turns colour and alpha, float32 (4, n), to straight colours (3, n) within 0..1; black where nothing lies."""
     alpha = v[3]
     for channel in range(3):
         source, target = v[channel], out[channel]
@@ -205,19 +205,20 @@ def weigh(coverage: np.ndarray, texture: np.ndarray, weight: np.ndarray, free: n
 
 @kernel
 def change(
-    old: np.ndarray,
-    planes: np.ndarray,
-    weight: np.ndarray,
-    free: np.ndarray,
-    c: np.ndarray,
-    t: np.ndarray,
-    s: np.ndarray,
+    old: Array,
+    planes: Array,
+    weight: Array,
+    free: Array,
+    c: Array,
+    t: Array,
+    s: Array,
     along: bool,
-    gains: np.ndarray,
-    keep: np.ndarray,
-    add: np.ndarray,
+    gains: Array,
+    keep: Array,
+    add: Array,
 ) -> None:
-    """A and B of an op that changes colours and spares alpha: v' = v + w (alpha t - v), A = 1 + w (t' - 1) in -1..2.
+    """Writes a and B of an op that changes colours and spares alpha: v' = v + w (alpha t - v), A = 1 + w (t' - 1) in
+    -1..2.
 
     `old` float32 (4 + 3m, h, w), premultiplied; `weight`, `free` (h, w), as of `weigh`; `c`, `t`, `s` (3, h, w):
     straight colours, targets and slopes, the latter along the brush's texture if `along`.  `add` (4 + 3n, h, w) and
@@ -246,16 +247,7 @@ def change(
 
 @inner
 def _inks(
-    old: np.ndarray,
-    planes: np.ndarray,
-    free: np.ndarray,
-    gains: np.ndarray,
-    y: int,
-    t: np.ndarray,
-    s: np.ndarray,
-    along: bool,
-    a: np.ndarray,
-    add: np.ndarray,
+    old: Array, planes: Array, free: Array, gains: Array, y: int, t: Array, s: Array, along: bool, a: Array, add: Array
 ) -> None:
     """B of the ink planes of a row: the op's own texture goes on in them, to one half at most; none passes 2."""
     f, alpha = free[y], old[3, y]
@@ -272,15 +264,7 @@ def _inks(
 
 
 @kernel
-def spray(
-    keep: np.ndarray,
-    free: np.ndarray,
-    colour: np.ndarray,
-    old: np.ndarray,
-    planes: np.ndarray,
-    gains: np.ndarray,
-    add: np.ndarray,
-) -> None:
+def spray(keep: Array, free: Array, colour: Array, old: Array, planes: Array, gains: Array, add: Array) -> None:
     """B of the ink planes, add[4:], of paint of one `colour` (3,) laid through a texture, as `change` makes them where
     the layer is opaque; where nothing lies there is nothing for the texture to stand out from."""
     for y in range(keep.shape[0]):

@@ -16,7 +16,7 @@ from engine.numeric.pyramid import expand
 
 
 def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
-    """The record as it is now: every attenuation since it was stored applied, oldest first."""
+    """Returns the record as it is now: every attenuation since it was stored applied, oldest first."""
     pending = [change for change in pyramid.waiting(record.depth) if change.level < key.level]
     if not pending:
         return record
@@ -32,13 +32,14 @@ def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
 
 
 def placed(key: TileKey, inner: Rect) -> Rect:
-    """A rectangle given from a tile's corner, in pixels of the tile's level."""
+    """Returns a rectangle given from a tile's corner, in pixels of the tile's level."""
     x, y = key.x * TILE, key.y * TILE
     return Rect(x + inner.x0, y + inner.y0, x + inner.x1, y + inner.y1)
 
 
 def attenuation(change: Change, level: int, rect: Rect) -> np.ndarray | None:
-    """A of a stroke carried down to a finer `level`: float32 (h, w) over `rect`, None where it is 1 all over."""
+    """Returns a of a stroke carried down to a finer `level`: float32 (h, w) over `rect`, None where it is 1 all
+    over."""
     if not change.reach(level).meets(rect):
         return None
     rects = [rect.evened()]
@@ -56,7 +57,7 @@ def attenuation(change: Change, level: int, rect: Rect) -> np.ndarray | None:
 
 
 def _base(change: Change, rect: Rect) -> np.ndarray:
-    """A at the stroke's own level: 1 outside its tiles."""
+    """Returns a at the stroke's own level: 1 outside its tiles."""
     keep = np.ones((rect.height, rect.width), np.float32)
     assert change.keep is not None
     for key in rect.tiles(change.level):

@@ -15,8 +15,8 @@ _SPARSE = 4  # times the pixels of the tiles that are there: a larger rectangle 
 
 
 def carried(rect: Rect, mask: np.ndarray, finer: int, where: Tiles) -> Iterator[tuple[Rect, np.ndarray]]:
-    """The parts of a mask, bool (h, w) over `rect`, that lie on tiles of a level `finer` levels below (above it, if
-    negative): their rectangles there, and bool masks.
+    """Yields the parts of a mask, bool (h, w) over `rect`, that lie on tiles of a level `finer` levels below (above
+    it, if negative): their rectangles there, and bool masks.
 
     A finer pixel takes the value of the one that it lies in; a coarser one that of the pixel at its centre, so that
     the carried mask of several strokes is that of all of them together.
@@ -42,12 +42,12 @@ def carried(rect: Rect, mask: np.ndarray, finer: int, where: Tiles) -> Iterator[
 
 
 def _above(first: int, last: int, up: int, origin: int) -> np.ndarray:
-    """Which of the pixels from `origin` on, `up` levels above, each of [first, last) lies in."""
+    """Tells which of the pixels from `origin` on, `up` levels above, each of [first, last) lies in."""
     return np.fromiter(((n >> up) - origin for n in range(first, last)), np.int64, last - first)
 
 
 def _centres(rect: Rect, mask: np.ndarray, up: int) -> tuple[Rect, np.ndarray]:
-    """The pixels `up` levels above whose centres lie in a rectangle, and the mask there."""
+    """Returns the pixels `up` levels above whose centres lie in a rectangle, and the mask there."""
     half = 1 << up - 1
     inner = Rect(*(-((half - n) >> up) for n in rect))  # the first whose centre is not before n
     if inner.empty:

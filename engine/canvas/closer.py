@@ -34,8 +34,8 @@ _NEAR = np.array(
 
 
 def expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.ndarray, Rect]:
-    """What is shown `finer` levels below the region's own, of whose pixels `base` holds the colours: read-only float32
-    (4, h, w) of a rectangle around `rect`, and that rectangle."""
+    """Returns what is shown `finer` levels below the region's own, of whose pixels `base` holds the colours:
+    read-only float32 (4, h, w) of a rectangle around `rect`, and that rectangle."""
 
     def needed(k: int) -> Rect:
         return rect.evened() if k == finer else rect.zoomed(k - finer).grown(HALO).evened()
@@ -59,7 +59,8 @@ def expanded(base: Tiles, region: Region, finer: int, rect: Rect) -> tuple[np.nd
 
 
 def _detail(region: Region, k: int, rect: Rect) -> np.ndarray:
-    """What the example has `k` levels below the region's pixels: float32 (4, h, w) of a rectangle of that level."""
+    """Returns what the example has `k` levels below the region's pixels: float32 (4, h, w) of a rectangle of that
+    level."""
 
     def needed(j: int) -> Rect:
         return rect.zoomed(j - k).grown(HALO).evened() if j < k else rect

@@ -34,7 +34,7 @@ _MARGIN = 4 << _SLAB_LEVELS  # pixels around a square that its residuals can see
 
 
 def preview(pyramid: Pyramid, edit: Edit, rect: Rect, cache: TileCache | None = None) -> Planes:
-    """What `rect` of the edit's level will be once the edit is committed."""
+    """Returns what `rect` of the edit's level will be once the edit is committed."""
     old = evaluate(pyramid, edit.level, rect, cache)
     painted = paint(pyramid, edit, [key for key in edit.tiles if key.rect.meets(rect)], cache)
     inks = merged(old.inks, *(tile.new.inks for tile in painted))
@@ -47,7 +47,7 @@ def preview(pyramid: Pyramid, edit: Edit, rect: Rect, cache: TileCache | None = 
 
 
 def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyramid:
-    """The pyramid after an edit; the same object when the edit changes no pixel at any level."""
+    """Returns the pyramid after an edit; the same object when the edit changes no pixel at any level."""
     keys = list(edit.tiles)
     if not keys:
         return pyramid
@@ -72,7 +72,7 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
 
 
 def _noted(painted: Sequence[Painted], keeps: Keeps | None) -> Rect:
-    """The bounds of what changed; A by tile for the finer levels."""
+    """Returns the bounds of what changed; A by tile for the finer levels."""
     changed = Rect(0, 0, 0, 0)
     for tile in painted:
         changed = changed.union(tile.bounds)
@@ -114,7 +114,8 @@ def _by_slabs(
     keeps: Keeps | None,
     cache: TileCache | None,
 ) -> Rect:
-    """A large edit, square by square, so that memory does not grow with it.  Returns the bounds of what changed."""
+    """Returns a large edit, square by square, so that memory does not grow with it.  Returns the bounds of what
+    changed."""
     changed, tops = Rect(0, 0, 0, 0), []
     for slab in _slabs([key.rect for key in keys]):
         near = [key for key in keys if key.rect.meets(slab.grown(_MARGIN))]
@@ -136,7 +137,7 @@ def _by_slabs(
 
 
 def _area(fronts: Sequence[Front]) -> int:
-    """Pixels of the rectangle around some fronts."""
+    """Returns pixels of the rectangle around some fronts."""
     whole = Rect(0, 0, 0, 0)
     for front in fronts:
         whole = whole.union(front.rect)
@@ -162,7 +163,8 @@ def _higher(pyramid: Pyramid, fronts: Sequence[Front], records: NewRecords, cach
 def _climb_slab(
     pyramid: Pyramid, front: Front | None, levels: Iterator[Surroundings], slab: Rect, records: NewRecords
 ) -> Front | None:
-    """The further levels of one square; residuals only of its own tiles.  Returns what is left for all together."""
+    """Returns the further levels of one square; residuals only of its own tiles.  Returns what is left for all
+    together."""
     if front is None:
         return None
     for j, above in zip(range(_SLAB_LEVELS - 1), levels, strict=False):
@@ -175,7 +177,7 @@ def _climb_slab(
 
 
 def _slabs(rects: Sequence[Rect]) -> Iterator[Rect]:
-    """The squares of the fixed grid in which pixels can change at any of the levels a square deals with."""
+    """Yields the squares of the fixed grid in which pixels can change at any of the levels a square deals with."""
     places = set()
     for rect in rects:
         r = rect.grown(_MARGIN)
@@ -187,7 +189,7 @@ def _slabs(rects: Sequence[Rect]) -> Iterator[Rect]:
 
 
 def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
-    """Whether a finer level holds residuals that a stroke over `rect` would weaken."""
+    """Tells whether a finer level holds residuals that a stroke over `rect` would weaken."""
     return any(
         next(iter(pyramid.records(k, rect.grown(2).zoomed(k - level))), None) is not None
         for k in pyramid.levels

@@ -20,8 +20,8 @@ def compact(
     depth: int,
     measured: tuple[Extent, np.ndarray] | None = None,
 ) -> Record | None:
-    """A residual in int32 units of 2^-16 (4 + 3n, h, w) over `rect` of its tile, as a record: cropped to what is not
-    zero, without empty inks, in the smaller integer that holds it.  None where all is zero.
+    """Returns a residual in int32 units of 2^-16 (4 + 3n, h, w) over `rect` of its tile, as a record: cropped to
+    what is not zero, without empty inks, in the smaller integer that holds it.  None where all is zero.
 
     `measured`: what `kernels.extent` tells of `data`, where that is known.
     """

@@ -49,7 +49,7 @@ _Found = list[tuple[CompositeStep, "np.ndarray | _Found | None"]]
 
 
 def steps(root: Group) -> tuple[CompositeStep, ...]:
-    """What to composite, bottom first: invisible nodes left out, groups that pass through dissolved."""
+    """Returns what to composite, bottom first: invisible nodes left out, groups that pass through dissolved."""
     out: list[CompositeStep] = []
     for node in root.children:
         row = blend.BLENDS[node.blend]
@@ -82,7 +82,8 @@ def blocks(root: Group, level: int, rect: Rect, read: Read) -> Iterator[tuple[Re
 
 
 def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray | None = None) -> np.ndarray:
-    """The picture of `rect`: float32 (4, h, w), premultiplied and clamped for display; in `out` where it is given."""
+    """Returns the picture of `rect`: float32 (4, h, w), premultiplied and clamped for display; in `out` where it is
+    given."""
     if out is None:
         out = np.empty((4, rect.height, rect.width), np.float32)
     for place, pixels in blocks(root, level, rect, read):
@@ -92,7 +93,8 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
 
 
 def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read) -> _Found:
-    """The sources that matter for a block, bottom first; read from the top down to the first that covers it all."""
+    """Returns the sources that matter for a block, bottom first; read from the top down to the first that covers it
+    all."""
     found: _Found = []
     for step in reversed(plan):
         source: np.ndarray | _Found | None
@@ -111,7 +113,7 @@ def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read)
 
 
 def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.ndarray | None:
-    """The sources composited onto nothing: (4, n) in the buffer of this depth; None if it stayed empty."""
+    """Returns the sources composited onto nothing: (4, n) in the buffer of this depth; None if it stayed empty."""
     if depth == len(buffers):
         buffers.append(np.empty(4 * BLOCK * BLOCK, np.float32))
     target = buffers[depth][: 4 * n].reshape(4, n)
@@ -142,7 +144,7 @@ def _pair_at(found: _Found, i: int) -> bool:
 
 
 def _apply(step: CompositeStep, source: np.ndarray | None, target: np.ndarray, empty: bool) -> bool:
-    """One source onto the target, which holds nothing yet if `empty`; whether it is empty afterwards."""
+    """Returns one source onto the target, which holds nothing yet if `empty`; whether it is empty afterwards."""
     if source is None:
         return empty or step.row.outside
     if not empty:

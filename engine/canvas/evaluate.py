@@ -75,7 +75,7 @@ class TileCache:
 
     @property
     def held(self) -> int:
-        """Bytes held now."""
+        """Returns bytes held now."""
         return self._held
 
 
@@ -84,13 +84,14 @@ def _held_bytes(value: Planes | None) -> int:
 
 
 def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:
-    """The value of `rect` at `level`: colour clamped in alpha only, ink as it lies there."""
+    """Returns the value of `rect` at `level`: colour clamped in alpha only, ink as it lies there."""
     found = evaluate_sparse(pyramid, level, rect, cache)
     return Planes.empty(rect.height, rect.width) if found is None else found
 
 
 def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
-    """Colour and alpha of `rect` at `level`, as `evaluate` has them: float32 (4, h, w), None where nothing lies.
+    """Returns colour and alpha of `rect` at `level`, as `evaluate` has them: float32 (4, h, w), None where nothing
+    lies.
 
     Ink that adds no texture down to this level is left out on the way: half the work where there is any.
     """
@@ -143,8 +144,8 @@ def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache |
 def step(
     pyramid: Pyramid, parent: Planes | None, parent_at: Rect, level: int, rect: Rect, finest: int | None = None
 ) -> Planes | None:
-    """One level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that adds no
-    texture down to the level `finest`, where that is given."""
+    """Returns one level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that
+    adds no texture down to the level `finest`, where that is given."""
     records = [(key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect)]
     if parent is None and not records:
         return None
@@ -209,7 +210,7 @@ def _add_texture_band(
 
 
 def without_empty_inks(planes: Planes) -> Planes | None:
-    """Planes of ink that are zero all over are dropped; a stack that is zero all over is None."""
+    """Returns planes of ink that are zero all over are dropped; a stack that is zero all over is None."""
     data, inks = planes.data, planes.inks
     height = data.shape[1]
     kept = [i for i in range(len(inks)) if kernels.any_nonzero(data, COLOURS + 3 * i, COLOURS + 3 * i + 3, 0, height)]
@@ -228,7 +229,7 @@ def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) ->
 
 
 def _of_ground(pyramid: Pyramid, level: int, rect: Rect) -> tuple[bool, Planes | None]:
-    """The picture that a layer is, where it is nothing else."""
+    """Returns the picture that a layer is, where it is nothing else."""
     ground = pyramid.bare
     values = ground.values.get(level) if ground is not None else None
     return (False, None) if values is None else (True, without_empty_inks(Planes(values(rect), ())))

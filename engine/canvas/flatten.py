@@ -50,7 +50,7 @@ class PlotEdit:
 
 
 def flattened(layer: Layer, cache: TileCache | None = None, threads: Executor | None = None) -> Layer:
-    """The layer with all that was painted with examples as paint, settled first if it is not.
+    """Returns the layer with all that was painted with examples as paint, settled first if it is not.
 
     Plot by plot, the bottom one first, at the finest level at which its example has detail; there, with one plot or
     with several of that level, no pixel changes.

@@ -13,7 +13,7 @@ from engine.numeric.address import TileKey
 
 
 def fold(pyramid: Pyramid) -> Pyramid:
-    """The same values without pending attenuations: what a file stores.  The past of `pyramid` is kept."""
+    """Returns the same values without pending attenuations: what a file stores.  The past of `pyramid` is kept."""
     levels = pyramid.levels
     for level, stored in pyramid.levels.items():
         editable = stored.mutate()

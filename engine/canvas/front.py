@@ -70,7 +70,7 @@ _FIRST = np.zeros(1, np.int64)
 
 
 def widened(planes: Planes, inks: tuple[Instance, ...]) -> Planes:
-    """The same values in a stack that has room for more inks, contiguous."""
+    """Returns the same values in a stack that has room for more inks, contiguous."""
     if planes.inks == inks:
         return Planes(np.ascontiguousarray(planes.data), inks)
     out = np.zeros((COLOURS + 3 * len(inks), *planes.data.shape[1:]), np.float32)
@@ -81,12 +81,13 @@ def widened(planes: Planes, inks: tuple[Instance, ...]) -> Planes:
 
 
 def halved(rect: Rect) -> Rect:
-    """The parents of an even rectangle, made even."""
+    """Returns the parents of an even rectangle, made even."""
     return rect.zoomed(-1).evened()
 
 
 def climbs(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Iterator[Surroundings]:
-    """What lies around a change of `rect` at the levels above its own, upwards: two pixels wider than it can reach.
+    """Yields what lies around a change of `rect` at the levels above its own, upwards: two pixels wider than it can
+    reach.
 
     They are computed downwards in one cascade, a dozen levels at a time.
     """
@@ -128,7 +129,7 @@ def lifted(level: int, rect: Rect, below: Below, above: Surroundings, spares_alp
 
 
 def cut_front(front: Front, rect: Rect) -> Front | None:
-    """The part of a front inside `rect`, whose corners are even."""
+    """Returns the part of a front inside `rect`, whose corners are even."""
     at = front.rect.intersect(rect)
     if at.empty:
         return None

@@ -28,7 +28,7 @@ _BYTES = 4 * TILE * TILE * 2  # of a whole tile's data, as a rule
 
 
 def laid(tile: Tile, rect: Rect, pixels: bytes | None = None) -> Pyramid:
-    """The pyramid of a picture that covers `rect` of level 0.
+    """Returns the pyramid of a picture that covers `rect` of level 0.
 
     `tile` gives its values over any part of `rect`: float32 (4, h, w), premultiplied, on the grid; always the same
     ones, as long as the pyramid is there.  `pixels`: the picture as a PNG, kept so that files can hold it in place of
@@ -63,7 +63,7 @@ class _Picture:
         self._tile = tile
 
     def read(self, rect: Rect) -> np.ndarray:
-        """Values over `rect`, zero outside the picture: float32 (4, h, w)."""
+        """Returns values over `rect`, zero outside the picture: float32 (4, h, w)."""
         part = rect.intersect(self.rect)
         if part == rect:
             return np.ascontiguousarray(self._tile(rect))
@@ -74,7 +74,7 @@ class _Picture:
         return out
 
     def reduced(self, rect: Rect) -> _Dense:
-        """The level above, over `rect`, the parents of all pixels."""
+        """Returns the level above, over `rect`, the parents of all pixels."""
         values = np.empty((4, rect.height, rect.width), np.float32)
         rows = max(_PIXELS // (2 * rect.width), 1)
         for y in range(rect.y0, rect.y1, rows):
@@ -99,7 +99,7 @@ class _Dense(_Picture):
 
 
 def _records(below: _Picture, above: _Picture, level: int) -> dict[tuple[int, int], Record]:
-    """All residuals of a level: v - expand(v above), where a pixel or a parent of it is painted."""
+    """Returns all residuals of a level: v - expand(v above), where a pixel or a parent of it is painted."""
     records = {}
     data, used = np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32)
     put_off = {} if isinstance(below, _Dense) else _spanned(below, above)
@@ -114,7 +114,7 @@ def _records(below: _Picture, above: _Picture, level: int) -> dict[tuple[int, in
 
 
 def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray, used: np.ndarray) -> Record | None:
-    """The residual of a tile; `data` int32 (4, 128, 128) and `used` int32 (4,) are written to."""
+    """Returns the residual of a tile; `data` int32 (4, 128, 128) and `used` int32 (4,) are written to."""
     value, at = below.read(key.rect), key.rect.parents()
     if isinstance(above, _Dense) and at.intersect(above.rect) == at:
         coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
@@ -128,7 +128,7 @@ def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray, us
 
 
 def _spanned(below: _Picture, above: _Picture) -> dict[tuple[int, int], bool]:
-    """The tiles whose residual certainly reaches all four of their sides, as their first and last rows show."""
+    """Returns the tiles whose residual certainly reaches all four of their sides, as their first and last rows show."""
     x0, x1 = below.rect.x0 // TILE, (below.rect.x1 - 1) // TILE + 1
     found = {}
     for y in range(below.rect.y0 // TILE, (below.rect.y1 - 1) // TILE + 1):
@@ -142,7 +142,7 @@ def _spanned(below: _Picture, above: _Picture) -> dict[tuple[int, int], bool]:
 
 
 def _reached(below: _Picture, above: _Picture, rect: Rect) -> np.ndarray:
-    """Where the residual within an even rectangle is not zero: bool (h, w)."""
+    """Tells where the residual within an even rectangle is not zero: bool (h, w)."""
     value, coarse = below.read(rect), above.read(rect.parents())
     data, touched = np.empty(value.shape, np.int32), np.ones(value.shape[1:], np.uint8)
     kernels.first_residual(value, coarse, 0, 0, _COLOURS, touched, data, np.empty(4, np.int32))
@@ -156,7 +156,7 @@ class _Later(Record):
     source: tuple[_Picture, TileKey]
 
     def __getattr__(self, name: str) -> np.ndarray:
-        """The data, while there are none."""
+        """Returns the data, while there are none."""
         if name != "data":
             raise AttributeError(name)
         whole, key = self.source
@@ -184,7 +184,7 @@ def _later(picture: _Picture, key: TileKey) -> Record:
 
 
 def unchanged(pyramid: Pyramid, key: TileKey, record: Record) -> bool:
-    """Whether a record is still the one that the layer's ground made."""
+    """Tells whether a record is still the one that the layer's ground made."""
     ground = pyramid.ground
     if ground is None:
         return False

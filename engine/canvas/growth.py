@@ -56,7 +56,7 @@ class Plot:
 
     @property
     def settled(self) -> bool:
-        """Whether its pixels are as they will stay for this region."""
+        """Tells whether its pixels are as they will stay for this region."""
         return self.drawn is self.region and self.region.fresh(0)
 
     @property
@@ -66,7 +66,7 @@ class Plot:
 
     @property
     def finest(self) -> int:
-        """The finest level of the canvas at which its example has detail of its own."""
+        """Returns the finest level of the canvas at which its example has detail of its own."""
         return self.level + len(self.region.exemplar.finer)
 
 
@@ -126,7 +126,7 @@ def swapped(growth: Growth, plot: Plot, name: str, key: str, exemplar: Exemplar)
 
 
 def at(growth: Growth, level: int, x: int, y: int, depth: float | None = None) -> Plot | None:
-    """The topmost plot that has the pixel at the centre of a pixel of `level`, of one depth or of any."""
+    """Returns the topmost plot that has the pixel at the centre of a pixel of `level`, of one depth or of any."""
     for plot in reversed(growth):
         if depth in (None, plot.depth):
             up = level - plot.level
@@ -151,7 +151,7 @@ def _cut(plot: Plot, level: int, rect: Rect, mask: np.ndarray) -> Plot:
 
 
 def _ordered(plots: Iterable[Plot], before: Growth) -> Growth:
-    """A growth of some plots; the one before, if it has the same."""
+    """Returns a growth of some plots; the one before, if it has the same."""
     found = tuple(sorted((plot for plot in plots if plot.region.masks[0]), key=lambda plot: plot.order))
     same = len(found) == len(before) and all(
         one is other or one.region is other.region for one, other in zip(found, before, strict=True)
@@ -195,7 +195,7 @@ def settled(growth: Growth, threads: Executor | None = None, tell: Tell = lambda
 
 
 def one_of(tell: Tell, number: int, count: int) -> Tell:
-    """What hears of one of so many pieces of some work, of which `tell` hears."""
+    """Returns what hears of one of so many pieces of some work, of which `tell` hears."""
     return lambda part: tell((number + part) / count)
 
 
@@ -213,7 +213,8 @@ def is_settled(growth: Growth) -> bool:
 
 
 def settling(growth: Growth, near: tuple[int, Rect] | None = None, threads: Executor | None = None) -> Iterator[Growth]:
-    """The steps to the final pixels, some milliseconds each; the same value again where a step changed nothing to see.
+    """Yields the steps to the final pixels, some milliseconds each; the same value again where a step changed
+    nothing to see.
 
     Plots that meet the rectangle `near` of a level first, then the ones painted last.  Any step may be the last that is
     asked for: what is finished stays.
@@ -262,7 +263,8 @@ def _following(plot: Plot, region: Region, threads: Executor | None) -> Generato
 
 
 def progress(growth: Growth) -> tuple[list[tuple[int, Rect]], float]:
-    """Where pixels are not as they will stay, as (level, rectangle); and the part of the work that is done, 0..1."""
+    """Tells where pixels are not as they will stay, as (level, rectangle); and the part of the work that is done,
+    0..1."""
     pending, done, whole = [], 0.0, 0.0
     for plot in growth:
         if plot.settled:
@@ -288,7 +290,8 @@ def over(out: np.ndarray, growth: Growth, level: int, rect: Rect) -> None:
 
 
 def planes(growth: Growth, level: int, rect: Rect) -> np.ndarray | None:
-    """What all plots show of `rect` of any level: premultiplied float32 (4, h, w) on the grid; None where nothing."""
+    """Returns what all plots show of `rect` of any level: premultiplied float32 (4, h, w) on the grid; None where
+    nothing."""
     if not meets(growth, level, rect):
         return None
     out = np.zeros((4, rect.height, rect.width), np.float32)
@@ -297,12 +300,12 @@ def planes(growth: Growth, level: int, rect: Rect) -> np.ndarray | None:
 
 
 def meets(growth: Growth, level: int, rect: Rect) -> bool:
-    """Whether any plot may show something in `rect` of a level."""
+    """Tells whether any plot may show something in `rect` of a level."""
     return any(pixels.meets(plot.shown, level - plot.level, rect) for plot in growth)
 
 
 def bounds(growth: Growth, level: int) -> Rect:
-    """The smallest rectangle of `level` outside which nothing shows."""
+    """Returns the smallest rectangle of `level` outside which nothing shows."""
     whole = _NOWHERE
     for plot in growth:
         whole = whole.union(_carried(_extent(plot.region.masks[0]), level - plot.level))
@@ -314,7 +317,7 @@ def _extent(masks: Tiles) -> Rect:
 
 
 def _carried(rect: Rect, finer: int) -> Rect:
-    """What a rectangle can show `finer` levels below its own: expanding spreads it by less than two pixels."""
+    """Returns what a rectangle can show `finer` levels below its own: expanding spreads it by less than two pixels."""
     return rect.grown(2).zoomed(finer) if finer > 0 else rect.zoomed(finer)
 
 
@@ -330,7 +333,7 @@ def changed_rects(old: Growth, new: Growth, level: int) -> list[Rect]:
 
 
 def _changed(one: Plot | None, other: Plot | None, finer: bool) -> list[Rect]:
-    """What differs at the plots' own level; with `finer`, also what can be seen below it."""
+    """Returns what differs at the plots' own level; with `finer`, also what can be seen below it."""
     was, now = (plot.shown[0] if plot is not None and plot.shown else NONE for plot in (one, other))
     found = list(tiles.changed_rects(was, now, 0, slice(None)))
     if finer and any(plot is not None and plot.region.exemplar.finer for plot in (one, other)):
@@ -340,7 +343,7 @@ def _changed(one: Plot | None, other: Plot | None, finer: bool) -> list[Rect]:
 
 
 def _fewer(rects: list[Rect]) -> list[Rect]:
-    """Those that lie near one another joined, until few are left."""
+    """Returns those that lie near one another joined, until few are left."""
     side = tiles.TILE_SIDE
     while len(rects) > _MOST_RECTS:
         side *= 2
@@ -353,7 +356,7 @@ def _fewer(rects: list[Rect]) -> list[Rect]:
 
 
 def arrays(growth: Growth) -> dict[int, int]:
-    """The bytes of all that a growth holds, by the identity of each array."""
+    """Returns the bytes of all that a growth holds, by the identity of each array."""
     found: dict[int, int] = {}
     for plot in growth:
         region = plot.region

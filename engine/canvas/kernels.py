@@ -5,26 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from engine.canvas import plain as plainly
+from engine.canvas.plain import COUNT, LAG, QUARTER, UNIT
 from engine.numeric.grid import snap
-from engine.numeric.kernel import inlined, inner, kernel
+from engine.numeric.kernel import Array, inlined, inner, kernel
 from engine.numeric.pyramid import blend_rows, expand_row
 from engine.numeric.stand_in import or_plain
 
-_UNIT = np.float32(2.0**-16)
-_COUNT = np.float32(2.0**16)
-_ZERO = np.float32(0.0)
-_ONE = np.float32(1.0)
-_QUARTER = np.float32(0.25)
-# A coarse pixel that differs from the mean of its children by no more than this is taken to equal it: the rounding
-# lag of many strokes, each below the grid at the coarse level, heals instead of adding up.
-_LAG = np.float32(2.0 * 2.0**-16)
+_ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 _STEEPEST = np.float32(8.0)  # the residual up to which strokes can amplify detail, again and again
 
 
 @or_plain(plainly.any_nonzero)
 @kernel
 def any_nonzero(data: np.ndarray, first_plane: int, last_plane: int, first: int, last: int) -> bool:
-    """Whether any value of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) is not zero."""
+    """Tells whether any value of planes [first_plane, last_plane), rows [first, last) of `data` (C, h, w) is not
+    zero."""
     for c in range(first_plane, last_plane):
         for y in range(first, last):
             row = data[c, y]
@@ -49,15 +44,7 @@ def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
 @or_plain(plainly.add_residual)
 @kernel
 def add_residual(
-    out: np.ndarray,
-    top: int,
-    left: int,
-    data: np.ndarray,
-    row: int,
-    column: int,
-    height: int,
-    width: int,
-    planes: np.ndarray,
+    out: Array, top: int, left: int, data: Array, row: int, column: int, height: int, width: int, planes: Array
 ) -> None:
     """out[:, top:, left:] += data * 2^-16 over height x width; plane c comes from `data[planes[c]]`, -1 for none."""
     for c in range(out.shape[0]):
@@ -68,7 +55,7 @@ def add_residual(
             a = out[c, top + y][left : left + width]
             b = data[source, row + y][column : column + width]
             for i in range(width):
-                a[i] += np.float32(b[i]) * _UNIT
+                a[i] += np.float32(b[i]) * UNIT
 
 
 @kernel
@@ -95,21 +82,14 @@ def attenuate(data: np.ndarray, keep: np.ndarray, spares_alpha: bool, out: np.nd
         spared = spares_alpha and c == 3
         for y in range(data.shape[1]):
             for x in range(data.shape[2]):
-                value = snap(np.float32(data[c, y, x]) * _UNIT * (_ONE if spared else keep[y, x]))
-                out[c, y, x] = np.int32(min(max(value, -_STEEPEST), _STEEPEST) * _COUNT)
+                value = snap(np.float32(data[c, y, x]) * UNIT * (_ONE if spared else keep[y, x]))
+                out[c, y, x] = np.int32(min(max(value, -_STEEPEST), _STEEPEST) * COUNT)
 
 
 @or_plain(plainly.apply_stamp)
 @kernel
 def apply_stamp(
-    old: np.ndarray,
-    keep: np.ndarray,
-    add: np.ndarray,
-    planes: np.ndarray,
-    plain: bool,
-    spares_alpha: bool,
-    new: np.ndarray,
-    changed: np.ndarray,
+    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, changed: Array
 ) -> bool:
     """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
 
@@ -174,7 +154,7 @@ def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left:
             upper, lower = fine[source, 2 * y], fine[source, 2 * y + 1]
             for i in range(width):
                 total = (upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])
-                row[i] = snap(total * _QUARTER)
+                row[i] = snap(total * QUARTER)
 
 
 @or_plain(plainly.halve_marks)
@@ -192,7 +172,7 @@ def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
 @or_plain(plainly.marked)
 @kernel
 def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
-    """The extent y0, y1, x0, x1 of what is set in `marks`, uint8 (h, w)."""
+    """Returns the extent y0, y1, x0, x1 of what is set in `marks`, uint8 (h, w)."""
     y0, y1, x0, x1 = marks.shape[0], 0, marks.shape[1], 0
     columns = np.zeros(marks.shape[1], np.uint8)
     for y in range(marks.shape[0]):
@@ -212,14 +192,14 @@ def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
 @or_plain(plainly.climb)
 @kernel
 def climb(
-    below_old: np.ndarray,
-    below_new: np.ndarray,
-    keep: np.ndarray,
-    parents: np.ndarray,
+    below_old: Array,
+    below_new: Array,
+    keep: Array,
+    parents: Array,
     spares_alpha: bool,
-    old: np.ndarray,
-    new: np.ndarray,
-    changed: np.ndarray,
+    old: Array,
+    new: Array,
+    changed: Array,
 ) -> bool:
     """Rule U: what a change of the level below does to this one.
 
@@ -244,7 +224,7 @@ def climb(
                 continue
             for i in range(width):
                 r = v[i] - before[i]
-                r = _ZERO if abs(r) <= _LAG else r
+                r = _ZERO if abs(r) <= LAG else r
                 value = after[i] + snap(a[i] * r)
                 w[i] = value if p[i] else v[i]
             if c == 3:
@@ -308,7 +288,7 @@ def residual(
             v, p, t = value[c, y], predicted[c, y], touched[y]
             o = out[c, top + y][left : left + width]
             for i in range(width):
-                new = np.int32((v[i] - p[i]) * _COUNT) if t[i] else o[i]
+                new = np.int32((v[i] - p[i]) * COUNT) if t[i] else o[i]
                 changed |= new ^ o[i]
                 o[i] = new
     return changed != 0  # type: ignore[no-any-return]
@@ -317,16 +297,9 @@ def residual(
 @or_plain(plainly.first_residual)
 @kernel
 def first_residual(
-    value: np.ndarray,
-    coarse: np.ndarray,
-    top: int,
-    left: int,
-    planes: np.ndarray,
-    touched: np.ndarray,
-    out: np.ndarray,
-    used: np.ndarray,
+    value: Array, coarse: Array, top: int, left: int, planes: Array, touched: Array, out: Array, used: Array
 ) -> tuple[int, int, int, int, int]:
-    """The residual of a tile that had none, and what `extent` tells of it.
+    """Returns the residual of a tile that had none, and what `extent` tells of it.
 
     `value` float32 (C, 2h, 2w); the prediction is expand of `coarse`, placed and chosen as by `expand_into`; `touched`
     uint8 (2h, 2w); `out` int32 (C, 2h, 2w) in units of 2^-16 is written everywhere, `used` (C,) as by `extent`.
@@ -348,7 +321,7 @@ def first_residual(
             v, k, o = value[c, y], touched[y], out[c, y]
             bits = np.int32(0)
             for i in range(2 * n):
-                new = np.int32((v[i] - predicted[i]) * _COUNT)
+                new = np.int32((v[i] - predicted[i]) * COUNT)
                 new = new if k[i] else np.int32(0)
                 o[i] = new
                 size = abs(new)

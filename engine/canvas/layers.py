@@ -33,7 +33,8 @@ def _check(name: str, what: str, found: object, right: bool, expected: str) -> N
 
 
 def _allowed(character: str) -> bool:
-    """Whether a name may hold it: no control characters, line ends, lone surrogates or what XML 1.0 cannot hold."""
+    """Tells whether a name may hold it: no control characters, line ends, lone surrogates or what XML 1.0 cannot
+    hold."""
     return unicodedata.category(character) not in ("Cc", "Cs", "Zl", "Zp") and character not in "\ufffe\uffff"
 
 
@@ -113,7 +114,7 @@ _SETTABLE = {
 
 
 def passes_through(group: Group) -> bool:
-    """Whether the group's layers are composited directly onto what lies below the group.
+    """Tells whether the group's layers are composited directly onto what lies below the group.
 
     OpenRaster's `isolation="auto"`: a group is isolated as soon as its opacity or operator need it as one picture.
     """
@@ -121,7 +122,7 @@ def passes_through(group: Group) -> bool:
 
 
 def isolation(group: Group) -> str:
-    """The attribute `isolation` to write for the group: 'isolate' or 'auto'.
+    """Returns the attribute `isolation` to write for the group: 'isolate' or 'auto'.
 
     MyPaint 2 reads 'auto' by the rule of `passes_through`.  Krita 5 makes every group but `isolation="isolate"` a
     pass-through one, whatever its opacity and operator, so 'auto' may be written only where the group passes through.
@@ -142,12 +143,12 @@ def _trails(root: Group) -> Iterator[tuple[Trail, Node]]:
 
 
 def walk(root: Group) -> Iterator[Node]:
-    """Every layer and group but the root, bottom first, a group before what it holds."""
+    """Yields every layer and group but the root, bottom first, a group before what it holds."""
     return (node for _, node in _trails(root))
 
 
 def layers(root: Group) -> Iterator[Layer]:
-    """Every layer, bottom first."""
+    """Yields every layer, bottom first."""
     return (node for node in walk(root) if isinstance(node, Layer))
 
 
@@ -163,7 +164,7 @@ def _locate(root: Group, name: str) -> tuple[Trail, Node]:
 
 
 def _at(root: Group, trail: Trail) -> Group:
-    """The group at a trail that is known to lead to one."""
+    """Returns the group at a trail that is known to lead to one."""
     node: Node = root
     for i in trail:
         assert isinstance(node, Group)
@@ -173,7 +174,7 @@ def _at(root: Group, trail: Trail) -> Group:
 
 
 def find(root: Group, name: str) -> Node:
-    """The layer or group of that name."""
+    """Returns the layer or group of that name."""
     return _locate(root, name)[1]
 
 
@@ -189,13 +190,13 @@ def place(root: Group, name: str) -> tuple[str | None, int]:
 
 
 def ancestors(root: Group, name: str) -> tuple[Group, ...]:
-    """The groups around a node, outermost first, without the root."""
+    """Returns the groups around a node, outermost first, without the root."""
     trail, _ = _locate(root, name)
     return tuple(_at(root, trail[:depth]) for depth in range(1, len(trail)))
 
 
 def is_locked(root: Group, name: str) -> bool:
-    """Whether the node or a group around it is locked."""
+    """Tells whether the node or a group around it is locked."""
     return find(root, name).locked or any(group.locked for group in ancestors(root, name))
 
 
@@ -212,13 +213,15 @@ def unique_name(root: Group, stem: str = "Layer") -> str:
 
 
 def free_name(root: Group, wanted: str) -> str:
-    """The allowed and free name nearest to `wanted`, which may be any text: for what comes from other programs."""
+    """Returns the allowed and free name nearest to `wanted`, which may be any text: for what comes from other
+    programs."""
     name = "".join(filter(_allowed, wanted[: 4 * MAX_NAME])).strip()[:MAX_NAME].strip()
     return name if name and not has(root, name) else unique_name(root, name or "Layer")
 
 
 def alone(node: Node) -> Group:
-    """A root that shows just this layer or group, as if it were visible, opaque and normal: thumbnails, exports."""
+    """Returns a root that shows just this layer or group, as if it were visible, opaque and normal: thumbnails,
+    exports."""
     return replace(EMPTY, children=(replace(node, visible=True, opacity=1.0, blend="src-over"),))
 
 
@@ -228,7 +231,7 @@ Siblings = tuple[Node, ...]
 
 
 def _edited(group: Group, trail: Trail, edit: Callable[[Siblings], Siblings]) -> Group:
-    """The tree with the children of the group at `trail` replaced by `edit` of them."""
+    """Returns the tree with the children of the group at `trail` replaced by `edit` of them."""
     if not trail:
         return replace(group, children=edit(group.children))
     i = trail[0]
@@ -345,7 +348,7 @@ def duplicate(root: Group, name: str, to: str) -> Group:
 
 
 def checked(root: Group) -> Group:
-    """The root itself, if names and ids are unique and groups not nested too deeply; else LayerError."""
+    """Returns the root itself, if names and ids are unique and groups not nested too deeply; else LayerError."""
     names: set[str] = set()
     ids: set[int] = set()
     for trail, node in _trails(root):

@@ -19,7 +19,7 @@ from engine.texture.planes import COLOURS, Planes, merged, plane_map
 
 @cache
 def _zeros(planes: int) -> np.ndarray:
-    """A blank tile; not to be written to."""
+    """Returns a blank tile; not to be written to."""
     return np.zeros((planes, TILE, TILE), np.float32)
 
 
@@ -39,14 +39,14 @@ class Painted:
 
     @property
     def bounds(self) -> Rect:
-        """The smallest rectangle of the level that holds every changed pixel."""
+        """Returns the smallest rectangle of the level that holds every changed pixel."""
         y0, y1, x0, x1 = kernels.marked(self.changed)
         x, y = self.key.x * TILE, self.key.y * TILE
         return Rect(x + x0, y + y0, x + x1, y + y1)
 
 
 def tile_bounds(keys: Collection[TileKey]) -> Rect:
-    """The smallest rectangle that holds all of some tiles of one level."""
+    """Returns the smallest rectangle that holds all of some tiles of one level."""
     if not keys:
         return Rect(0, 0, 0, 0)
     xs, ys = [key.x for key in keys], [key.y for key in keys]
@@ -74,7 +74,7 @@ def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
 
 
 def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
-    """The present values of tiles of one level."""
+    """Returns the present values of tiles of one level."""
     values: dict[TileKey, Planes | None] = {}
     missing = []
     for key in keys:

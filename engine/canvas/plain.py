@@ -8,14 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric.grid import SNAP
+from engine.numeric.kernel import Array
 from engine.numeric.pyramid import expanded_rows
 
-_UNIT = np.float32(2.0**-16)
-_COUNT = np.float32(2.0**16)
-_ZERO = np.float32(0.0)
-_ONE = np.float32(1.0)
-_QUARTER = np.float32(0.25)
-_LAG = np.float32(2.0 * 2.0**-16)
+UNIT, COUNT = np.float32(2.0**-16), np.float32(2.0**16)
+_ZERO, _ONE, QUARTER = np.float32(0.0), np.float32(1.0), np.float32(0.25)
+# A coarse pixel that differs from the mean of its children by no more than this is taken to equal it: the rounding
+# lag of many strokes, each below the grid at the coarse level, heals instead of adding up.
+LAG = np.float32(2.0 * 2.0**-16)
 
 Span = tuple[int, int, int, int, int]
 
@@ -31,32 +31,17 @@ def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
 
 
 def add_residual(
-    out: np.ndarray,
-    top: int,
-    left: int,
-    data: np.ndarray,
-    row: int,
-    column: int,
-    height: int,
-    width: int,
-    planes: np.ndarray,
+    out: Array, top: int, left: int, data: Array, row: int, column: int, height: int, width: int, planes: Array
 ) -> None:
     """Does what the kernel of that name in `kernels` does."""
     for c, source in enumerate(planes.tolist()):
         if source >= 0:
             part = data[source, row : row + height, column : column + width]
-            out[c, top : top + height, left : left + width] += part.astype(np.float32) * _UNIT
+            out[c, top : top + height, left : left + width] += part.astype(np.float32) * UNIT
 
 
 def apply_stamp(
-    old: np.ndarray,
-    keep: np.ndarray,
-    add: np.ndarray,
-    planes: np.ndarray,
-    plain: bool,
-    spares_alpha: bool,
-    new: np.ndarray,
-    changed: np.ndarray,
+    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, changed: Array
 ) -> bool:
     """Does what the kernel of that name in `kernels` does."""
     for c, source in enumerate(planes.tolist()):
@@ -83,7 +68,7 @@ def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left:
             continue
         upper, lower = fine[source, 0 : 2 * height : 2], fine[source, 1 : 2 * height : 2]
         total = (upper[:, : 2 * width : 2] + upper[:, 1::2]) + (lower[:, : 2 * width : 2] + lower[:, 1::2])
-        part[...] = (total * _QUARTER + SNAP) - SNAP
+        part[...] = (total * QUARTER + SNAP) - SNAP
 
 
 def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
@@ -100,20 +85,20 @@ def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
 
 
 def climb(
-    below_old: np.ndarray,
-    below_new: np.ndarray,
-    keep: np.ndarray,
-    parents: np.ndarray,
+    below_old: Array,
+    below_new: Array,
+    keep: Array,
+    parents: Array,
     spares_alpha: bool,
-    old: np.ndarray,
-    new: np.ndarray,
-    changed: np.ndarray,
+    old: Array,
+    new: Array,
+    changed: Array,
 ) -> bool:
     """Does what the kernel of that name in `kernels` does."""
     on = parents != 0
     keep[~on] = _ONE
     rest = old - below_old
-    rest[np.abs(rest) <= _LAG] = _ZERO
+    rest[np.abs(rest) <= LAG] = _ZERO
     new[...] = np.where(on, below_new + ((keep * rest + SNAP) - SNAP), old)
     if spares_alpha:
         new[3] = old[3]
@@ -144,27 +129,20 @@ def residual(
     """Does what the kernel of that name in `kernels` does."""
     height, width = touched.shape
     part = out[:, top : top + height, left : left + width]
-    new = np.where(touched != 0, ((value - predicted) * _COUNT).astype(np.int32), part)
+    new = np.where(touched != 0, ((value - predicted) * COUNT).astype(np.int32), part)
     changed = bool((new != part).any())
     part[...] = new
     return changed
 
 
 def first_residual(
-    value: np.ndarray,
-    coarse: np.ndarray,
-    top: int,
-    left: int,
-    planes: np.ndarray,
-    touched: np.ndarray,
-    out: np.ndarray,
-    used: np.ndarray,
+    value: Array, coarse: Array, top: int, left: int, planes: Array, touched: Array, out: Array, used: Array
 ) -> Span:
     """Does what the kernel of that name in `kernels` does."""
     height, width = touched.shape
     for c, source in enumerate(planes.tolist()):
         predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
-        out[c] = np.where(touched != 0, ((value[c] - predicted) * _COUNT).astype(np.int32), 0)
+        out[c] = np.where(touched != 0, ((value[c] - predicted) * COUNT).astype(np.int32), 0)
     return extent(out, used)
 
 
@@ -177,7 +155,7 @@ def extent(data: np.ndarray, used: np.ndarray) -> Span:
 
 
 def _span(rows: np.ndarray, columns: np.ndarray) -> Span:
-    """The bits of all rows, and the extent y0, y1, x0, x1 of rows and columns that are not zero."""
+    """Returns the bits of all rows, and the extent y0, y1, x0, x1 of rows and columns that are not zero."""
     ys, xs = np.flatnonzero(rows), np.flatnonzero(columns)
     bits = int(np.bitwise_or.reduce(rows)) if len(rows) else 0
     y0, y1 = (int(ys[0]), int(ys[-1]) + 1) if len(ys) else (len(rows), 0)

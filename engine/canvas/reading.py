@@ -12,7 +12,8 @@ from engine.texture.planes import Planes
 
 
 def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None = None) -> np.ndarray | None:
-    """Colour and alpha of `rect` of a level: premultiplied float32 (4, h, w) on the grid, None where a layer is empty.
+    """Returns colour and alpha of `rect` of a level: premultiplied float32 (4, h, w) on the grid, None where a layer
+    is empty.
 
     Not to be written to.  Without a cache, ink that adds nothing down to this level is left out on the way.
     """
@@ -25,7 +26,7 @@ def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None =
 
 
 def covered(paint: np.ndarray | None, growth: Growth, level: int, rect: Rect) -> np.ndarray | None:
-    """A layer's paint, (4, h, w) or None, with a growth over it; the same array where that shows nothing."""
+    """Returns a layer's paint, (4, h, w) or None, with a growth over it; the same array where that shows nothing."""
     if not growth or not meets(growth, level, rect):
         return paint
     out = np.zeros((4, rect.height, rect.width), np.float32) if paint is None else np.array(paint, order="C")

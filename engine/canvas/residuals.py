@@ -98,7 +98,7 @@ def store_front(pyramid: Pyramid, front: Front, parents: Parents, inside: Rect |
 
 
 def _value(pyramid: Pyramid, front: Front, part: Rect, above: Surroundings) -> Planes:
-    """The new values of `part`: the front's inside its rectangle, the old ones elsewhere."""
+    """Returns the new values of `part`: the front's inside its rectangle, the old ones elsewhere."""
     if part.intersect(front.rect) == part:
         return front.new.cut(*part.slices(front.rect))
     return _pasted(Surroundings(part, step(pyramid, above.planes, above.rect, front.level, part)), front)
@@ -141,7 +141,7 @@ def _write(
 def _record(
     pyramid: Pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents
 ) -> Record | _Same | None:
-    """The new record of a tile whose values of `part` became `value`; `_SAME` if the one it has still holds."""
+    """Returns the new record of a tile whose values of `part` became `value`; `_SAME` if the one it has still holds."""
     stored = pyramid.levels.get(key.level)
     old = stored.get((key.x, key.y)) if stored is not None else None
     at, inks = part, merged(value.inks, parents.after.inks)
@@ -182,7 +182,7 @@ def _first_record(
 
 
 def _predicted(parents: Parents, part: Rect, value: Planes, level: int) -> np.ndarray:
-    """What expand and the ink make of `part` without a residual: float32 (4 + 3n, h, w)."""
+    """Returns what expand and the ink make of `part` without a residual: float32 (4 + 3n, h, w)."""
     corner, above = part.parents(), parents.before.rect
     out = np.empty_like(value.data)
     planes = plane_map(parents.after.inks, value.inks)

@@ -49,8 +49,8 @@ def followed(shown: Shown, drawn: Region | None, region: Region, threads: Execut
 def following(
     shown: Shown, drawn: Region | None, region: Region, threads: Executor | None = None
 ) -> Generator[None, None, Shown]:
-    """What `region` looks like, from what `drawn`, an earlier state of it (None: nothing of it), looks like; pauses
-    after some tiles.  Tiles that look alike stay the same objects."""
+    """Yields what `region` looks like, from what `drawn`, an earlier state of it (None: nothing of it), looks like;
+    pauses after some tiles.  Tiles that look alike stay the same objects."""
     base = shown[0] if shown else NONE
     held: dict[Key, np.ndarray] = {}
     stale = yield from _stale(base, drawn, region)
@@ -108,7 +108,7 @@ def _look(base: Tiles, region: Region, rect: Rect) -> dict[Key, np.ndarray]:
 
 
 def _stale(base: Tiles, drawn: Region | None, region: Region) -> Generator[None, None, dict[Key, Rect]]:
-    """Tiles of the region's own level that may look different, and the part of each."""
+    """Yields tiles of the region's own level that may look different, and the part of each."""
     found: dict[Key, Rect] = {}
     masks, names = region.masks[0], region.levels[0].sources
     bare: dict[Key, Rect] = {}  # what of a tile has no source of its own
@@ -129,8 +129,8 @@ def _stale(base: Tiles, drawn: Region | None, region: Region) -> Generator[None,
 
 
 def _altered(drawn: Region | None, region: Region) -> Iterator[tuple[int, Rect]]:
-    """Where pixels may look different, tile by tile: because of their own sources or as they join or leave the region
-    (0), or because of those of a coarser level, if they have none."""
+    """Tells where pixels may look different, tile by tile: because of their own sources or as they join or leave the
+    region (0), or because of those of a coarser level, if they have none."""
     if drawn is None:
         yield from ((0, area) for area in tiles.changed_rects(NONE, region.masks[0], 0))
         return
@@ -155,7 +155,7 @@ def _altered(drawn: Region | None, region: Region) -> Iterator[tuple[int, Rect]]
 
 
 def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:
-    """The tiles of some maps that meet a rectangle, of any size."""
+    """Returns the tiles of some maps that meet a rectangle, of any size."""
     rows = range(area.y0 // TILE_SIDE, (area.y1 - 1) // TILE_SIDE + 1)
     columns = range(area.x0 // TILE_SIDE, (area.x1 - 1) // TILE_SIDE + 1)
     found: set[Key] = set()
@@ -170,7 +170,7 @@ def keys_within(area: Rect, maps: Iterable[Tiles]) -> set[Key]:
 
 
 def _sourceless(mask: np.ndarray, names: np.ndarray | None, key: Key) -> Rect:
-    """The smallest rectangle around a tile's pixels that have no source."""
+    """Returns the smallest rectangle around a tile's pixels that have no source."""
     at = tiles.rect_of(key)
     if names is None:
         return at
@@ -180,7 +180,8 @@ def _sourceless(mask: np.ndarray, names: np.ndarray | None, key: Key) -> Rect:
 
 @kernel
 def _bounds_of(mask: np.ndarray, names: np.ndarray) -> tuple[int, int, int, int]:
-    """Rows [0, 1) and columns [2, 3) that hold the pixels of a mask (n, n) without a source; 0 if there are none."""
+    """Returns rows [0, 1) and columns [2, 3) that hold the pixels of a mask (n, n) without a source; 0 if there are
+    none."""
     y0, y1, x0, x1 = mask.shape[0], 0, mask.shape[1], 0
     for y in range(mask.shape[0]):
         for x in range(mask.shape[1]):
@@ -203,7 +204,7 @@ def _lay(
 
 
 def _put(level: Tiles, held: dict[Key, np.ndarray]) -> Tiles:
-    """A level with some of its tiles replaced; those that are empty are left out."""
+    """Returns a level with some of its tiles replaced; those that are empty are left out."""
     if not held:
         return level
     changing = level.mutate()
@@ -231,7 +232,8 @@ def _with_coarser(shown: Shown, base: Tiles, touched: set[Key]) -> Generator[Non
 
 
 def coarser(old: Tiles, finer: Tiles, touched: set[Key]) -> tuple[Tiles, set[Key]]:
-    """The level above `finer`, of whose tiles `touched` are not those that `old` was made of; what differs in it."""
+    """Returns the level above `finer`, of whose tiles `touched` are not those that `old` was made of; what differs
+    in it."""
     held: dict[Key, np.ndarray] = {}
     for key in touched:
         _reduce_tile(held, old, finer, key)
@@ -269,7 +271,7 @@ def over(out: np.ndarray, shown: Shown, region: Region, finer: int, rect: Rect) 
 
 
 def meets(shown: Shown, finer: int, rect: Rect) -> bool:
-    """Whether tiles that `over` would read are there."""
+    """Tells whether tiles that `over` would read are there."""
     if finer > 0:
         return bool(shown) and bool(keys_within(rect.zoomed(-finer).grown(closer.HALO), shown[:1]))
     n = min(-finer, len(shown) - 1)
@@ -277,7 +279,7 @@ def meets(shown: Shown, finer: int, rect: Rect) -> bool:
 
 
 def at_level(shown: Shown, up: int, rect: Rect) -> Tiles:
-    """The tiles `up` levels above the region's own, those that meet a rectangle of it at least."""
+    """Returns the tiles `up` levels above the region's own, those that meet a rectangle of it at least."""
     if up < len(shown):
         return shown[up]
     if not shown or not keys_within(rect.zoomed(up - len(shown) + 1), shown[-1:]):

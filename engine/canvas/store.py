@@ -63,7 +63,7 @@ class Change:
     spares_alpha: bool = False
 
     def reach(self, level: int) -> Rect:
-        """The pixels of `level` whose value this change can alter (notes of the pyramid: locality)."""
+        """Returns the pixels of `level` whose value this change can alter (notes of the pyramid: locality)."""
         if level <= self.level:
             return self.rect.zoomed(level - self.level)
         return self.rect.grown(2).zoomed(level - self.level)
@@ -120,15 +120,16 @@ class Pyramid:
 
     @property
     def bare(self) -> Ground | None:
-        """The ground, if it is all that there is: nobody has painted on it."""
+        """Returns the ground, if it is all that there is: nobody has painted on it."""
         return self.ground if self.ground is not None and self.ground.levels is self.levels else None
 
     def branched(self) -> Pyramid:
-        """The same state at the start of a line of history of its own."""
+        """Returns the same state at the start of a line of history of its own."""
         return replace(self, uid=next(_serials))
 
     def waiting(self, since: int = 0) -> Iterator[Change]:
-        """The commits whose attenuation has not been applied to a record stored at depth `since`, newest first."""
+        """Yields the commits whose attenuation has not been applied to a record stored at depth `since`, newest
+        first."""
         change = self.last
         if change is not None and change.keep is None:
             change = change.attenuating
@@ -137,7 +138,7 @@ class Pyramid:
             change = change.attenuating
 
     def records(self, level: int, rect: Rect) -> Iterator[tuple[TileKey, Record]]:
-        """The stored tiles of a level that meet a rectangle."""
+        """Yields the stored tiles of a level that meet a rectangle."""
         stored = self.levels.get(level)
         if not stored or rect.empty:
             return
@@ -160,7 +161,7 @@ class Pyramid:
                 yield TileKey(level, *place), record
 
     def bounds(self, level: int) -> Rect:
-        """The smallest rectangle of `level` that holds every stored residual; empty if there is none."""
+        """Returns the smallest rectangle of `level` that holds every stored residual; empty if there is none."""
         whole = Rect(0, 0, 0, 0)
         for key, record in self.all_records():
             r = record.rect
@@ -176,7 +177,7 @@ class Pyramid:
 
 
 def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:
-    """The commits that one of two states has and the other has not, newest first."""
+    """Yields the commits that one of two states has and the other has not, newest first."""
     while a is not b:
         if b is None or (a is not None and a.depth >= b.depth):
             assert a is not None
@@ -188,5 +189,5 @@ def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:
 
 
 def changed_rects(old: Pyramid, new: Pyramid, level: int) -> list[Rect]:
-    """The rectangles of `level` in which two states of one line of history may differ."""
+    """Returns the rectangles of `level` in which two states of one line of history may differ."""
     return [change.reach(level) for change in changes_between(old.last, new.last)]

@@ -12,22 +12,22 @@ _DIGITS = 200  # bits of the longest integer that is shown by its digits
 
 
 def is_integer(value: Any) -> bool:
-    """Whether a value is an int, and no bool."""
+    """Tells whether a value is an int, and no bool."""
     return isinstance(value, int) and not isinstance(value, bool)
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value is an int or a float, no bool, and finite."""
+    """Tells whether a value is an int or a float, no bool, and finite."""
     return is_integer(value) or (isinstance(value, float) and math.isfinite(value))
 
 
 def is_within(value: Any, lo: float, hi: float, whole: bool = False) -> bool:
-    """Whether a value is a finite number of [lo, hi]; `whole`: one without a fraction, as 3 and 3.0."""
+    """Tells whether a value is a finite number of [lo, hi]; `whole`: one without a fraction, as 3 and 3.0."""
     return is_number(value) and bool(lo <= value <= hi) and not (whole and value != int(value))
 
 
 def described(value: Any) -> str:
-    """A value as a message shows it: ASCII, on one line, cut at `LONGEST`."""
+    """Returns a value as a message shows it: ASCII, on one line, cut at `LONGEST`."""
     if isinstance(value, Mapping):
         return "an object"
     if isinstance(value, list | tuple) and len(value) > 6:

@@ -32,6 +32,6 @@ def system_words(error: OSError) -> str:
 
 
 def shown(text: object, limit: int = 60) -> str:
-    """Text found in a file, fit for one line of a message: printable ASCII in quotes, cut at `limit`."""
+    """Returns text found in a file, fit for one line of a message: printable ASCII in quotes, cut at `limit`."""
     plain = ascii(text[: limit + 1] if isinstance(text, bytes) else str(text)[: limit + 1])
     return plain if len(plain) <= limit + 2 else plain[:limit] + "..."

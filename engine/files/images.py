@@ -42,7 +42,8 @@ class Meta:
 def read_image(
     source: str | os.PathLike[str] | bytes, name: str | None = None, limits: Limits = LIMITS
 ) -> tuple[np.ndarray, Meta]:
-    """A picture as uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied, upright; and what is known of it.
+    """Returns a picture as uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied, upright; and what is
+    known of it.
 
     `name` stands in messages for a source that is bytes.  FileError, one line, on any fault.
     """
@@ -118,7 +119,7 @@ def _by_pillow(file: BinaryIO, name: str, form: str, limits: Limits) -> tuple[np
 
 
 def _about_profile(profile: bytes) -> tuple[str, ...]:
-    """What to say of an ICC profile: nothing if it calls itself sRGB, in ASCII or UTF-16."""
+    """Returns what to say of an ICC profile: nothing if it calls itself sRGB, in ASCII or UTF-16."""
     return () if not profile or b"sRGB" in profile.replace(b"\0", b"") else (FOREIGN_PROFILE,)
 
 

@@ -38,7 +38,7 @@ LIMITS = Limits()
 
 
 def memory_cap() -> int:
-    """Bytes that the paint of one file may take: three quarters of the machine's memory."""
+    """Returns bytes that the paint of one file may take: three quarters of the machine's memory."""
     try:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 * 3
     except (ValueError, OSError, AttributeError):

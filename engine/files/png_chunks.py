@@ -27,14 +27,14 @@ class Chunks:
         return FileError(self._name, message)
 
     def exactly(self, count: int, place: str) -> bytes:
-        """The next `count` bytes, which must be there."""
+        """Returns the next `count` bytes, which must be there."""
         data = self._file.read(count)
         if len(data) != count:
             raise self.fail(f"the file ends inside {place}; found {len(data)} bytes, expected {count}")
         return data
 
     def head(self) -> tuple[bytes, int]:
-        """The kind and length of the next chunk."""
+        """Returns the kind and length of the next chunk."""
         self._count += 1
         if self._count > self._limits.chunks:
             raise self.fail(f"more than {self._limits.chunks} chunks")
@@ -44,7 +44,7 @@ class Chunks:
         return kind, length
 
     def body(self, kind: bytes, length: int) -> bytes:
-        """What a chunk holds, its checksum compared."""
+        """Returns what a chunk holds, its checksum compared."""
         if length > self._limits.chunk:
             raise self.fail(f"chunk {kind.decode()}: found {length} bytes, expected at most {self._limits.chunk}")
         data = self.exactly(length, f"chunk {kind.decode()}")
@@ -58,7 +58,7 @@ class Chunks:
             left -= len(self.exactly(min(left, PIECE), f"chunk {kind.decode()}"))
 
     def data(self, length: int) -> Iterator[bytes]:
-        """What the IDAT chunks hold, from inside the first, whose `length` is known, to the end of the file.
+        """Yields what the IDAT chunks hold, from inside the first, whose `length` is known, to the end of the file.
 
         The checksum of each is compared as it ends.
         """

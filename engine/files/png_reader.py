@@ -49,7 +49,7 @@ class Header:
         return np.dtype(np.uint16 if self.depth == 16 else np.uint8)
 
     def stride(self, width: int) -> int:
-        """Bytes in an unfiltered row of `width` pixels."""
+        """Returns bytes in an unfiltered row of `width` pixels."""
         return (width * self.depth * CHANNELS[self.colour] + 7) // 8
 
 
@@ -177,7 +177,8 @@ class PngReader:
     # ---- the image data ----
 
     def strips(self) -> Iterator[np.ndarray]:
-        """The rows from the top as uint8 or uint16 RGBA (n, width, 4), n as suits; interlaced images in one piece.
+        """Yields the rows from the top as uint8 or uint16 RGBA (n, width, 4), n as suits; interlaced images in one
+        piece.
 
         May be called once.  A fault in the file's last bytes comes after the last strip.
         """
@@ -230,7 +231,7 @@ class PngReader:
         return image
 
     def read(self, progress: Callable[[float], None] | None = None) -> np.ndarray:
-        """The whole image: uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied."""
+        """Returns the whole image: uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied."""
         image = np.empty((self.header.height, self.header.width, 4), self.header.dtype)
         row = 0
         for strip in self.strips():

@@ -57,7 +57,7 @@ def _filter(rows: np.ndarray, before: np.ndarray, step: int, out: np.ndarray) ->
 
 @functools.cache
 def srgb_profile() -> bytes:
-    """A small ICC profile of sRGB, the same bytes every time.
+    """Returns a small ICC profile of sRGB, the same bytes every time.
 
     Krita asks the user about every 16-bit PNG without one.
     """
@@ -139,7 +139,7 @@ class PngWriter:
 
 
 def _smaller(sample: np.ndarray) -> Any:
-    """The compressor that makes less of the first rows.
+    """Returns the compressor that makes less of the first rows.
 
     In grainy pictures the short matches that a fast search finds cost more than the letters they replace: Huffman
     codes alone make files a quarter smaller.

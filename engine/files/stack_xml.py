@@ -56,7 +56,7 @@ class StackEntry:
     ours: Mapping[str, str] = field(default_factory=dict)
 
     def layers(self) -> Iterator[LayerEntry]:
-        """All layers inside, from the top down."""
+        """Yields all layers inside, from the top down."""
         for child in self.children:
             if isinstance(child, StackEntry):
                 yield from child.layers()
@@ -79,7 +79,7 @@ class ImageEntry:
 
 
 def parse_stack(data: bytes, name: str, limits: Limits = LIMITS) -> ImageEntry:
-    """The tree of a stack.xml.  FileError if it is not one, or asks for too much; `name` is the archive's."""
+    """Returns the tree of a stack.xml.  FileError if it is not one, or asks for too much; `name` is the archive's."""
     builder = _Builder(name, limits)
     parser = DefusedXMLParser(target=builder, forbid_dtd=True)
     try:
@@ -244,7 +244,8 @@ def _ours(attributes: Mapping[str, str]) -> dict[str, str]:
 
 
 def stack_text(image: ImageEntry) -> bytes:
-    """The stack.xml of an image, every attribute written out: readers differ in what they take a missing one for."""
+    """Returns the stack.xml of an image, every attribute written out: readers differ in what they take a missing one
+    for."""
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<image version="0.0.5" w="{image.width}" h="{image.height}" xres="72" yres="72" xmlns:inkfall="{OURS}"'
@@ -282,5 +283,5 @@ def _foreign(ours: Mapping[str, str]) -> str:
 
 
 def printable(text: str) -> str:
-    """Text without the characters that XML 1.0 cannot hold (section 2.2)."""
+    """Returns text without the characters that XML 1.0 cannot hold (section 2.2)."""
     return re.sub("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "\ufffd", text)

@@ -27,7 +27,7 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ufffe\uffff]")
 
 
 def loads(data: bytes | str, cap: int = BYTES_CAP) -> Any:
-    """The value that `data`, one JSON document, holds.  FieldError tells the column where it is wrong."""
+    """Returns the value that `data`, one JSON document, holds.  FieldError tells the column where it is wrong."""
     if len(data) > cap:
         raise FieldError("", f"more than {cap >> 20} MiB", "less")
     try:
@@ -109,7 +109,7 @@ class Fields:
         return name in self._members
 
     def all(self) -> Mapping[str, Any]:
-        """The whole object."""
+        """Returns the whole object."""
         return self._members
 
     def at(self, name: str) -> str:
@@ -122,7 +122,7 @@ class Fields:
         return FieldError(self.at(name), found, expected)
 
     def take(self, name: str, default: Any = REQUIRED, expected: str = "a value") -> Any:
-        """The member as it stands.  A missing one is `default`; without default it is an error."""
+        """Returns the member as it stands.  A missing one is `default`; without default it is an error."""
         self._asked.add(name)
         if name not in self._members:
             if default is REQUIRED:
@@ -139,7 +139,7 @@ class Fields:
         return value
 
     def number(self, name: str, default: Any = REQUIRED, *, lo: float, hi: float) -> Any:
-        """A finite number of [lo, hi] as float."""
+        """Returns a finite number of [lo, hi] as float."""
         expected = f"a number{_range(lo, hi)}"
         value = self.take(name, default, expected)
         if name not in self._members:
@@ -156,7 +156,7 @@ class Fields:
         return value
 
     def text(self, name: str, default: Any = REQUIRED, *, cap: int = _NAME_CAP) -> Any:
-        """A string of 1 to `cap` characters without control characters."""
+        """Returns a string of 1 to `cap` characters without control characters."""
         expected = f"a text of 1 to {cap} printable characters"
         value = self.take(name, default, expected)
         if name in self._members and not is_name(value, cap):
@@ -164,7 +164,7 @@ class Fields:
         return value
 
     def integers(self, name: str, count: int, default: Any = REQUIRED, *, limit: int) -> Any:
-        """A tuple of `count` integers of absolute value at most `limit`."""
+        """Returns a tuple of `count` integers of absolute value at most `limit`."""
         expected = f"a list of {count} integers{_range(-limit, limit)}"
         value = self.take(name, default, expected)
         if name not in self._members:
@@ -176,7 +176,7 @@ class Fields:
         return tuple(value)
 
     def rest(self) -> Map[str, Any]:
-        """The members that were not read, frozen: kept, so that what a newer version wrote survives."""
+        """Returns the members that were not read, frozen: kept, so that what a newer version wrote survives."""
         out: Map[str, Any] = frozen({name: value for name, value in self._members.items() if name not in self._asked})
         return out
 

@@ -75,7 +75,7 @@ class Layout:
 
     @property
     def ours(self) -> bool:
-        """Whether `read_tiff` can decode it."""
+        """Tells whether `read_tiff` can decode it."""
         formats = self.tags.get("SampleFormat", (UNSIGNED,))
         colours = {1: 1, 2: 3}.get(self.one("Photometric", 99), 99)
         return (
@@ -90,7 +90,7 @@ class Layout:
 
 
 def read_layout(file: BinaryIO, name: str, limits: Limits = LIMITS) -> Layout:
-    """The tags of the first picture.  FileError if they are not sound or ask for too much."""
+    """Returns the tags of the first picture.  FileError if they are not sound or ask for too much."""
     size = file.seek(0, io.SEEK_END)
     file.seek(0)
     order, big, place = _start(file.read(16), name)
@@ -151,7 +151,7 @@ def _values(file: BinaryIO, name: str, entry: bytes, form: tuple[str, bool, int]
 
 
 def read_tiff(file: BinaryIO, layout: Layout, progress: Callable[[float], None] | None = None) -> np.ndarray:
-    """The picture as uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied, as stored (not turned).
+    """Returns the picture as uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied, as stored (not turned).
 
     `layout.ours` must hold.  FileError if a strip or tile is missing, short or damaged.
     """

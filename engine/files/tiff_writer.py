@@ -45,14 +45,15 @@ def write_tiff(file: BinaryIO, size: tuple[int, int], depth: int, strips: Iterab
 
 
 def deflated(block: np.ndarray) -> bytes:
-    """One strip as stored: each sample less its left neighbour, little-endian, zlib."""
+    """Returns one strip as stored: each sample less its left neighbour, little-endian, zlib."""
     ahead = block.copy()
     ahead[:, 1:] -= block[:, :-1]
     return isal_zlib.compress(np.ascontiguousarray(ahead, ahead.dtype.newbyteorder("<")), _LEVEL)
 
 
 def regrouped(strips: Iterable[np.ndarray], shape: tuple[int, int], rows: int) -> Iterator[np.ndarray]:
-    """The same rows (n, width, 4) in groups of exactly `rows`, the last may be fewer; `shape` is (height, width)."""
+    """Yields the same rows (n, width, 4) in groups of exactly `rows`, the last may be fewer; `shape` is (height,
+    width)."""
     height, width = shape
     block = None
     filled = done = 0

@@ -185,7 +185,7 @@ class ZipArchive:
         return name in self.members
 
     def open(self, name: str, at_once: bool = False) -> MemberStream:
-        """The bytes of a member, inflated as they are read.  FileError if it is not there or not readable.
+        """Returns the bytes of a member, inflated as they are read.  FileError if it is not there or not readable.
 
         `at_once`: all of it will be asked for in one call.
         """
@@ -209,7 +209,7 @@ class ZipArchive:
         return MemberStream(self.name, member, pieces)
 
     def read(self, name: str, most: int) -> bytes:
-        """A whole member of at most `most` bytes."""
+        """Returns a whole member of at most `most` bytes."""
         if name in self.members and self.members[name].size > most:
             found = self.members[name].size
             raise FileError(self.name, f"member {shown(name)}: {found} bytes; expected at most {most}")
@@ -300,7 +300,7 @@ class _Plain:
         self._rest = memoryview(b"")
 
     def piece(self, count: int) -> bytes | None:
-        """The next piece as it is, if it has so many bytes."""
+        """Returns the next piece as it is, if it has so many bytes."""
         if not self._rest:
             self._rest = memoryview(next(self._pieces, b""))
         whole = self._rest.obj
@@ -325,7 +325,7 @@ class _Plain:
 
 
 def safe_name(name: str) -> bool:
-    """Whether a member's name stays inside the archive.  One leading slash is let through: PyORA writes it."""
+    """Tells whether a member's name stays inside the archive.  One leading slash is let through: PyORA writes it."""
     inner = name.removeprefix("/")
     parts = inner.removesuffix("/").split("/")
     return (

@@ -59,7 +59,7 @@ class ZipWriter:
         self.written: dict[str, Written] = {}
 
     def add(self, name: str, data: bytes, deflate: bool = False) -> Written:
-        """A whole member; deflated only if that makes it smaller."""
+        """Returns a whole member; deflated only if that makes it smaller."""
         body, method = data, STORED
         if deflate:
             packed = igzip_lib.compress(data, 3, igzip_lib.COMP_DEFLATE)
@@ -75,7 +75,7 @@ class ZipWriter:
 
     @contextmanager
     def stored(self, name: str, most: int) -> Iterator[MemberSink]:
-        """A member written bit by bit, at most `most` bytes, as they are."""
+        """Yields a member written bit by bit, at most `most` bytes, as they are."""
         offset = self._begin(name)
         wide = most >= FULL32
         blank = Written(name, 0, "", 0, STORED, 0, offset)

@@ -29,7 +29,7 @@ Known = Mapping[str, tuple[str, Mapping[str, Any]]]  # textures of a painting: n
 
 
 def read(value: Any, place: str, folder: Path | None = None) -> tuple[DefineTexture, ...]:
-    """The definitions of a list [{"name": ..., "maker": ..., ...}, ...]; paths in them start from `folder`.
+    """Returns the definitions of a list [{"name": ..., "maker": ..., ...}, ...]; paths in them start from `folder`.
 
     FieldError names the member.
     """
@@ -46,12 +46,12 @@ def read(value: Any, place: str, folder: Path | None = None) -> tuple[DefineText
 
 
 def to_json(textures: Iterable[DefineTexture]) -> list[dict[str, Any]]:
-    """The list that `read` takes."""
+    """Returns the list that `read` takes."""
     return [{name: value for name, value in commands.to_json(command).items() if name != "do"} for command in textures]
 
 
 def _grounded(value: Any, folder: Path | None) -> Any:
-    """The same with the paths of pictures made absolute."""
+    """Returns the same with the paths of pictures made absolute."""
     if isinstance(value, list):
         return [_grounded(part, folder) for part in value]
     if not isinstance(value, dict):
@@ -63,7 +63,7 @@ def _grounded(value: Any, folder: Path | None) -> Any:
 
 
 def kind_of(command: DefineTexture) -> str:
-    """The kind of texture that a command defines, as far as its own members tell."""
+    """Returns the kind of texture that a command defines, as far as its own members tell."""
     if command.maker in MATCHED:
         stages = command.arguments.get("stages", 1)
         return "series" if isinstance(stages, int) and stages > 1 else "matched"
@@ -72,7 +72,7 @@ def kind_of(command: DefineTexture) -> str:
 
 
 def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any]) -> bool:
-    """Whether a texture of a painting is what this command would make: all that is told is as told."""
+    """Tells whether a texture of a painting is what this command would make: all that is told is as told."""
     told = {name: value for name, value in command.arguments.items() if name != "sha"}
     silent = _NAMING - set(told)
     return (
@@ -93,8 +93,8 @@ _MISSING = object()
 
 
 def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTexture | None:
-    """The definition of a painting's texture for use elsewhere; None if it needs the painting, or a picture whose place
-    is not known."""
+    """Returns the definition of a painting's texture for use elsewhere; None if it needs the painting, or a picture
+    whose place is not known."""
     if not _reachable(parameters):
         return None
     maker = kind
@@ -108,7 +108,7 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
 
 
 def _reachable(value: Any) -> bool:
-    """Whether all pictures that are named have absolute paths."""
+    """Tells whether all pictures that are named have absolute paths."""
     if isinstance(value, tuple):
         return all(map(_reachable, value))
     if not isinstance(value, Mapping):
@@ -125,8 +125,8 @@ def _is_path(key: str, value: Any) -> bool:
 def fitted(
     brush: Brush, needs: Sequence[DefineTexture], known: Known, taken: Iterable[str] = ()
 ) -> tuple[Brush, tuple[DefineTexture, ...], tuple[DefineTexture, ...]]:
-    """A brush for a painting whose textures are `known`: (the brush, the definitions that it needs, those of them that
-    the painting lacks).
+    """Returns a brush for a painting whose textures are `known`: (the brush, the definitions that it needs, those of
+    them that the painting lacks).
 
     A texture is defined anew only if the painting has none like it; under a free name, neither known nor `taken`, if
     another texture has its name.
@@ -154,14 +154,14 @@ def _free(name: str, taken: set[str]) -> str:
 
 
 def used(brush: Brush, needs: Iterable[DefineTexture]) -> tuple[DefineTexture, ...]:
-    """Those of some definitions that the brush refers to."""
+    """Returns those of some definitions that the brush refers to."""
     names: set[str] = set()
     _collect(settings.to_json(brush), names)
     return tuple(command for command in needs if command.name in names)
 
 
 def refers(brush: Brush, name: str) -> bool:
-    """Whether the brush refers to a texture."""
+    """Tells whether the brush refers to a texture."""
     names: set[str] = set()
     _collect(settings.to_json(brush), names)
     return name in names
@@ -177,7 +177,7 @@ def _collect(value: Any, names: set[str]) -> None:
 
 
 def renamed(brush: Brush, names: Mapping[str, str]) -> Brush:
-    """The brush with other names for the textures it refers to."""
+    """Returns the brush with other names for the textures it refers to."""
     if all(old == new for old, new in names.items()):
         return brush
     return settings.from_json(_renamed(settings.to_json(brush), names))

@@ -100,7 +100,7 @@ class Pictures(Protocol):
 
 
 def read(maker: str, members: Fields, place: Pictures) -> Plan:
-    """What a command `match` or `mix` asks for, its pictures read.  FieldError names the member."""
+    """Returns what a command `match` or `mix` asks for, its pictures read.  FieldError names the member."""
     shas = _known(members)
     given = [_example(members, "path", place, shas[0])]
     stages, how, mix = 1, "palette", Mix()
@@ -123,7 +123,7 @@ def read(maker: str, members: Fields, place: Pictures) -> Plan:
 
 
 def steps(plan: Plan) -> Iterator[Made]:
-    """The work, piece by piece; the last has the finished texture."""
+    """Yields the work, piece by piece; the last has the finished texture."""
     done: list[np.ndarray] = []
     for k in range(plan.stages):
         pattern = pattern_of(plan, k)
@@ -139,7 +139,7 @@ def steps(plan: Plan) -> Iterator[Made]:
 
 
 def pattern_of(plan: Plan, stage: int = 0) -> Pattern:
-    """What the texture, or one of the stages, is matched to."""
+    """Returns what the texture, or one of the stages, is matched to."""
     mix = plan.mix if plan.stages == 1 else Mix(weights(plan.stages)[stage], plan.mix.split)
     found = _pattern(plan.examples, plan.shape.within(plan.size), plan.how, mix)
     return adjusted(found, plan.bands, plan.axes)
@@ -153,14 +153,14 @@ def _pattern(examples: tuple[Example, ...], shape: Shape, how: str, mix: Mix) ->
 
 
 def rgba(colours: np.ndarray) -> np.ndarray:
-    """A picture (4, h, w) on the grid, opaque unless the colours (1, 3 or 4, h, w) are premultiplied RGBA."""
+    """Returns a picture (4, h, w) on the grid, opaque unless the colours (1, 3 or 4, h, w) are premultiplied RGBA."""
     out = np.ones((4, *colours.shape[1:]), np.float32)
     out[: max(len(colours), 3)] = np.clip(colours, 0.0, 1.0)
     return snapped(out)
 
 
 def sample(plan: Plan, colours: np.ndarray) -> Sample:
-    """The texture as a sample, with the roughness that its subbands have."""
+    """Returns the texture as a sample, with the roughness that its subbands have."""
     made = rgba(colours)
     own = ImageSource.of("", made)
     middle = own if plan.stages == 1 else stage(own, plan.stages, weights(plan.stages)[plan.stages // 2])
@@ -169,7 +169,8 @@ def sample(plan: Plan, colours: np.ndarray) -> Sample:
 
 
 def of_examples(maker: str, members: Fields, place: Pictures) -> Sample:
-    """The whole work at once.  FileError if an example is not the one that it was when the command was recorded."""
+    """Returns the whole work at once.  FileError if an example is not the one that it was when the command was
+    recorded."""
     plan = read(maker, members, place)
     known = members.take("examples", None)
     if isinstance(known, list) and known != [example.sha for example in plan.examples]:
@@ -184,7 +185,7 @@ def of_examples(maker: str, members: Fields, place: Pictures) -> Sample:
 
 
 def _other(members: Fields, name: str) -> Fields:
-    """A second picture: its path, or an object {"path" or "rect": ...}."""
+    """Returns a second picture: its path, or an object {"path" or "rect": ...}."""
     value = members.take(name, expected='a path, or {"path": ...} or {"rect": ...}')
     if isinstance(value, str):
         return Fields({"path": members.text(name, cap=4096)}, name)
@@ -194,14 +195,14 @@ def _other(members: Fields, name: str) -> Fields:
 
 
 def _known(members: Fields) -> list[Any]:
-    """The shas of both examples when the command was recorded; None where it was not."""
+    """Returns the shas of both examples when the command was recorded; None where it was not."""
     known = members.all().get("examples")
     return [*(known if isinstance(known, list) else ()), None, None][:2]
 
 
 def _example(members: Fields, name: str, place: Pictures, known: Any = None) -> Example:
-    """A picture.  One that is `known` by the sha that it had without its alpha is the one without: it was recorded
-    before alpha counted."""
+    """Returns a picture.  One that is `known` by the sha that it had without its alpha is the one without: it was
+    recorded before alpha counted."""
     if "path" not in members and "rect" not in members:
         raise FieldError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
     given = place.picture(members)
@@ -226,7 +227,7 @@ def _looked_at(planes: np.ndarray) -> Example:
 
 
 def _size(members: Fields, usual: tuple[int, ...], stages: int) -> tuple[int, int]:
-    """Height and width."""
+    """Returns height and width."""
     width, height = members.integers("size", 2, (usual[1], usual[0]), limit=SIDE_CAP)
     if width < 1 or height < 1 or stages * width * height > SAMPLE_CAP:
         raise members.fault("size", f"[width, height], each 1 to {SIDE_CAP}, {SAMPLE_CAP} pixels in all")
@@ -264,7 +265,7 @@ def _axes(members: Fields) -> tuple[float, ...]:
 
 
 def _beginning(plan: Plan, pattern: Pattern) -> np.ndarray:
-    """Noise, the same for all stages, or the start picture along its own axes of colour."""
+    """Returns noise, the same for all stages, or the start picture along its own axes of colour."""
     if plan.start is None:
         return noise(pattern.colours.count, plan.size, plan.seed)
     return started(pattern, axes_of(plan.start).planes(plan.start), plan.seed)

@@ -41,7 +41,7 @@ Maker = Callable[[Fields, PictureSource], Sample]
 
 
 def of_spectrum(members: Fields, place: PictureSource) -> Sample:
-    """An amplitude spectrum, from a picture or painted, becomes a sample (section 5.1)."""
+    """Returns an amplitude spectrum, from a picture or painted, becomes a sample (section 5.1)."""
     if "path" not in members and "rect" not in members:
         design = spectrum.read(members.all())
         return Sample(spectrum.spectrum_picture(spectrum.sample(spectrum.drawn(design, place.shape), design)))
@@ -64,7 +64,7 @@ def of_spectrum(members: Fields, place: PictureSource) -> Sample:
 
 
 def of_picture(members: Fields, place: PictureSource) -> Sample:
-    """A picture as it is, or a spectrum's sample, to be scattered (section 5.2)."""
+    """Returns a picture as it is, or a spectrum's sample, to be scattered (section 5.2)."""
     if "path" not in members and "rect" not in members:
         return of_spectrum(members, place)
     given = place.picture(members)
@@ -112,7 +112,7 @@ def _planes(rgba: np.ndarray) -> np.ndarray:
 
 
 def _phases(members: Fields, place: PictureSource, size: tuple[int, int]) -> np.ndarray:
-    """The phases that a picture tells, 0..1 for -pi..pi, 1/2 where it is transparent: float32 (1, h, w)."""
+    """Returns the phases that a picture tells, 0..1 for -pi..pi, 1/2 where it is transparent: float32 (1, h, w)."""
     given = place.picture(Fields({"path": members.text("phase", cap=4096)}, ""))
     if given.shape[1:] != size:
         raise FieldError(
@@ -142,7 +142,7 @@ def _fitted(response: np.ndarray, means: np.ndarray) -> np.ndarray:
 
 
 def _pictured(planes: np.ndarray) -> np.ndarray:
-    """Planes (1 or 3, h, w) of 0..1 as an opaque picture (4, h, w) on the grid."""
+    """Returns planes (1 or 3, h, w) of 0..1 as an opaque picture (4, h, w) on the grid."""
     out = np.ones((4, *planes.shape[1:]), np.float32)
     out[:3] = np.clip(planes, 0.0, 1.0)
     return snapped(out)

@@ -30,7 +30,7 @@ NARROWEST = 4  # pixels across the narrowest sample that tiles: a narrower one i
 
 
 def define(command: DefineTexture, root: Group, around: Around) -> Texture:
-    """The texture that a command defines over a painting with the layers `root`.
+    """Returns the texture that a command defines over a painting with the layers `root`.
 
     FieldError or LayerError names what is wrong with it, FileError the picture that cannot be read.
     """
@@ -62,7 +62,7 @@ def _canvas(command: DefineTexture, root: Group, around: Around) -> Texture:
 
 
 def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Around) -> Texture:
-    """A texture of a sample that `make` makes, tiled or scattered."""
+    """Returns a texture of a sample that `make` makes, tiled or scattered."""
     members = Fields(thawed(command.arguments), "")
     field = members.take("field", USUAL[command.maker])
     if field not in FIELDS:
@@ -79,8 +79,8 @@ def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Aro
 
 
 def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
-    """A texture, or a series of them, matched to examples.  The sha of the result is no condition: machines may differ
-    in the last bits of a transform; those of the examples are."""
+    """Returns a texture, or a series of them, matched to examples.  The sha of the result is no condition: machines
+    may differ in the last bits of a transform; those of the examples are."""
     members = Fields(thawed(command.arguments), "")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
@@ -95,7 +95,7 @@ def _example(command: DefineTexture, root: Group, around: Around) -> Texture:
 
 
 def _known(command: DefineTexture, members: Fields, around: Around) -> ImageSource | None:
-    """The picture of a definition that was carried out before."""
+    """Returns the picture of a definition that was carried out before."""
     sha = members.text("sha", None, cap=64)
     return replace(around.pictures[sha], name=command.name) if sha is not None and sha in around.pictures else None
 

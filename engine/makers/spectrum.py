@@ -61,7 +61,7 @@ class Design:
     forward: bool = False
 
     def to_arguments(self) -> Map[str, Any]:
-        """The members of a texture command that `read` gives back; defaults are left out."""
+        """Returns the members of a texture command that `read` gives back; defaults are left out."""
         plain = Design(phase=usual_phase(self.forward))
         out: dict[str, Any] = {"size": self.size}
         if self.shapes:
@@ -75,7 +75,8 @@ class Design:
 
 
 def read(arguments: Any) -> Design:
-    """The design that a texture command describes; members of others are ignored.  FieldError names what is wrong."""
+    """Returns the design that a texture command describes; members of others are ignored.  FieldError names what is
+    wrong."""
     members = Fields(thawed(arguments), "")
     size = members.integers("size", 2, Design().size, limit=SIDES[1])
     if min(size) < SIDES[0]:
@@ -93,7 +94,7 @@ def read(arguments: Any) -> Design:
 
 
 def usual_phase(forward: bool) -> str:
-    """Where nothing is said: a pattern is transformed as it is."""
+    """Tells where nothing is said: a pattern is transformed as it is."""
     return "zero" if forward else "random"
 
 
@@ -140,7 +141,7 @@ def _stroke(value: Any, where: str) -> c.Stroke:
 
 
 def _frozen(value: Any) -> Any:
-    """A JSON value as one that hashes: objects as Map, lists as tuples."""
+    """Returns a JSON value as one that hashes: objects as Map, lists as tuples."""
     if isinstance(value, dict):
         return Map({name: _frozen(member) for name, member in value.items()})
     return tuple(map(_frozen, value)) if isinstance(value, list | tuple) else value
@@ -171,7 +172,7 @@ def loudness(amplitude: np.ndarray) -> np.ndarray:
 
 
 def amplitude(loudness: np.ndarray) -> np.ndarray:
-    """The inverse of `loudness`, up to the grid."""
+    """Returns the inverse of `loudness`, up to the grid."""
     return np.expm1(loudness * np.float32(np.log(SPAN))) * np.float32(1 / (SPAN - 1))
 
 
@@ -179,7 +180,7 @@ Look = Callable[[Map[str, Any]], np.ndarray]  # the picture that a shape names: 
 
 
 def begun(design: Design, look: Look | None = None) -> Sheets:
-    """The shapes, before any stroke; the loudest of them counts.  `look` is needed for those of PICTURED."""
+    """Returns the shapes, before any stroke; the loudest of them counts.  `look` is needed for those of PICTURED."""
     width, height = design.size
     together = np.zeros((1, height, width), np.float32)
     phase = np.full((1, height, width), _GROUND["phase"], np.float32)
@@ -197,8 +198,8 @@ def begun(design: Design, look: Look | None = None) -> Sheets:
 
 
 def of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """The amplitude spectrum of a picture, float32 (1 or 3, h, w), 0..1: its windows of `size` (h, w), half over one
-    another, averaged as powers (the modified periodogram of Lewis 1984, section 5.3).
+    """Returns the amplitude spectrum of a picture, float32 (1 or 3, h, w), 0..1: its windows of `size` (h, w), half
+    over one another, averaged as powers (the modified periodogram of Lewis 1984, section 5.3).
 
     A picture smaller than that is enlarged to it.
     """
@@ -213,7 +214,8 @@ def of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
 
 
 def phase_of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """The phases of the window of `size` (h, w) in the middle of a picture, as a sheet: float32 (1, h, w), 0..1.
+    """Returns the phases of the window of `size` (h, w) in the middle of a picture, as a sheet: float32 (1, h, w),
+    0..1.
 
     With them, the sample looks like the picture; the field of its copies is that of a sampled impulse response
     (section 5.3), whose window it brings along.
@@ -240,7 +242,7 @@ def _planes(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
 
 
 def _starts(length: int, window: int) -> list[int]:
-    """Where windows begin: half over one another, at most WINDOWS, the first and the last at the ends."""
+    """Tells where windows begin: half over one another, at most WINDOWS, the first and the last at the ends."""
     count = min(WINDOWS, -(-2 * (length - window) // window) + 1)
     return [round(i * (length - window) / max(count - 1, 1)) for i in range(count)]
 
@@ -251,7 +253,7 @@ def _sheets(amplitude: np.ndarray, phase: np.ndarray) -> Sheets:
 
 
 def touch(sheets: Sheets, brush: Any, sheet: str = "amplitude", cache: TileCache | None = None) -> LiveStroke:
-    """A stroke that begins on one of SHEETS; points in pixels from the corner.  BrushError as `LiveStroke`."""
+    """Returns a stroke that begins on one of SHEETS; points in pixels from the corner.  BrushError as `LiveStroke`."""
     planes = getattr(sheets, sheet)
     width, height = sheets.size
     rect = Rect(0, 0, width, height)
@@ -263,7 +265,8 @@ def touch(sheets: Sheets, brush: Any, sheet: str = "amplitude", cache: TileCache
 
 
 def stroked(sheets: Sheets, live: LiveStroke, mirrored: bool = True) -> Sheets:
-    """The sheets with a stroke as it is now, which `touch` began on them, and its mirror image if it is to have one."""
+    """Returns the sheets with a stroke as it is now, which `touch` began on them, and its mirror image if it is to
+    have one."""
     sheet = live.layer.name
     width, height = sheets.size
     before = getattr(sheets, sheet)
@@ -281,7 +284,8 @@ def stroked(sheets: Sheets, live: LiveStroke, mirrored: bool = True) -> Sheets:
 
 
 def _mirrored(before: np.ndarray, after: np.ndarray, odd: bool) -> np.ndarray:
-    """What changed is seen at the opposite frequency too; where both changed, what changed more, or the mean."""
+    """Returns what changed is seen at the opposite frequency too; where both changed, what changed more, or the
+    mean."""
     there = spectra.opposite(after)
     if odd:
         there = 1.0 - there
@@ -292,7 +296,7 @@ def _mirrored(before: np.ndarray, after: np.ndarray, odd: bool) -> np.ndarray:
 
 
 def drawn(design: Design, look: Look | None = None) -> Sheets:
-    """The spectrum with all its shapes and strokes.  BrushError if a brush cannot paint it."""
+    """Returns the spectrum with all its shapes and strokes.  BrushError if a brush cannot paint it."""
     sheets = begun(design, look)
     for stroke in design.strokes:
         sheets = with_stroke(sheets, stroke, not design.forward)
@@ -300,14 +304,14 @@ def drawn(design: Design, look: Look | None = None) -> Sheets:
 
 
 def with_stroke(sheets: Sheets, stroke: c.Stroke, mirrored: bool = True) -> Sheets:
-    """One more stroke, whole."""
+    """Returns one more stroke, whole."""
     live = touch(sheets, stroke.brush, stroke.layer or SHEETS[0])
     live.lay(stroke.points + np.array([*stroke.origin, 0, 0, 0, 0]))
     return stroked(sheets, live, mirrored)
 
 
 def sample(sheets: Sheets, design: Design) -> np.ndarray:
-    """The texture: float32 (1 or 3, h, w), mean 0, standard deviation `spectra.SPREAD`; it tiles."""
+    """Returns the texture: float32 (1 or 3, h, w), mean 0, standard deviation `spectra.SPREAD`; it tiles."""
     phase: np.ndarray | int | None = None
     if design.phase == "random":
         phase = design.seed
@@ -318,7 +322,8 @@ def sample(sheets: Sheets, design: Design) -> np.ndarray:
 
 
 def spectrum_picture(texture: np.ndarray) -> np.ndarray:
-    """A sample as the picture that brushes and files hold: float32 (4, h, w) on the grid, (S + 1) / 2 over alpha 1."""
+    """Returns a sample as the picture that brushes and files hold: float32 (4, h, w) on the grid, (S + 1) / 2 over
+    alpha 1."""
     out = np.ones((4, *texture.shape[1:]), np.float32)
     out[:3] = np.clip(np.float32(0.5) + np.float32(0.5) * texture, 0.0, 1.0)
     return snapped(out)

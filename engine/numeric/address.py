@@ -66,7 +66,7 @@ class Rect(NamedTuple):
         return self.x0 < other.x1 and other.x0 < self.x1 and self.y0 < other.y1 and other.y0 < self.y1
 
     def union(self, other: Rect) -> Rect:
-        """The smallest rectangle that holds both; an empty one counts for nothing."""
+        """Returns the smallest rectangle that holds both; an empty one counts for nothing."""
         if self.empty:
             return other
         if other.empty:
@@ -78,29 +78,30 @@ class Rect(NamedTuple):
         return Rect(self.x0 - by, self.y0 - by, self.x1 + by, self.y1 + by)
 
     def evened(self) -> Rect:
-        """The smallest rectangle around this one whose corners have even coordinates."""
+        """Returns the smallest rectangle around this one whose corners have even coordinates."""
         return Rect(self.x0 & ~1, self.y0 & ~1, (self.x1 + 1) & ~1, (self.y1 + 1) & ~1)
 
     def parents(self) -> Rect:
-        """The coarser pixels that expand reads for an even rectangle: those above it and one more all around."""
+        """Returns the coarser pixels that expand reads for an even rectangle: those above it and one more all
+        around."""
         return Rect((self.x0 >> 1) - 1, (self.y0 >> 1) - 1, (self.x1 >> 1) + 1, (self.y1 >> 1) + 1)
 
     def zoomed(self, levels: int) -> Rect:
-        """The pixels `levels` finer (or coarser, if negative) that meet this rectangle's area."""
+        """Returns the pixels `levels` finer (or coarser, if negative) that meet this rectangle's area."""
         if levels >= 0:
             return Rect(self.x0 << levels, self.y0 << levels, self.x1 << levels, self.y1 << levels)
         n = -levels
         return Rect(self.x0 >> n, self.y0 >> n, -(-self.x1 >> n), -(-self.y1 >> n))
 
     def slices(self, inside: Rect) -> tuple[slice, slice]:
-        """Row and column slices of this rectangle in an array that covers `inside`."""
+        """Returns row and column slices of this rectangle in an array that covers `inside`."""
         return (
             slice(self.y0 - inside.y0, self.y1 - inside.y0),
             slice(self.x0 - inside.x0, self.x1 - inside.x0),
         )
 
     def tiles(self, level: int) -> Iterator[TileKey]:
-        """The tiles of `level` that meet this rectangle, row by row."""
+        """Yields the tiles of `level` that meet this rectangle, row by row."""
         if self.empty:
             return
         for y in range(self.y0 // TILE, (self.y1 - 1) // TILE + 1):

@@ -32,12 +32,12 @@ class Analysis:
 
     @cached_property
     def colours(self) -> int:
-        """How many different colours there are."""
+        """Tells how many different colours there are."""
         return colour_count(self.packed)
 
     @cached_property
     def regions(self) -> int:
-        """How many regions of one colour there are, pixels being neighbours left, right, above and below."""
+        """Tells how many regions of one colour there are, pixels being neighbours left, right, above and below."""
         return region_count(self.packed)
 
     @cached_property
@@ -47,7 +47,7 @@ class Analysis:
 
     @cached_property
     def grey(self) -> np.ndarray:
-        """The brightness of the middle, at most ANALYSED_SIDE x ANALYSED_SIDE pixels of it: float32 (h, w)."""
+        """Returns the brightness of the middle, at most ANALYSED_SIDE x ANALYSED_SIDE pixels of it: float32 (h, w)."""
         return brightness(middle(self.pixels, ANALYSED_SIDE))
 
     @cached_property
@@ -62,12 +62,12 @@ class Analysis:
 
     @cached_property
     def predictor(self) -> Predictor:
-        """The all-pole filter fitted to the brightness."""
+        """Returns the all-pole filter fitted to the brightness."""
         return fit(self.grey, _REACH)
 
     @cached_property
     def all_pole(self) -> np.ndarray:
-        """The spectrum of that filter, as `power`."""
+        """Returns the spectrum of that filter, as `power`."""
         out: np.ndarray = self.predictor.spectrum(*self.grey.shape)[0]
         return out
 
@@ -79,7 +79,8 @@ class Analysis:
 
     @cached_property
     def slope(self) -> float | None:
-        """The b of amplitudes that fall as 1/f^b, by least squares over the rings; None if there are too few."""
+        """Returns the b of amplitudes that fall as 1/f^b, by least squares over the rings; None if there are too
+        few."""
         frequencies, means, _ = self.radial
         good = means > 1e-14
         if good.sum() < 4:
@@ -90,7 +91,7 @@ class Analysis:
 
 
 def middle(pixels: np.ndarray, side: int) -> np.ndarray:
-    """The middle of a picture (h, w, ...), at most `side` pixels along each side."""
+    """Returns the middle of a picture (h, w, ...), at most `side` pixels along each side."""
     top, left = (max(0, n - side) // 2 for n in pixels.shape[:2])
     return pixels[top : top + side, left : left + side]
 
@@ -105,7 +106,7 @@ def brightness(pixels: np.ndarray) -> np.ndarray:
 
 
 def power_spectrum(grey: np.ndarray) -> np.ndarray:
-    """The power spectrum of (h, w) under a radial window: float64 (h, w), zero frequency at [h // 2, w // 2].
+    """Returns the power spectrum of (h, w) under a radial window: float64 (h, w), zero frequency at [h // 2, w // 2].
 
     It is scaled so that its mean is, as nearly as the window lets one tell, the variance.
     """
@@ -118,7 +119,7 @@ def power_spectrum(grey: np.ndarray) -> np.ndarray:
 
 
 def autocorrelation(grey: np.ndarray) -> np.ndarray:
-    """The correlation of a picture (h, w) with itself, displaced: float64 (h, w), the displacement (0, 0) at
+    """Returns the correlation of a picture (h, w) with itself, displaced: float64 (h, w), the displacement (0, 0) at
     [h // 2, w // 2], where it is 1; all 0 for a flat picture.
 
     Each displacement's sum is divided by the number of pixels that overlap, so it does not fade with distance.

@@ -23,42 +23,41 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.numeric.kernel import dividing, forced, kernel
+from engine.numeric.kernel import Array, dividing, forced, kernel
 from engine.numeric.stand_in import or_plain
 
-ZERO, HALF, ONE, TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
-TINY = np.float32(1e-30)
+ZERO, HALF, ONE, TWO, TINY = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2), np.float32(1e-30)
 _FLOAT32 = np.dtype(np.float32)
 # Colour burn jumps where the backdrop is white, colour dodge where it is black.  A backdrop that was composited is
 # white or black up to rounding; sixteen steps finer than the grid counts as equal.
 NEAR = np.float32(2.0**-20)
 
 Kernel = Callable[[np.ndarray, np.ndarray, np.float32], None]
-RGB = tuple[np.float32, np.float32, np.float32]
-Channel = Callable[[np.float32, np.float32, np.float32, np.float32], np.float32]  # backdrop, source, each with alpha
-Colour = Callable[[np.float32, np.float32, np.float32, np.float32, np.float32, np.float32, np.float32, np.float32], RGB]
-Shares = Callable[[np.float32, np.float32], tuple[np.float32, np.float32]]
+F32 = np.float32
+RGB = tuple[F32, F32, F32]
+Channel = Callable[[F32, F32, F32, F32], F32]  # backdrop, source, each with alpha
+Colour = Callable[[F32, F32, F32, F32, F32, F32, F32, F32], RGB]
 
 
 @forced
-def _clamp(value: np.float32, top: np.float32) -> np.float32:
+def _clamp(value: F32, top: F32) -> F32:
     value = value if value > ZERO else ZERO  # in this order NaN becomes 0
     return value if value < top else top
 
 
-def clamped(values: np.ndarray, top: np.ndarray | np.float32) -> np.ndarray:
+def clamped(values: np.ndarray, top: np.ndarray | F32) -> np.ndarray:
     """`_clamp` of all values."""
     values = np.where(values > ZERO, values, ZERO)
     return np.where(values < top, values, top)
 
 
 @forced
-def _least(x: np.float32, y: np.float32) -> np.float32:
+def _least(x: F32, y: F32) -> F32:
     return x if x < y else y
 
 
 @forced
-def _most(x: np.float32, y: np.float32) -> np.float32:
+def _most(x: F32, y: F32) -> F32:
     return x if x > y else y
 
 
@@ -66,49 +65,49 @@ def _most(x: np.float32, y: np.float32) -> np.float32:
 
 
 @forced
-def _multiply(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _multiply(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return s * b
 
 
 @forced
-def _screen(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _screen(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return b * sa + s * ba - s * b
 
 
 @forced
-def _hard_light(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _hard_light(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return TWO * s * b if TWO * s <= sa else sa * ba - TWO * (ba - b) * (sa - s)
 
 
 @forced
-def _overlay(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _overlay(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return TWO * s * b if TWO * b <= ba else sa * ba - TWO * (ba - b) * (sa - s)
 
 
 @forced
-def _darken(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _darken(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return _least(b * sa, s * ba)
 
 
 @forced
-def _lighten(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _lighten(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return _most(b * sa, s * ba)
 
 
 @forced
-def _color_dodge(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _color_dodge(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     bright = sa * _least(ba, b * sa / _most(sa - s, TINY))
     return bright if b > NEAR else ZERO
 
 
 @forced
-def _color_burn(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _color_burn(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     dark = sa * (ba - _least(ba, (ba - b) * sa / _most(s, TINY)))
     return dark if ba - b > NEAR else sa * ba
 
 
 @forced
-def _soft_light(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _soft_light(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     cb = _least(b / _most(ba, TINY), ONE)
     low = ((np.float32(16) * cb - np.float32(12)) * cb + np.float32(4)) * cb
     d = low if cb <= np.float32(0.25) else np.sqrt(cb)
@@ -117,7 +116,7 @@ def _soft_light(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) ->
 
 
 @forced
-def _difference(b: np.float32, ba: np.float32, s: np.float32, sa: np.float32) -> np.float32:
+def _difference(b: F32, ba: F32, s: F32, sa: F32) -> F32:
     return abs(b * sa - s * ba)
 
 
@@ -144,12 +143,12 @@ def _separable(mix: Channel) -> Kernel:
 
 
 @forced
-def _lum(r: np.float32, g: np.float32, b: np.float32) -> np.float32:
+def _lum(r: F32, g: F32, b: F32) -> F32:
     return np.float32(0.3) * r + np.float32(0.59) * g + np.float32(0.11) * b
 
 
 @forced
-def _set_lum(r: np.float32, g: np.float32, b: np.float32, light: np.float32, top: np.float32) -> RGB:
+def _set_lum(r: F32, g: F32, b: F32, light: F32, top: F32) -> RGB:
     """SetLum with ClipColor, for colours in 0..top instead of 0..1 (both are homogeneous)."""
     shift = light - _lum(r, g, b)
     r, g, b = r + shift, g + shift, b + shift
@@ -162,12 +161,12 @@ def _set_lum(r: np.float32, g: np.float32, b: np.float32, light: np.float32, top
 
 
 @forced
-def _sat(r: np.float32, g: np.float32, b: np.float32) -> np.float32:
+def _sat(r: F32, g: F32, b: F32) -> F32:
     return _most(r, _most(g, b)) - _least(r, _least(g, b))
 
 
 @forced
-def _set_sat(r: np.float32, g: np.float32, b: np.float32, sat: np.float32) -> RGB:
+def _set_sat(r: F32, g: F32, b: F32, sat: F32) -> RGB:
     """SetSat; depends on ratios of differences only, so it is given unscaled colours, whose differences are exact."""
     low = _least(r, _least(g, b))
     scale = sat / _most(_sat(r, g, b), TINY)
@@ -175,60 +174,24 @@ def _set_sat(r: np.float32, g: np.float32, b: np.float32, sat: np.float32) -> RG
 
 
 @forced
-def _hue(
-    x0: np.float32,
-    x1: np.float32,
-    x2: np.float32,
-    ba: np.float32,
-    y0: np.float32,
-    y1: np.float32,
-    y2: np.float32,
-    sa: np.float32,
-) -> RGB:
+def _hue(x0: F32, x1: F32, x2: F32, ba: F32, y0: F32, y1: F32, y2: F32, sa: F32) -> RGB:
     r, g, b = _set_sat(y0, y1, y2, _sat(x0, x1, x2) * sa)
     return _set_lum(r, g, b, _lum(x0, x1, x2) * sa, sa * ba)
 
 
 @forced
-def _saturation(
-    x0: np.float32,
-    x1: np.float32,
-    x2: np.float32,
-    ba: np.float32,
-    y0: np.float32,
-    y1: np.float32,
-    y2: np.float32,
-    sa: np.float32,
-) -> RGB:
+def _saturation(x0: F32, x1: F32, x2: F32, ba: F32, y0: F32, y1: F32, y2: F32, sa: F32) -> RGB:
     r, g, b = _set_sat(x0, x1, x2, _sat(y0, y1, y2) * ba)
     return _set_lum(r, g, b, _lum(x0, x1, x2) * sa, sa * ba)
 
 
 @forced
-def _color(
-    x0: np.float32,
-    x1: np.float32,
-    x2: np.float32,
-    ba: np.float32,
-    y0: np.float32,
-    y1: np.float32,
-    y2: np.float32,
-    sa: np.float32,
-) -> RGB:
+def _color(x0: F32, x1: F32, x2: F32, ba: F32, y0: F32, y1: F32, y2: F32, sa: F32) -> RGB:
     return _set_lum(y0 * ba, y1 * ba, y2 * ba, _lum(x0, x1, x2) * sa, sa * ba)
 
 
 @forced
-def _luminosity(
-    x0: np.float32,
-    x1: np.float32,
-    x2: np.float32,
-    ba: np.float32,
-    y0: np.float32,
-    y1: np.float32,
-    y2: np.float32,
-    sa: np.float32,
-) -> RGB:
+def _luminosity(x0: F32, x1: F32, x2: F32, ba: F32, y0: F32, y1: F32, y2: F32, sa: F32) -> RGB:
     return _set_lum(x0 * sa, x1 * sa, x2 * sa, _lum(y0, y1, y2) * ba, sa * ba)
 
 
@@ -255,36 +218,36 @@ def _inseparable(mix: Colour) -> Kernel:
 
 
 @forced
-def _src_over(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
+def _src_over(sa: F32, ba: F32) -> tuple[F32, F32]:
     return ONE, ONE - sa
 
 
 @forced
-def _dst_in(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
+def _dst_in(sa: F32, ba: F32) -> tuple[F32, F32]:
     return ZERO, sa
 
 
 @forced
-def _dst_out(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
+def _dst_out(sa: F32, ba: F32) -> tuple[F32, F32]:
     return ZERO, ONE - sa
 
 
 @forced
-def _src_atop(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
+def _src_atop(sa: F32, ba: F32) -> tuple[F32, F32]:
     return ba, ONE - sa
 
 
 @forced
-def _dst_atop(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
+def _dst_atop(sa: F32, ba: F32) -> tuple[F32, F32]:
     return ONE - ba, sa
 
 
 @forced
-def _plus(sa: np.float32, ba: np.float32) -> tuple[np.float32, np.float32]:
+def _plus(sa: F32, ba: F32) -> tuple[F32, F32]:
     return ONE, ONE
 
 
-def _porter_duff(shares: Shares) -> Kernel:
+def _porter_duff(shares: Callable[[F32, F32], tuple[F32, F32]]) -> Kernel:
     """fl(x y) and fl(x + y) are monotone, so colour <= alpha needs no clamp; only `plus` passes 1."""
 
     @dividing
@@ -352,7 +315,7 @@ _ROWS = (
 BLENDS: dict[str, Blend] = {row.name: row for row in _ROWS}
 
 
-def _place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
+def _place(target: np.ndarray, source: np.ndarray, opacity: F32) -> None:
     """As `place`, plainly."""
     alpha = clamped(source[3], ONE)
     target[:3], target[3] = opacity * clamped(source[:3], alpha), opacity * alpha
@@ -360,7 +323,7 @@ def _place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
 
 @or_plain(_place)
 @kernel
-def place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
+def place(target: np.ndarray, source: np.ndarray, opacity: F32) -> None:
     """Write `opacity` times the clamped source: what every mode with `alone` gives on an empty backdrop."""
     for i in range(target.shape[1]):
         sa = _clamp(source[3, i], ONE)
@@ -370,9 +333,7 @@ def place(target: np.ndarray, source: np.ndarray, opacity: np.float32) -> None:
 
 
 @kernel
-def place_pair(
-    target: np.ndarray, lower: np.ndarray, upper: np.ndarray, lower_opacity: np.float32, upper_opacity: np.float32
-) -> None:
+def place_pair(target: Array, lower: Array, upper: Array, lower_opacity: F32, upper_opacity: F32) -> None:
     """`place` of one source, then `src-over` of another, with the same bits, in one pass over memory."""
     for i in range(target.shape[1]):
         la, ua = _clamp(lower[3, i], ONE), _clamp(upper[3, i], ONE)
@@ -384,9 +345,7 @@ def place_pair(
 
 
 @kernel
-def over_pair(
-    backdrop: np.ndarray, lower: np.ndarray, upper: np.ndarray, lower_opacity: np.float32, upper_opacity: np.float32
-) -> None:
+def over_pair(backdrop: Array, lower: Array, upper: Array, lower_opacity: F32, upper_opacity: F32) -> None:
     """`src-over` of two sources, one after the other, with the same bits, in one pass over memory."""
     for i in range(backdrop.shape[1]):
         la, ua = _clamp(lower[3, i], ONE), _clamp(upper[3, i], ONE)
@@ -399,7 +358,7 @@ def over_pair(
 
 @kernel
 def opaque(source: np.ndarray) -> bool:
-    """Whether alpha is at least 1 everywhere in (4, n); stops in the first run of 1024 pixels where it is not."""
+    """Tells whether alpha is at least 1 everywhere in (4, n); stops in the first run of 1024 pixels where it is not."""
     n = source.shape[1]
     for start in range(0, n, 1024):
         stop = min(start + 1024, n)

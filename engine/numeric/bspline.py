@@ -26,19 +26,19 @@ class Plane(NamedTuple):
 
 
 def prefilter(side: int) -> np.ndarray:
-    """What the coefficients have, along one axis, of each frequency of the voxels: float32 (side,)."""
+    """Returns what the coefficients have, along one axis, of each frequency of the voxels: float32 (side,)."""
     return (3.0 / (2.0 + np.cos(2.0 * np.pi * np.arange(side) / side))).astype(np.float32)
 
 
 def response(frequency: np.ndarray) -> np.ndarray:
-    """What the spline has, along one axis, of a wave of so many periods a voxel: float64."""
+    """Returns what the spline has, along one axis, of a wave of so many periods a voxel: float64."""
     out: np.ndarray = np.sinc(frequency) ** 4 * 3.0 / (2.0 + np.cos(2.0 * np.pi * frequency))
     return out
 
 
 def blur(pictures: np.ndarray) -> np.ndarray:
-    """Pictures (..., h, w), mirrored at their edges, with as much less of what is fine as they have where they are cut
-    out at a slant in this way, on average over slants: float32."""
+    """Returns pictures (..., h, w), mirrored at their edges, with as much less of what is fine as they have where
+    they are cut out at a slant in this way, on average over slants: float32."""
     from scipy.fft import dctn, idctn
 
     h, w = pictures.shape[-2:]
@@ -52,7 +52,7 @@ def blur(pictures: np.ndarray) -> np.ndarray:
 
 
 def cut(coefficients: np.ndarray, plane: Plane, size: int) -> np.ndarray:
-    """The samples of a plane of the spline with `coefficients`, float32 (n, n, n): float32 (size, size)."""
+    """Returns the samples of a plane of the spline with `coefficients`, float32 (n, n, n): float32 (size, size)."""
     out = np.empty((size, size), np.float32)
     _cut(coefficients, *plane, out)
     return out
@@ -65,7 +65,7 @@ def lay(total: np.ndarray, plane: Plane, values: np.ndarray) -> None:
 
 @inlined
 def _weigh(place: float, side: int, places: np.ndarray, weights: np.ndarray) -> None:
-    """The four coefficients that a place along an axis lies among, and their weights."""
+    """Finds the four coefficients that a place along an axis lies among, and their weights."""
     low = math.floor(place)
     t = np.float32(place - low)
     u = np.float32(1.0) - t

@@ -151,7 +151,7 @@ def to_premul8(planes: np.ndarray) -> np.ndarray:
 
 
 def from_rgba8(pixels: np.ndarray) -> np.ndarray:
-    """Planes on the grid of straight 8-bit RGBA (h, w, 4).
+    """Returns planes on the grid of straight 8-bit RGBA (h, w, 4).
 
     `to_rgba8` gives the same pixels back wherever alpha > 0: colour is scaled by the alpha that lies on the grid, and
     that is at least 257 steps, one more than there are colours.
@@ -160,7 +160,7 @@ def from_rgba8(pixels: np.ndarray) -> np.ndarray:
 
 
 def from_rgba16(pixels: np.ndarray) -> np.ndarray:
-    """Planes on the grid of straight uint16 RGBA (h, w, 4).
+    """Returns planes on the grid of straight uint16 RGBA (h, w, 4).
 
     `to_rgba16` gives alpha back, and colour where alpha is full; elsewhere colour to half a grid step over alpha.
     """

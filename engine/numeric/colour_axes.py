@@ -39,7 +39,7 @@ class ColourAxes:
         return combined(self.back, colours, -self.back.astype(np.float64) @ self.mean)
 
     def colours(self, planes: np.ndarray) -> np.ndarray:
-        """The colours (C, ...) of planes (R, ...), kept within the example's range: float32."""
+        """Returns the colours (C, ...) of planes (R, ...), kept within the example's range: float32."""
         out = self.unclipped(planes)
         for plane, low, high in zip(out, self.low, self.high, strict=True):
             np.clip(plane, low, high, out=plane)
@@ -51,7 +51,7 @@ class ColourAxes:
 
 
 def axes_of(colours: np.ndarray) -> ColourAxes:
-    """The axes of pictures (C, ...), float32 in 0..1."""
+    """Returns the axes of pictures (C, ...), float32 in 0..1."""
     flat = colours.reshape(colours.shape[0], -1)
     mean = flat.mean(axis=1, dtype=np.float64)
     covariance = np.zeros((len(flat), len(flat)))
@@ -73,7 +73,7 @@ def axes_of(colours: np.ndarray) -> ColourAxes:
 
 
 def aligned(axes: ColourAxes, like: ColourAxes) -> ColourAxes:
-    """The same axes, those turned round that point away from the axes of the same rank of `like`.
+    """Returns the same axes, those turned round that point away from the axes of the same rank of `like`.
 
     Both are axes of the same colours; a way from one to the other that turns none round keeps bright spots bright.
     """
@@ -98,19 +98,19 @@ def blended(a: ColourAxes, b: ColourAxes, weight: float) -> ColourAxes:
 
 
 def like(axes: ColourAxes, other: ColourAxes) -> ColourAxes:
-    """The same axes of colours with no fewer channels and axes than another's: `blended` at weight 0."""
+    """Returns the same axes of colours with no fewer channels and axes than another's: `blended` at weight 0."""
     return blended(axes, other, 0.0)
 
 
 def counted(axes: ColourAxes, count: int) -> ColourAxes:
-    """The longest `count` axes; what is missing has no length."""
+    """Returns the longest `count` axes; what is missing has no length."""
     short = max(0, count - axes.count)
     columns = np.pad(axes.axes[:, :count], ((0, 0), (0, short)))
     return replace(axes, axes=columns, back=np.pad(axes.back[:count], ((0, short), (0, 0))))
 
 
 def _padded(given: ColourAxes, wide: int, deep: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Mean, axes, low and high of colours of more channels: grey becomes RGB, what has no alpha is opaque."""
+    """Returns mean, axes, low and high of colours of more channels: grey becomes RGB, what has no alpha is opaque."""
     mean, axes, low, high = given.mean, given.axes, given.low, given.high
     if mean.size == 1 < wide:
         mean, low, high = (np.repeat(values, 3) for values in (mean, low, high))
@@ -122,7 +122,7 @@ def _padded(given: ColourAxes, wide: int, deep: int) -> tuple[np.ndarray, np.nda
 
 
 def _brightness(vectors: np.ndarray) -> np.ndarray:
-    """Which side of an axis is the brighter one; where neither is, the redder, the greener."""
+    """Tells which side of an axis is the brighter one; where neither is, the redder, the greener."""
     slightly = 1.0 + 1e-6 * np.arange(len(vectors), 0, -1)
     out: np.ndarray = (vectors * slightly[:, None]).sum(axis=0)
     return out

@@ -20,13 +20,13 @@ _SIXTEENTH = np.float32(1.0 / 16.0)
 
 
 def parents(rect: Rect) -> Rect:
-    """The pixels of the next coarser level that E needs for the (even) rectangle `rect`."""
+    """Returns the pixels of the next coarser level that E needs for the (even) rectangle `rect`."""
     return rect.zoomed(-1).grown(1)
 
 
 @inner
 def blend_rows(near: np.ndarray, far: np.ndarray, out: np.ndarray) -> None:
-    """The vertical half of E: 3 near + far, to be divided by 4."""
+    """Writes the vertical half of E: 3 near + far, to be divided by 4."""
     for i in range(out.size):
         out[i] = _THREE * near[i] + far[i]
 
@@ -67,7 +67,7 @@ def subtract_expanded(fine: np.ndarray, coarse: np.ndarray) -> bool:
 
 @kernel
 def expand_row(t: np.ndarray, out: np.ndarray) -> None:
-    """The horizontal half of E and the division by 16: `t` (n + 2,) to `out` (2n,)."""
+    """Writes the horizontal half of E and the division by 16: `t` (n + 2,) to `out` (2n,)."""
     n = out.size // 2
     left, mid, right = t[0:n], t[1 : n + 1], t[2 : n + 2]
     for i in range(n):

@@ -25,7 +25,7 @@ def frames(count: int, turned: Sequence[float] | np.ndarray = (0.0, 0.0, 0.0)) -
 
 
 def frame(normal: np.ndarray) -> np.ndarray:
-    """A unit vector and the directions of rows and columns on planes across it: float64 (3, 3)."""
+    """Returns a unit vector and the directions of rows and columns on planes across it: float64 (3, 3)."""
     down = np.eye(3)[int(abs(normal[0]) > _STEEP)]
     down = down - normal * (normal @ down)
     down /= math.hypot(*down)
@@ -35,7 +35,7 @@ def frame(normal: np.ndarray) -> np.ndarray:
 
 
 def _rotation(a: float, b: float, c: float) -> np.ndarray:
-    """The matrix of a quaternion that three numbers, evenly in 0..1, make even over all."""
+    """Returns the matrix of a quaternion that three numbers, evenly in 0..1, make even over all."""
     x, y = math.sqrt(1.0 - a) * math.sin(2.0 * math.pi * b), math.sqrt(1.0 - a) * math.cos(2.0 * math.pi * b)
     z, w = math.sqrt(a) * math.sin(2.0 * math.pi * c), math.sqrt(a) * math.cos(2.0 * math.pi * c)
     return np.array(

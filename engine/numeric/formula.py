@@ -74,7 +74,7 @@ class _Token(NamedTuple):
 
 
 def parse(text: str) -> Tree:
-    """The checked tree of a formula.  FormulaError names the column of the first mistake."""
+    """Returns the checked tree of a formula.  FormulaError names the column of the first mistake."""
     if not isinstance(text, str) or not text.strip(" \t\r\n"):
         raise FormulaError(1, "nothing" if isinstance(text, str) else type(text).__name__, "a formula")
     if len(text) > FORMULA_CAP:
@@ -87,14 +87,14 @@ def parse(text: str) -> Tree:
 
 
 def variables(tree: Tree) -> frozenset[str]:
-    """The names that a tree looks at."""
+    """Returns the names that a tree looks at."""
     if tree[0] == "name":
         return frozenset(tree[1:])
     return frozenset().union(*(variables(part) for part in tree[1:] if isinstance(part, tuple)))
 
 
 def printed(tree: Tree) -> str:
-    """A checked tree as one Python expression over NAMES and `_` + FUNCTIONS, every part in brackets."""
+    """Returns a checked tree as one Python expression over NAMES and `_` + FUNCTIONS, every part in brackets."""
     if tree[0] == "number":
         return f"({float(tree[1])!r})"
     if tree[0] == "name":
@@ -149,7 +149,7 @@ class _Reader:
             self.refuse(expected)
 
     def _node(self, token: _Token, *parts: Any) -> Tree:
-        """A new part of the tree, if there is room for it."""
+        """Returns a new part of the tree, if there is room for it."""
         self._nodes += 1
         if self._nodes > NODES_CAP:
             raise FormulaError(token.column, "one part more", f"{NODES_CAP} parts at most")

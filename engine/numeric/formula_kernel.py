@@ -117,7 +117,7 @@ def _mod(a: float, b: float) -> float:
 
 @dividing
 def _noise(a: float, b: float) -> float:
-    """A random number of 0..1 for the unit square of the plane that (a, b) lies in."""
+    """Returns a random number of 0..1 for the unit square of the plane that (a, b) lies in."""
     if not (abs(a) < _WHOLE and abs(b) < _WHOLE):
         return 0.0
     x, y = np.uint64(np.int64(np.floor(a)) & 0xFFFFFFFF), np.uint64(np.int64(np.floor(b)) & 0xFFFFFFFF)
@@ -140,12 +140,13 @@ def kernel({arguments}, out):
 
 @dividing
 def _bounded(value: float) -> float:
-    """What does not fit a pixel: 0 for what is no number, the nearest that fits for the others."""
+    """Returns what does not fit a pixel: 0 for what is no number, the nearest that fits for the others."""
     return 0.0 if not np.isfinite(value) else (1e6 if value > 0.0 else -1e6)
 
 
 def source(tree: Tree) -> str:
-    """The text that is compiled for a checked tree: it holds names of this module, numbers and operators alone."""
+    """Returns the text that is compiled for a checked tree: it holds names of this module, numbers and operators
+    alone."""
     rows = "\n".join(f"        {name} = np.float64({name}_row[i])" for name in _ROWS)
     arguments = ", ".join([*(f"{name}_row" for name in _ROWS), *_SCALARS])
     return _TEMPLATE.format(arguments=arguments, rows=rows, body=printed(tree))
@@ -153,7 +154,7 @@ def source(tree: Tree) -> str:
 
 @lru_cache(MEMO)
 def kernel(tree: Tree) -> Callable[..., None]:
-    """The compiled loop of a checked tree: (pic, luma, tex, d, pressure, x, y, colour, level, out).
+    """Returns the compiled loop of a checked tree: (pic, luma, tex, d, pressure, x, y, colour, level, out).
 
     All but `colour` and `level`, which are floats, are C-contiguous float32 (n,); `out` is written: finite, within
     -1e6..1e6.  Raises nothing.

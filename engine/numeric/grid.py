@@ -19,12 +19,12 @@ SNAP = np.float32(192.0)
 
 @inlined
 def snap(value: np.float32) -> np.float32:
-    """The nearest grid value to a float32 `value`, |value| < 64; ties to even."""
+    """Returns the nearest grid value to a float32 `value`, |value| < 64; ties to even."""
     return (value + SNAP) - SNAP
 
 
 def snapped(values: np.ndarray) -> np.ndarray:
-    """The array rounded to the grid, as float32, clipped to |v| <= 16."""
+    """Returns the array rounded to the grid, as float32, clipped to |v| <= 16."""
     if isinstance(values, np.ndarray) and values.dtype == np.float32:
         out = np.clip(values, -LIMIT, LIMIT)
         out += SNAP

@@ -22,7 +22,7 @@ _SECOND = np.uint64(0x94D049BB133111EB)
 
 @inlined
 def mix64(h: np.uint64) -> np.uint64:
-    """The splitmix64 finaliser: a bijection of uint64 in which every input bit sways every output bit."""
+    """Returns the splitmix64 finaliser: a bijection of uint64 in which every input bit sways every output bit."""
     h = (h ^ (h >> np.uint64(30))) * _FIRST
     h = (h ^ (h >> np.uint64(27))) * _SECOND
     return h ^ (h >> np.uint64(31))
@@ -30,7 +30,7 @@ def mix64(h: np.uint64) -> np.uint64:
 
 @inlined
 def place64(key: np.uint64, x: np.uint64, y: np.uint64) -> np.uint64:
-    """The hash at the place whose low 32 bits are `x` and `y` (uint64 below 2^32), under a uint64 `key`."""
+    """Returns the hash at the place whose low 32 bits are `x` and `y` (uint64 below 2^32), under a uint64 `key`."""
     return mix64(((y << np.uint64(32)) | x) ^ key)
 
 
@@ -42,7 +42,7 @@ def mixed(h: int) -> int:
 
 
 def fold_key(*numbers: int) -> int:
-    """A 64-bit key from integers of any size and sign; different lists give unrelated keys.
+    """Returns a 64-bit key from integers of any size and sign; different lists give unrelated keys.
 
     Each number enters as its two's complement in 64-bit limbs, as many as it needs, after their count, so that no
     list of numbers spells another.
@@ -77,7 +77,7 @@ def uniform(key: int, count: int) -> np.ndarray:
 
 
 def _run(origin: int, high: int, size: int) -> tuple[int, int]:
-    """The indices i in [0, size) for which (origin + i) >> 32 == high, as a half-open range."""
+    """Returns the indices i in [0, size) for which (origin + i) >> 32 == high, as a half-open range."""
     return max(0, (high << 32) - origin), min(size, ((high + 1) << 32) - origin)
 
 

@@ -20,7 +20,7 @@ _ONE = np.float32(1.0)
 
 
 def sorted_values(values: np.ndarray) -> np.ndarray:
-    """All values of an array in rising order: float32 (n,)."""
+    """Returns all values of an array in rising order: float32 (n,)."""
     keys = _keys(np.ascontiguousarray(values, np.float32).reshape(-1))
     _sort(keys, np.empty_like(keys))
     return _values(keys)
@@ -36,7 +36,7 @@ def quantiles(ordered: np.ndarray, count: int) -> np.ndarray:
 
 
 def blended(a: np.ndarray, b: np.ndarray, weight: float) -> np.ndarray:
-    """A distribution between two, both as sorted values: at `weight` 0 it is a, at 1 it is b; float32 (n,).
+    """Returns a distribution between two, both as sorted values: at `weight` 0 it is a, at 1 it is b; float32 (n,).
 
     Values of the same rank are averaged, so the distance from a, in the sense of `distance`, grows as the weight.
     """
@@ -48,8 +48,8 @@ def blended(a: np.ndarray, b: np.ndarray, weight: float) -> np.ndarray:
 
 
 def distance(a: np.ndarray, b: np.ndarray) -> float:
-    """How far values must be moved, on average, to turn one distribution into the other, both given as sorted values:
-    the 1-Wasserstein distance."""
+    """Tells how far values must be moved, on average, to turn one distribution into the other, both given as sorted
+    values: the 1-Wasserstein distance."""
     count = max(a.size, b.size)
     ranks = (np.arange(count) + 0.5) / count
     given = (np.interp(ranks, (np.arange(v.size) + 0.5) / v.size, v) for v in (a, b))
@@ -88,7 +88,7 @@ def _check(values: np.ndarray) -> None:
 
 @inlined
 def _at(ordered: np.ndarray, part: float) -> np.float32:
-    """The sorted values at a part 0..1 of them all."""
+    """Returns the sorted values at a part 0..1 of them all."""
     place = min(max(part * ordered.size - 0.5, 0.0), ordered.size - 1.0)
     k = min(np.int64(place), ordered.size - 2) if ordered.size > 1 else 0
     low = ordered[k]  # type: ignore[index]
@@ -190,7 +190,7 @@ def _values(keys: np.ndarray) -> np.ndarray:
 
 @inner
 def _starts(keys: np.ndarray) -> np.ndarray:
-    """Where each digit's run begins, for the three passes of the sort: int64 (3, 2^11)."""
+    """Tells where each digit's run begins, for the three passes of the sort: int64 (3, 2^11)."""
     starts = np.zeros((3, _SIZE), np.int64)
     for i in range(keys.size):
         for turn in range(3):

@@ -22,7 +22,7 @@ _GOLDEN = (0.7548776662466927, 0.5698402909980532)  # Roberts 2018: the most eve
 
 
 def suggested_window(planes: np.ndarray) -> int:
-    """A window that holds the lowest frequencies of a picture (c, h, w), from its autocorrelation: eight times
+    """Returns a window that holds the lowest frequencies of a picture (c, h, w), from its autocorrelation: eight times
     the distance at which that is gone, since the radial window leaves the middle half of it; no more than USUAL, nor
     than the picture's shorter side."""
     grey = middle(np.moveaxis(planes, 0, -1), _LOOKED_AT).mean(axis=-1)
@@ -39,7 +39,8 @@ def suggested_window(planes: np.ndarray) -> int:
 
 
 def impulse_response(planes: np.ndarray, window: int, average: int, phase: str = "window", seed: int = 0) -> np.ndarray:
-    """The impulse response of a picture float32 (c, h, w): float32 (c, n, m), mean 0, deviation `spectra.SPREAD`.
+    """Returns the impulse response of a picture float32 (c, h, w): float32 (c, n, m), mean 0, deviation
+    `spectra.SPREAD`.
 
     n and m are `window`, or a side of the picture where that is shorter.  The amplitudes are the root of the mean
     power of `average` pieces, for each channel; the phases are common to all channels, so that colours stay together:
@@ -86,7 +87,7 @@ def corners(shape: tuple[int, ...], size: tuple[int, int], count: int) -> list[t
 
 
 def _tapered(n: int) -> np.ndarray:
-    """A window (n,) that is flat in the middle and ends in halves of a cosine (Tukey's)."""
+    """Returns a window (n,) that is flat in the middle and ends in halves of a cosine (Tukey's)."""
     at = np.minimum((np.arange(n) + 0.5) / (n * _TAPER), 1.0)
     half = 0.5 - 0.5 * np.cos(np.pi * at)
     out: np.ndarray = np.minimum(half, half[::-1])
@@ -94,7 +95,7 @@ def _tapered(n: int) -> np.ndarray:
 
 
 def _levelled(piece: np.ndarray, taper: np.ndarray) -> np.ndarray:
-    """A piece (c, h, w) under the taper, its mean under it taken off."""
+    """Returns a piece (c, h, w) under the taper, its mean under it taken off."""
     means = (piece * taper).sum(axis=(1, 2), keepdims=True) / max(float(taper.sum()), 1e-9)
     out: np.ndarray = (piece - means) * taper
     return out

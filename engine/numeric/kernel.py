@@ -14,6 +14,7 @@ from numba import njit
 from numba.extending import register_jitable
 
 F = TypeVar("F", bound=Callable[..., Any])
+Array = np.ndarray
 Int = int | np.integer[Any]  # a whole number of any width
 Real = float | np.floating[Any]
 

@@ -23,7 +23,7 @@ _STEP = np.float32(Q)
 
 
 def most_levels(size: Sequence[int]) -> int:
-    """How many levels pictures of `size` have room for: the rest is 4 samples or more along its shortest axis."""
+    """Tells how many levels pictures of `size` have room for: the rest is 4 samples or more along its shortest axis."""
     return max(0, int(math.log2(max(min(size), 1))) - 2)
 
 
@@ -51,7 +51,8 @@ def expand(images: np.ndarray, size: Sequence[int], edges: Edges = "circular") -
 
 
 def build(images: np.ndarray, levels: int, dimensions: int = 2, edges: Edges = "circular") -> list[np.ndarray]:
-    """The bands of pictures (..., *size), from the finest, and the low-pass rest: `levels` + 1 arrays, float32."""
+    """Returns the bands of pictures (..., *size), from the finest, and the low-pass rest: `levels` + 1 arrays,
+    float32."""
     size = images.shape[images.ndim - dimensions :]
     if not 0 <= levels <= most_levels(size):
         raise ValueError(f"laplacian pyramid: found {levels} levels for {' x '.join(map(str, size))}")
@@ -67,7 +68,8 @@ def build(images: np.ndarray, levels: int, dimensions: int = 2, edges: Edges = "
 
 
 def collapse(pyramid: Sequence[np.ndarray], dimensions: int = 2, edges: Edges = "circular") -> np.ndarray:
-    """The pictures again.  Of an untouched pyramid, bit for bit, where they lay on the grid of 2^-16, |v| <= 16."""
+    """Returns the pictures again.  Of an untouched pyramid, bit for bit, where they lay on the grid of 2^-16, |v| <=
+    16."""
     out = pyramid[-1]
     for band in pyramid[-2::-1]:
         finer = band.copy()
@@ -77,7 +79,7 @@ def collapse(pyramid: Sequence[np.ndarray], dimensions: int = 2, edges: Edges = 
 
 
 def _beyond(places: np.ndarray, n: int, edges: Edges) -> np.ndarray:
-    """Where the samples at `places` of an axis of n are found."""
+    """Tells where the samples at `places` of an axis of n are found."""
     if edges == "circular":
         return places % n
     turned = places % max(2 * n - 2, 1)
@@ -86,7 +88,7 @@ def _beyond(places: np.ndarray, n: int, edges: Edges) -> np.ndarray:
 
 
 def _about(values: np.ndarray, axis: int) -> np.ndarray:
-    """A view (before, n, after) of an array, n being the length of `axis`."""
+    """Returns a view (before, n, after) of an array, n being the length of `axis`."""
     return values.reshape(math.prod(values.shape[:axis]), values.shape[axis], -1)
 
 

@@ -23,47 +23,48 @@ ROW = 32  # values of a row of weights
 FULL = np.uint64((1 << SIDE * SIDE) - 1)
 WEIGHT = 8  # mean of the weights over 7 x 7 pixels
 
+Low = Any  # what numba and LLVM make of a value, which have no types
 _MIDDLE, _OTHERS = (2, 3, 4), (0, 1, 5, 6)
 _LANES = ir.VectorType(ir.IntType(16), ROW)
 _WIDE = ir.VectorType(ir.IntType(32), ROW)
 
 
 @intrinsic  # type: ignore[untyped-decorator]
-def ones(context: Any, number: Any) -> Any:
-    """How many bits of a uint64 are set: int32."""
+def ones(context: Low, number: Low) -> Low:
+    """Tells how many bits of a uint64 are set: int32."""
 
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def emit(context: Low, builder: Low, signature: Low, arguments: Low) -> Low:
         return builder.trunc(builder.ctpop(arguments[0]), ir.IntType(32))
 
     return types.int32(types.uint64), emit
 
 
-def _lanes(context: Any, builder: Any, kind: Any, array: Any, at: Any) -> Any:
+def _lanes(context: Low, builder: Low, kind: Low, array: Low, at: Low) -> Low:
     """32 int16 values of a flat array from an index on."""
     data = context.make_array(kind)(context, builder, array).data
     pointer = builder.bitcast(builder.gep(data, [at]), _LANES.as_pointer())
     return builder.load(pointer, align=2)
 
 
-def _weighted_squares(builder: Any, difference: Any, weights: Any) -> Any:
+def _weighted_squares(builder: Low, difference: Low, weights: Low) -> Low:
     weighted = builder.mul(difference, weights)
     return builder.mul(builder.sext(difference, _WIDE), builder.sext(weighted, _WIDE))
 
 
-def _summed(builder: Any, products: Any) -> Any:
+def _summed(builder: Low, products: Low) -> Low:
     name = f"llvm.vector.reduce.add.v{ROW}i32"
     add = cgutils.get_or_insert_function(builder.module, ir.FunctionType(ir.IntType(32), [_WIDE]), name)
     return builder.call(add, [products])
 
 
-def _apart_over(rows: tuple[int, ...], within: bool) -> Any:
-    """How far some of the rows of two neighbourhoods are apart, which are added up in one register."""
+def _apart_over(rows: tuple[int, ...], within: bool) -> Low:
+    """Tells how far some of the rows of two neighbourhoods are apart, which are added up in one register."""
 
-    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def emit(context: Low, builder: Low, signature: Low, arguments: Low) -> Low:
         a, i, a_row, b, j, b_row, weights, k, *care = arguments
         kinds, total = signature.args, None
 
-        def lanes(n: int, array: Any, first: Any, step: Any, r: int) -> Any:
+        def lanes(n: int, array: Low, first: Low, step: Low, r: int) -> Low:
             at = builder.add(first, builder.mul(step, ir.Constant(step.type, r)))
             return _lanes(context, builder, kinds[n], array, at)
 
@@ -81,14 +82,14 @@ def _apart_over(rows: tuple[int, ...], within: bool) -> Any:
 
         @intrinsic  # type: ignore[untyped-decorator]
         def apart(
-            context: Any, a: Any, i: Any, a_row: Any, b: Any, j: Any, b_row: Any, weights: Any, k: Any, care: Any
-        ) -> Any:
+            context: Low, a: Low, i: Low, a_row: Low, b: Low, j: Low, b_row: Low, weights: Low, k: Low, care: Low
+        ) -> Low:
             return types.int32(a, *places, b, *places, weights, types.intp, care), emit
 
     else:
 
         @intrinsic  # type: ignore[untyped-decorator]
-        def apart(context: Any, a: Any, i: Any, a_row: Any, b: Any, j: Any, b_row: Any, weights: Any, k: Any) -> Any:
+        def apart(context: Low, a: Low, i: Low, a_row: Low, b: Low, j: Low, b_row: Low, weights: Low, k: Low) -> Low:
             return types.int32(a, *places, b, *places, weights, types.intp), emit
 
     return apart
@@ -127,8 +128,8 @@ def region_bits(mask: np.ndarray, out: np.ndarray) -> None:
 
 @lru_cache(maxsize=8)
 def weights(side: int = SIDE, spread: float = 2.0) -> np.ndarray:
-    """A Gaussian of `spread` pixels over `side` x `side` pixels (3, 5 or 7): int16 (7 * 32), read-only, summing to
-    about 49 * WEIGHT for each channel."""
+    """Returns a Gaussian of `spread` pixels over `side` x `side` pixels (3, 5 or 7): int16 (7 * 32), read-only,
+    summing to about 49 * WEIGHT for each channel."""
     y, x = np.mgrid[-RADIUS : RADIUS + 1, -RADIUS : RADIUS + 1]
     plane = np.exp(-(x * x + y * y) / (2.0 * spread * spread)) * ((abs(x) <= side // 2) & (abs(y) <= side // 2))
     plane = np.maximum(np.rint(plane * (WEIGHT * plane.size / plane.sum())), plane > 0.0)
@@ -141,6 +142,6 @@ def weights(side: int = SIDE, spread: float = 2.0) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def square_bits(side: int) -> np.uint64:
-    """The bits of the inner `side` x `side` pixels (3, 5 or 7)."""
+    """Returns the bits of the inner `side` x `side` pixels (3, 5 or 7)."""
     near = range(RADIUS - side // 2, RADIUS + side // 2 + 1)
     return np.uint64(sum(1 << SIDE * y + x for y in near for x in near))

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from engine.numeric.hashing import fold_key, hash_plane
-from engine.numeric.kernel import kernel
+from engine.numeric.kernel import Array, kernel
 
 REACH_CAP = 8
 RADIUS = 0.999  # of the outermost pole, at most
@@ -48,23 +48,23 @@ class Predictor:
 
     @property
     def stable(self) -> bool:
-        """Whether it is certain to be stable by the size of its coefficients, or by its poles."""
+        """Tells whether it is certain to be stable by the size of its coefficients, or by its poles."""
         return bool((np.abs(self.coefficients).sum(axis=1) < 1.0).all()) or self.radius < 1.0
 
     @property
     def verdict(self) -> str:
-        """Whether it was stable as fitted, and how far out its outermost pole lies, in words."""
+        """Tells whether it was stable as fitted, and how far out its outermost pole lies, in words."""
         return f"{'stable' if self.shrunk == 1.0 else 'made stable'}, poles to {self.radius:.3f}"
 
     @property
     def residual(self) -> np.ndarray:
-        """The deviation of the errors of prediction over the sample, float64 (c,)."""
+        """Returns the deviation of the errors of prediction over the sample, float64 (c,)."""
         out: np.ndarray = np.sqrt((self.mixing**2).sum(axis=1))
         return out
 
     def spectrum(self, height: int, width: int) -> np.ndarray:
-        """The power spectrum that the filter makes of white noise: float64 (c, height, width), zero frequency at
-        [height // 2, width // 2], its mean the variance of the texture."""
+        """Returns the power spectrum that the filter makes of white noise: float64 (c, height, width), zero
+        frequency at [height // 2, width // 2], its mean the variance of the texture."""
         impulse = np.zeros((len(self.mean), height, width))
         impulse[:, 0, 0] = 1.0
         for (dy, dx), values in zip(self.offsets, self.coefficients.T, strict=True):
@@ -112,7 +112,7 @@ class Predictor:
 
 
 def fit(sample: np.ndarray, reach: int = 3) -> Predictor:
-    """The predictor of a sample (h, w) or (c, h, w), made stable if it is not.
+    """Returns the predictor of a sample (h, w) or (c, h, w), made stable if it is not.
 
     `reach`: 1 to 8 pixels; less is used where the sample has too few pixels to tell the coefficients.  ValueError if
     the sample is empty or holds values that are not finite.
@@ -132,7 +132,8 @@ def fit(sample: np.ndarray, reach: int = 3) -> Predictor:
 
 
 def half_plane(reach: int) -> np.ndarray:
-    """The places (dy, dx) before (0, 0) in raster order, at most `reach` rows and columns away: int64 (n, 2)."""
+    """Returns the places (dy, dx) before (0, 0) in raster order, at most `reach` rows and columns away: int64 (n,
+    2)."""
     places = [(dy, dx) for dy in range(-reach, 1) for dx in range(-reach, reach + 1) if (dy, dx) < (0, 0)]
     return np.array(places, np.int64).reshape(-1, 2)
 
@@ -151,15 +152,7 @@ def noise_at(seed: int, x: int, y: int, shape: tuple[int, int, int]) -> np.ndarr
 
 
 @kernel
-def _continue(
-    memory: np.ndarray,
-    reach: int,
-    mask: np.ndarray,
-    steps: np.ndarray,
-    taps: np.ndarray,
-    mean: float,
-    errors: np.ndarray,
-) -> None:
+def _continue(memory: Array, reach: int, mask: Array, steps: Array, taps: Array, mean: float, errors: Array) -> None:
     """Foretells the masked pixels of one plane, padded by `reach` above, left and right; `steps`: flat offsets."""
     height, width = mask.shape
     flat = memory.reshape(-1)
@@ -191,7 +184,7 @@ def _add_products(plane: np.ndarray, reach: int, steps: np.ndarray, out: np.ndar
 
 @kernel
 def _cholesky(matrix: np.ndarray) -> np.ndarray:
-    """The lower triangular root of a symmetric matrix with no negative eigenvalue, column by column."""
+    """Returns the lower triangular root of a symmetric matrix with no negative eigenvalue, column by column."""
     n = matrix.shape[0]
     root = np.zeros((n, n))
     for j in range(n):
@@ -208,7 +201,7 @@ def _cholesky(matrix: np.ndarray) -> np.ndarray:
 
 @kernel
 def _solved(root: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """The x with root root' x = right."""
+    """Returns the x with root root' x = right."""
     n = right.size
     x = right.copy()
     for i in range(n):
@@ -223,14 +216,15 @@ def _solved(root: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 
 def _affordable(reach: int, height: int, width: int) -> int:
-    """The largest reach, up to the one wanted, with three equations for each coefficient; 0 if there is none."""
+    """Returns the largest reach, up to the one wanted, with three equations for each coefficient; 0 if there is
+    none."""
     while reach and max(0, height - reach) * max(0, width - 2 * reach) < 3 * 2 * reach * (reach + 1):
         reach -= 1
     return reach
 
 
 def _shifted(planes: np.ndarray, reach: int, dy: int, dx: int) -> np.ndarray:
-    """The pixels at (dy, dx) from those whose whole memory lies in the sample: (c, h - reach, w - 2 reach)."""
+    """Returns the pixels at (dy, dx) from those whose whole memory lies in the sample: (c, h - reach, w - 2 reach)."""
     _, height, width = planes.shape
     return planes[:, reach + dy : height + dy, reach + dx : width - reach + dx]
 
@@ -253,8 +247,8 @@ def _least_squares(plane: np.ndarray, reach: int, offsets: np.ndarray) -> np.nda
 
 
 def _stabilised(fitted: Predictor) -> Predictor:
-    """The same with coefficients shrunk by a power of their distance, as the poles of speech filters are widened,
-    until the outermost pole lies within RADIUS."""
+    """Returns the same with coefficients shrunk by a power of their distance, as the poles of speech filters are
+    widened, until the outermost pole lies within RADIUS."""
     if not fitted.reach:
         return fitted
     distance = np.abs(fitted.offsets).max(axis=1)
@@ -268,7 +262,7 @@ def _stabilised(fitted: Predictor) -> Predictor:
 
 
 def pole_radius(reach: int, offsets: np.ndarray, taps: np.ndarray) -> float:
-    """How far out the outermost pole lies; the filter is stable if that is less than 1.
+    """Tells how far out the outermost pole lies; the filter is stable if that is less than 1.
 
     Ekstrom & Woods 1976: along its own row the filter must be stable, and down the rows for every frequency across.
     """
@@ -283,7 +277,7 @@ def pole_radius(reach: int, offsets: np.ndarray, taps: np.ndarray) -> float:
 
 
 def _outermost(taps: np.ndarray) -> float:
-    """The largest |z| with z^n = sum of taps_k z^(n - k), over rows of complex (m, n)."""
+    """Returns the largest |z| with z^n = sum of taps_k z^(n - k), over rows of complex (m, n)."""
     n = taps.shape[1]
     companion = np.zeros((len(taps), n, n), complex)
     companion[:, 0] = taps

@@ -38,7 +38,7 @@ def expand_row(t: np.ndarray, out: np.ndarray) -> None:
 def expanded_rows(
     coarse: np.ndarray, top: int, left: int, source: int, first: int, last: int, width: int
 ) -> np.ndarray:
-    """Rows [first, last) of one plane of `expand_into`, plainly: float32 (last - first, width)."""
+    """Returns rows [first, last) of one plane of `expand_into`, plainly: float32 (last - first, width)."""
     columns = slice(left, left + width // 2 + 2)
     y = np.arange(first, last)
     near = coarse[source, top + 1 + y // 2, columns]
@@ -63,7 +63,7 @@ def _expand_into(
 def expand_into(
     coarse: np.ndarray, top: int, left: int, planes: np.ndarray, out: np.ndarray, first: int, last: int
 ) -> None:
-    """Rows [first, last) of `out` (C, 2h, 2w) from `coarse` (D, H, W), both C-contiguous.
+    """Makes rows [first, last) of `out` (C, 2h, 2w) from `coarse` (D, H, W), both C-contiguous.
 
     `out[0, 0]` is the first child of `coarse[top + 1, left + 1]`; `planes[c]` says which plane of `coarse` feeds
     plane c, -1 for none (zeros).  `first` and `last` are even.

@@ -11,7 +11,7 @@ _MASK24 = np.uint32(0xFFFFFF)
 
 
 def packed(pixels: np.ndarray) -> np.ndarray:
-    """One integer for each colour: uint32 (h, w) of uint8 RGBA (h, w, 4), uint64 of uint16.
+    """Returns one integer for each colour: uint32 (h, w) of uint8 RGBA (h, w, 4), uint64 of uint16.
 
     What is wholly transparent is one colour, whatever its other channels hold.
     """
@@ -26,13 +26,13 @@ def packed(pixels: np.ndarray) -> np.ndarray:
 
 
 def colour_count(colours: np.ndarray) -> int:
-    """How many values there are in an array."""
+    """Tells how many values there are in an array."""
     ordered = np.sort(colours, axis=None)
     return int(ordered.size > 0) + int(np.count_nonzero(ordered[1:] != ordered[:-1]))
 
 
 def region_count(colours: np.ndarray) -> int:
-    """How many regions there are: 4-connected pixels of one value, in an array (h, w) of integers.
+    """Tells how many regions there are: 4-connected pixels of one value, in an array (h, w) of integers.
 
     ValueError for 2^31 pixels or more.
     """
@@ -82,7 +82,7 @@ def _regions(colours: np.ndarray, parents: np.ndarray) -> int:
 
 @kernel
 def _false_colours(colours: np.ndarray, out: np.ndarray, bytes8: bool) -> None:
-    """A bijection of 24 bits on the high bytes of red, green and blue, turned by a hash of all else."""
+    """Applies a bijection of 24 bits on the high bytes of red, green and blue, turned by a hash of all else."""
     for i in range(colours.size):
         value = np.uint64(colours[i])
         if bytes8:

@@ -6,7 +6,8 @@ import numpy as np
 
 
 def resampled(data: np.ndarray, size: tuple[int, int], rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Pixels `rows` x `columns` (any integers) of the periodic picture `data` (C, h, w) stretched to `size` (H, W).
+    """Returns pixels `rows` x `columns` (any integers) of the periodic picture `data` (C, h, w) stretched to `size`
+    (H, W).
 
     float32 (C, rows, columns).  Each pixel depends on its own place alone; where a side keeps its size, the picture
     is kept.  An axis that shrinks is filtered as wide as it shrinks.
@@ -18,7 +19,7 @@ def resampled(data: np.ndarray, size: tuple[int, int], rows: np.ndarray, columns
 
 
 def rows_at(data: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """The rows of `data` (C, h, w) at `places`, real numbers in 0..h - 1, as they are and not filtered: float32
+    """Returns the rows of `data` (C, h, w) at `places`, real numbers in 0..h - 1, as they are and not filtered: float32
     (C, places, w)."""
     first = np.floor(places).astype(np.int64)
     offsets = np.arange(-1, 3)[:, None]
@@ -47,7 +48,7 @@ def _cubic(d: np.ndarray) -> np.ndarray:
 
 
 def _summed(data: np.ndarray, source: np.ndarray, weights: np.ndarray, axis: int) -> np.ndarray:
-    """The weighted sum of the taps along `axis`, tap after tap: the same order for every pixel."""
+    """Returns the weighted sum of the taps along `axis`, tap after tap: the same order for every pixel."""
     shape = [1, 1, 1]
     shape[axis] = weights.shape[1]
     out = np.take(data, source[0], axis) * weights[0].reshape(shape)

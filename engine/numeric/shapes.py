@@ -50,7 +50,7 @@ def _bell(distance: np.ndarray, width: float) -> np.ndarray:
 
 
 def _step(size: tuple[int, int]) -> float:
-    """The width of one pixel of a spectrum: nothing narrower can be drawn."""
+    """Returns the width of one pixel of a spectrum: nothing narrower can be drawn."""
     return 2.0 / max(*size, 1)
 
 
@@ -167,7 +167,7 @@ SHAPES: dict[str, Shape] = {row.name: row for row in _ROWS}
 
 
 def drawn(name: str, size: tuple[int, int], parameters: Numbers) -> np.ndarray:
-    """A shape's amplitudes, symmetric, 0 at zero frequency: float32 (h, w), 0..its strength.
+    """Returns a shape's amplitudes, symmetric, 0 at zero frequency: float32 (h, w), 0..its strength.
 
     Parameters that are missing take the row's default; values beyond their range its nearest end.
     """

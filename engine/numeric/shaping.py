@@ -28,7 +28,7 @@ _LAST = np.int32(STEPS - 1)
 
 @lru_cache(maxsize=256)
 def table(curve: Shape, rows: str = "shaping") -> np.ndarray:
-    """The values of a curve at 0, 1/1024, ..., 1: float32 (1025,), 0..1, not to be written to.
+    """Returns the values of a curve at 0, 1/1024, ..., 1: float32 (1025,), 0..1, not to be written to.
 
     `rows`: which table a name is of, "shaping" (CURVES) or "edge" (EDGES).  KeyError if it is none of it.
     """
@@ -39,7 +39,7 @@ def table(curve: Shape, rows: str = "shaping") -> np.ndarray:
 
 
 def is_identity(curve: Shape | None) -> bool:
-    """Whether a curve changes nothing."""
+    """Tells whether a curve changes nothing."""
     return curve is None or bool((table(curve) == table("identity")).all())
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.numeric.kernel import inlined, kernel
+from engine.numeric.kernel import Array, inlined, kernel
 
 _WIDTH = 4  # points of the grid that a frequency is spread to, along each axis
 _STEEP = 2.3 * _WIDTH
@@ -50,7 +50,8 @@ class Sheaves:
         return Rod(places[:count], along[:count], weights[:count])
 
     def planes(self, spectrum: np.ndarray, rod: Rod) -> np.ndarray:
-        """The samples (n, small, small), float32, of a cube whose spectrum is given: complex64 (n, n, n//2 + 1)."""
+        """Returns the samples (n, small, small), float32, of a cube whose spectrum is given: complex64 (n, n, n//2 +
+        1)."""
         from scipy.fft import ifftn
 
         grid = np.zeros(self._grid, np.complex64)
@@ -60,8 +61,8 @@ class Sheaves:
         return out
 
     def given(self, rod: Rod, planes: np.ndarray) -> np.ndarray:
-        """What each voxel has to do with the samples of `planes`, the transpose of that: half of a spectrum at the
-        rod's places, which has nothing elsewhere; complex64 (m,)."""
+        """Returns what each voxel has to do with the samples of `planes`, the transpose of that: half of a spectrum
+        at the rod's places, which has nothing elsewhere; complex64 (m,)."""
         from scipy.fft import fftn
 
         grid = np.zeros(self._grid, np.complex64)
@@ -74,7 +75,7 @@ class Sheaves:
 
 
 def _transform(count: int) -> np.ndarray:
-    """The kernel's own transform at `count` samples around 0, on a grid of twice as many."""
+    """Returns the kernel's own transform at `count` samples around 0, on a grid of twice as many."""
     places = np.linspace(-_WIDTH / 2.0, _WIDTH / 2.0, 2001)
     values = np.array([_kernel(x) for x in places])
     waves = np.cos(np.pi / count * places * (np.arange(count) - count // 2)[:, None])
@@ -90,14 +91,7 @@ def _kernel(x: float) -> float:
 
 @kernel
 def _gather_rod(
-    frame: np.ndarray,
-    centre: np.ndarray,
-    side: int,
-    reach: float,
-    response: np.ndarray,
-    places: np.ndarray,
-    along: np.ndarray,
-    weights: np.ndarray,
+    frame: Array, centre: Array, side: int, reach: float, response: Array, places: Array, along: Array, weights: Array
 ) -> int:
     """Fills in what a Rod has; returns how many frequencies there are."""
     count, highest = 0, (side - 1) // 2
@@ -128,7 +122,7 @@ def _gather_rod(
 
 @inlined
 def _around(place: float, count: int, places: np.ndarray, weights: np.ndarray) -> None:
-    """The points of a grid of `count`, with spacing 1/2, that a frequency is spread to, and their weights."""
+    """Finds the points of a grid of `count`, with spacing 1/2, that a frequency is spread to, and their weights."""
     first = math.ceil(2.0 * place - _WIDTH / 2.0)
     for k in range(_WIDTH):
         places[k] = (np.int64(first) + k) % count

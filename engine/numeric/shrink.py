@@ -13,13 +13,14 @@ from engine.numeric.kernel import kernel
 
 
 def fitted_size(width: int, height: int, limit: int) -> tuple[int, int]:
-    """The largest size of the same shape within `limit` x `limit`, never larger than the original, at least 1 x 1."""
+    """Returns the largest size of the same shape within `limit` x `limit`, never larger than the original, at least
+    1 x 1."""
     longest = max(width, height, limit)
     return max(1, round(width * limit / longest)), max(1, round(height * limit / longest))
 
 
 def box_reduce(planes: np.ndarray, width: int, height: int) -> np.ndarray:
-    """The mean of `planes` (k, h, w) over each of height x width equal rectangles: float32 (k, height, width).
+    """Returns the mean of `planes` (k, h, w) over each of height x width equal rectangles: float32 (k, height, width).
 
     Source pixels that lie across a border count by the area on each side (premultiplied planes stay so).  ValueError:
     the wanted size is not within 1..w, 1..h.

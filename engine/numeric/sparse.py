@@ -17,7 +17,7 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.hashing import MASK32, fold_key, mix64, place64
-from engine.numeric.kernel import Int, Real, inlined, inner, kernel
+from engine.numeric.kernel import Array, Int, Real, inlined, inner, kernel
 from engine.numeric.strips import NO_ROWS, NO_STRIPS, in_strips, lay_strips
 
 ALIKE = -1  # for `levels`: all points weigh 1
@@ -82,20 +82,21 @@ class Noise:
 
 
 def spread(response: np.ndarray, density: float) -> float:
-    """The standard deviation of the field of a response (c, h, w), over all channels, known before it is made."""
+    """Returns the standard deviation of the field of a response (c, h, w), over all channels, known before it is
+    made."""
     channels, height, width = response.shape
     energy = float(np.square(response, dtype=np.float64).sum()) / channels
     return math.sqrt(density * energy / (height * width))
 
 
 def reach(impulse: Impulse, rect: Rect) -> Rect:
-    """Where the points lie that can touch `rect`, in pixels of the rectangle's own level."""
+    """Tells where the points lie that can touch `rect`, in pixels of the rectangle's own level."""
     m, (left, top, right, bottom) = impulse.coarser, _points(impulse, rect)
     return Rect(left >> m, top >> m, (right - 1 >> m) + 1, (bottom - 1 >> m) + 1)
 
 
 def _points(impulse: Impulse, rect: Rect) -> tuple[int, int, int, int]:
-    """The same as (left, top, right, bottom) in pixels of the points' level."""
+    """Returns the same as (left, top, right, bottom) in pixels of the points' level."""
     m, (height, width) = impulse.coarser, impulse.phases.shape[3:]
     down, right = impulse.size[0] // 2, impulse.size[1] // 2
     left, top = (rect.x0 - width + 1 << m) + right, (rect.y0 - height + 1 << m) + down
@@ -103,7 +104,7 @@ def _points(impulse: Impulse, rect: Rect) -> tuple[int, int, int, int]:
 
 
 def field(impulse: Impulse, noise: Noise, rect: Rect, within: np.ndarray | None = None) -> np.ndarray:
-    """The field over `rect`: float32 (c, h, w), of mean 0.
+    """Returns the field over `rect`: float32 (c, h, w), of mean 0.
 
     A copy of the response begins at pixel (x, y) - size // 2, where (x, y) is its point.  `within`: uint8 (h, w) over
     `reach(impulse, rect)`; points where it is 0 are left out (the extent of section 5.2).
@@ -158,7 +159,7 @@ def _keys(key: int, high_x: int, high_y: int) -> np.ndarray:
 
 @inlined
 def _weight(h: Int, levels: Int) -> Real:
-    """A number of mean 0 and variance 1 from the upper 24 bits of a hash: any, or one of `levels` values."""
+    """Returns a number of mean 0 and variance 1 from the upper 24 bits of a hash: any, or one of `levels` values."""
     bits = h >> _40
     if levels == ALIKE:
         return np.float32(1.0)
@@ -195,9 +196,9 @@ def _cell(
     corner: tuple[Int, Int],
     layout: _Layout,
     noise: tuple[Real, Int],
-    within: np.ndarray,
-    places: np.ndarray,
-    weights: np.ndarray,
+    within: Array,
+    places: Array,
+    weights: Array,
     count: Int,
 ) -> Int:
     """Lists the points of one cell, whose hash is `h` and whose corner lies at (x, y), from `count` on; the new count.
@@ -222,15 +223,15 @@ def _cell(
 
 @kernel
 def _fill(
-    out: np.ndarray,
-    phases: np.ndarray,
-    strips: np.ndarray,
-    filled: np.ndarray,
-    keys: np.ndarray,
-    numbers: np.ndarray,
+    out: Array,
+    phases: Array,
+    strips: Array,
+    filled: Array,
+    keys: Array,
+    numbers: Array,
     mean: Real,
     levels: Int,
-    within: np.ndarray,
+    within: Array,
 ) -> None:
     """Lists the points, cell by cell, then lays them.  `numbers`: int64, those of a _Layout in order."""
     n = numbers

@@ -31,7 +31,7 @@ def frequencies(height: int, width: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def radial_window(height: int, width: int | None = None, sigma: float = WINDOW) -> np.ndarray:
-    """The radial Gaussian that keeps a sample's edges out of the field: float32 (h, w), 1 in the middle.
+    """Returns the radial Gaussian that keeps a sample's edges out of the field: float32 (h, w), 1 in the middle.
 
     `sigma` in sides of the sample.  What is left at the rim, half a side from the middle, is taken off, so that the
     window ends at exactly zero (Lewis 1984, section 5.2).
@@ -47,20 +47,20 @@ def radial_window(height: int, width: int | None = None, sigma: float = WINDOW) 
 
 
 def opposite(spectrum: np.ndarray) -> np.ndarray:
-    """The values at the opposite frequency, F(-u, -v), at each place."""
+    """Returns the values at the opposite frequency, F(-u, -v), at each place."""
     rows, columns = ((2 * (n // 2) - np.arange(n)) % n for n in spectrum.shape[-2:])
     return spectrum[..., rows[:, None], columns[None]]
 
 
 def symmetric(amplitude: np.ndarray) -> np.ndarray:
-    """Both halves of a spectrum of which either was painted: the larger of F(u, v) and F(-u, -v)."""
+    """Returns both halves of a spectrum of which either was painted: the larger of F(u, v) and F(-u, -v)."""
     out: np.ndarray = np.maximum(amplitude, opposite(amplitude))
     return out
 
 
 @lru_cache(maxsize=2)
 def _random_phasors(height: int, width: int, seed: int) -> np.ndarray:
-    """Two independent sets of phases, each F(-u, -v) = F*(u, v), as e^(i p) + i e^(i q): complex64 (h, w).
+    """Returns two independent sets of phases, each F(-u, -v) = F*(u, v), as e^(i p) + i e^(i q): complex64 (h, w).
 
     The real and the imaginary part of the inverse transform are then two textures of the same amplitudes.
     """
@@ -76,7 +76,7 @@ def _random_phasors(height: int, width: int, seed: int) -> np.ndarray:
 
 
 def inverse(amplitude: np.ndarray, phase: Phase = None) -> np.ndarray:
-    """The inverse transform of a centred amplitude spectrum: complex64 (..., h, w).
+    """Returns the inverse transform of a centred amplitude spectrum: complex64 (..., h, w).
 
     `phase`: radians, or the seed of random ones, or None for zero, which gathers all in the sample's middle.
     """
@@ -94,7 +94,7 @@ def inverse(amplitude: np.ndarray, phase: Phase = None) -> np.ndarray:
 
 
 def forward(image: np.ndarray) -> np.ndarray:
-    """The centred spectrum of real or complex pictures: complex64 (..., h, w).
+    """Returns the centred spectrum of real or complex pictures: complex64 (..., h, w).
 
     Of a real, asymmetric pattern it is itself a texture (the forward variant of section 5.1).
     """
@@ -120,8 +120,8 @@ PARTS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
 
 
 def _unrounded(sample: np.ndarray) -> np.ndarray:
-    """A complex sample without a real or imaginary part that is nothing but rounding error: symmetric spectra have
-    real transforms, whose phase is 0 or pi, and not -pi or pi as chance has it."""
+    """Returns a complex sample without a real or imaginary part that is nothing but rounding error: symmetric
+    spectra have real transforms, whose phase is 0 or pi, and not -pi or pi as chance has it."""
     real, imaginary = (
         np.square(part, dtype=np.float64).sum(axis=_AXES, keepdims=True) for part in (sample.real, sample.imag)
     )
@@ -132,7 +132,8 @@ def _unrounded(sample: np.ndarray) -> np.ndarray:
 
 
 def normalised(values: np.ndarray) -> np.ndarray:
-    """Mean 0 (of each plane) and standard deviation SPREAD (of all planes together); float32, zeros if it is flat."""
+    """Returns mean 0 (of each plane) and standard deviation SPREAD (of all planes together); float32, zeros if it is
+    flat."""
     out = np.asarray(values, np.float32)
     out = out - out.mean(axis=_AXES, keepdims=True, dtype=np.float64).astype(np.float32)
     size = float(np.abs(out).max(initial=0.0))
@@ -145,7 +146,7 @@ def normalised(values: np.ndarray) -> np.ndarray:
 
 
 def texture_of(amplitude: np.ndarray, phase: Phase = None, part: str = "real", forward: bool = False) -> np.ndarray:
-    """The texture whose spectrum was painted: float32 like `amplitude`, mean 0, standard deviation SPREAD.
+    """Returns the texture whose spectrum was painted: float32 like `amplitude`, mean 0, standard deviation SPREAD.
 
     It is not clipped to -1..1, and tiles without seams.  `part`: a row of PARTS.  With `forward`, `amplitude`
     is a pattern, mean taken off, and the texture a part of its spectrum (times the phases, if any).
@@ -158,7 +159,7 @@ def texture_of(amplitude: np.ndarray, phase: Phase = None, part: str = "real", f
 
 
 def image_spectrum(image: np.ndarray, window: bool = True) -> np.ndarray:
-    """The amplitude spectrum of pictures (..., h, w), means taken off: float32, centred.
+    """Returns the amplitude spectrum of pictures (..., h, w), means taken off: float32, centred.
 
     With `window`, their edges are kept out of it.
     """
@@ -174,7 +175,7 @@ def image_spectrum(image: np.ndarray, window: bool = True) -> np.ndarray:
 
 
 def power(image: np.ndarray) -> np.ndarray:
-    """The power spectrum of pictures (..., h, w), means taken off: float64, centred; its mean is
+    """Returns the power spectrum of pictures (..., h, w), means taken off: float64, centred; its mean is
     their variance."""
     values = np.asarray(image, np.float64)
     values = values - values.mean(axis=_AXES, keepdims=True)

@@ -30,7 +30,7 @@ class Kernel:
         self._again = 0.0  # when to look for it again; 0: it is there, or has never been asked for
 
     def __call__(self, *arguments: Any) -> Any:
-        """What the compiled function returns, or the plain one where this thread would have to wait for it."""
+        """Returns what the compiled function returns, or the plain one where this thread would have to wait for it."""
         if self._again and time.monotonic() < self._again:
             return self.plain(*arguments)
         try:
@@ -56,7 +56,7 @@ def or_interpreted(**instead: Function) -> Callable[[F], F]:
 
 
 def interpreted(kernel: Any, instead: dict[str, Function]) -> Function:
-    """The Python function of a kernel, in which those that it calls are Python functions, too."""
+    """Returns the Python function of a kernel, in which those that it calls are Python functions, too."""
     function = kernel.py_func
     scope = dict(function.__globals__)
     for name in function.__code__.co_names:

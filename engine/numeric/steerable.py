@@ -50,7 +50,8 @@ class Filters:
 
     @property
     def odd(self) -> bool:
-        """Whether the oriented filters are odd functions (edges), which have imaginary spectra, or even ones (bars)."""
+        """Tells whether the oriented filters are odd functions (edges), which have imaginary spectra, or even ones
+        (bars)."""
         return self.orientations % 2 == 0
 
     def mask(self, place: Place) -> np.ndarray:
@@ -64,23 +65,23 @@ class Filters:
         return self.sizes[max(place.level, 0)]
 
     def turned(self, place: Place) -> bool:
-        """Whether the band's spectrum is imaginary times its mask."""
+        """Tells whether the band's spectrum is imaginary times its mask."""
         return self.odd and 0 <= place.level < self.levels
 
 
 def places(levels: int, orientations: int) -> list[Place]:
-    """All subbands, from fine to coarse."""
+    """Returns all subbands, from fine to coarse."""
     oriented = [Place(level, k) for level in range(levels) for k in range(orientations)]
     return [Place(-1), *oriented, Place(levels)]
 
 
 def most_levels(height: int, width: int) -> int:
-    """How many levels a picture has room for: the low-pass residue is 4 pixels or more on its shorter side."""
+    """Tells how many levels a picture has room for: the low-pass residue is 4 pixels or more on its shorter side."""
     return max(0, int(math.log2(max(min(height, width), 1))) - 2)
 
 
 def filters(height: int, width: int, levels: int, orientations: int) -> Filters:
-    """The masks for pictures of `height` x `width`; kept for a while, if they are not too large."""
+    """Returns the masks for pictures of `height` x `width`; kept for a while, if they are not too large."""
     if min(height, width, orientations) < 1 or not 0 <= levels <= most_levels(height, width):
         raise ValueError(
             f"steerable pyramid: found {levels} levels, {orientations} orientations for {height} x {width}"
@@ -104,8 +105,9 @@ def _made(height: int, width: int, levels: int, orientations: int) -> Filters:
 
 
 def masks(logarithm: np.ndarray, angle: np.ndarray, level: int, levels: int, orientations: int) -> np.ndarray:
-    """The masks of the subbands of a level, 0 to `levels` (the low-pass residue), at any frequencies (...): log2 of
-    them in parts of the highest along an axis, and their direction.  float64 (K, ...), K being 1 for the residue."""
+    """Returns the masks of the subbands of a level, 0 to `levels` (the low-pass residue), at any frequencies (...):
+    log2 of them in parts of the highest along an axis, and their direction.  float64 (K, ...), K being 1 for the
+    residue."""
     if level == levels:
         return _split(logarithm + level)[1][None]
     radial = _split(logarithm + level)[1] * _split(logarithm + level + 1)[0]
@@ -131,7 +133,8 @@ def _logarithm(height: int, width: int, h: int, w: int) -> tuple[np.ndarray, np.
 
 
 def _split(logarithm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The high-pass and the low-pass half of a split at the octave below log2 = 0; their squares add up to one."""
+    """Returns the high-pass and the low-pass half of a split at the octave below log2 = 0; their squares add up to
+    one."""
     turn = (np.pi / 2.0) * np.clip(logarithm + 1.0, 0.0, 1.0)
     low = np.cos(turn)
     return np.sin(turn), np.where(logarithm >= 0.0, 0.0, low)  # exactly zero where the next level has no frequencies
@@ -152,7 +155,7 @@ def spectrum(images: np.ndarray) -> np.ndarray:
 
 
 def image(half: np.ndarray, size: tuple[int, int], spent: bool = False) -> np.ndarray:
-    """The pictures (..., *size) of half a spectrum: float32.  `spent`: the spectrum may be written over."""
+    """Returns the pictures (..., *size) of half a spectrum: float32.  `spent`: the spectrum may be written over."""
     from scipy.fft import irfft2
 
     out: np.ndarray = irfft2(half, s=size, axes=_AXES, overwrite_x=spent)
@@ -160,7 +163,7 @@ def image(half: np.ndarray, size: tuple[int, int], spent: bool = False) -> np.nd
 
 
 def band(half: np.ndarray, made: Filters, place: Place) -> np.ndarray:
-    """One subband of pictures whose half spectra (n, H, W//2 + 1) are given: float32 (n, h, w).
+    """Returns one subband of pictures whose half spectra (n, H, W//2 + 1) are given: float32 (n, h, w).
 
     Its values are those of the filtered picture: a smaller band is a sampling of it.
     """
@@ -174,7 +177,7 @@ def band(half: np.ndarray, made: Filters, place: Place) -> np.ndarray:
 
 
 def build(images: np.ndarray, made: Filters) -> dict[Place, np.ndarray]:
-    """The pyramid of pictures (..., H, W), float32: subbands (..., h, w) by their place."""
+    """Returns the pyramid of pictures (..., H, W), float32: subbands (..., h, w) by their place."""
     planes = np.ascontiguousarray(images, np.float32).reshape(-1, *made.sizes[0])
     half = spectrum(planes)
     found = {place: band(half, made, place) for place in places(made.levels, made.orientations)}
@@ -182,7 +185,7 @@ def build(images: np.ndarray, made: Filters) -> dict[Place, np.ndarray]:
 
 
 def collapse(pyramid: dict[Place, np.ndarray], made: Filters) -> np.ndarray:
-    """The pictures (..., H, W) again: of an untouched pyramid the same, to 1e-6 of their size."""
+    """Returns the pictures (..., H, W) again: of an untouched pyramid the same, to 1e-6 of their size."""
     leading = pyramid[Place(-1)].shape[:-2]
     total = np.zeros((math.prod(leading), *made.high.shape), np.complex64)
     for place in places(made.levels, made.orientations):
@@ -194,7 +197,8 @@ def collapse(pyramid: dict[Place, np.ndarray], made: Filters) -> np.ndarray:
 def changed(
     images: np.ndarray, made: Filters, change: Change, threads: Executor | None = None
 ) -> Generator[float, None, np.ndarray]:
-    """Pictures (n, H, W) whose subbands went through `change(place, values (n, h, w))`, which writes into `values`.
+    """Yields pictures (n, H, W) whose subbands went through `change(place, values (n, h, w))`, which writes into
+    `values`.
 
     As `build`, the changes, and `collapse`, but a subband is held no longer than needed.  Tells how large a part is
     done, 0..1, and returns the pictures.  With `threads`, several subbands are worked on at once; they are added up in
@@ -219,7 +223,7 @@ def changed(
 
 
 def finished(steps: Generator[float, None, np.ndarray]) -> np.ndarray:
-    """What such a generator returns in the end."""
+    """Returns what such a generator returns in the end."""
     while True:
         try:
             next(steps)

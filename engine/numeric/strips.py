@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.numeric.kernel import Int, Real, inlined, inner, kernel
+from engine.numeric.kernel import Array, Int, Real, inlined, inner, kernel
 
 WIDE = 16  # pixels across a strip
 _BLOCK = 128  # pixels along a side of a block of the result
@@ -59,14 +59,14 @@ def _add(into: np.ndarray, p: Int, copied: np.ndarray, q: Int, n: Int, weight: R
 
 @inner
 def _near(
-    places: np.ndarray,
-    weights: np.ndarray,
+    places: Array,
+    weights: Array,
     first: Int,
     last: Int,
     block: tuple[Int, Int, Int, Int],
     shape: tuple[Int, Int],
-    at: np.ndarray,
-    found: np.ndarray,
+    at: Array,
+    found: Array,
 ) -> Int:
     """Lists the copies `first` to `last` that touch a block: (top row, displacement on its first strip) in `at`,
     weights in `found`; how many.  block = (y, x, height, width), shape = (rows of a copy, its displacements)."""
@@ -83,12 +83,7 @@ def _near(
 
 @inner
 def _lay(
-    strip: np.ndarray,
-    copied: np.ndarray,
-    rows: np.ndarray,
-    shape: tuple[Int, Int, Int, Int, Int],
-    at: np.ndarray,
-    found: np.ndarray,
+    strip: Array, copied: Array, rows: Array, shape: tuple[Int, Int, Int, Int, Int], at: Array, found: Array
 ) -> None:
     """Sums the listed copies on a strip, the `s`-th of a block: shape = (s, channel, its rows, a copy's displacements
     and rows)."""
@@ -120,12 +115,7 @@ def _unpack(out: np.ndarray, strip: np.ndarray, channel: Int, y0: Int, x0: Int) 
 
 @kernel
 def lay_strips(
-    out: np.ndarray,
-    copied: np.ndarray,
-    rows: np.ndarray,
-    places: np.ndarray,
-    weights: np.ndarray,
-    bands: tuple[np.ndarray, Int, Int],
+    out: Array, copied: Array, rows: Array, places: Array, weights: Array, bands: tuple[Array, Int, Int]
 ) -> None:
     """out (c, h, w) = sum over n of weights[n] times the copy, beginning at (row, column) places[n], in that order.
 

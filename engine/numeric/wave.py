@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.numeric.address import Rect
-from engine.numeric.kernel import Int, Real, inlined, inner, kernel
+from engine.numeric.kernel import Array, Int, Real, inlined, inner, kernel
 
 UNIT = 1 << 24  # units in a pixel
 # A cell longer than this cannot show two of its ends in one rectangle (fewer than 2^20 pixels across); the far end is
@@ -61,11 +61,11 @@ class Wave:
         return cls(2 * round(ux * UNIT / 2), 2 * round(uy * UNIT / 2), units, round(phase * units))
 
     def across(self) -> Wave:
-        """The same wave a quarter turn on."""
+        """Returns the same wave a quarter turn on."""
         return Wave(-self.uy, self.ux, self.period, self.phase)
 
     def finer(self, levels: int) -> Wave:
-        """The same wave seen `levels` (>= 0) finer."""
+        """Returns the same wave seen `levels` (>= 0) finer."""
         return Wave(self.ux, self.uy, self.period << levels, self.phase << levels)
 
     def at(self, x: int, y: int) -> int:
@@ -73,13 +73,14 @@ class Wave:
         return self.ux * x + self.uy * y + (self.ux + self.uy) // 2 + self.phase
 
     def edge_near(self, rect: Rect, cell: int, reach: int) -> bool:
-        """Whether a multiple of `cell` lies within the ts of the rectangle grown by `reach` pixels."""
+        """Tells whether a multiple of `cell` lies within the ts of the rectangle grown by `reach` pixels."""
         r = rect.grown(reach)
         ends = [self.at(x, y) for x in (r.x0, r.x1 - 1) for y in (r.y0, r.y1 - 1)]
         return min(ends) // cell != max(ends) // cell
 
     def footprint(self) -> Footprint:
-        """What `_tail` needs of the pixel's shadow along the wave: 1/a, (a - b)/2, (a + b)/2, 1/(2ab) with a >= b."""
+        """Returns what `_tail` needs of the pixel's shadow along the wave: 1/a, (a - b)/2, (a + b)/2, 1/(2ab) with a
+        >= b."""
         a, b = sorted((abs(self.ux) / UNIT, abs(self.uy) / UNIT), reverse=True)
         return (
             np.float32(1 / a),
@@ -103,7 +104,8 @@ def folded(t: int, cell: int) -> tuple[int, int, int]:
 
 
 def square_wave(wave: Wave, rect: Rect) -> np.ndarray:
-    """Pixel averages of the wave that is +1 on the first half of each period, -1 on the second: float32 (h, w)."""
+    """Returns pixel averages of the wave that is +1 on the first half of each period, -1 on the second: float32 (h,
+    w)."""
     out = np.empty((rect.height, rect.width), np.float32)
     r, odd, cell = folded(wave.at(rect.x0, rect.y0), wave.period // 2)
     _square_rows(out, r, odd, cell, wave.ux, wave.uy, wave.footprint())
@@ -111,7 +113,8 @@ def square_wave(wave: Wave, rect: Rect) -> np.ndarray:
 
 
 def step_wave(wave: Wave, rect: Rect) -> np.ndarray:
-    """Pixel averages of the step from -1 to +1 across that multiple of the period which is nearest: float32 (h, w).
+    """Returns pixel averages of the step from -1 to +1 across that multiple of the period which is nearest: float32
+    (h, w).
 
     For periods of FAR / 2 and more: there, no rectangle holds two edges.
     """
@@ -122,7 +125,7 @@ def step_wave(wave: Wave, rect: Rect) -> np.ndarray:
 
 
 def saw_wave(wave: Wave, rect: Rect) -> np.ndarray:
-    """Pixel averages of the wave that falls from +1 to -1 over each period, then jumps: float32 (h, w).
+    """Returns pixel averages of the wave that falls from +1 to -1 over each period, then jumps: float32 (h, w).
 
     For periods up to LONGEST.
     """
@@ -133,7 +136,7 @@ def saw_wave(wave: Wave, rect: Rect) -> np.ndarray:
 
 @inlined
 def _tail(z: Real, shadow: tuple[Real, Real, Real, Real]) -> Real:
-    """The part of a pixel that lies beyond an edge at distance z >= 0 (pixels) from its centre."""
+    """Returns the part of a pixel that lies beyond an edge at distance z >= 0 (pixels) from its centre."""
     rest = max(shadow[2] - z, _ZERO)
     return _HALF - z * shadow[0] if z < shadow[1] else rest * rest * shadow[3]
 
@@ -151,7 +154,7 @@ def _stepped(r: Int, odd: Int, step: Int, wraps: Int, cell: Int) -> tuple[Int, I
 
 @inlined
 def _lift(ux: Int, cell: Int) -> Int:
-    """An even number of cells that keeps every t of a block positive; with r, it stays below 2^31."""
+    """Returns an even number of cells that keeps every t of a block positive; with r, it stays below 2^31."""
     return 0 if ux >= 0 else ((_BLOCK * -ux) // (2 * cell) + 1) * 2 * cell
 
 
@@ -169,7 +172,7 @@ def _within(t: Int, cell: Int, per_cell: Real) -> tuple[Int, Real]:
 
 @inner
 def _square_short(row: np.ndarray, r: Int, odd: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
-    """A block of the square wave whose cells are at most _SHORT: any number of edges."""
+    """Writes a block of the square wave whose cells are at most _SHORT: any number of edges."""
     start, step, size = np.int32(r + _lift(ux, cell)), np.int32(ux), np.int32(cell)
     per_cell = _ONE / np.float32(size)
     flip = np.int32(odd)
@@ -182,14 +185,8 @@ def _square_short(row: np.ndarray, r: Int, odd: Int, cell: Int, ux: Int, shadow:
 
 
 @inner
-def _square_edge(
-    row: np.ndarray,
-    distance: Int,
-    sign: Real,
-    ux: Int,
-    shadow: tuple[Real, Real, Real, Real],
-) -> None:
-    """A block with one edge, `distance` units before its first pixel's centre; `sign` holds after the edge."""
+def _square_edge(row: Array, distance: Int, sign: Real, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
+    """Writes a block with one edge, `distance` units before its first pixel's centre; `sign` holds after the edge."""
     start, step = np.int32(distance), np.int32(ux)
     for i in range(row.size):
         d = np.int32(start + np.int32(i) * step)
@@ -200,7 +197,7 @@ def _square_edge(
 
 @inner
 def _square_long(row: np.ndarray, r: Int, odd: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
-    """A block of the square wave whose cells are longer than _SHORT: at most one edge."""
+    """Writes a block of the square wave whose cells are longer than _SHORT: at most one edge."""
     span = ux * (row.size - 1)
     past = 2 * r + span >= cell
     distance = r - cell if past else r
@@ -215,15 +212,10 @@ def _square_long(row: np.ndarray, r: Int, odd: Int, cell: Int, ux: Int, shadow: 
 
 @kernel
 def _square_rows(
-    out: np.ndarray,
-    r: Int,
-    odd: Int,
-    cell: Int,
-    ux: Int,
-    uy: Int,
-    shadow: tuple[Real, Real, Real, Real],
+    out: Array, r: Int, odd: Int, cell: Int, ux: Int, uy: Int, shadow: tuple[Real, Real, Real, Real]
 ) -> None:
-    """The square wave over `out` (h, w), whose first pixel's centre is at r (0 <= r < cell) in an even or odd cell."""
+    """Writes the square wave over `out` (h, w), whose first pixel's centre is at r (0 <= r < cell) in an even or odd
+    cell."""
     jump, jumps = (_BLOCK * ux) % cell, ((_BLOCK * ux) // cell) & 1
     down, downs = uy % cell, (uy // cell) & 1
     for y in range(out.shape[0]):
@@ -240,7 +232,7 @@ def _square_rows(
 
 @inner
 def _saw_short(row: np.ndarray, r: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
-    """A block of the sawtooth whose period is at most _SHORT: any number of jumps."""
+    """Writes a block of the sawtooth whose period is at most _SHORT: any number of jumps."""
     start, step, size = np.int32(r + _lift(ux, cell)), np.int32(ux), np.int32(cell)
     per_cell = _ONE / np.float32(size)
     for i in range(row.size):
@@ -252,7 +244,7 @@ def _saw_short(row: np.ndarray, r: Int, cell: Int, ux: Int, shadow: tuple[Real, 
 
 @inner
 def _saw_long(row: np.ndarray, r: Int, cell: Int, ux: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
-    """A block of the sawtooth with one jump at most; the ramp in float64."""
+    """Writes a block of the sawtooth with one jump at most; the ramp in float64."""
     slope = 2.0 / cell
     span = ux * (row.size - 1)
     if min(r, r + span) >= _UNIT and max(r, r + span) <= cell - _UNIT:
@@ -269,7 +261,7 @@ def _saw_long(row: np.ndarray, r: Int, cell: Int, ux: Int, shadow: tuple[Real, R
 
 @kernel
 def _saw_rows(out: np.ndarray, r: Int, cell: Int, ux: Int, uy: Int, shadow: tuple[Real, Real, Real, Real]) -> None:
-    """The sawtooth over `out` (h, w), whose first pixel's centre is at r, 0 <= r < cell = the period."""
+    """Writes the sawtooth over `out` (h, w), whose first pixel's centre is at r, 0 <= r < cell = the period."""
     jump, down = (_BLOCK * ux) % cell, uy % cell
     for y in range(out.shape[0]):
         q = r

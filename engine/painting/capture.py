@@ -42,7 +42,7 @@ class PictureSource:
     pictures: Mapping[str, ImageSource] = _NO_PICTURES
 
     def picture(self, members: Fields) -> np.ndarray:
-        """The picture that `path`, or else `rect` and `layer`, name: premultiplied RGBA, float32 (4, h, w)."""
+        """Returns the picture that `path`, or else `rect` and `layer`, name: premultiplied RGBA, float32 (4, h, w)."""
         if "path" in members and "rect" in members:
             raise members.fault("rect", "either path or rect")
         if "rect" in members:
@@ -50,7 +50,7 @@ class PictureSource:
         return read_picture(members.text("path", cap=4096), self.folder)
 
     def shape(self, shape: Mapping[str, Any]) -> np.ndarray:
-        """The picture that a shape of a spectrum names: that of a texture by its sha, or as `picture`."""
+        """Returns the picture that a shape of a spectrum names: that of a texture by its sha, or as `picture`."""
         members = Fields(thawed(shape), "shapes")
         if shape["shape"] != "texture":
             return self.picture(members)
@@ -61,7 +61,7 @@ class PictureSource:
 
 
 def read_picture(path: str, folder: Path | None) -> np.ndarray:
-    """The planes of a picture file, float32 (4, h, w) on the grid.  A relative path starts from `folder`."""
+    """Returns the planes of a picture file, float32 (4, h, w) on the grid.  A relative path starts from `folder`."""
     where = Path(path) if folder is None else folder / path
     if not os.path.isfile(where):  # also so that no pipe or device is opened
         raise FileError(path, f"found no picture there, expected a PNG, JPEG or TIFF ({where})")
@@ -70,7 +70,7 @@ def read_picture(path: str, folder: Path | None) -> np.ndarray:
 
 
 def captured(members: Fields, root: Group) -> np.ndarray:
-    """A rectangle of the canvas as a picture, float32 (4, h, w) on the grid."""
+    """Returns a rectangle of the canvas as a picture, float32 (4, h, w) on the grid."""
     level, x, y, width, height = members.integers("rect", 5, limit=PLACE_LIMIT)
     detail = members.integer("detail", 0, lo=0, hi=DETAIL_CAP)
     if abs(level) > LEVEL_LIMIT or width < 1 or height < 1 or (width * height) << (2 * detail) > PIXELS_CAP:

@@ -190,7 +190,8 @@ Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap
 
 
 def parse(value: Any, where: str = "") -> Command:
-    """The command that a JSON object tells; FieldError names the member, what was found and what was expected."""
+    """Returns the command that a JSON object tells; FieldError names the member, what was found and what was
+    expected."""
     members = Fields(value, where)
     name = members.take("do", expected="the command's name")
     row = COMMANDS.get(name) if isinstance(name, str) else None
@@ -200,7 +201,7 @@ def parse(value: Any, where: str = "") -> Command:
 
 
 def to_json(command: Command) -> dict[str, Any]:
-    """The JSON object of a command; defaults are left out."""
+    """Returns the JSON object of a command; defaults are left out."""
     name = NAMES[type(command)]
     return {"do": name, **COMMANDS[name].write(command)}
 

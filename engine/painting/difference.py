@@ -16,7 +16,7 @@ Areas = Callable[[int], "list[Rect] | None"]
 
 
 def areas(old: Painting, new: Painting) -> Areas:
-    """Where two paintings differ, by level; None for anywhere."""
+    """Tells where two paintings differ, by level; None for anywhere."""
     pairs = _pairs(old.root, new.root)
 
     @cache  # it is asked for every tile on the screen
@@ -57,5 +57,5 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
 
 
 def _plain(node: Layer | Group) -> tuple[Any, ...]:
-    """What of a node shows, besides its paint."""
+    """Returns what of a node shows, besides its paint."""
     return node.id, node.opacity, node.visible, node.blend, isinstance(node, Group) and node.isolated

@@ -20,7 +20,7 @@ MOST_THREADS = 8
 
 @contextmanager
 def threads(count: int | None = None) -> Iterator[Executor | None]:
-    """What grows examples on `count` threads, as many as there are cores if that is None; None for one."""
+    """Yields what grows examples on `count` threads, as many as there are cores if that is None; None for one."""
     count = min(os.cpu_count() or 1, MOST_THREADS) if count is None else count
     if count == 1:
         yield None
@@ -34,14 +34,14 @@ def threads(count: int | None = None) -> Iterator[Executor | None]:
 
 
 def settled(painting: Painting, count: int | None = None, tell: Tell = lambda part: None) -> Painting:
-    """The same painting with all that is painted with examples as it will stay, grown on `count` threads; `tell` hears
-    of the part that is done, from 0 on, if there is anything to do."""
+    """Returns the same painting with all that is painted with examples as it will stay, grown on `count` threads;
+    `tell` hears of the part that is done, from 0 on, if there is anything to do."""
     root = settled_root(painting.root, count, tell)
     return painting if root is painting.root else replace(painting, root=root)
 
 
 def settled_root(root: Group, count: int | None = None, tell: Tell = lambda part: None) -> Group:
-    """The same layers, grown to the end."""
+    """Returns the same layers, grown to the end."""
     found = waiting(root)
     if not found:
         return root
@@ -54,7 +54,7 @@ def settled_root(root: Group, count: int | None = None, tell: Tell = lambda part
 
 
 def waiting(root: Group) -> list[Layer]:
-    """The layers on which something is still to be grown."""
+    """Returns the layers on which something is still to be grown."""
     return [layer for layer in layers.layers(root) if not is_settled(layer.growth)]
 
 

@@ -30,7 +30,7 @@ _HIGHEST = np.array([column[3] for column in POINT_COLUMNS])
 
 
 def points_array(rows: Any, place: str) -> np.ndarray:
-    """A list of lists of 2 to 6 numbers as float64 (n, 6), read-only; what is left out has its default."""
+    """Returns a list of lists of 2 to 6 numbers as float64 (n, 6), read-only; what is left out has its default."""
     if not isinstance(rows, list) or not 1 <= len(rows) <= POINTS_CAP:
         found = f"{len(rows)} points" if isinstance(rows, list) else described(rows)
         raise FieldError(place, found, f"a list of 1 to {POINTS_CAP} points")
@@ -46,7 +46,8 @@ def points_array(rows: Any, place: str) -> np.ndarray:
 
 
 def checked_points(table: np.ndarray, place: str) -> np.ndarray:
-    """The points themselves, read-only, if all are within their columns' bounds; else FieldError for the first."""
+    """Returns the points themselves, read-only, if all are within their columns' bounds; else FieldError for the
+    first."""
     good = (table >= _LOWEST) & (table <= _HIGHEST)
     if not good.all():
         i, column = (int(v) for v in np.argwhere(~good)[0])
@@ -58,8 +59,8 @@ def checked_points(table: np.ndarray, place: str) -> np.ndarray:
 
 
 def fitted(given: np.ndarray) -> tuple[np.ndarray, int]:
-    """What a pen told, float64 (n, 2..6), as points (n, 6): within their columns' bounds, without those that are no
-    points (not finite, or too far away), and how many these were."""
+    """Returns what a pen told, float64 (n, 2..6), as points (n, 6): within their columns' bounds, without those that
+    are no points (not finite, or too far away), and how many these were."""
     table = np.empty((len(given), len(POINT_COLUMNS)))
     table[:, : given.shape[1]] = given
     table[:, given.shape[1] :] = _DEFAULTS[given.shape[1] :]
@@ -72,7 +73,7 @@ def fitted(given: np.ndarray) -> tuple[np.ndarray, int]:
 
 
 def rounded(points: np.ndarray) -> np.ndarray:
-    """What a pen told, rounded to far finer than it can tell, so that it is short as text: float64 (n, 6)."""
+    """Returns what a pen told, rounded to far finer than it can tell, so that it is short as text: float64 (n, 6)."""
     out = np.array(points, np.float64)
     for column, decimals in enumerate(_DECIMALS):
         out[:, column] = np.round(out[:, column], decimals)
@@ -80,7 +81,7 @@ def rounded(points: np.ndarray) -> np.ndarray:
 
 
 def points_json(points: np.ndarray) -> list[list[float]]:
-    """Rows without their trailing defaults, whole numbers without a point."""
+    """Returns rows without their trailing defaults, whole numbers without a point."""
     kept = np.where(points != _DEFAULTS, np.arange(1, 7), 2).max(axis=1)
     return [[plain(v) for v in row[:n]] for row, n in zip(points.tolist(), kept.tolist(), strict=True)]
 

@@ -56,16 +56,16 @@ class Recording:
     name: str = "recording"
 
     def fault(self, index: int, message: str) -> FileError:
-        """An error of command `index`, with the file and the line."""
+        """Returns an error of command `index`, with the file and the line."""
         line = self.places[index] if index < len(self.places) else index + 2
         return FileError(self.name, f"line {line}: {message}")
 
     def until(self, count: int) -> Recording:
-        """The first `count` commands."""
+        """Returns the first `count` commands."""
         return replace(self, commands=self.commands[:count], places=self.places[:count])
 
     def lines(self) -> Iterator[str]:
-        """The file's lines, without their ends."""
+        """Yields the file's lines, without their ends."""
         yield dumps({**self.header.to_json(), "inkfall": max(map(version_of, self.commands), default=1)})
         for command in self.commands:
             yield dumps(to_json(command))
@@ -77,7 +77,7 @@ def version_of(command: Command) -> int:
 
 
 def read(path: str | os.PathLike[str]) -> Recording:
-    """The recording in a file; FileError names the line, the member, what was found and what was expected."""
+    """Returns the recording in a file; FileError names the line, the member, what was found and what was expected."""
     try:
         with open(path, "rb") as file:
             return read_from(file, os.fspath(path), Path(path).parent)
@@ -138,14 +138,14 @@ def parse_header(value: Any) -> Header:
 
 
 def write(recording: Recording, path: str | os.PathLike[str]) -> None:
-    """The recording as a file, put in place whole or not at all."""
+    """Writes the recording as a file, put in place whole or not at all."""
     with replacing(path) as file:
         for line in recording.lines():
             file.write(line.encode() + b"\n")
 
 
 def undo_reach(commands: Iterable[Command], is_step: frozenset[type]) -> int:
-    """How many steps back undo ever goes in these commands: what a replay has to remember."""
+    """Tells how many steps back undo ever goes in these commands: what a replay has to remember."""
     behind = ahead = furthest = reach = 0
     for command in commands:
         if isinstance(command, Undo):

@@ -25,7 +25,7 @@ Progress = Callable[[float], None] | None  # gets the part done, 0..1
 
 
 def folded_layers(root: Group) -> Group:
-    """The same tree with nothing pending, so that no strip settles it anew."""
+    """Returns the same tree with nothing pending, so that no strip settles it anew."""
     for layer in list(layers.layers(root)):
         settled = fold(layer.pyramid)
         if settled.levels != layer.pyramid.levels:
@@ -34,15 +34,15 @@ def folded_layers(root: Group) -> Group:
 
 
 def bands(rect: Rect) -> Iterator[Rect]:
-    """The rectangle in strips of whole rows, from the top."""
+    """Yields the rectangle in strips of whole rows, from the top."""
     rows = max(16, min(ROWS, _STRIP // max(1, rect.width)))
     for y in range(rect.y0, rect.y1, rows):
         yield Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1))
 
 
 def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Iterator[np.ndarray]:
-    """The composited picture of `rect` from the top: float32 (4, n, w) premultiplied, clamped for display; the same
-    array every time.  Cancelled is raised between pieces."""
+    """Yields the composited picture of `rect` from the top: float32 (4, n, w) premultiplied, clamped for display;
+    the same array every time.  Cancelled is raised between pieces."""
     count = sum(1 for _ in layers.layers(root))
     columns = max(128, _COLUMNS * HELD // max(HELD, count))
     out: np.ndarray | None = None
@@ -61,7 +61,7 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
 def sheets(
     root: Group, level: int, frame: Rect, places: Mapping[int, Rect], cancelled: Stop = None
 ) -> Iterator[tuple[dict[int, np.ndarray], np.ndarray]]:
-    """The frame from the top, in bands, each layer evaluated once: (planes of each layer by its id, composited).
+    """Yields the frame from the top, in bands, each layer evaluated once: (planes of each layer by its id, composited).
 
     `places`: where each layer is to be seen (`reach`); its planes cover the part of the band there, and are left out
     where that is empty.  All float32 (4, n, w), premultiplied; the composited ones clamped for display.
@@ -103,7 +103,7 @@ def _parts(known: Mapping[int, np.ndarray], places: Mapping[int, Rect], band: Re
 
 
 def _nothing(planes: np.ndarray) -> bool:
-    """Whether all of (4, h, w) is zero; alpha is not below that."""
+    """Tells whether all of (4, h, w) is zero; alpha is not below that."""
     return not planes[3].max() and not planes[:3].max() and not planes[:3].min()
 
 
@@ -130,7 +130,7 @@ def _reader(piece: Rect) -> Read:
 
 
 def reach(layer: Layer, level: int, frame: Rect) -> Rect:
-    """A rectangle of `level` within `frame` outside which a layer is empty there."""
+    """Returns a rectangle of `level` within `frame` outside which a layer is empty there."""
     whole = growth.bounds(layer.growth, level).intersect(frame)
     for key, record in layer.pyramid.all_records():
         x, y, r = key.rect.x0, key.rect.y0, record.rect

@@ -44,7 +44,7 @@ class Around:
 
 
 def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:
-    """The command with what the maker found out about its picture, and the sha by which that is known again."""
+    """Returns the command with what the maker found out about its picture, and the sha by which that is known again."""
     if texture.source is None:
         return command
     found = {name: value for name, value in texture.parameters.items() if name not in command.arguments}

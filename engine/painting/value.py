@@ -42,8 +42,8 @@ def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SA
 
 
 def layer_for(painting: Painting, name: str | None, what: str = "stroke") -> tuple[Painting, Layer]:
-    """The layer that a stroke, or `what` else, goes to: the one named, else the active one; a first one is made where
-    there is none."""
+    """Returns the layer that a stroke, or `what` else, goes to: the one named, else the active one; a first one is
+    made where there is none."""
     wanted = painting.active if name is None else name
     if wanted is None:
         wanted = layers.unique_name(painting.root)

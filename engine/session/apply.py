@@ -25,7 +25,7 @@ _CAUSES = (LayerError, FieldError)
 
 
 def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> Painting:
-    """The painting after a command.  `undo`, `redo` and `view` change nothing here: they belong to the session.
+    """Returns the painting after a command.  `undo`, `redo` and `view` change nothing here: they belong to the session.
 
     Refusal if the command cannot be done; FileError if a file that it names cannot be read.
     """

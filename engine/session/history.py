@@ -64,14 +64,14 @@ class History(Owned):
         self._forget()
 
     def undo(self) -> Painting:
-        """The painting before the last step; IndexError if there is none."""
+        """Returns the painting before the last step; IndexError if there is none."""
         step = self._done.pop()
         self._undone.append(step)
         self.held += step.gained - step.lost
         return step.before
 
     def redo(self) -> Painting:
-        """The painting after the step undone last; IndexError if there is none."""
+        """Returns the painting after the step undone last; IndexError if there is none."""
         step = self._undone.pop()
         self._done.append(step)
         self.held += step.lost - step.gained
@@ -97,7 +97,7 @@ class History(Owned):
 
 
 def difference(old: Group, new: Group) -> tuple[int, int]:
-    """Bytes that only `old` holds, and bytes that only `new` holds."""
+    """Returns bytes that only `old` holds, and bytes that only `new` holds."""
     before = {layer.id: layer for layer in layers.layers(old)}
     after = {layer.id: layer for layer in layers.layers(new)}
     lost = gained = 0
@@ -119,7 +119,7 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
 
 
 def _regrown(old: Growth, new: Growth) -> tuple[int, int]:
-    """The same of what was painted on a layer with examples."""
+    """Returns the same of what was painted on a layer with examples."""
     if old is new:
         return 0, 0
     before, after = growths.arrays(old), growths.arrays(new)
@@ -127,7 +127,7 @@ def _regrown(old: Growth, new: Growth) -> tuple[int, int]:
 
 
 def _only(one: Pyramid, other: Pyramid) -> Iterator[Record]:
-    """The records of one state that another of the same line of history does not share."""
+    """Yields the records of one state that another of the same line of history does not share."""
     for level, stored in one.levels.items():
         there = other.levels.get(level)
         if there is stored:

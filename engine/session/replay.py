@@ -15,7 +15,7 @@ from engine.session.session import HISTORY_BYTES, Session
 def opened(
     recording: Recording, cache: TileCache | None = None, seed: int | None = None, history_bytes: int = HISTORY_BYTES
 ) -> Session:
-    """A session as the recording's header describes it, nothing done yet.
+    """Returns a session as the recording's header describes it, nothing done yet.
 
     However few `history_bytes` are, undo remembers as many steps as the recording takes back.
     """
@@ -31,7 +31,7 @@ def replay(
     seed: int | None = None,
     tell: Callable[[int], object] = lambda done: None,
 ) -> Session:
-    """The session after all commands.  `seed`: in place of the header's; `tell` hears how many are done.
+    """Returns the session after all commands.  `seed`: in place of the header's; `tell` hears how many are done.
 
     FileError names the line of a command that cannot be done.
     """

@@ -84,11 +84,12 @@ class Session(Owned):
     def begin(
         self, level: int, origin: tuple[int, int], brush: Brush, layer: str | None = None, seed: int | None = None
     ) -> Live:
-        """A stroke whose points are still to come; hand it to `finish`."""
+        """Returns a stroke whose points are still to come; hand it to `finish`."""
         return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed)
 
     def finish(self, live: Live) -> Painting:
-        """The stroke done: the same as its command, without doing the work twice.  One without a point is nothing."""
+        """Returns the stroke done: the same as its command, without doing the work twice.  One without a point is
+        nothing."""
         if live.empty:
             return self.painting
         if live.before is not self.painting:  # something else was done in between
@@ -96,13 +97,13 @@ class Session(Owned):
         return self._done(live.to_command(), live.commit())
 
     def recording(self) -> Recording:
-        """All that was done, as a recording that gives this painting."""
+        """Returns all that was done, as a recording that gives this painting."""
         header = Header(self.painting.frame, self.painting.seed, self._extra)
         return Recording(header, tuple(self.log), folder=self.folder)
 
     def around(self, lent: ImageSource | None = None) -> Around:
-        """What definitions find around them: pictures of textures by their sha, wherever their files are now; `lent`
-        among them."""
+        """Returns what definitions find around them: pictures of textures by their sha, wherever their files are
+        now; `lent` among them."""
         textures = self.painting.textures.values()
         sources = (lent, *(t.source for t in textures), *(t.mask for t in textures))
         return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
@@ -119,7 +120,8 @@ class Session(Owned):
         return after
 
     def amend(self, painting: Painting) -> None:
-        """The same painting, with what is painted with examples further refined: no step, and nothing to record."""
+        """Takes the same painting, with what is painted with examples further refined: no step, and nothing to
+        record."""
         self.painting = painting
         self._history.amend(painting.root)
 
@@ -142,7 +144,7 @@ class Session(Owned):
 
 
 def cache_budget() -> int:
-    """Bytes for evaluated tiles: a quarter of the machine's memory."""
+    """Returns bytes for evaluated tiles: a quarter of the machine's memory."""
     try:
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (ValueError, OSError, AttributeError):

@@ -54,7 +54,7 @@ class Bed:
 
     @property
     def behind(self) -> bool:
-        """Whether dabs were laid that nobody can see yet."""
+        """Tells whether dabs were laid that nobody can see yet."""
         return self.growth is not self.seen
 
     def follow(self, refined: Growth | None = None) -> Rect:
@@ -66,11 +66,11 @@ class Bed:
 
     @property
     def rect(self) -> Rect:
-        """Pixels of the stroke's level outside which all looks as before the stroke."""
+        """Returns pixels of the stroke's level outside which all looks as before the stroke."""
         return _around(growths.changed_rects(self.before, self.seen, self._level))
 
     def over(self, root: Group, name: str) -> Group:
-        """The layers with what is seen on the one of that name."""
+        """Returns the layers with what is seen on the one of that name."""
         if self._over is None or self._over[0] is not root or self._over[1] is not self.seen:
             self._over = root, self.seen, layers.with_growth(root, name, self.seen)
         return self._over[2]
@@ -93,7 +93,7 @@ class Meeting:
         self._known: set[tuple[int, int]] = set()
 
     def any(self, growth: Growth, dabs: np.ndarray, spread: int) -> bool:
-        """Whether some of these dabs, float64 (n, 6), which reach `spread` pixels beyond their radius, do."""
+        """Tells whether some of these dabs, float64 (n, 6), which reach `spread` pixels beyond their radius, do."""
         side, reach = self._side, dabs[:, 2:3] + (1.0 + spread)
         places = dabs[:, :2][dabs[:, 3] > 0.0], reach[dabs[:, 3] > 0.0]
         first = np.floor((places[0] - places[1]) / side).astype(np.int64)
@@ -111,7 +111,7 @@ class Meeting:
 
 
 def lies_in(growth: Growth, level: int, rect: Rect) -> bool:
-    """Whether any of a growth's pixels can be seen in a rectangle of a level."""
+    """Tells whether any of a growth's pixels can be seen in a rectangle of a level."""
     for plot in growth:
         masks = plot.region.masks[0]
         at = rect.zoomed(plot.level - level)

@@ -29,7 +29,7 @@ _DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.er
 
 
 def read_parameters(path: str | os.PathLike[str]) -> Parameters:
-    """A TOML file; FileError names the file, the line and the field."""
+    """Returns a TOML file; FileError names the file, the line and the field."""
     try:
         with open(path, "rb") as file:
             data = file.read(PARAMETERS_CAP + 1)
@@ -49,7 +49,7 @@ def read_exemplar(
     parameters: Parameters | None = None,
     folder: Path | None = None,
 ) -> Exemplar:
-    """The exemplar of a picture file, whose region is the light part of another or where it is not transparent.
+    """Returns the exemplar of a picture file, whose region is the light part of another or where it is not transparent.
 
     `folder`: of the analyses, instead of the user's.  FileError, one line, on any fault.
     """
@@ -63,7 +63,7 @@ def read_exemplar(
 
 
 def read_mask(path: str | os.PathLike[str]) -> np.ndarray:
-    """Where a picture is light and not transparent: bool (h, w)."""
+    """Tells where a picture is light and not transparent: bool (h, w)."""
     pixels, _ = read_image(path)
     full = int(np.iinfo(pixels.dtype).max)
     light = pixels[..., :3].astype(np.uint32).sum(axis=-1) * pixels[..., 3].astype(np.uint64)
@@ -87,7 +87,7 @@ def kept(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, fo
 
 
 def key(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters) -> str:
-    """A hash of the content, in hexadecimal."""
+    """Returns a hash of the content, in hexadecimal."""
     held = tuple((name, getattr(parameters, name)) for name in _ANALYSED)
     about = (VERSION, pixels.shape, pixels.dtype.str, mask is None, held)
     found = hashlib.sha256(repr(about).encode())
@@ -107,7 +107,7 @@ def _write(place: Path, exemplar: Exemplar) -> None:
 
 
 def _read(place: Path, pixels: np.ndarray, parameters: Parameters) -> Exemplar:
-    """One of _DAMAGED if it is not there or not whole; its members have check sums."""
+    """Returns one of _DAMAGED if it is not there or not whole; its members have check sums."""
     with open(place, "rb") as file, np.load(file) as held:
         count, block, boundary = (int(n) for n in held["facts"])
         levels = [ExampleLevel(*(held[f"{field.name}{n}"] for field in fields(ExampleLevel))) for n in range(count)]

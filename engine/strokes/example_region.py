@@ -95,8 +95,8 @@ def _stroke(members: Fields, picture: np.ndarray) -> np.ndarray:
 
 
 def _like(members: Fields, picture: np.ndarray) -> np.ndarray:
-    """Where a picture is like the pixel `at`, in every channel by at most `tolerance` (0..1); `contiguous`: only what
-    hangs together with it."""
+    """Tells where a picture is like the pixel `at`, in every channel by at most `tolerance` (0..1); `contiguous`:
+    only what hangs together with it."""
     about = Fields(members.take("like"), members.at("like"))
     x, y = about.integers("at", 2, limit=_FURTHEST)
     _, height, width = picture.shape
@@ -146,7 +146,7 @@ def smoothed(inside: np.ndarray) -> np.ndarray:
 
 
 def _summed(soft: np.ndarray, axis: int) -> np.ndarray:
-    """The sum of 2 SMOOTH + 1 values along an axis."""
+    """Returns the sum of 2 SMOOTH + 1 values along an axis."""
     ends = [(0, 0), (0, 0)]
     ends[axis] = (SMOOTH + 1, SMOOTH)
     total = np.pad(soft, ends, mode="edge").cumsum(axis=axis)

@@ -37,8 +37,8 @@ class Sown:
 
 
 def sown(painting: Painting, name: str, detail: int, where: str) -> Sown:
-    """The example of that name, whose finest `detail` levels are for zooming in; BrushError at `where` if there is
-    none."""
+    """Returns the example of that name, whose finest `detail` levels are for zooming in; BrushError at `where` if
+    there is none."""
     texture = painting.textures.get(name)
     if texture is None or texture.kind != KIND:
         what = "nothing of that name" if texture is None else f"a texture of kind {texture.kind}"
@@ -70,16 +70,16 @@ class LiveGrowth(Drawn):
 
     @property
     def rect(self) -> Rect:
-        """Pixels of the stroke's level outside which nothing looks different."""
+        """Returns pixels of the stroke's level outside which nothing looks different."""
         return self.bed.rect
 
     @property
     def root(self) -> Group:
-        """The layers as they are to be seen."""
+        """Returns the layers as they are to be seen."""
         return self.bed.over(self.base.root, self.layer.name)
 
     def commit(self) -> Painting:
-        """The painting with the stroke on its layer, refined as far as it is."""
+        """Returns the painting with the stroke on its layer, refined as far as it is."""
         if self.empty:
             return self.before
         if self.bed.growth is self.layer.growth:
@@ -94,7 +94,7 @@ def _check_alpha(layer: Layer, what: str) -> None:
 
 
 def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
-    """What the brush makes of a growth where it takes pixels of level `grid`."""
+    """Returns what the brush makes of a growth where it takes pixels of level `grid`."""
     if brush.row.takes_away:
         return lambda growth, rect, mask: growths.cut(growth, grid, rect, mask, brush.depth)
     assert brush.example is not None
@@ -105,7 +105,7 @@ def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
 
 
 def _grid(brush: Brush, level: int) -> int:
-    """The level whose pixels are taken."""
+    """Returns the level whose pixels are taken."""
     if brush.row.takes_away or brush.example_level is None:
         return level
     grid = brush.example_level

@@ -52,7 +52,7 @@ class Origin:
 
 
 def of_definition(command: c.DefineTexture, around: Around) -> Texture:
-    """The texture that a command of the maker "example" defines.
+    """Returns the texture that a command of the maker "example" defines.
 
     `path` of a picture or `bundled`, the name of one that comes along; `mask`, a picture that is light where the region
     is (else it is where the picture is not transparent), `mask_strokes`, painted on it, and `region`, steps by which it
@@ -73,7 +73,7 @@ def of_definition(command: c.DefineTexture, around: Around) -> Texture:
 
 
 def _paths(members: Fields, folder: Path | None) -> dict[str, Path | None]:
-    """The files that a definition names, absolute or from the current folder."""
+    """Returns the files that a definition names, absolute or from the current folder."""
     found: dict[str, Path | None] = {"path": None, "mask": None, "params": None}
     if "bundled" in members:
         if "path" in members:
@@ -96,7 +96,7 @@ def _paths(members: Fields, folder: Path | None) -> dict[str, Path | None]:
 
 @lru_cache(maxsize=1)
 def bundled() -> tuple[str, ...]:
-    """The names of the examples that come along."""
+    """Returns the names of the examples that come along."""
     return tuple(sorted(path.stem for path in BUNDLED.glob("*.png") if not path.name.endswith(".mask.png")))
 
 
@@ -113,7 +113,7 @@ def _picture(name: str, members: Fields, path: Path | None, around: Around) -> I
 
 
 def _parameters(members: Fields, path: Path | None) -> dict[str, Any]:
-    """Those of a file, all of which are recorded; none where the definition itself tells all."""
+    """Returns those of a file, all of which are recorded; none where the definition itself tells all."""
     if path is None or all(name in members for name in FIELDS):
         return {}
     _regular(path)
@@ -121,7 +121,7 @@ def _parameters(members: Fields, path: Path | None) -> dict[str, Any]:
 
 
 def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, around: Around) -> ImageSource | None:
-    """The region as a picture, white inside; None where it goes by the picture's alpha."""
+    """Returns the region as a picture, white inside; None where it goes by the picture's alpha."""
     sha = members.text("mask_sha", None, cap=64)
     if sha is not None and sha in around.pictures:
         return replace(around.pictures[sha], name=name)
@@ -150,7 +150,7 @@ def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, ar
 
 
 def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
-    """The region with what a stroke takes, or without it if the stroke erases."""
+    """Returns the region with what a stroke takes, or without it if the stroke erases."""
     if not isinstance(value, Mapping):
         raise FieldError(where, described(value), "a stroke")
     stroke = c.parse({"do": "stroke", **value}, where)
@@ -182,7 +182,7 @@ def parameters_of(texture: Texture) -> Parameters:
 
 
 def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:
-    """What is painted with a texture of this kind, whose finest `detail` levels are kept for zooming in.
+    """Returns what is painted with a texture of this kind, whose finest `detail` levels are kept for zooming in.
 
     FieldError where there is nothing to learn from.
     """

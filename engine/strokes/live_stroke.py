@@ -53,17 +53,17 @@ class Drawn:
         self._begin()
 
     def _begin(self) -> None:
-        """What a kind of stroke needs besides."""
+        """Prepares what a kind of stroke needs besides."""
         raise NotImplementedError
 
     @property
     def predictor(self) -> Predictor | None:
-        """The filter by which it continues what is painted, once that is fitted."""
+        """Returns the filter by which it continues what is painted, once that is fitted."""
         return None
 
     @property
     def full(self) -> bool:
-        """Whether the stroke has as many points as one command can hold: end it and begin another."""
+        """Tells whether the stroke has as many points as one command can hold: end it and begin another."""
         return self._count >= POINTS_CAP
 
     @property
@@ -94,11 +94,11 @@ class Drawn:
         self._count += len(points)
 
     def rebase(self, painting: Painting, base: Group) -> None:
-        """The painting below, further refined: with and without the layer that the stroke made."""
+        """Takes the painting below, further refined: with and without the layer that the stroke made."""
         self.before, self.base = painting, replace(self.base, root=base)
 
     def to_command(self) -> Stroke:
-        """The command that does the same; Refusal if there is no point."""
+        """Returns the command that does the same; Refusal if there is no point."""
         if self.empty:
             raise Refusal("stroke: found no point, expected one at least")
         points = np.concatenate(self._points)

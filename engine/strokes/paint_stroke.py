@@ -103,19 +103,19 @@ class LiveStroke(Drawn):
 
     @property
     def rect(self) -> Rect:
-        """A rectangle of pixels of the level outside which nothing changes."""
+        """Returns a rectangle of pixels of the level outside which nothing changes."""
         rect = self._mask.rect
         rect = rect if rect.empty else rect.grown(self._relief.spread)
         return rect if self.bed is None else rect.union(self.bed.rect)
 
     @property
     def root(self) -> Group:
-        """The layers as they are to be seen, but for the stroke's own paint."""
+        """Returns the layers as they are to be seen, but for the stroke's own paint."""
         return self.base.root if self.bed is None else self.bed.over(self.base.root, self.layer.name)
 
     @property
     def edit(self) -> Edit:
-        """The edit of the layer that the points so far make."""
+        """Returns the edit of the layer that the points so far make."""
         if self._edit is None:
             locked, scene = self.layer.alpha_locked, self._scenery.scene
             self._edit = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._relief, scene)
@@ -125,11 +125,11 @@ class LiveStroke(Drawn):
         return evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache)
 
     def preview(self, rect: Rect) -> Planes:
-        """The layer's paint in `rect` at the stroke's level, as it will be."""
+        """Returns the layer's paint in `rect` at the stroke's level, as it will be."""
         return commit.preview(self.layer.pyramid, self.edit, rect, self.cache)
 
     def commit(self) -> Painting:
-        """The painting with the stroke on its layer."""
+        """Returns the painting with the stroke on its layer."""
         if self.empty:
             return self.before
         root, name = self.base.root, self.layer.name

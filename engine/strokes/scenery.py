@@ -59,7 +59,7 @@ class Scenery:
 
     @property
     def predictor(self) -> Predictor | None:
-        """The filter that an op fitted to what was painted, once it has."""
+        """Returns the filter that an op fitted to what was painted, once it has."""
         return self._memo.get("predictor")
 
     @property

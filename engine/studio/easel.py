@@ -39,7 +39,7 @@ class Easel(Owned):
 
     @property
     def modified(self) -> bool:
-        """Whether the painting is another one than its file holds."""
+        """Tells whether the painting is another one than its file holds."""
         return self.session.state is not self.saved
 
     def show(self, session: Session, path: Path | None) -> None:
@@ -113,7 +113,7 @@ class Easel(Owned):
 
     @property
     def behind(self) -> bool:
-        """Whether the stroke laid dabs of an example that cannot be seen yet."""
+        """Tells whether the stroke laid dabs of an example that cannot be seen yet."""
         return self.live is not None and self.live.bed is not None and self.live.bed.behind
 
     def follow(self) -> None:
@@ -134,7 +134,7 @@ class Easel(Owned):
     # --- what is seen ------------------------------------------------------------------------------------------------
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
-        """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
+        """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         return self.viewer.picture(level, whole)
 
     def tell(self) -> None:

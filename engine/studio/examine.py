@@ -107,13 +107,13 @@ def _middle(correlation: np.ndarray) -> np.ndarray:
 
 
 def _signed(values: np.ndarray) -> np.ndarray:
-    """Values -1..1: what is alike from dark over red to light, what is opposite from dark to blue."""
+    """Returns values -1..1: what is alike from dark over red to light, what is opposite from dark to blue."""
     cold = _DARK - values[..., None].astype(np.float32) * (_COLD - _DARK)
     return np.where(values[..., None] < 0.0, cold, _heat(np.maximum(values, 0.0))).astype(np.uint8)
 
 
 def _square(rgb: np.ndarray) -> np.ndarray:
-    """A picture in the middle of a dark square, as large as it must be."""
+    """Returns a picture in the middle of a dark square, as large as it must be."""
     height, width = rgb.shape[:2]
     side = max(height, width)
     out = np.empty((side, side, 3), np.uint8)
@@ -124,7 +124,7 @@ def _square(rgb: np.ndarray) -> np.ndarray:
 
 
 def _heat(values: np.ndarray) -> np.ndarray:
-    """Values 0..1 from dark over red to light: uint8 (h, w, 3)."""
+    """Returns values 0..1 from dark over red to light: uint8 (h, w, 3)."""
     t = values.astype(np.float32)[..., None]
     low, high = _DARK + 2.0 * t * (_MID - _DARK), _MID + (2.0 * t - 1.0) * (_LIGHT - _MID)
     return np.where(t < 0.5, low, high).astype(np.uint8)

@@ -44,11 +44,11 @@ class Grower(Owned):
 
     @property
     def _open(self) -> bool:
-        """Whether anything is to be refined."""
+        """Tells whether anything is to be refined."""
         return self._bed() is not None or bool(self._waiting())
 
     def step(self) -> None:
-        """A piece of the refinement, some milliseconds; now and then how far that is."""
+        """Does a piece of the refinement, some milliseconds; now and then how far that is."""
         if self._told is not None and time.monotonic() > self._told:
             self._tell()
             return
@@ -74,12 +74,12 @@ class Grower(Owned):
             self._pool.shutdown(cancel_futures=True)
 
     def _bed(self) -> Bed | None:
-        """What the stroke in progress grows, if that is not done."""
+        """Returns what the stroke in progress grows, if that is not done."""
         bed = None if self._easel.live is None else self._easel.live.bed
         return None if bed is None or bed.growth is self._failed or is_settled(bed.growth) else bed
 
     def _waiting(self) -> list[Layer]:
-        """The layers of the painting that are to be refined, the active one first."""
+        """Returns the layers of the painting that are to be refined, the active one first."""
         painting, live = self._easel.session.painting, self._easel.live
         if self._known[0] is not painting.root:
             self._known = painting.root, waiting(painting.root)
@@ -88,7 +88,7 @@ class Grower(Owned):
         return sorted(found, key=lambda layer: layer.name != painting.active)
 
     def _advance(self, growth: Growth) -> Growth:
-        """The growth after the next step; what was begun with another one is dropped."""
+        """Returns the growth after the next step; what was begun with another one is dropped."""
         if self._steps is None or self._at is not growth:
             self._steps = settling(growth, self._easel.viewer.sight.near, self._threads())
         self._at = next(self._steps, growth)
@@ -104,7 +104,7 @@ class Grower(Owned):
         return self._pool
 
     def _amend(self, layer: Layer, grown: Growth) -> None:
-        """The painting with a layer further refined, also under the stroke in progress."""
+        """Takes the painting with a layer further refined, also under the stroke in progress."""
         session, live = self._easel.session, self._easel.live
         before = session.painting
         after = replace(before, root=with_grown(before.root, layer.name, layer.growth, grown))
@@ -114,7 +114,7 @@ class Grower(Owned):
         self._easel.viewer.changed(areas(before, after))
 
     def _tell(self) -> None:
-        """How far all of it is, or that it is done."""
+        """Tells how far all of it is, or that it is done."""
         now = time.monotonic()
         bed = self._bed()
         growths = [layer.growth for layer in self._waiting()] + ([] if bed is None else [bed.growth])

@@ -51,7 +51,7 @@ class Lab(Owned):
 
     @property
     def pending(self) -> bool:
-        """Whether there is work to do."""
+        """Tells whether there is work to do."""
         return self._spectrum.stale
 
     def step(self) -> None:
@@ -122,7 +122,7 @@ class Lab(Owned):
         return c.DefineTexture(name, "spectrum", arguments.update(self._spectrum.asked.field))
 
     def _tried(self) -> Texture:
-        """The texture as the command would make it, without making it again."""
+        """Returns the texture as the command would make it, without making it again."""
         command = self._command(_TRIED)
         return Texture(FIELDS[command.arguments.get("field", "tile")], command.arguments, self._source(_TRIED))
 
@@ -140,7 +140,7 @@ class Lab(Owned):
 
 
 def _shown(sheets: Sheets, sheet: str) -> np.ndarray:
-    """A sheet as the panel shows it: amplitudes from dark to light, phases from cold over dark to warm."""
+    """Returns a sheet as the panel shows it: amplitudes from dark to light, phases from cold over dark to warm."""
     if sheet == "amplitude":
         return _pixels(_DARK[:, None, None] + sheets.amplitude * (1.0 - _DARK[:, None, None]))
     turn = 2.0 * sheets.phase - 1.0

@@ -80,12 +80,12 @@ class LabSpectrum(Owned):
 
     @property
     def steps(self) -> tuple[int, bool, bool]:
-        """How many strokes there are, and whether there are any to take back and to do again."""
+        """Tells how many strokes there are, and whether there are any to take back and to do again."""
         return len(self._now.strokes), bool(self._past), bool(self._future)
 
     @property
     def sheets(self) -> Sheets:
-        """The sheets as they are now, with the stroke in progress; they must be ready."""
+        """Returns the sheets as they are now, with the stroke in progress; they must be ready."""
         sheets = self._now.sheets
         assert sheets is not None
         if self.live is not None and not self.live.empty:
@@ -137,7 +137,7 @@ class LabSpectrum(Owned):
         self.stale = True
 
     def _resolved(self, shape: Map[str, Any]) -> Map[str, Any]:
-        """A shape that names a texture knows its picture by the sha: whatever the name means later."""
+        """Returns a shape that names a texture knows its picture by the sha: whatever the name means later."""
         texture = self._easel.session.painting.textures.get(shape.get("texture", ""))
         if shape["shape"] != "texture" or texture is None or texture.source is None:
             return shape
@@ -145,7 +145,7 @@ class LabSpectrum(Owned):
 
     @property
     def design(self) -> Design:
-        """What a texture command tells of it."""
+        """Returns what a texture command tells of it."""
         s = self.asked
         return Design(s.size, s.shapes, self._now.strokes, s.phase, s.seed, s.part, s.forward)
 
@@ -157,7 +157,7 @@ class LabSpectrum(Owned):
 
     @property
     def ready(self) -> bool:
-        """Whether the sheets are those of the strokes and of the newest settings."""
+        """Tells whether the sheets are those of the strokes and of the newest settings."""
         return self._now.sheets is not None and self._now.start == self._start()
 
     def build(self) -> None:
@@ -184,7 +184,7 @@ class LabSpectrum(Owned):
 
 
 def _scaled(stroke: c.Stroke, x: float, y: float) -> c.Stroke:
-    """A stroke of a spectrum of another size."""
+    """Returns a stroke of a spectrum of another size."""
     points = stroke.points.copy()
     points[:, :2] *= x, y
     points.flags.writeable = False

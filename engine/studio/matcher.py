@@ -69,7 +69,7 @@ class Matcher(Owned):
         return self._preview is not None and not self._preview.finished
 
     def step(self) -> None:
-        """The next piece of work."""
+        """Does the next piece of work."""
         work = self._wanted[0] if self._wanted else self._preview
         assert work is not None
         try:
@@ -149,7 +149,7 @@ class Matcher(Owned):
                 self._show(name, example.planes)
 
     def _show(self, name: str, planes: np.ndarray) -> None:
-        """Planes (1, 3 or 4, h, w) of 0..1."""
+        """Sends planes (1, 3 or 4, h, w) of 0..1."""
         out = np.full((*planes.shape[1:], 4), 255, np.uint8)
         scaled = np.clip(planes, 0.0, 1.0) * np.float32(255) + np.float32(0.5)
         out[..., : max(len(planes), 3)] = scaled.astype(np.uint8).transpose(1, 2, 0)
@@ -169,14 +169,14 @@ class Matcher(Owned):
 
 
 def _alike(one: _Work, other: _Work) -> bool:
-    """Whether both make the same texture."""
+    """Tells whether both make the same texture."""
     assert one.plan is not None
     same = other.plan is not None and one.plan.examples == other.plan.examples
     return same and (one.maker, one.arguments) == (other.maker, other.arguments)
 
 
 def _colours(pattern: Pattern) -> tuple[tuple[float, float, float], ...]:
-    """What the axes of colour look like: their mean and a standard deviation to the brighter side."""
+    """Returns what the axes of colour look like: their mean and a standard deviation to the brighter side."""
     axes = pattern.colours.coarse if isinstance(pattern.colours, SplitColours) else pattern.colours
     assert isinstance(axes, ColourAxes)
     found = []

@@ -7,7 +7,7 @@ from engine.studio import results
 
 
 def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[results.LayerRow]:
-    """The tree as the panel lists it, top-most first."""
+    """Returns the tree as the panel lists it, top-most first."""
     out = []
     for position in reversed(range(len(group.children))):
         node = group.children[position]

@@ -48,7 +48,7 @@ class _Stroke:
     points: list[np.ndarray] = field(default_factory=list)
 
     def to_step(self) -> Map[str, Any]:
-        """The step as a definition tells it."""
+        """Returns the step as a definition tells it."""
         stroke = c.to_json(c.Stroke(0, (0, 0), np.concatenate(self.points), round_brush(self.radius)))
         step: Map[str, Any] = frozen({"op": self.op, "stroke": {k: v for k, v in stroke.items() if k != "do"}})
         return step
@@ -125,7 +125,7 @@ class _Painted:
             self.dirty = box if self.dirty is None else self.dirty.union(box)
 
     def scene(self, ident: str) -> results.RegionScene:
-        """What the panel shows of it."""
+        """Returns what the panel shows of it."""
         return results.RegionScene(
             ident,
             (self.whole.width, self.whole.height),
@@ -170,7 +170,7 @@ class Regions(Owned):
 
     @property
     def pending(self) -> bool:
-        """Whether what was painted last is still to be seen."""
+        """Tells whether what was painted last is still to be seen."""
         return self._stale
 
     def step(self) -> None:
@@ -238,7 +238,7 @@ class Regions(Owned):
 
 
 def _around(changed: np.ndarray) -> Rect:
-    """The rectangle around what is true in bool (h, w)."""
+    """Returns the rectangle around what is true in bool (h, w)."""
     rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
     if not rows.size:
         return Rect(0, 0, 0, 0)
@@ -267,7 +267,7 @@ def region_picture(flat: np.ndarray, inside: np.ndarray, box: Rect) -> np.ndarra
 
 
 def _edge(inside: np.ndarray) -> np.ndarray:
-    """Pixels outside that touch the region."""
+    """Returns pixels outside that touch the region."""
     grown = inside.copy()
     grown[1:] |= inside[:-1]
     grown[:-1] |= inside[1:]

@@ -272,6 +272,6 @@ Result = (
 
 
 def frozen(array: np.ndarray) -> np.ndarray:
-    """The array itself, made read-only."""
+    """Returns the array itself, made read-only."""
     array.flags.writeable = False
     return array

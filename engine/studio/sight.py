@@ -47,12 +47,12 @@ class Sight(Owned):
         self._changes.clear()
 
     def meeting(self, level: int, area: Rect) -> list[Key]:
-        """The tiles of a level that the window holds and an area meets."""
+        """Returns the tiles of a level that the window holds and an area meets."""
         return [k for k, held in self._wanted.items() if k[0] == level and held >= 0 and area.meets(tile_rect(k))]
 
     @property
     def near(self) -> tuple[int, Rect] | None:
-        """The most urgent tile's level, and what is in sight of it."""
+        """Returns the most urgent tile's level, and what is in sight of it."""
         if not self._wanted:
             return None
         level, area = next(iter(self._wanted))[0], Rect(0, 0, 0, 0)
@@ -61,7 +61,8 @@ class Sight(Owned):
         return level, area
 
     def old_part(self, key: Key) -> Rect | None:
-        """What of a tile is to be sent anew: empty if the window's copy is good, None if there is nothing to tell."""
+        """Returns what of a tile is to be sent anew: empty if the window's copy is good, None if there is nothing to
+        tell."""
         held = self._wanted.get(key)
         if held is None or held == self.revision:
             return None
@@ -76,7 +77,7 @@ class Sight(Owned):
         self._wanted[key] = self.revision
 
     def _old_parts(self, level: int, whole: Rect, held: int) -> list[Rect]:
-        """The parts of a rectangle that changed after revision `held`."""
+        """Returns the parts of a rectangle that changed after revision `held`."""
         if not self._changes or self._changes[0][0] > held + 1:
             return [whole]
         out = []

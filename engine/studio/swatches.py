@@ -24,7 +24,7 @@ _COLOURS = ("#23262e", "#7c2f3b", "#c8643c", "#e2b04a", "#6f9a4c", "#3d8f93", "#
 
 
 def painted(request: Swatch, of: Painting) -> np.ndarray:
-    """The picture: float32 (4, height, width), premultiplied.  `of`: whose textures the brush may name."""
+    """Returns the picture: float32 (4, height, width), premultiplied.  `of`: whose textures the brush may name."""
     painting = Painting(seed=of.seed, textures=of.textures)
     for definition in request.textures:
         painting = apply(painting, definition)
@@ -40,14 +40,14 @@ def painted(request: Swatch, of: Painting) -> np.ndarray:
 
 
 def _fill(brush: Brush, width: int, height: int) -> list[c.Stroke]:
-    """The whole patch covered."""
+    """Returns the whole patch covered."""
     cover = replace(brush, radius=float(height), hardness=1.0, opacity=1.0, flow=1.0, spacing=0.5)
     points = _points([[0.0, height / 2, 1.0], [float(width), height / 2, 1.0]])
     return [c.Stroke(0, (0, 0), points, cover)]
 
 
 def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
-    """A wave whose pressure rises and falls; over the ground that the brush's mode asks for."""
+    """Returns a wave whose pressure rises and falls; over the ground that the brush's mode asks for."""
     t = np.linspace(0.0, 1.0, 40)
     x = width * (0.12 + 0.76 * t)
     y = height * (0.5 + 0.2 * np.sin(t * math.tau))
@@ -71,7 +71,7 @@ def _thumbnail(brush: Brush, width: int, height: int) -> list[c.Stroke]:
 
 
 def _at_home(brush: Brush, painting: Painting, width: int) -> Brush:
-    """A brush that copies from a layer copies from this picture's own, half a bar away."""
+    """Returns a brush that copies from a layer copies from this picture's own, half a bar away."""
     if isinstance(brush.op, str) or "layer" not in brush.op or painting.active is None:
         return brush
     return replace(brush, op=brush.op.set("layer", painting.active).set("offset", (width // 9, 0)))

@@ -46,12 +46,12 @@ class Viewer(Owned):
 
     @property
     def fresh(self) -> bool:
-        """Whether there is paint of the stroke in progress that the window has not seen."""
+        """Tells whether there is paint of the stroke in progress that the window has not seen."""
         return not self._fresh.empty
 
     @property
     def pending(self) -> int:
-        """Tiles to look at."""
+        """Returns tiles to look at."""
         return len(self.sight.open) + self.fresh
 
     def grew(self, level: int, area: Rect) -> None:
@@ -77,13 +77,13 @@ class Viewer(Owned):
         self.sight.forget()
 
     def send_fresh(self) -> None:
-        """The part of the wanted tiles that the stroke in progress changed."""
+        """Sends the part of the wanted tiles that the stroke in progress changed."""
         area, self._fresh = self._fresh, _NOTHING
         for key in self.sight.meeting(self._level, area):
             self._bring_up_to_date(key)
 
     def send_tile(self) -> None:
-        """The most urgent of the tiles to look at."""
+        """Sends the most urgent of the tiles to look at."""
         self._bring_up_to_date(self.sight.open.popleft())
 
     def _bring_up_to_date(self, key: Key) -> None:
@@ -103,7 +103,7 @@ class Viewer(Owned):
         self._subject.send(results.Patch(key, inner, pixels, revision))
 
     def picture(self, level: int, whole: Rect) -> np.ndarray:
-        """What is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
+        """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         live = self._subject.live
         root = live.root if live is not None else self._subject.session.painting.root
         known: dict[int, np.ndarray | None] = {}

@@ -31,7 +31,7 @@ class Bench(Protocol):
         ...
 
     def step(self) -> bool:
-        """The most urgent piece of open work; False when there is none."""
+        """Returns the most urgent piece of open work; False when there is none."""
         ...
 
     @property
@@ -46,7 +46,7 @@ class Bench(Protocol):
 
     @property
     def waits(self) -> bool:
-        """Whether requests that it took over are still to be carried out."""
+        """Tells whether requests that it took over are still to be carried out."""
         ...
 
     def play(self) -> None:
@@ -123,11 +123,11 @@ class Worker:
 
     @property
     def ready(self) -> bool:
-        """Whether results lie ready."""
+        """Tells whether results lie ready."""
         return bool(self._results)
 
     def results(self) -> list[Result]:
-        """What came since the last call, in order."""
+        """Returns what came since the last call, in order."""
         out: list[Result] = []
         while self._results:
             out.append(self._results.popleft())
@@ -135,7 +135,7 @@ class Worker:
 
     @property
     def behind(self) -> bool:
-        """Whether commands are still to be carried out, or their results to be taken."""
+        """Tells whether commands are still to be carried out, or their results to be taken."""
         with self._signal:
             return bool(self._posted) or self._doing or self._waiting or bool(self._results)
 
@@ -152,8 +152,8 @@ class Worker:
         self._wake()
 
     def _next(self, bench: Bench) -> Callable[[], None] | None:
-        """The next piece of work: commands first, then the newest look, then its tiles, which let a swatch pass now and
-        then, then swatches; None to end."""
+        """Does the next piece of work: commands first, then the newest look, then its tiles, which let a swatch pass
+        now and then, then swatches; None to end."""
         with self._signal:
             while True:
                 self._doing, self._waiting = bool(self._posted), bench.waits
@@ -181,7 +181,7 @@ class Worker:
                 self._signal.wait(None if rest == math.inf else rest)
 
     def _waits(self, bench: Bench, now: float) -> tuple[float, float, float]:
-        """Seconds until open work, a swatch, and what plays, may be begun; endless where there is none."""
+        """Returns seconds until open work, a swatch, and what plays, may be begun; endless where there is none."""
         turn = swatch_in = 0.0
         if self._turn is not None:
             if now >= self._turn:
@@ -192,7 +192,8 @@ class Worker:
         return open_in, swatch_in if self._swatches else math.inf, play_in
 
     def _foremost(self) -> str:
-        """The swatch that is painted next: of those that are wanted soon, or of all, the one that waits longest."""
+        """Returns the swatch that is painted next: of those that are wanted soon, or of all, the one that waits
+        longest."""
         soon = (ident for ident, swatch in self._swatches.items() if swatch.soon)
         return next(soon, None) or next(iter(self._swatches))
 

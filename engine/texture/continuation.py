@@ -52,7 +52,7 @@ class Octave:
 
 @lru_cache(maxsize=16)
 def octave_of(source: ImageSource) -> Octave:
-    """What continues a picture."""
+    """Returns what continues a picture."""
     assert source.data is not None
     count = 3 if sample.coloured(source) else 1
     # What is opaque is looked at without its alpha: another channel would be another sum of float32 numbers.
@@ -73,7 +73,7 @@ def octave_of(source: ImageSource) -> Octave:
 
 
 def measured(pattern: Pattern) -> tuple[int, float]:
-    """The finest level that is not blurred away, and the slope from there on: amplitude per octave."""
+    """Returns the finest level that is not blurred away, and the slope from there on: amplitude per octave."""
     strengths = _strengths(pattern)
     for finest in range(min(2, len(strengths) - 2)):
         slope = _slope(strengths[finest + 1 :])
@@ -84,7 +84,7 @@ def measured(pattern: Pattern) -> tuple[int, float]:
 
 
 def _strengths(pattern: Pattern) -> list[float]:
-    """The standard deviation of each level's subbands together, colours being 0..1, from the finest."""
+    """Returns the standard deviation of each level's subbands together, colours being 0..1, from the finest."""
     axes, shape = pattern.colours, pattern.shape
     assert isinstance(axes, ColourAxes)
     lengths = np.square(axes.axes, dtype=np.float64).sum(axis=0)
@@ -101,7 +101,7 @@ def _strengths(pattern: Pattern) -> list[float]:
 
 
 def _slope(strengths: list[float]) -> float:
-    """A line through their logarithms."""
+    """Returns a line through their logarithms."""
     if len(strengths) < 2 or min(strengths) <= 0.0:
         return _USUAL
     fall = np.polyfit(np.arange(len(strengths)), np.log2(strengths), 1)[0]
@@ -110,8 +110,8 @@ def _slope(strengths: list[float]) -> float:
 
 
 def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
-    """Planes (R, 256, 256) along the axes, whose subbands are distributed as the finest ones of the pattern; those of
-    lower octaves stronger, as the slope tells."""
+    """Returns planes (R, 256, 256) along the axes, whose subbands are distributed as the finest ones of the pattern;
+    those of lower octaves stronger, as the slope tells."""
     made = steerable.filters(OCTAVE_SIDE, OCTAVE_SIDE, _OCTAVES, _SHAPE.orientations)
     rise = max(slope, _LOUDEST)
     rest = _rest(made, rise)
@@ -142,7 +142,7 @@ def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
 
 
 def _rest(made: steerable.Filters, slope: float) -> float:
-    """How strong the high-pass residue is to one subband of the finest level, in noise of that slope."""
+    """Tells how strong the high-pass residue is to one subband of the finest level, in noise of that slope."""
     v, u = np.fft.fftfreq(OCTAVE_SIDE)[:, None], np.fft.rfftfreq(OCTAVE_SIDE)[None]
     f = np.maximum(np.hypot(u, v), 1.0 / OCTAVE_SIDE)
     power = f ** (-2.0 * (1.0 - math.log2(slope)))

@@ -87,11 +87,11 @@ class _Picture:
 
     @property
     def refinements(self) -> int:
-        """How many levels finer than its base the picture has pixels for."""
+        """Tells how many levels finer than its base the picture has pixels for."""
         return 0 if self.source.data is None else _refinements(self.source, self.period)
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
-        """The picture over `rect`, float32; beyond its own pixels it is expanded."""
+        """Returns the picture over `rect`, float32; beyond its own pixels it is expanded."""
         if level < self.base:
             raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
         if self.source.data is None:
@@ -106,7 +106,7 @@ class _Picture:
         return result
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
-        """What the picture's next finer level adds, float32."""
+        """Returns what the picture's next finer level adds, float32."""
         if not 0 < level - self.base <= self.refinements or rect.empty:
             return None
         even = rect.evened()
@@ -117,7 +117,7 @@ class _Picture:
         return inner if rect == even or inner.any() else None
 
     def _own(self, level: int, rect: Rect, planes: slice) -> np.ndarray:
-        """The picture at one of the levels for which it has pixels."""
+        """Returns the picture at one of the levels for which it has pixels."""
         height, width = _base_size(self.source, self.period)
         if level > self.base or height * width <= _WHOLE * self.source.height * self.source.width:
             return tiled(picture_pyramid(self.source, self.period)[level - self.base][planes], rect)
@@ -136,7 +136,8 @@ class Image(_Picture):
 
     @property
     def cover(self) -> Cover | None:
-        """What the picture hides, for an ink that lies over another colour; None if it is opaque, and hides all."""
+        """Returns what the picture hides, for an ink that lies over another colour; None if it is opaque, and hides
+        all."""
         return None if self.source.opaque else Cover(self.base, self.period, self.source)
 
 
@@ -205,7 +206,7 @@ def tiled(planes: np.ndarray, rect: Rect) -> np.ndarray:
 
 
 def _pieces(origin: int, size: int, period: int) -> list[tuple[int, int, int]]:
-    """Where runs of a periodic axis fall: (place in the result, place in the period, length)."""
+    """Tells where runs of a periodic axis fall: (place in the result, place in the period, length)."""
     pieces = []
     at, inside = 0, origin % period
     while at < size:

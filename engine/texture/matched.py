@@ -47,7 +47,7 @@ class Matched(Tiled):
 
     @property
     def picture(self) -> ImageSource:
-        """The picture of this texture, with its alpha."""
+        """Returns the picture of this texture, with its alpha."""
         return self.source
 
     @property
@@ -57,7 +57,7 @@ class Matched(Tiled):
 
     @property
     def cover(self) -> Matched | None:
-        """What it hides of another colour that it lies over: its alpha as a texture.  None if it is opaque."""
+        """Returns what it hides of another colour that it lies over: its alpha as a texture.  None if it is opaque."""
         if self.source.data is None or self.source.opaque:
             return None
         return _COVERS[self.kind](**{field.name: getattr(self, field.name) for field in fields(self)})
@@ -90,7 +90,7 @@ class Matched(Tiled):
         return cut(fine, rect, even)
 
     def _curved(self, level: int) -> bool:
-        """Whether noise added to the alpha may be seen."""
+        """Tells whether noise added to the alpha may be seen."""
         return self.source.data is not None and level > self.native and self.roughness >= _LOUD
 
     def _curve(self, alpha: np.ndarray, level: int) -> np.ndarray:
@@ -110,12 +110,12 @@ class Matched(Tiled):
         return out
 
     def _planes(self, octave: np.ndarray) -> np.ndarray:
-        """Those of an octave that continue what is shown."""
+        """Returns those of an octave that continue what is shown."""
         return octave[:-1]
 
     @property
     def form(self) -> Continuation:
-        """The same for colours and alpha, so that they stay together."""
+        """Returns the same for colours and alpha, so that they stay together."""
         return _form(self.picture, self.period, self.roughness)
 
 
@@ -197,23 +197,23 @@ def _unit(planes: np.ndarray) -> np.ndarray:
 
 
 def series(base: int, period: int, roughness: float, stages: int, weight: float, source: ImageSource) -> Series:
-    """The texture at `weight` of a series."""
+    """Returns the texture at `weight` of a series."""
     return Series(base, period, roughness, source, stages, weight)
 
 
 def series_cover(base: int, period: int, roughness: float, stages: int, weight: float, source: ImageSource) -> Series:
-    """Its alpha."""
+    """Returns its alpha."""
     return SeriesCover(base, period, roughness, source, stages, weight)
 
 
 def weights(stages: int) -> tuple[float, ...]:
-    """Those of the textures of a series."""
+    """Returns those of the textures of a series."""
     return tuple(k / (stages - 1) for k in range(stages)) if stages > 1 else (0.0,)
 
 
 @lru_cache(maxsize=64)
 def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
-    """One picture of a series: between two stages, their mean by the weight."""
+    """Returns one picture of a series: between two stages, their mean by the weight."""
     assert whole.data is not None
     place = weight * (stages - 1)
     k = min(int(place), max(stages - 2, 0))
@@ -226,7 +226,7 @@ def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
 
 @lru_cache(maxsize=64)
 def _alpha(picture: ImageSource) -> ImageSource:
-    """The alpha of a picture, as an opaque grey one."""
+    """Returns the alpha of a picture, as an opaque grey one."""
     assert picture.data is not None
     data = np.ones_like(picture.data)
     data[:3] = picture.data[3]
@@ -234,7 +234,7 @@ def _alpha(picture: ImageSource) -> ImageSource:
 
 
 def _stretched(source: ImageSource, period: int, roughness: float) -> float:
-    """How much weaker an octave is because the native level is wider than the picture's own pixels."""
+    """Tells how much weaker an octave is because the native level is wider than the picture's own pixels."""
     wide = sample.tile(source, period).levels[-1].shape[2] / max(source.width, 1)
     out: float = max(roughness, STEEPEST) ** math.log2(wide)
     return out
@@ -242,7 +242,7 @@ def _stretched(source: ImageSource, period: int, roughness: float) -> float:
 
 @lru_cache(maxsize=256)
 def _form(picture: ImageSource, period: int, roughness: float) -> Continuation:
-    """How strong an octave is to the texture, and how large the features of both are."""
+    """Tells how strong an octave is to the texture, and how large the features of both are."""
     tiles = [sample.tile(picture, period)]
     octave = octave_of(picture).tile
     if picture.opaque:
@@ -257,7 +257,7 @@ def _form(picture: ImageSource, period: int, roughness: float) -> Continuation:
 
 @lru_cache(maxsize=1024)
 def _reach(picture: ImageSource, period: int, roughness: float, depth: int) -> float:
-    """How far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
+    """Tells how far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
     weights = octave_weights(depth, roughness, _form(picture, period, roughness))[:depth]
     own = math.sqrt(_energy(octave_of(picture).tile[-1:])) / 2.0 * _stretched(picture, period, roughness)
     return round(min(_REACH * own * math.sqrt(float(np.square(weights, dtype=np.float64).sum())), _FARTHEST), 5)

@@ -83,7 +83,7 @@ class Step:
 
 
 def analysed(picture: np.ndarray, shape: Shape, axes: ColourAxes | None = None) -> Pattern:
-    """The pattern of an example (C, h, w), mirrored at its edges, along given axes or its own."""
+    """Returns the pattern of an example (C, h, w), mirrored at its edges, along given axes or its own."""
     axes = axes or axes_of(picture)
     shape = shape.within(picture.shape[1:])
     planes = axes.planes(picture)
@@ -92,7 +92,7 @@ def analysed(picture: np.ndarray, shape: Shape, axes: ColourAxes | None = None) 
 
 
 def _bands(plane: np.ndarray, shape: Shape) -> Bands:
-    """The sorted values of the subbands of a plane (h, w)."""
+    """Returns the sorted values of the subbands of a plane (h, w)."""
     if shape.kind == "laplacian":
         pyramid = laplacian.build(plane, shape.levels, edges="reflected")
         return {Place(level): histograms.sorted_values(band) for level, band in enumerate(pyramid)}
@@ -108,8 +108,8 @@ def _bands(plane: np.ndarray, shape: Shape) -> Bands:
 
 
 def _mirrored(plane: np.ndarray, reach: int) -> tuple[np.ndarray, list[tuple[float, float]]]:
-    """A plane with its mirror images around it, `reach` pixels of them or half its size on each side, and what part of
-    each axis is its own.  Sizes are such that transforms are fast."""
+    """Returns a plane with its mirror images around it, `reach` pixels of them or half its size on each side, and
+    what part of each axis is its own.  Sizes are such that transforms are fast."""
     from scipy.fft import next_fast_len
 
     sides, within = [], []
@@ -133,8 +133,8 @@ def matching(
     threads: Executor | None = None,
     exact: bool = False,
 ) -> Iterator[Step]:
-    """The steps that make planes `start` (R, h, w) like the pattern.  The last has the finished texture; any may be the
-    last that is asked for.  `exact`: by rank instead of tables, which takes twice as long."""
+    """Yields the steps that make planes `start` (R, h, w) like the pattern.  The last has the finished texture; any
+    may be the last that is asked for.  `exact`: by rank instead of tables, which takes twice as long."""
     shape = pattern.shape.within(start.shape[1:])
     if shape.levels < pattern.shape.levels:
         raise ValueError(
@@ -154,7 +154,7 @@ def matching(
 
 
 def _told(inside: Generator[float, None, np.ndarray], turn: int, turns: int) -> Generator[Step, None, np.ndarray]:
-    """The parts of one turn as steps of all; returns its planes."""
+    """Yields the parts of one turn as steps of all; returns its planes."""
     while True:
         try:
             yield Step((turn + next(inside)) / turns)
@@ -166,14 +166,14 @@ def _told(inside: Generator[float, None, np.ndarray], turn: int, turns: int) -> 
 def matched(
     pattern: Pattern, start: np.ndarray, iterations: int = ITERATIONS, threads: Executor | None = None
 ) -> np.ndarray:
-    """The finished texture: planes (R, h, w) along the pattern's axes."""
+    """Returns the finished texture: planes (R, h, w) along the pattern's axes."""
     *_, last = matching(pattern, start, iterations, threads)
     assert last.planes is not None
     return last.planes
 
 
 def matched_colours(pattern: Pattern, planes: np.ndarray) -> np.ndarray:
-    """The colours (C, h, w) of matched planes, float32 in 0..1 on the grid."""
+    """Returns the colours (C, h, w) of matched planes, float32 in 0..1 on the grid."""
     return snapped(pattern.colours.colours(planes))
 
 
@@ -189,7 +189,8 @@ def noise(count: int, size: tuple[int, int], seed: int) -> np.ndarray:
 
 
 def started(pattern: Pattern, planes: np.ndarray, seed: int) -> np.ndarray:
-    """Planes (R', h, w) of another picture as a start: with faint noise, and only noise where it has no axis."""
+    """Returns planes (R', h, w) of another picture as a start: with faint noise, and only noise where it has no
+    axis."""
     out = noise(pattern.colours.count, planes.shape[1:], seed)
     for own, given in zip(out, planes, strict=False):
         own *= np.float32(_FAINT)
@@ -200,7 +201,7 @@ def started(pattern: Pattern, planes: np.ndarray, seed: int) -> np.ndarray:
 def _iterated(
     planes: np.ndarray, pattern: Pattern, match: Match, threads: Executor | None
 ) -> Generator[float, None, np.ndarray]:
-    """One turn: the pyramid taken apart, its subbands matched, and put together again."""
+    """Yields one turn: the pyramid taken apart, its subbands matched, and put together again."""
     change = _band_match(pattern, match)
     if pattern.shape.kind == "steerable":
         made = filters_for(planes, pattern.shape)

@@ -38,7 +38,8 @@ class SplitColours:
         return max(self.fine.count, self.coarse.count)
 
     def colours(self, planes: np.ndarray) -> np.ndarray:
-        """The colours (C, h, w) of planes (R, h, w), within the range of the two examples' together: float32."""
+        """Returns the colours (C, h, w) of planes (R, h, w), within the range of the two examples' together:
+        float32."""
         fine, coarse = (colour_axes.like(own, other) for own, other in self._both())
         rest = coarsened(planes, self.shape, self.split)
         out = coarse.unclipped(rest) + fine.unclipped(planes - rest) - fine.mean.reshape(-1, 1, 1)
@@ -51,7 +52,7 @@ class SplitColours:
 
 
 def coarsened(planes: np.ndarray, shape: Shape, split: int) -> np.ndarray:
-    """Planes (R, h, w) without their subbands of levels below `split`."""
+    """Returns planes (R, h, w) without their subbands of levels below `split`."""
     if shape.kind == "laplacian":
         pyramid = laplacian.build(planes, shape.levels)
         return laplacian.collapse([np.zeros_like(b) if k < split else b for k, b in enumerate(pyramid)])
@@ -65,7 +66,7 @@ def coarsened(planes: np.ndarray, shape: Shape, split: int) -> np.ndarray:
 
 
 def palette(first: np.ndarray, second: np.ndarray, shape: Shape, mix: Mix) -> Pattern:
-    """The colours of the first example with the pattern of the second (figure 6)."""
+    """Returns the colours of the first example with the pattern of the second (figure 6)."""
     pattern = analysed(second, shape)
     assert isinstance(pattern.colours, ColourAxes)
     return replace(
@@ -74,7 +75,7 @@ def palette(first: np.ndarray, second: np.ndarray, shape: Shape, mix: Mix) -> Pa
 
 
 def bands(first: np.ndarray, second: np.ndarray, shape: Shape, mix: Mix) -> Pattern:
-    """The low frequencies of the first example under the high ones of the second, each in its own colours."""
+    """Returns the low frequencies of the first example under the high ones of the second, each in its own colours."""
     coarse, fine = _both(first, second, shape)
     split = mix.split
     if split > coarse.shape.levels or split < 0:  # the mean colour goes with the coarsest subband
@@ -100,7 +101,7 @@ def average(first: np.ndarray, second: np.ndarray, shape: Shape, mix: Mix) -> Pa
 
 
 def _both(first: np.ndarray, second: np.ndarray, shape: Shape) -> tuple[Pattern, Pattern]:
-    """The patterns of both, along axes that point to the same sides."""
+    """Returns the patterns of both, along axes that point to the same sides."""
     shape = shape.within(first.shape[1:], second.shape[1:])
     own = axes_of(first)
     return analysed(first, shape, own), analysed(second, shape, aligned(axes_of(second), own))

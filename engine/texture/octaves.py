@@ -75,21 +75,21 @@ def octave_changes(depth: int, roughness: float, form: Continuation) -> np.ndarr
 
 
 def _added(roughness: float) -> int:
-    """How many octaves of a smooth texture are strong enough to be seen."""
+    """Tells how many octaves of a smooth texture are strong enough to be seen."""
     if roughness <= 0.0:
         return 0
     return 1 << 20 if roughness >= _SMOOTH else int(math.log2(_NEGLIGIBLE) / math.log2(roughness))
 
 
 def _profile(depth: int, slope: float, form: Continuation) -> list[float]:
-    """The weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age M."""
+    """Returns the weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age M."""
     peak = form.peak(depth)
     ages = range(min(depth, int(peak - math.log2(_NEGLIGIBLE))) + 1)
     return [2.0 ** (slope * (m - peak)) if m <= peak else 2.0 ** (peak - m) for m in ages]
 
 
 def _size(profile: list[float], depth: int, form: Continuation) -> float:
-    """The standard deviation of the sum, that of the texture being 1."""
+    """Returns the standard deviation of the sum, that of the texture being 1."""
     octaves = sum(w * w for m, w in enumerate(profile) if m < depth) * form.strength**2
     texture = profile[depth] ** 2 if len(profile) > depth else 0.0
     return math.sqrt(max(octaves + texture, 1e-12))

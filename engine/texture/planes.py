@@ -38,7 +38,7 @@ class Planes:
 
 
 def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
-    """The union of several sets of ink instances, sorted by key."""
+    """Returns the union of several sets of ink instances, sorted by key."""
     stacks = [s for s in map(tuple, sets) if s]
     if not stacks:
         return ()

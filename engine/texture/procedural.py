@@ -70,11 +70,11 @@ class _Waves:
         return _wave(self.period, self.angle, self.phase).finer(level - self.base)
 
     def sampler(self, fine: Wave) -> Sampler:
-        """The pixel averages whose refinement at the level of `fine` is wanted."""
+        """Returns the pixel averages whose refinement at the level of `fine` is wanted."""
         return square_wave
 
     def edges(self, fine: Wave) -> list[tuple[Wave, int]]:
-        """The waves and the distances between their edges."""
+        """Returns the waves and the distances between their edges."""
         return [(fine, fine.period // 2)]
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
@@ -95,7 +95,7 @@ class _Waves:
         return self.along_axes(fine, coarse, rect, even)
 
     def along_axes(self, fine: Wave, coarse: Wave, rect: Rect, even: Rect) -> np.ndarray | None:
-        """The bandpass of a wave along an axis: one line of it, repeated."""
+        """Returns the bandpass of a wave along an axis: one line of it, repeated."""
         s, e = _line(self.sampler(fine), fine, coarse, even)
         line = s - e
         line[np.abs(line) <= FLOOR] = 0.0
@@ -160,7 +160,7 @@ class Squares(_Waves):
         return [(wave, wave.period // 2) for wave in (fine, fine.across())]
 
     def along_axes(self, fine: Wave, coarse: Wave, rect: Rect, even: Rect) -> np.ndarray | None:
-        """The bandpass of squares along the axes: one line for the columns, one for the rows."""
+        """Returns the bandpass of squares along the axes: one line for the columns, one for the rows."""
         pairs = [(fine, coarse), (fine.across(), coarse.across())]
         if fine.uy:
             pairs.reverse()
@@ -189,7 +189,7 @@ def _line(sample: Sampler, fine: Wave, coarse: Wave, even: Rect) -> tuple[np.nda
 
 
 def _kept(out: np.ndarray, some: bool, rect: Rect, even: Rect) -> np.ndarray | None:
-    """The part of `out` over `rect`, None if it is zero."""
+    """Returns the part of `out` over `rect`, None if it is zero."""
     if not some:
         return None
     if rect == even:

@@ -65,12 +65,12 @@ class Rock:
 
     @property
     def root(self) -> int:
-        """The level of octave 0."""
+        """Returns the level of octave 0."""
         return self.base - math.ceil(math.log2(self.period))
 
     @property
     def first(self) -> float:
-        """The part of octave 0 that is there, 0..1, so that S varies steadily with the period."""
+        """Returns the part of octave 0 that is there, 0..1, so that S varies steadily with the period."""
         return 1.0 + math.log2(self.period) - math.ceil(math.log2(self.period))
 
     @property
@@ -91,11 +91,11 @@ class Rock:
         return self._cascade(level, rect, self.changes(level))
 
     def weights(self, level: int) -> np.ndarray:
-        """What S takes of the octaves of ages 0, 1, ...: float32 (ages,)."""
+        """Returns what S takes of the octaves of ages 0, 1, ...: float32 (ages,)."""
         return octave_weights(level - self.root, self.settled, self.roughness, self.first)
 
     def changes(self, level: int) -> np.ndarray:
-        """What the bandpass takes of them, without the zeros at the end: float32 (ages,)."""
+        """Returns what the bandpass takes of them, without the zeros at the end: float32 (ages,)."""
         return octave_changes(level - self.root, self.settled, self.roughness, self.first)
 
     def _cascade(self, level: int, rect: Rect, factors: np.ndarray) -> np.ndarray:
@@ -128,7 +128,7 @@ def octave_changes(depth: int, settled: int, roughness: float, first: float) -> 
 
 
 def _profile(peak: float, depth: int, roughness: float, first: float) -> list[float]:
-    """The weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age `peak`."""
+    """Returns the weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age `peak`."""
     ages = range(min(depth, int(peak - math.log2(_NEGLIGIBLE))) + 1)
     profile = [2.0 ** (roughness * (m - peak)) if m <= peak else 2.0 ** (peak - m) for m in ages]
     if len(profile) == depth + 1:
@@ -142,7 +142,7 @@ def _gain(profile: list[float]) -> float:
 
 @lru_cache(maxsize=64)
 def octave_variance(age: int) -> float:
-    """The variance of E^age n, n being the noise of one octave, of variance 1 itself."""
+    """Returns the variance of E^age n, n being the noise of one octave, of variance 1 itself."""
     along, across = np.ones(2), np.array([1.0, -1.0])
     age = min(age, 12)  # by then it has converged, to a part in a million
     for _ in range(age):

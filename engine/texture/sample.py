@@ -24,14 +24,15 @@ _FAINT = 1e-3  # an octave below this part of the strongest one's energy is empt
 
 @lru_cache(maxsize=64)
 def coloured(source: ImageSource) -> bool:
-    """Whether the picture's channels differ."""
+    """Tells whether the picture's channels differ."""
     data = source.data
     return data is not None and not ((data[0] == data[1]).all() and (data[0] == data[2]).all())
 
 
 @lru_cache(maxsize=1024)
 def finer(source: ImageSource, period: int, largest: int | None = None) -> int:
-    """How many levels finer than one on which the sample is `period` pixels wide its native level is; or coarser, < 0.
+    """Tells how many levels finer than one on which the sample is `period` pixels wide its native level is; or
+    coarser, < 0.
 
     `largest`: the native size is at most so many pixels along a side.
     """
@@ -96,7 +97,7 @@ class Response:
 
 @lru_cache(maxsize=8)
 def sample_response(source: ImageSource, period: int) -> Response:
-    """The zero-mean sample under the radial Gaussian window."""
+    """Returns the zero-mean sample under the radial Gaussian window."""
     native = _native(source, period, finer(source, period, LARGEST))
     own = _windowed(native)
     energy = float(np.square(own, dtype=np.float64).sum()) / native.size
@@ -106,8 +107,8 @@ def sample_response(source: ImageSource, period: int) -> Response:
 
 @lru_cache(maxsize=8)
 def finest(source: ImageSource, period: int) -> tuple[Impulse, Continuation]:
-    """The finest octaves of the impulse response, at the native level, and how they continue it.  Only who zooms in
-    needs them."""
+    """Returns the finest octaves of the impulse response, at the native level, and how they continue it.  Only who
+    zooms in needs them."""
     top, form = _top(sample_response(source, period).own.phases[0, 0])
     held = float(np.square(top, dtype=np.float64).sum())
     top = _windowed(top)
@@ -126,7 +127,7 @@ def _windowed(planes: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=32)
 def seen(source: ImageSource, period: int, coarser: int) -> Impulse:
-    """The impulse response some levels above the native one."""
+    """Returns the impulse response some levels above the native one."""
     return sample_response(source, period).own.seen(coarser)
 
 
@@ -136,7 +137,7 @@ def _mean(planes: np.ndarray) -> np.ndarray:
 
 
 def _top(planes: np.ndarray) -> tuple[np.ndarray, Continuation]:
-    """The octaves of (periodic) `planes` (c, h, w) from the finest down to the highest that is not empty.
+    """Returns the octaves of (periodic) `planes` (c, h, w) from the finest down to the highest that is not empty.
 
     Of 1/f noise that is the finest alone; of a ring at a period of 16 pixels, all down to the ring.
     """

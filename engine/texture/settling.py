@@ -79,7 +79,8 @@ class Settling:
             yield (turn + 1) / count
 
     def _slope(self, spectrum: np.ndarray, turn: int, threads: Executor | None) -> np.ndarray:
-        """How the measure grows with each voxel, as half of a spectrum, by the planes that are looked at in a turn."""
+        """Tells how the measure grows with each voxel, as half of a spectrum, by the planes that are looked at in a
+        turn."""
         weight = (self._away[_ACROSS] / max(_TILE * self._away[_SLANTED], 1e-9)) ** _EAGER
         total, away = self._fine.slope(spectrum, turn, weight, threads)
         for coarse in self._coarse:
@@ -100,8 +101,8 @@ class _Fine:
     def slope(
         self, spectrum: np.ndarray, turn: int, weight: float, threads: Executor | None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """The slope as half of a spectrum, planes across the axes having the `weight`; how far those of each kind are,
-        float64 (2,)."""
+        """Returns the slope as half of a spectrum, planes across the axes having the `weight`; how far those of each
+        kind are, float64 (2,)."""
         total, across = self._across(spectrum, turn, weight, threads)
         laid, slanted = self._slanted(spectrum * self._prefilter, turn, threads)
         total += laid * self._prefilter
@@ -201,13 +202,13 @@ def _without(levels: list[int], wanted: dict[Place, Wanted]) -> dict[Place, Want
 
 
 def _outstanding(distances: np.ndarray) -> np.ndarray:
-    """How much more planes count that are further off than others: float32 (m, 1, 1)."""
+    """Tells how much more planes count that are further off than others: float32 (m, 1, 1)."""
     out: np.ndarray = (distances / max(distances.mean(), 1e-9)).astype(np.float32)[:, None, None]
     return out
 
 
 def _within(edge: int) -> Inside:
-    """All of a picture but `edge` pixels along its edges."""
+    """Returns all of a picture but `edge` pixels along its edges."""
 
     def inside(place: Place, count: int) -> slice:
         away = edge >> max(place.level, 0)
@@ -221,6 +222,6 @@ def _each(threads: Executor | None) -> Callable[..., Iterator[Any]]:
 
 
 def _size(half: np.ndarray, side: int) -> float:
-    """The root of the mean square of the voxels of half of a spectrum."""
+    """Returns the root of the mean square of the voxels of half of a spectrum."""
     whole = 2.0 * np.vdot(half, half).real - np.vdot(half[..., 0], half[..., 0]).real
     return float(np.sqrt(max(whole, 0.0))) / side**3

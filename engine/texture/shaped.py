@@ -42,7 +42,7 @@ class Shaped:
 
     @property
     def source(self) -> ImageSource | None:
-        """The picture that the inner texture needs."""
+        """Returns the picture that the inner texture needs."""
         return getattr(self.inner, "source", None)
 
     @property
@@ -89,7 +89,7 @@ def shaped(inner: Instance, *curves: Shape | None) -> Instance:
 
 
 def unshaped(made: Instance) -> Instance:
-    """The texture itself, whatever curves it is sent through."""
+    """Returns the texture itself, whatever curves it is sent through."""
     while isinstance(made, Shaped):
         made = made.inner
     return made

@@ -32,7 +32,7 @@ Inside = Callable[[Place, int], slice]  # which of so many samples along an axis
 
 
 def wanted_of(bands: Bands) -> dict[Place, Wanted]:
-    """Those subbands of an example that say something."""
+    """Returns those subbands of an example that say something."""
     found = {place: Wanted(ordered, float(ordered.std(dtype=np.float64))) for place, ordered in bands.items()}
     return {place: band for place, band in found.items() if band.spread > _FLAT}
 
@@ -44,8 +44,8 @@ def sloped(
     inside: Inside,
     threads: Executor | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """How far float32 pictures (m, h, w) are, added up over the subbands that are wanted, float64 (m,); and the slope
-    of that by the pixels of each, (m, h, w)."""
+    """Tells how far float32 pictures (m, h, w) are, added up over the subbands that are wanted, float64 (m,); and
+    the slope of that by the pixels of each, (m, h, w)."""
     step = max(1, _TOGETHER // pictures[0].size)
     parts = [pictures[start : start + step] for start in range(0, len(pictures), step)]
     found = list((map if threads is None else threads.map)(lambda part: _sloped(part, filters, wanted, inside), parts))
@@ -81,18 +81,18 @@ def _sloped(
 
 
 def mirrored(pictures: np.ndarray) -> np.ndarray:
-    """Pictures (m, n, n) in the middle of their mirror images: (m, 2n, 2n)."""
+    """Returns pictures (m, n, n) in the middle of their mirror images: (m, 2n, 2n)."""
     before, after = beyond(pictures.shape[1])
     return np.pad(pictures, ((0, 0), (before, after), (before, after)), mode="symmetric")
 
 
 def beyond(count: int) -> tuple[int, int]:
-    """How many pixels of mirror images are before and after `count` of a picture's own."""
+    """Tells how many pixels of mirror images are before and after `count` of a picture's own."""
     return count // 2, count - count // 2
 
 
 def folded(values: np.ndarray) -> np.ndarray:
-    """The transpose of `mirrored`: what each pixel has to do with all its images, (m, n, n) of (m, 2n, 2n)."""
+    """Returns the transpose of `mirrored`: what each pixel has to do with all its images, (m, n, n) of (m, 2n, 2n)."""
     for axis in (1, 2):
         whole = np.moveaxis(values, axis, 0)
         before, after = beyond(len(whole) // 2)

@@ -76,7 +76,7 @@ class Patterns:
 
 
 def patterns(picture: np.ndarray, side: int, shape: Shape) -> Patterns:
-    """The patterns of an example (C, h, w) for a cube of `side`."""
+    """Returns the patterns of an example (C, h, w) for a cube of `side`."""
     return _patterns(picture, side, shape, axes_of(picture))
 
 
@@ -112,9 +112,11 @@ def matching(
     threads: Executor | None = None,
     settling: int = SETTLING,
 ) -> Iterator[Step]:
-    """The steps that make cubes `start` (R, n, n, n) like an example's `patterns`; the last has the finished solid.
+    """Yields the steps that make cubes `start` (R, n, n, n) like an example's `patterns`; the last has the finished
+    solid.
 
-    Each iteration has `settling` turns of settling with it, which come after all of them."""
+    Each iteration has `settling` turns of settling with it, which come after all of them.
+    """
     if not len(start):
         yield Step(1.0, start)
         return
@@ -161,7 +163,7 @@ def _turned(wanted: Patterns, cubes: np.ndarray, turns: Turns, threads: Executor
 def _changed(
     wanted: Patterns, cube: np.ndarray, channel: int, made: Filters, threads: Executor | None
 ) -> Iterator[int]:
-    """One turn of a cube, in place; tells how many pyramids are done."""
+    """Yields one turn of a cube, in place; tells how many pyramids are done."""
     mean = _ROUND * _round(cube, wanted.round, channel)
     whole = _ROUND
     yield 1
@@ -179,18 +181,18 @@ def _changed(
 
 
 def _laid(cube: np.ndarray, cut: Cut) -> np.ndarray:
-    """A view of the cube with the cut's axes first."""
+    """Returns a view of the cube with the cut's axes first."""
     return np.moveaxis(cube, (cut.down, cut.across, 3 - cut.down - cut.across), (0, 1, 2))
 
 
 def _places(side: int, cut: Cut) -> tuple[np.ndarray, np.ndarray]:
-    """Where in such a view the rows of all slices are: each place once, int64 (slice, row)."""
+    """Tells where in such a view the rows of all slices are: each place once, int64 (slice, row)."""
     rows = np.arange(side)[None]
     return np.broadcast_to(rows, (side, side)), (rows.T - cut.slant * rows) % side
 
 
 def _round(cube: np.ndarray, pattern: Pattern, channel: int) -> np.ndarray:
-    """The cube with the bands of its three-dimensional pyramid matched."""
+    """Returns the cube with the bands of its three-dimensional pyramid matched."""
     pyramid = laplacian.build(cube, pattern.shape.levels, dimensions=3)
     for level, band in enumerate(pyramid):
         histograms.match(band, pattern.bands[channel][Place(level)])
@@ -200,7 +202,7 @@ def _round(cube: np.ndarray, pattern: Pattern, channel: int) -> np.ndarray:
 def _sliced(
     cube: np.ndarray, cut: Cut, made: Filters, bands: dict[Place, np.ndarray], threads: Executor | None
 ) -> np.ndarray:
-    """The slices of the cube with their subbands matched, each slice by itself."""
+    """Returns the slices of the cube with their subbands matched, each slice by itself."""
     slices = np.ascontiguousarray(_laid(cube, cut)[_places(len(cube), cut)])
     step = max(1, _TOGETHER // slices[0].size)
 

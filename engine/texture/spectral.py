@@ -41,17 +41,17 @@ class _Spectral:
 
     @property
     def shown(self) -> ImageSource:
-        """The sample: the picture, or a part of it."""
+        """Returns the sample: the picture, or a part of it."""
         return self.source
 
     @property
     def coloured(self) -> bool:
-        """Whether S has three channels."""
+        """Tells whether S has three channels."""
         return sample.coloured(self.shown)
 
     @property
     def native(self) -> int:
-        """The level of the sample's own pixels; it may be coarser than the base."""
+        """Returns the level of the sample's own pixels; it may be coarser than the base."""
         raise NotImplementedError
 
     @property
@@ -151,7 +151,7 @@ class Tiled(_Spectral):
         return tiled(levels[level - self.native - 1], rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
-        """The tile's finest content, shifted elsewhere."""
+        """Returns the tile's finest content, shifted elsewhere."""
         top = sample.tile(self.shown, self.period).top
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % top.shape[2], (h >> 32) % top.shape[1]
@@ -198,7 +198,7 @@ class Sparse(_Spectral):
         return own + np.float32(self.mean)
 
     def impulse(self, level: int) -> sparse.Impulse:
-        """The impulse response at a level from the base to the native one."""
+        """Returns the impulse response at a level from the base to the native one."""
         if level >= self.native:
             return sample.sample_response(self.source, self.period).own
         return sample.seen(self.source, self.period, self.native - level)
@@ -210,7 +210,7 @@ class Sparse(_Spectral):
 
     @property
     def noise(self) -> sparse.Noise:
-        """The points of the field at the native level."""
+        """Returns the points of the field at the native level."""
         return self._noise(0)
 
     def _noise(self, octave: int) -> sparse.Noise:

@@ -42,7 +42,7 @@ class Parameter:
     whole: bool = False
 
     def checked(self, value: Any) -> float | int:
-        """The value as a float (or int); TextureError if it is no number or out of range."""
+        """Returns the value as a float (or int); TextureError if it is no number or out of range."""
         if is_within(value, self.lo, self.hi, self.whole):
             return int(value) if self.whole else float(value) + 0.0  # -0.0 becomes 0.0: one key for one texture
         kind = "an integer" if self.whole else "a number"
@@ -125,7 +125,7 @@ KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 def instance(
     kind: str, parameters: Mapping[str, Any], level: int, seed: int, source: ImageSource | None = None
 ) -> Instance:
-    """A texture bound to its base level `level`.
+    """Returns a texture bound to its base level `level`.
 
     Parameters that are missing take the row's default, those of other kinds are ignored; `seed` is for textures
     whose parameters name none; `source` is the picture of an image or the sample of a spectral texture, its width the
@@ -149,7 +149,7 @@ def instance(
 
 
 def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
-    """The instance whose key this is, as read back from JSON (lists for tuples); `images` by their sha.
+    """Returns the instance whose key this is, as read back from JSON (lists for tuples); `images` by their sha.
 
     An image that is not among them keeps its key and is transparent.  TextureError names the part of the key.
     """
@@ -174,7 +174,7 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
 
 
 def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
-    """A texture sent through a curve: ["shaped", base level, curve, key of the texture itself]."""
+    """Returns a texture sent through a curve: ["shaped", base level, curve, key of the texture itself]."""
     inner, deep = key, 0
     while isinstance(inner, list | tuple) and len(inner) == 4 and inner[0] == "shaped":
         inner, deep = inner[3], deep + 1
@@ -190,7 +190,7 @@ def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> I
 
 
 def _curve(value: Any) -> Shape:
-    """A curve's name, or knots as a brush has them."""
+    """Returns a curve's name, or knots as a brush has them."""
     if isinstance(value, str) and value in CURVES:
         return value
     pairs = value if isinstance(value, list | tuple) and 1 <= len(value) <= KNOTS_CAP else ()

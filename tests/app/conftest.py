@@ -164,7 +164,7 @@ class Program:
         """The settled screen, int (800, 1280, 3), once it is good, with the pointer there: kernels may be compiled."""
         end = time.monotonic() + seconds
         while not good(screen := self.parked(pointer)):
-            assert time.monotonic() < end
+            assert time.monotonic() < end, f"not so within {seconds:g} s: {self.log.read_text()[-2000:]}"
         return screen
 
     def park(self) -> None:

@@ -34,7 +34,7 @@ def ask_thumbnails(state: ExampleState, post: Callable[[Request], None], side: i
 
 
 def _stroke(name: str, needs: tuple[DefineTexture, ...], size: tuple[int, int], octaves: int) -> Swatch:
-    """A broad stroke with an example, which is so many octaves larger than it is."""
+    """Returns a broad stroke with an example, which is so many octaves larger than it is."""
     radius = max(2.0, min(0.24 * size[1], 0.11 * size[0]))
     brush = Brush(radius=radius, mode="example", example=name, hardness=1.0)
     brush = replace(brush, example_level=-max(octaves, 0), example_detail=max(-octaves, 0))

@@ -74,7 +74,7 @@ class Entry:
 
     @property
     def title(self) -> str:
-        """What it is called: `wash-indigo` is a wash, indigo."""
+        """Returns what it is called: `wash-indigo` is a wash, indigo."""
         if self.here is not None or self.given:
             return self.given or self.name
         text = self.name.replace("-", " ").replace("_", " ").strip() or self.name
@@ -82,17 +82,18 @@ class Entry:
 
 
 def bundled_folder() -> Path:
-    """The examples that come with the program; the folder lies beside the packages."""
+    """Returns the examples that come with the program; the folder lies beside the packages."""
     return Path(__file__).resolve().parents[3] / "palettes" / "examples"
 
 
 def own_folder() -> Path:
-    """Where the artist's own are kept."""
+    """Tells where the artist's own are kept."""
     return platformdirs.user_data_path("inkfall") / "examples"
 
 
 def load_examples(folder: Path, own: bool) -> tuple[list[Entry], list[str]]:
-    """The examples of a folder by group and name, and a line for each file of parameters, or mask, that is none."""
+    """Returns the examples of a folder by group and name, and a line for each file of parameters, or mask, that is
+    none."""
     found, faults = [], []
     pictures = (p for p in folder.glob(f"*{PICTURE}") if not p.name.endswith((MASK, BASE))) if folder.is_dir() else ()
     for path in sorted(pictures):
@@ -117,14 +118,14 @@ def arranged(entries: Iterable[Entry]) -> list[Entry]:
 
 
 def label(entry: Entry, entries: Iterable[Entry]) -> str:
-    """An example's title without a first word that several of its group share: a wash among washes."""
+    """Returns an example's title without a first word that several of its group share: a wash among washes."""
     first, _, rest = entry.title.partition(" ")
     same = sum(other.group == entry.group and other.title.partition(" ")[0] == first for other in entries)
     return rest[:1].upper() + rest[1:] if rest and same > 2 and entry.group not in (OWN, HERE) else entry.title
 
 
 def _painted(entry: Entry) -> Entry:
-    """The example with the steps of its region, if these are what made the mask that is there now."""
+    """Returns the example with the steps of its region, if these are what made the mask that is there now."""
     try:
         with open(entry.picture.with_name(entry.name + STEPS), "rb") as file:
             told = loads(file.read(BYTES_CAP))
@@ -139,7 +140,7 @@ def _painted(entry: Entry) -> Entry:
 
 
 def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
-    """The names (`group`, `title`) and the parameters in a file, and what is wrong with it."""
+    """Returns the names (`group`, `title`) and the parameters in a file, and what is wrong with it."""
     if not path.is_file():
         return {}, Parameters(), ""
     try:
@@ -152,7 +153,7 @@ def _told(path: Path) -> tuple[dict[str, str], Parameters, str]:
 
 
 def within_reach(brush: Brush, level: int) -> bool:
-    """Whether a stroke at a level may have the size that a brush gives its texture."""
+    """Tells whether a stroke at a level may have the size that a brush gives its texture."""
     return brush.example_level is None or -_REACH <= brush.example_level - level <= TOO_FINE
 
 
@@ -192,7 +193,7 @@ class ExampleState:
 
     @property
     def region(self) -> RegionState | None:
-        """The region that is being painted."""
+        """Returns the region that is being painted."""
         return self.regions.get(self.chosen)
 
     def groups(self) -> list[str]:
@@ -206,7 +207,7 @@ class ExampleState:
     # --- the region --------------------------------------------------------------------------------------------------
 
     def over(self, x: float, y: float) -> bool:
-        """Whether a point of the screen is on the region."""
+        """Tells whether a point of the screen is on the region."""
         if self.spot is None or self.region is None or self.tab != "region":
             return False
         u, v = self.place(x, y)
@@ -214,18 +215,18 @@ class ExampleState:
         return 0.0 <= u < width and 0.0 <= v < height
 
     def place(self, x: float, y: float) -> tuple[float, float]:
-        """A point of the screen in pixels of the example."""
+        """Returns a point of the screen in pixels of the example."""
         left, top, scale = self.spot if self.spot is not None else (0.0, 0.0, 1.0)
         return (x - left) / scale, (y - top) / scale
 
     # --- parameters --------------------------------------------------------------------------------------------------
 
     def draft(self, entry: Entry) -> Parameters:
-        """The parameters that the settings show."""
+        """Returns the parameters that the settings show."""
         return with_values(entry.parameters, self.drafts.get(entry.ident, self.used.get(entry.ident, Map())))
 
     def set(self, entry: Entry, name: str, value: Any) -> None:
-        """Another value of one of them."""
+        """Sets another value of one of them."""
         now = asdict(replace(self.draft(entry), **{name: value}))
         own = asdict(entry.parameters)
         self.drafts[entry.ident] = Map({key: told for key, told in now.items() if told != own[key]})
@@ -235,19 +236,19 @@ class ExampleState:
         self.drafts[entry.ident] = Map()
 
     def tried(self, entry: Entry) -> bool:
-        """Whether the settings differ from what is painted with."""
+        """Tells whether the settings differ from what is painted with."""
         used = self.used.get(entry.ident, Map())
         return self.drafts.get(entry.ident, used) != used
 
     def needs(self, entry: Entry, draft: bool = False) -> tuple[str, tuple[DefineTexture, ...]]:
-        """The name of its texture, and the definition that it needs if not only the painting has it."""
+        """Returns the name of its texture, and the definition that it needs if not only the painting has it."""
         if entry.here is not None:
             return entry.name, ()
         command = self.command(entry, draft)
         return command.name, (command,)
 
     def command(self, entry: Entry, draft: bool = False) -> DefineTexture:
-        """The definition of its texture, as it is painted with or as the settings are."""
+        """Returns the definition of its texture, as it is painted with or as the settings are."""
         usual = self.used.get(entry.ident, Map())
         told = self.drafts.get(entry.ident, usual) if draft else usual
         return definition(entry, told)
@@ -255,22 +256,22 @@ class ExampleState:
     # --- the brush ---------------------------------------------------------------------------------------------------
 
     def levels(self) -> dict[str, int]:
-        """The members of a brush that tell how large the texture is."""
+        """Returns the members of a brush that tell how large the texture is."""
         return {"example_level": self.base - max(self.size, 0), "example_detail": max(-self.size, 0)}
 
     def erasing(self, brush: Brush) -> Brush:
-        """A brush that erases, of everything or of one depth alone."""
+        """Returns a brush that erases, of everything or of one depth alone."""
         return replace(brush, depth=None if self.eraser is None else float(self.eraser), example_level=None)
 
     def at_home(self, brush: Brush) -> Brush:
-        """The brush as it paints a small picture at level 0."""
+        """Returns the brush as it paints a small picture at level 0."""
         if not brush.row.grows:
             return brush
         return replace(brush, example_level=-max(self.size, 0))
 
 
 def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
-    """The command that makes an example's texture; `told`: parameters other than its own.
+    """Returns the command that makes an example's texture; `told`: parameters other than its own.
 
     All are told, or a texture of the painting that has others would be taken for this one.
     """
@@ -287,7 +288,8 @@ def definition(entry: Entry, told: Mapping[str, Any]) -> DefineTexture:
 
 
 def here(definitions: Iterable[tuple[str, str, Mapping[str, Any]]], state: ExampleState) -> list[Entry]:
-    """Those of a painting's textures (name, kind, parameters) that are examples and none that the palette has."""
+    """Returns those of a painting's textures (name, kind, parameters) that are examples and none that the palette
+    has."""
     found = []
     for name, kind, told in definitions:
         if kind == KIND and not any(_is(entry, told, state) for entry in state.entries if entry.here is None):
@@ -296,15 +298,15 @@ def here(definitions: Iterable[tuple[str, str, Mapping[str, Any]]], state: Examp
 
 
 def _is(entry: Entry, told: Mapping[str, Any], state: ExampleState) -> bool:
-    """Whether a texture of a painting is an example of the palette, as it came or as it is painted with."""
+    """Tells whether a texture of a painting is an example of the palette, as it came or as it is painted with."""
     if told.get("path" if entry.own else "bundled") != (str(entry.picture) if entry.own else entry.name):
         return False
     return any(defined_by(one, KIND, told) for one in (definition(entry, Map()), state.command(entry)))
 
 
 def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:
-    """What is typed as another name of the artist's own example, tidied, with a number if another of them has it; empty
-    if nothing is left of it."""
+    """Returns what is typed as another name of the artist's own example, tidied, with a number if another of them
+    has it; empty if nothing is left of it."""
     plain = " ".join("".join(c if c.isprintable() else " " for c in text).split())[:NAME_CAP].strip()
     taken = {other.title.lower() for other in entries if other.own and other.ident != entry.ident}
     name, number = plain, 1
@@ -315,13 +317,13 @@ def renamed(text: str, entry: Entry, entries: Iterable[Entry]) -> str:
 
 
 def in_painting(entry: Entry, definitions: Iterable[tuple[str, str, Mapping[str, Any]]]) -> list[str]:
-    """The names of a painting's textures (name, kind, parameters) that are made of the artist's own example."""
+    """Returns the names of a painting's textures (name, kind, parameters) that are made of the artist's own example."""
     return [name for name, kind, told in definitions if kind == KIND and told.get("path") == str(entry.picture)]
 
 
 @lru_cache(maxsize=256)
 def mask_sha(path: Path, _changed: int) -> str:
-    """What a definition calls the region that a file holds now: with another region it defines another texture.
+    """Returns what a definition calls the region that a file holds now: with another region it defines another texture.
     FileError if it is no picture.  `_changed`: when the file was, in nanoseconds."""
     from engine.strokes.example_files import read_mask  # here: it loads much that the window's start need not wait for
 
@@ -329,7 +331,7 @@ def mask_sha(path: Path, _changed: int) -> str:
 
 
 def sha_of(inside: np.ndarray) -> str:
-    """What a definition calls a region, bool (h, w)."""
+    """Returns what a definition calls a region, bool (h, w)."""
     from engine.texture.image import ImageSource
 
     return ImageSource.of("", np.repeat(inside[None].astype(np.float32), 4, axis=0)).sha

@@ -250,7 +250,7 @@ def rename(desk: Desk, entry: Entry, text: str) -> None:
 
 
 def users(desk: Desk, entry: Entry) -> str:
-    """What is painted with one of the artist's own: the painting, brushes; empty if nothing is."""
+    """Returns what is painted with one of the artist's own: the painting, brushes; empty if nothing is."""
     scene, path = desk.known.scene, str(entry.picture)
     found = ["this painting"] if scene is not None and example_state.in_painting(entry, scene.definitions) else []
     found += [
@@ -302,5 +302,5 @@ def _without(desk: Desk, entry: Entry) -> None:
 
 
 def _title(desk: Desk) -> str:
-    """What the chosen example is called in the palette."""
+    """Returns what the chosen example is called in the palette."""
     return desk.examples.entry.title if desk.examples.entry is not None else ""

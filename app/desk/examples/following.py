@@ -16,8 +16,8 @@ class Following:
         self._since = self._sent = 0.0
 
     def due(self, wanted: Any, now: float, free: bool = True) -> bool:
-        """Whether a picture of `wanted` is to be asked for now: it is not of the one before, and enough time went by.
-        While not `free`, it waits."""
+        """Tells whether a picture of `wanted` is to be asked for now: it is not of the one before, and enough time
+        went by.  While not `free`, it waits."""
         if wanted != self._wanted:
             self._wanted, self._since = wanted, self._since or max(now, self._sent + self._settle)
         if not free or not self._since or now < self._since:

@@ -27,7 +27,7 @@ Steps = tuple[Map[str, Any], ...]
 
 
 def opening_of(entry: Entry) -> RegionOpen:
-    """What the engine needs for painting an example's region."""
+    """Returns what the engine needs for painting an example's region."""
     from engine.painting.capture import read_picture  # here: the engine is loaded by now
 
     picture = read_picture(str(entry.picture), None)
@@ -37,7 +37,7 @@ def opening_of(entry: Entry) -> RegionOpen:
 
 
 def _first(entry: Entry, opaque: np.ndarray) -> np.ndarray:
-    """What the steps of its region begin with, bool (h, w)."""
+    """Returns what the steps of its region begin with, bool (h, w)."""
     base = entry.base if entry.steps else entry.mask
     found = opaque if base is None else _masked(base)
     return found if found.shape == opaque.shape else opaque
@@ -50,7 +50,7 @@ def _masked(path: Path) -> np.ndarray:
 
 
 def cut_out(entry: Entry) -> tuple[np.ndarray, np.ndarray]:
-    """An example's picture, uint8 RGBA (h, w, 4), not premultiplied, and its region, bool (h, w)."""
+    """Returns an example's picture, uint8 RGBA (h, w, 4), not premultiplied, and its region, bool (h, w)."""
     pixels = pixels_of(entry.picture)
     inside = pixels[..., 3] > 0 if entry.mask is None else _masked(entry.mask)
     return pixels, inside if inside.shape == pixels.shape[:2] else pixels[..., 3] > 0
@@ -115,7 +115,7 @@ def write_region(name: str, inside: np.ndarray, steps: Steps = (), base: np.ndar
 
 
 def write_parameters(name: str, parameters: Parameters, title: str = "") -> None:
-    """Those that are not as usual, and what it is called if not as its files are."""
+    """Writes those that are not as usual, and what it is called if not as its files are."""
     usual, lines = asdict(Parameters()), [f'group = "{example_state.OWN}"']
     if title:
         lines.append(f"title = {json.dumps(title, ensure_ascii=False)}")
@@ -134,7 +134,7 @@ def delete(name: str) -> None:
 
 
 def free_file_name(stem: str) -> str:
-    """A file name that no example of the artist's own has yet."""
+    """Returns a file name that no example of the artist's own has yet."""
     plain = "".join(c if c.isalnum() or c in " -_" else "-" for c in stem).strip(" -")[:NAME_CAP].strip() or "example"
     taken = {path.name.lower() for path in example_state.own_folder().glob("*")}
     name, number = plain, 1
@@ -145,7 +145,7 @@ def free_file_name(stem: str) -> str:
 
 
 def fitting(pixels: np.ndarray) -> tuple[np.ndarray, bool]:
-    """A picture, uint8 RGBA (h, w, 4), no larger than an example may be; whether it was made smaller."""
+    """Returns a picture, uint8 RGBA (h, w, 4), no larger than an example may be; whether it was made smaller."""
     height, width = pixels.shape[:2]
     if max(height, width) <= SIDE:
         return pixels, False

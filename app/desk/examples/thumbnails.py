@@ -20,12 +20,12 @@ LARGE = 104.0  # its side where there is room, points
 
 
 def ident(entry: Entry) -> str:
-    """What its picture is called."""
+    """Returns what its picture is called."""
     return f"example {entry.ident}"
 
 
 def side(scale: float) -> int:
-    """The side of a thumbnail, pixels, where a point is `scale` of them."""
+    """Returns the side of a thumbnail, pixels, where a point is `scale` of them."""
     return round(LARGE * scale)
 
 
@@ -51,7 +51,7 @@ class Shelf:
             self._thread.start()
 
     def take(self) -> list[Picture]:
-        """What is ready."""
+        """Returns what is ready."""
         found = []
         while self._ready:
             found.append(self._ready.popleft())
@@ -66,7 +66,7 @@ class Shelf:
 
 
 def thumbnail(entry: Entry, side: int) -> np.ndarray:
-    """An example's region on paper, uint8 RGBA (side, side, 4), opaque."""
+    """Returns an example's region on paper, uint8 RGBA (side, side, 4), opaque."""
     from PIL import Image  # here: it takes its time to load
 
     pixels, inside = own_example_files.cut_out(entry)

@@ -33,8 +33,8 @@ class BrushList:
         self._reveal = 0  # frames in which the list still scrolls to it: how long a list is, is known a frame late
 
     def wants(self, desk: Desk) -> None:
-        """The pictures of all brushes but those that grow examples, before they are in sight: an example would have to
-        be analysed, and be held.  Before, all are to be made ready."""
+        """Asks for the pictures of all brushes but those that grow examples, before they are in sight: an example
+        would have to be analysed, and be held.  Before, all are to be made ready."""
         if desk.known.ready and self._prepared is not desk.known.presets:
             self._prepared = desk.known.presets
             desk.post(Prepare(tuple(_picture(desk, preset) for preset in self._prepared)))
@@ -79,7 +79,7 @@ class BrushList:
         self._seen = desk.hand.preset
 
     def _bar(self, desk: Desk) -> None:
-        """The group that is listed, a word to look for, and all at once."""
+        """Draws the group that is listed, a word to look for, and all at once."""
         gap, side = 3 * desk.scale, imgui.get_frame_height()
         room = imgui.get_content_region_avail().x - 2 * gap - side
         groups = [(EVERY, f"All {len(desk.known.presets) or ''}")]
@@ -103,7 +103,7 @@ class BrushList:
         self._all(desk)
 
     def _all(self, desk: Desk) -> None:
-        """Every brush, a line for each group, beside the panel."""
+        """Draws every brush, a line for each group, beside the panel."""
         gap, em = 5 * desk.scale, imgui.get_font_size()
         left = imgui.get_window_pos().x + imgui.get_window_width() + gap
         room, high = desk.view.width - left - 6 * gap, desk.view.height - imgui.get_window_pos().y - 3 * gap
@@ -130,7 +130,7 @@ class BrushList:
         imgui.end_popup()
 
     def _preset(self, desk: Desk, preset: Preset, wide: float) -> bool:
-        """One brush; whether it was taken."""
+        """Returns one brush; whether it was taken."""
         corner, tall = imgui.get_cursor_screen_pos(), _tall(desk, wide)
         taken = imgui.invisible_button(preset.name, ImVec2(wide, tall))
         w.named(preset.name)
@@ -158,7 +158,7 @@ class BrushList:
 
 
 def _picture(desk: Desk, preset: Preset) -> Swatch:
-    """The request for a stroke of a brush."""
+    """Returns the request for a stroke of a brush."""
     size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
     return Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures)
 
@@ -176,7 +176,7 @@ def hold(desk: Desk, preset: Preset) -> None:
 
 
 def _deletes(desk: Desk, preset: Preset) -> None:
-    """The menu of a brush of the artist's own."""
+    """Draws the menu of a brush of the artist's own."""
     if not imgui.begin_popup_context_item(f"own {preset.name}"):
         return
     deleted = imgui.selectable(f"Delete “{preset.name}”", False)[0]
@@ -202,7 +202,7 @@ class _Delete(FileWork):
 
 
 def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, float]) -> None:
-    """A brush's name below its picture; a long one a little smaller."""
+    """Draws a brush's name below its picture; a long one a little smaller."""
     painter, size = imgui.get_window_draw_list(), imgui.get_font_size()
     inset = 0.35 * size
     wide = imgui.calc_text_size(name).x
@@ -214,7 +214,7 @@ def _name(name: str, corner: ImVec2, end: ImVec2, grey: tuple[float, float, floa
 
 
 def _tall(desk: Desk, wide: float) -> float:
-    """The height of a brush `wide` across: its picture and its name."""
+    """Returns the height of a brush `wide` across: its picture and its name."""
     return wide * THUMB[1] / THUMB[0] + imgui.get_font_size() + 4 * desk.scale
 
 

@@ -61,7 +61,8 @@ class BrushPanel:
         self._below = 0.0  # the height of what lies below the presets while all is folded, in the last frame
 
     def wants(self, desk: Desk, now: float) -> None:
-        """The stroke of the brush as it is set, pictures of the presets, and those of examples where one is shown."""
+        """Asks for the stroke of the brush as it is set, pictures of the presets, and those of examples where one is
+        shown."""
         self._list.wants(desk)
         brush, lab = desk.examples.at_home(desk.hand.dipped()), desk.lab.scene
         grows = brush.row.grows
@@ -95,7 +96,7 @@ class BrushPanel:
         self._below = imgui.get_cursor_pos().y - top - unfolded
 
     def _preview(self, desk: Desk) -> None:
-        """A stroke of the brush as it is set now."""
+        """Draws a stroke of the brush as it is set now."""
         width, height = imgui.get_content_region_avail().x, PREVIEW[1] * desk.scale
         corner = imgui.get_cursor_screen_pos()
         imgui.dummy(ImVec2(width, height))
@@ -179,12 +180,12 @@ def _height_of(draw: Callable[[], None]) -> float:
 
 
 def _shown(curve: Any) -> Any:
-    """A curve of pressure as the editor knows it: by its name if it is one of PRESSURE."""
+    """Returns a curve of pressure as the editor knows it: by its name if it is one of PRESSURE."""
     return next((name for name, knots in _PRESSURES.items() if curve is not None and knots == curve), curve)
 
 
 def _with(dynamics: Any, name: str, curve: Any) -> Any:
-    """The dynamics with another curve for a setting, none if that is None."""
+    """Returns the dynamics with another curve for a setting, none if that is None."""
     if curve is None:
         return dynamics.delete(name) if name in dynamics else dynamics
     return dynamics.set(name, _PRESSURES.get(curve, curve) if isinstance(curve, str) else curve)

@@ -25,7 +25,7 @@ _DEPTH = (
 
 
 def draw(desk: Desk) -> None:
-    """The example's own settings, in place of those that do not count for it."""
+    """Draws the example's own settings, in place of those that do not count for it."""
     _shown(desk)
     state, side, gap = desk.examples, imgui.get_frame_height(), 2 * desk.scale
     imgui.align_text_to_frame_padding()
@@ -47,7 +47,7 @@ def draw(desk: Desk) -> None:
 
 
 def draw_eraser(desk: Desk) -> None:
-    """What the eraser takes of what was painted with examples."""
+    """Draws what the eraser takes of what was painted with examples."""
     state = desk.examples
     hint = "Erases only what was painted with examples at one depth; paint stays"
     changed, on = w.tick("One depth only", state.eraser is not None, hint)
@@ -59,7 +59,7 @@ def draw_eraser(desk: Desk) -> None:
 
 
 def _shown(desk: Desk) -> None:
-    """The example that is painted with; a click opens the palette."""
+    """Draws the example that is painted with; a click opens the palette."""
     entry = desk.examples.entry
     ours = entry is not None and desk.hand.brush.example is not None
     side, scale = 40 * desk.scale, desk.scale

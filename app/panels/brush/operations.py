@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from itertools import groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from imgui_bundle import ImVec2, imgui
 from immutables import Map
@@ -16,6 +16,9 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.controls.ramp_editor import RampEditor
 from engine.numeric.formula import FORMULA_CAP, FUNCTIONS, NAMES, FormulaError, parse
+
+if TYPE_CHECKING:
+    from engine.brush.ops import Op, Parameter
 
 BESIDE = (64, 0)  # pixels: what a clone of the layer itself begins with; without, it changes nothing
 OFFSETS = (-512.0, 512.0)  # that the sliders offer
@@ -90,27 +93,27 @@ class Operations:
         imgui.end_combo()
         return picked
 
-    def _parameter(self, desk: Desk, given: Map[str, Any], row: Any) -> Map[str, Any]:
+    def _parameter(self, desk: Desk, given: Map[str, Any], row: Parameter) -> Map[str, Any]:
         value = given.get(row.name, row.default)
         new = CONTROLS[row.kind](self, desk, row, value)
         return given if new == value else given.set(row.name, new)
 
-    def _number(self, desk: Desk, row: Any, value: Any) -> Any:
+    def _number(self, desk: Desk, row: Parameter, value: Any) -> Any:
         form = {"px": "%.1f px", "degrees": "%.0f°"}.get(row.unit, "%.2f")
         changed, new = w.slider(row.label, float(value), row.slider, row.tooltip, form=form, curved=row.logarithmic)
         return min(max(round(new, 3), row.lo), row.hi) if changed else value
 
-    def _choice(self, desk: Desk, row: Any, value: Any) -> Any:
+    def _choice(self, desk: Desk, row: Parameter, value: Any) -> Any:
         options = [(one, f"{row.label} {one}") for one in row.choices]
         return w.choice(row.name, value, options, row.tooltip, -1) or value
 
-    def _layer(self, desk: Desk, row: Any, value: Any) -> Any:
+    def _layer(self, desk: Desk, row: Parameter, value: Any) -> Any:
         options = [(name, f"From {name}") for name in _layers(desk)]
         if value not in dict(options):
             options.append((value, f"From {value} (not here)"))
         return w.choice(row.name, value, options, row.tooltip, -1) or value
 
-    def _offset(self, desk: Desk, row: Any, value: Any) -> Any:
+    def _offset(self, desk: Desk, row: Parameter, value: Any) -> Any:
         parts = list(value)
         for i, axis in enumerate(("right", "down")):
             shown = (f"{row.label} {axis}", float(parts[i]), OFFSETS, row.tooltip)
@@ -119,13 +122,14 @@ class Operations:
                 parts[i] = round(new)
         return tuple(parts)
 
-    def _stops(self, desk: Desk, row: Any, value: Any) -> Any:
+    def _stops(self, desk: Desk, row: Parameter, value: Any) -> Any:
         stops = ramps.read(value)
         new = self._ramp.draw(stops, row.tooltip)
         return value if new == stops else new
 
     def _formula(self, desk: Desk, formula: str) -> None:
-        """The field, what is wrong with it, and some formulas to begin with; the brush keeps the last good one."""
+        """Draws the field, what is wrong with it, and some formulas to begin with; the brush keeps the last good
+        one."""
         if formula != self._known:
             self._text = self._known = formula
             self._fault = None
@@ -172,7 +176,7 @@ _VOCABULARY = (
 
 
 def fault(formula: str) -> FormulaError | None:
-    """What is wrong with a formula, if anything is."""
+    """Returns what is wrong with a formula, if anything is."""
     try:
         parse(formula)
     except FormulaError as error:
@@ -181,7 +185,8 @@ def fault(formula: str) -> FormulaError | None:
 
 
 def around(formula: str, column: int) -> tuple[str, str, str]:
-    """A piece of a formula: before, at and behind the column (from 1) of a mistake; an end is shown as a blank."""
+    """Returns a piece of a formula: before, at and behind the column (from 1) of a mistake; an end is shown as a
+    blank."""
     i = min(max(column - 1, 0), len(formula))
     before, behind = formula[max(0, i - ECHO) : i], formula[i + 1 : i + 1 + ECHO]
     before = ("…" if i > ECHO else "") + before
@@ -189,7 +194,7 @@ def around(formula: str, column: int) -> tuple[str, str, str]:
 
 
 def _mistake(formula: str, error: FormulaError) -> None:
-    """The place of the mistake in its surroundings, and what was expected there."""
+    """Draws the place of the mistake in its surroundings, and what was expected there."""
     before, there, behind = around(formula, error.column)
     corner, painter = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
     x = corner.x
@@ -208,8 +213,8 @@ def _mistake(formula: str, error: FormulaError) -> None:
     w.tooltip(f"Found {error.found}, expected {error.expected}")
 
 
-def _told(row: Any) -> str:
-    """A row's hint, with what it does to the other levels."""
+def _told(row: Op) -> str:
+    """Returns a row's hint, with what it does to the other levels."""
     return f"{row.tooltip}\n\n{row.finer}\n{row.coarser}"
 
 
@@ -218,7 +223,8 @@ def _layers(desk: Desk) -> list[str]:
 
 
 def copied(layers: Sequence[str], active: str | None) -> str:
-    """The layer that a clone begins to copy from, of all from the top: the one below, or else above, or the same."""
+    """Returns the layer that a clone begins to copy from, of all from the top: the one below, or else above, or the
+    same."""
     if active not in layers:
         return layers[0]
     i = layers.index(active)
@@ -226,7 +232,7 @@ def copied(layers: Sequence[str], active: str | None) -> str:
 
 
 def _started(desk: Desk, name: str) -> Any:
-    """The op as it begins: its name, with what has to be given; None if there is nothing to give."""
+    """Returns the op as it begins: its name, with what has to be given; None if there is nothing to give."""
     if name == "formula":
         return Map({"formula": FORMULAS[0][1]})
     row = next(row for row in desk.known.tables.ops if row.name == name)

@@ -21,7 +21,7 @@ class SaveBrush:
         self._name = ""
 
     def draw(self, desk: Desk) -> None:
-        """The button, on the right end of the header just drawn, and what it opens."""
+        """Draws the button, on the right end of the header just drawn, and what it opens."""
         side = imgui.get_text_line_height() * 1.25
         right = imgui.get_content_region_avail().x
         imgui.same_line(0, 0)

@@ -41,7 +41,7 @@ class Texturing:
         self._fresh = ""  # the section switched on just now
 
     def draw(self, desk: Desk) -> float:
-        """The height of what is unfolded of them."""
+        """Returns the height of what is unfolded of them."""
         unfolded = 0.0
         unfelt = desk.hand.stroke_mode().unfelt
         for name, title, hint, body in _SECTIONS:
@@ -79,7 +79,7 @@ class Texturing:
                 imgui.set_scroll_here_y(1.0)
 
     def _start(self, desk: Desk, name: str) -> Any:
-        """What it was before, unless that needs a texture of another painting."""
+        """Returns what it was before, unless that needs a texture of another painting."""
         held = self._kept[name]
         first = next((paper for paper in desk.known.papers if paper.name == _PAPER), None)
         if held is _START["grain"] and first is not None:
@@ -156,7 +156,7 @@ def _amount(part: Surface, hint: str) -> Surface:
 
 
 def _tint(desk: Desk, part: Edge) -> Edge:
-    """The colour at the rim, if it has one of its own."""
+    """Returns the colour at the rim, if it has one of its own."""
     side = imgui.get_frame_height()
     on = part.colour is not None
     changed, on = imgui.checkbox("Tint", on)

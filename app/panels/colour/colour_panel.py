@@ -105,7 +105,7 @@ class ColourPanel:
 
 @lru_cache(maxsize=12)
 def _stops(axis: int, light: float, chroma: float, hue: float) -> tuple[RGB, ...]:
-    """The colours along one slider."""
+    """Returns the colours along one slider."""
     out = []
     for i in range(_STOPS + 1):
         t = i / _STOPS

@@ -29,7 +29,7 @@ class InkPanel:
         self._curves, self._following = CurveEditor(), Following()
 
     def wants(self, desk: Desk, now: float) -> None:
-        """The ink as painted, and much nearer."""
+        """Asks for the ink as painted, and much nearer."""
         brush, lab = desk.hand.dipped(), desk.lab.scene
         plain = Brush(16.0, colour=brush.colour, ink=brush.ink, shaping=brush.shaping)
         if self._following.due((plain, 0 if lab is None else lab.version), now):
@@ -65,7 +65,7 @@ class InkPanel:
         self._adder(desk)
 
     def _picture(self, desk: Desk) -> None:
-        """The ink as painted, and beside it 16 times nearer."""
+        """Draws the ink as painted, and beside it 16 times nearer."""
         width = imgui.get_content_region_avail().x
         height = SWATCH_HEIGHT * desk.scale
         corner = imgui.get_cursor_screen_pos()
@@ -178,7 +178,7 @@ class InkPanel:
 
 
 def _pressing(component: Component) -> Component:
-    """A box to tick: a series of textures whose weight follows the pen."""
+    """Returns a box to tick: a series of textures whose weight follows the pen."""
     pressed = isinstance(component.parameters.get("weight"), str | tuple)
     hint = "The harder the pen is pressed, the more of the second example it paints"
     changed, on = w.tick("Pen pressure sets the weight", pressed, hint)

@@ -37,7 +37,7 @@ class CurveEditor:
         self._pen: tuple[float, float] | None = None
 
     def row(self, label: str, curve: Curve, rows: Rows, hint: str) -> tuple[bool, Curve]:
-        """A line with the curve's name and its picture, which opens the editor.  (changed, curve)
+        """Returns a line with the curve's name and its picture, which opens the editor.  (changed, curve)
 
         `rows`: the named curves; None is the first of them, which reset brings back.
         """
@@ -107,7 +107,7 @@ class CurveEditor:
         return curve
 
     def _drawn(self, shape: Knots, at: tuple[float, float]) -> Knots | None:
-        """The curve with the pen's newest piece in it; None when the pen does nothing."""
+        """Returns the curve with the pen's newest piece in it; None when the pen does nothing."""
         if imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left):
             before, self._pen = self._pen or knots.at_edge(at, _REACH), at
             return knots.drawn_curve(shape, before, at)
@@ -117,7 +117,7 @@ class CurveEditor:
         return knots.thinned(knots.drawn_curve(shape, was, knots.at_edge(was, _REACH)), FINE)
 
     def _knotted(self, curve: Curve, shape: Knots, at: tuple[float, float]) -> Knots | None:
-        """The curve with a knot added, moved or taken away; None when nothing is done to it."""
+        """Returns the curve with a knot added, moved or taken away; None when nothing is done to it."""
         held, near = _knots(curve, shape), None
         if imgui.is_item_hovered():
             near = knots.nearest(held, *at, _REACH)
@@ -159,7 +159,7 @@ def _beside(corner: ImVec2, end: ImVec2) -> None:
 
 
 def plot(corner: ImVec2, end: ImVec2, shape: Knots, thick: float, grid: bool = False) -> None:
-    """The picture of a curve, with the ground under it a little lighter."""
+    """Draws the picture of a curve, with the ground under it a little lighter."""
     painter, wide, tall = imgui.get_window_draw_list(), end.x - corner.x, end.y - corner.y
     painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), 3.0)
     painter.push_clip_rect(corner, end, True)
@@ -208,5 +208,5 @@ def _row(curve: str | None, rows: Rows) -> CurveRow | None:
 
 
 def _knots(curve: Curve, shape: Knots) -> Knots:
-    """What the knots of a curve are: its own, or few that follow it."""
+    """Returns what the knots of a curve are: its own, or few that follow it."""
     return curve if isinstance(curve, tuple) else knots.thinned(shape, FINE)

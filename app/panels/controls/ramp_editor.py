@@ -21,7 +21,8 @@ class RampEditor:
         self._held = False
 
     def draw(self, stops: Stops, hint: str) -> Stops:
-        """The stops as they are now: a click on the bar adds one, a drag moves it, a right click takes it away."""
+        """Returns the stops as they are now: a click on the bar adds one, a drag moves it, a right click takes it
+        away."""
         width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 1.6
         corner = imgui.get_cursor_screen_pos()
         buttons = imgui.ButtonFlags_.mouse_button_left | imgui.ButtonFlags_.mouse_button_right
@@ -53,7 +54,7 @@ class RampEditor:
         return ramps.moved(stops, self._chosen, place) if dragged else stops
 
     def _colour(self, stops: Stops) -> Stops:
-        """The chosen stop's colour, and what can be done with the whole ramp."""
+        """Returns the chosen stop's colour, and what can be done with the whole ramp."""
         side = imgui.get_frame_height()
         rgb = from_hex(stops[self._chosen][1])
         if w.swatch("stop", rgb, "The chosen stop's colour", (side * 2, side)):
@@ -87,7 +88,7 @@ def _bar(stops: Stops, corner: ImVec2, end: ImVec2) -> None:
 
 
 def _mark(at: ImVec2, radius: float, colour: str, chosen: bool) -> None:
-    """A drop that points up at its place."""
+    """Draws a drop that points up at its place."""
     painter = imgui.get_window_draw_list()
     rim = theme.packed((0.95,) * 3 if chosen else (0.5,) * 3)
     middle = ImVec2(at.x, at.y + radius * 1.35)

@@ -24,7 +24,7 @@ _DARK, _LIGHT = "#22262c", "#f2f2f2"  # what it leads from and to
 
 
 def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | None:
-    """A drop-down of all textures but plain white; the name chosen now, or None."""
+    """Returns a drop-down of all textures but plain white; the name chosen now, or None."""
     imgui.set_next_item_width(width)
     known = any(name == texture for name, _ in texture_rows.names(desk))
     shown = texture_rows.label(desk, texture) + ("" if known else " (not here)")
@@ -38,7 +38,8 @@ def chooser(desk: Desk, texture: str, hint: str, width: float = -1.0) -> str | N
 
 
 def surface(desk: Desk, part: Surface, hint: str) -> Surface:
-    """A drop-down of the papers and, below them, of all textures but plain white; the surface chosen now, or `part`."""
+    """Returns a drop-down of the papers and, below them, of all textures but plain white; the surface chosen now, or
+    `part`."""
     same = next((one.name for one in desk.known.papers if one.grain.texture == part.texture), "")
     paper = next((one.name for one in desk.known.papers if one.grain == part), "")
     imgui.set_next_item_width(-1)
@@ -68,7 +69,7 @@ def limit(desk: Desk) -> None:
 
 
 def listed(desk: Desk, current: str = "", without: tuple[str, ...] = ()) -> str | None:
-    """All textures, in the present pop-up; the one chosen now, which the painting gets if it lacks it."""
+    """Returns all textures, in the present pop-up; the one chosen now, which the painting gets if it lacks it."""
     chosen = None
     for title, rows in texture_rows.groups(desk):
         shown = [row for row in rows if row[0] not in without]
@@ -85,7 +86,7 @@ def listed(desk: Desk, current: str = "", without: tuple[str, ...] = ()) -> str 
 
 
 def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
-    """A texture's picture beside a label, to be pressed."""
+    """Returns a texture's picture beside a label, to be pressed."""
     scale, corner = desk.scale, imgui.get_cursor_screen_pos()
     wide, tall = (size * scale for size in _PICTURE)
     pressed = imgui.selectable(f"##{label} {name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
@@ -106,7 +107,7 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
 
 
 def _picture(desk: Desk, name: str) -> Any:
-    """Its picture if there is one; asks for it when it is not of the texture that is meant now."""
+    """Returns its picture if there is one; asks for it when it is not of the texture that is meant now."""
     ident, meant = f"texture {name}", texture_rows.meant(desk, name)
     if desk.known.ready and desk.sampled.get(name) != meant:
         desk.sampled[name] = meant

@@ -20,12 +20,13 @@ _WHOLE_CURVE = ("period", "density")  # sliders that are finer where they are sm
 
 
 def names(desk: Desk) -> list[tuple[str, str]]:
-    """Names and hints: those built in, those that the painting defines, those that the bundled brushes bring."""
+    """Returns names and hints: those built in, those that the painting defines, those that the bundled brushes
+    bring."""
     return [row for _, rows in groups(desk) for row in rows]
 
 
 def groups(desk: Desk) -> list[tuple[str, list[tuple[str, str]]]]:
-    """The same by where they come from, under a title each; a name that several have means the first's."""
+    """Returns the same by where they come from, under a title each; a name that several have means the first's."""
     here = desk.known.scene.textures if desk.known.scene else ()
     sources = (
         ("Of this painting", [(name, "A texture of this painting") for name in here]),
@@ -66,7 +67,7 @@ def label(desk: Desk, texture: str) -> str:
 
 
 def meant(desk: Desk, name: str) -> Hashable:
-    """What a name means now: another value when it means another texture."""
+    """Returns what a name means now: another value when it means another texture."""
     if desk.known.scene and name in desk.known.scene.textures:
         given = next((parameters for known, _, parameters in desk.known.scene.definitions if known == name), None)
         lab = desk.lab.scene
@@ -75,20 +76,20 @@ def meant(desk: Desk, name: str) -> Hashable:
 
 
 def brought(desk: Desk, name: str) -> tuple[DefineTexture, ...]:
-    """The definition of a texture that the painting lacks and the brushes have."""
+    """Returns the definition of a texture that the painting lacks and the brushes have."""
     command = _bringable(desk).get(name)
     here = desk.known.scene is not None and name in desk.known.scene.textures
     return () if command is None or here else (command,)
 
 
 def rows(desk: Desk, texture: str) -> tuple[Any, ...]:
-    """The parameters of a texture, from the table of its kind."""
+    """Returns the parameters of a texture, from the table of its kind."""
     kind = texture_kind(desk, texture)
     return next((tuple(row.parameters) for row in desk.known.tables.kinds if row.name == kind), ())
 
 
 def texture_kind(desk: Desk, texture: str) -> str:
-    """The kind of a texture: of the painting, of those still to come into it, or built in."""
+    """Returns the kind of a texture: of the painting, of those still to come into it, or built in."""
     defined = dict(desk.known.scene.texture_kinds) if desk.known.scene else {}
     if texture in defined:
         return defined[texture]
@@ -97,7 +98,7 @@ def texture_kind(desk: Desk, texture: str) -> str:
 
 
 def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any]:
-    """A slider for each parameter and a button for another seed; the parameters as they are now."""
+    """Returns a slider for each parameter and a button for another seed; the parameters as they are now."""
     found, usual = rows(desk, texture), own(desk, texture)
     for row in found:
         still = row.name != "weight" or is_number(parameters.get("weight", 0.0))
@@ -110,8 +111,8 @@ def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any
 
 
 def own(desk: Desk, texture: str) -> Mapping[str, Any]:
-    """The parameters that a texture was defined with, with which a brush paints that says nothing; the period is the
-    width of its picture where the definition says nothing either."""
+    """Returns the parameters that a texture was defined with, with which a brush paints that says nothing; the
+    period is the width of its picture where the definition says nothing either."""
     width, given = 0, None
     if desk.known.scene:
         width = dict(desk.known.scene.texture_widths).get(texture, 0)

@@ -54,7 +54,7 @@ def placed(label: str, corner: ImVec2, end: ImVec2) -> None:
 def icon_button(
     name: str, icon: str, hint: str, *, on: bool = False, enabled: bool = True, size: float | None = None
 ) -> bool:
-    """A square button with a sign; lit while `on`."""
+    """Returns a square button with a sign; lit while `on`."""
     side = size or imgui.get_frame_height()
     imgui.begin_disabled(not enabled)
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(0, 0))
@@ -93,7 +93,8 @@ def lines_button(lines: Sequence[str], hint: str, width: float) -> bool:
 
 
 def default_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
-    """The button of a dialog that the Return key presses, too; not one that was held down as the dialog came up."""
+    """Returns the button of a dialog that the Return key presses, too; not one that was held down as the dialog came
+    up."""
     imgui.push_style_color(Col.button, theme.vec(theme.ACCENT, 0.45))
     imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT, 0.6))
     imgui.push_style_color(Col.button_active, theme.vec(theme.ACCENT, 0.75))
@@ -103,12 +104,12 @@ def default_button(label: str, hint: str, *, enabled: bool = True, width: float 
 
 
 def return_down() -> bool:
-    """Whether a Return key is held down."""
+    """Tells whether a Return key is held down."""
     return any(imgui.is_key_down(key) for key in _RETURN)
 
 
 def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = False) -> bool:
-    """A panel's header; a click folds it.  `shared`: a button may lie on its right end."""
+    """Returns a panel's header; a click folds it.  `shared`: a button may lie on its right end."""
     imgui.dummy(ImVec2(0, 1))
     if shared:
         imgui.set_next_item_allow_overlap()
@@ -126,7 +127,8 @@ def section(title: str, hint: str = "", *, opened: bool = True, shared: bool = F
 
 
 def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
-    """A header with a switch at its right end; turning it on unfolds it.  (whether it is unfolded, whether on)"""
+    """Returns a header with a switch at its right end; turning it on unfolds it.  (whether it is unfolded, whether
+    on)"""
     imgui.dummy(ImVec2(0, 1))
     height, right = imgui.get_frame_height(), imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
     wide, tall = height * 1.15, height * 0.56
@@ -150,7 +152,7 @@ def switched_section(title: str, hint: str, on: bool) -> tuple[bool, bool]:
 
 
 def _switch(at: ImVec2, wide: float, tall: float, on: bool, over: bool) -> None:
-    """A pill whose knob lies left (off) or right (on)."""
+    """Draws a pill whose knob lies left (off) or right (on)."""
     painter, radius = imgui.get_window_draw_list(), tall / 2
     grey = theme.ACCENT_SOFT if on else theme.HOVER if over else theme.RAISED
     painter.add_rect_filled(at, ImVec2(at.x + wide, at.y + tall), theme.packed(grey), radius)
@@ -162,7 +164,8 @@ def _switch(at: ImVec2, wide: float, tall: float, on: bool, over: bool) -> None:
 def slider(
     label: str, value: float, bounds: tuple[float, float], hint: str, *, form: str = "%.2f", curved: bool = False
 ) -> tuple[bool, float]:
-    """A bar filled up to its value, name on the left, number on the right; Ctrl+click to type.  (changed, value)"""
+    """Returns a bar filled up to its value, name on the left, number on the right; Ctrl+click to type.  (changed,
+    value)"""
     width, height = imgui.get_content_region_avail().x, imgui.get_frame_height()
     corner, lo, hi = imgui.get_cursor_screen_pos(), *bounds
     end = ImVec2(corner.x + width, corner.y + height)
@@ -197,7 +200,7 @@ def _number(form: str, value: float) -> str:
 
 
 def _hidden_frame(on: bool, typing: bool) -> None:
-    """The slider's own looks made invisible, but for the text while it is a field to type in."""
+    """Makes the slider's own looks made invisible, but for the text while it is a field to type in."""
     names = (Col.frame_bg, Col.frame_bg_hovered, Col.frame_bg_active, Col.slider_grab, Col.slider_grab_active)
     if not on:
         imgui.pop_style_color(len(names) + 1)
@@ -217,7 +220,7 @@ def _part(value: float, lo: float, hi: float, curved: bool) -> float:
 
 
 def stepper(label: str, value: int, bounds: tuple[int, int], hint: str) -> tuple[bool, int]:
-    """A whole number between two buttons that make it smaller or larger by one.  (changed, value)"""
+    """Returns a whole number between two buttons that make it smaller or larger by one.  (changed, value)"""
     side, gap = imgui.get_frame_height(), 2 * imgui.get_style().font_scale_dpi
     wide = imgui.get_content_region_avail().x - 2 * (side + gap)
     before = value
@@ -242,7 +245,7 @@ def stepper(label: str, value: int, bounds: tuple[int, int], hint: str) -> tuple
 def gradient_slider(
     label: str, value: float, stops: Sequence[tuple[float, float, float]], hint: str
 ) -> tuple[bool, float]:
-    """A bar of colours with a marker; value 0..1.  (changed, value)"""
+    """Returns a bar of colours with a marker; value 0..1.  (changed, value)"""
     width, height = imgui.get_content_region_avail().x, imgui.get_frame_height() * 0.72
     corner = imgui.get_cursor_screen_pos()
     imgui.invisible_button(label, ImVec2(width, height))
@@ -276,7 +279,8 @@ def choice(
     width: float = 0.0,
     hints: Sequence[str] = (),
 ) -> str | None:
-    """A drop-down of (value, shown text), each perhaps with a hint of its own; the value chosen now, or None."""
+    """Returns a drop-down of (value, shown text), each perhaps with a hint of its own; the value chosen now, or
+    None."""
     shown = dict(options).get(current, current)
     picked = None
     if width:
@@ -297,7 +301,7 @@ def choice(
 
 
 def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[float, float]) -> bool:
-    """A patch of colour that can be pressed."""
+    """Returns a patch of colour that can be pressed."""
     flags = imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop | imgui.ColorEditFlags_.no_alpha
     pressed = imgui.color_button(f"##{name}", theme.vec(rgb), flags, ImVec2(*size))
     named(name)
@@ -306,7 +310,7 @@ def swatch(name: str, rgb: tuple[float, float, float], hint: str, size: tuple[fl
 
 
 def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
-    """A box to tick.  (changed, on)"""
+    """Returns a box to tick.  (changed, on)"""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, ImVec2(3, 3))
     changed, on = imgui.checkbox(label, on)
     imgui.pop_style_var()
@@ -316,8 +320,8 @@ def tick(label: str, on: bool, hint: str) -> tuple[bool, bool]:
 
 
 def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0, name: str = "") -> ImVec2:
-    """A picture in a frame of its own, or a dark field while there is none; its corner on the screen.  `tile`: the
-    width and height of each of its repeats; 0: it fills the frame.  `name`: what tests call it."""
+    """Returns a picture in a frame of its own, or a dark field while there is none; its corner on the screen.
+    `tile`: the width and height of each of its repeats; 0: it fills the frame.  `name`: what tests call it."""
     corner = imgui.get_cursor_screen_pos()
     imgui.dummy(ImVec2(*size))
     named(name)
@@ -341,7 +345,7 @@ def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0,
 
 
 def lit_button(label: str, hint: str, on: bool, width: float = 0.0) -> bool:
-    """A button with a text, lit while `on`."""
+    """Returns a button with a text, lit while `on`."""
     imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
     pressed = text_button(label, hint, width=width)
     imgui.pop_style_color()
@@ -364,7 +368,7 @@ def segments(name: str, current: str, options: Sequence[tuple[str, str, str]], w
 
 
 def colour_popup(name: str, rgb: tuple[float, float, float]) -> tuple[float, float, float] | None:
-    """A picker in a pop-up `name`; the colour while it changes, else None."""
+    """Returns a picker in a pop-up `name`; the colour while it changes, else None."""
     if not imgui.begin_popup(name):
         return None
     imgui.set_next_item_width(imgui.get_font_size() * 13)

@@ -52,7 +52,7 @@ class ExamplesPanel(Panel):
         example_pictures.ask_thumbnails(state, desk.post, side)
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
-        """A stroke in the region."""
+        """Returns a stroke in the region."""
         return paint_region if desk.examples.over(x, y) else None
 
     def takes(self, desk: Desk, action: Action) -> bool:
@@ -87,7 +87,7 @@ class ExamplesPanel(Panel):
             self._palette(desk)
 
     def bar(self, desk: Desk) -> None:
-        """The three sides of the panel, in the strip's title line."""
+        """Draws the three sides of the panel, in the strip's title line."""
         state, scale = desk.examples, desk.scale
         wide = 220 * scale
         imgui.same_line(imgui.get_window_width() - wide - imgui.get_frame_height() - 28 * scale)
@@ -115,7 +115,7 @@ class ExamplesPanel(Panel):
         self._own.draw(desk)
 
     def _filters(self, desk: Desk) -> None:
-        """Which group is listed; a button to add one."""
+        """Draws which group is listed; a button to add one."""
         state, side, gap = desk.examples, imgui.get_frame_height(), 3 * desk.scale
         groups = [(example_state.ALL, f"All {len(state.entries)}"), *((group, group) for group in state.groups())]
         picked = w.choice("group", state.group, groups, "Which examples are listed", 150 * desk.scale)
@@ -212,17 +212,17 @@ def _sampled(desk: Desk, picture: Picture, _now: float) -> None:
 
 
 def _has_files(entry: Entry | None) -> bool:
-    """Whether it has a region and settings that may be changed: only the palette's own have."""
+    """Tells whether it has a region and settings that may be changed: only the palette's own have."""
     return entry is not None and entry.here is None
 
 
 def _below(desk: Desk) -> float:
-    """The height of a name under a thumbnail."""
+    """Returns the height of a name under a thumbnail."""
     return imgui.get_font_size() * NAME + 4 * desk.scale
 
 
 def tile(count: int, room: tuple[float, float], gap: float, name: float, scale: float) -> float:
-    """The side of thumbnails: as large as lets all be seen at once, between two bounds."""
+    """Returns the side of thumbnails: as large as lets all be seen at once, between two bounds."""
     side = int(thumbnails.LARGE * scale)
     while side > TILE * scale:
         across = max(1, int((room[0] + gap) / (side + gap)))
@@ -233,26 +233,26 @@ def tile(count: int, room: tuple[float, float], gap: float, name: float, scale: 
 
 
 def _short(entry: Entry, wide: float) -> str:
-    """The name of one, as much of it as there is room for beside two buttons if it is the artist's own."""
+    """Returns the name of one, as much of it as there is room for beside two buttons if it is the artist's own."""
     return _fitting(entry.title, wide) if entry.own else entry.title
 
 
 def _fitting(name: str, wide: float) -> str:
-    """A name no wider than that; a long one ends with dots."""
+    """Returns a name no wider than that; a long one ends with dots."""
     while len(name) > 1 and imgui.calc_text_size(name).x > wide:
         name = name.removesuffix("…")[:-1].rstrip() + "…"
     return name
 
 
 def _in_middle(text: str, corner: ImVec2, size: tuple[float, float]) -> None:
-    """A word where a picture is to come."""
+    """Draws a word where a picture is to come."""
     half = imgui.calc_text_size(text) / 2
     at = ImVec2(corner.x + size[0] / 2 - half.x, corner.y + size[1] / 2 - half.y)
     imgui.get_window_draw_list().add_text(at, theme.packed(theme.QUIET), text)
 
 
 def _named(name: str, at: ImVec2, wide: float, grey: tuple[float, float, float]) -> None:
-    """A name below its picture, in the middle."""
+    """Draws a name below its picture, in the middle."""
     size = imgui.get_font_size() * NAME
     scale = size / imgui.get_font_size()
     name = _fitting(name, (wide + 2) / scale)

@@ -30,7 +30,7 @@ class OwnExamples:
             example_work.delete_example(desk, entry)
 
     def menu(self, desk: Desk, entry: Entry) -> None:
-        """What a right click on its thumbnail opens, and a double click."""
+        """Draws what a right click on its thumbnail opens, and a double click."""
         if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(0):
             self.rename(entry)
         if not imgui.begin_popup_context_item(f"own {entry.name}"):
@@ -52,7 +52,7 @@ class OwnExamples:
             self.delete(desk, entry)
 
     def draw(self, desk: Desk) -> None:
-        """The small window that is open, if there is one."""
+        """Draws the small window that is open, if there is one."""
         if self._opens:
             imgui.open_popup(self._opens)
             self._opens = ""

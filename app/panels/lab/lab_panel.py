@@ -38,14 +38,14 @@ class LabPanel(Panel):
         self.hears = {LabScene: _heard}
 
     def wants(self, desk: Desk, now: float) -> None:
-        """What was set, and when it rests a stroke with the texture."""
+        """Posts what was set, and when it rests a stroke with the texture."""
         known = {row.name for row in desk.known.tables.kinds if not row.pictured}
         known |= set(desk.known.scene.textures if desk.known.scene else ())
         brush = only_with(replace(desk.hand.dipped(), ink=()), frozenset(known))
         desk.lab.ask(desk.post, now, replace(brush, radius=16.0, opacity=1.0, flow=1.0, mode="paint"))
 
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
-        """A stroke in the spectrum."""
+        """Returns a stroke in the spectrum."""
         return paint_lab if desk.lab.over(x, y) else None
 
     def takes(self, desk: Desk, action: Action) -> bool:
@@ -99,7 +99,7 @@ class LabPanel(Panel):
         painter.pop_clip_rect()
 
     def _outline(self, desk: Desk, corner: ImVec2, side: float) -> None:
-        """The brush at the pointer, and where symmetry paints too."""
+        """Draws the brush at the pointer, and where symmetry paints too."""
         lab, painter = desk.lab, imgui.get_window_draw_list()
         radius = max(1.5, lab.radius * side / 256)
         x, y = desk.pointer.x, desk.pointer.y
@@ -116,7 +116,7 @@ class LabPanel(Panel):
             _label(ImVec2(corner.x + 6, corner.y + side - imgui.get_font_size() - 4), text)
 
     def _brush(self, desk: Desk) -> None:
-        """The brush that paints in the spectrum, and its undo."""
+        """Draws the brush that paints in the spectrum, and its undo."""
         lab, height = desk.lab, imgui.get_frame_height()
         room = imgui.get_content_region_avail().x - 2 * height - 4 * 2 * desk.scale
         imgui.begin_child("size", ImVec2(room / 2, height))
@@ -140,14 +140,14 @@ class LabPanel(Panel):
             lab.coloured = not lab.coloured
 
     def hint(self, desk: Desk) -> str:
-        """What the brush does in the spectrum now."""
+        """Returns what the brush does in the spectrum now."""
         made = desk.lab.made
         if made.sheet == "phase":
             return "Paint its phases: warm one way, cold the other"
         return "Paint a pattern: the texture is its transform" if made.forward else ""
 
     def bar(self, desk: Desk) -> None:
-        """The texture in use, and the lab's undo, in the strip's title line."""
+        """Draws the texture in use, and the lab's undo, in the strip's title line."""
         lab, scene = desk.lab, desk.lab.scene
         using = self._using(desk)
         side, gap = imgui.get_frame_height(), 2 * desk.scale
@@ -178,7 +178,7 @@ class LabPanel(Panel):
     # --- the texture -------------------------------------------------------------------------------------------------
 
     def _texture(self, desk: Desk, side: float) -> None:
-        """The texture as it tiles, a stroke of it, and the same much nearer."""
+        """Draws the texture as it tiles, a stroke of it, and the same much nearer."""
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
         endless = desk.lab.endless
         tile = min(room.x / REPEATS, 256 * desk.scale) * desk.lab.made.size[0] / 256
@@ -196,7 +196,7 @@ class LabPanel(Panel):
         w.picture(desk.pictures.get("lab near"), (wide, below), "The same ink, 16 times nearer")
 
     def _using(self, desk: Desk) -> str:
-        """The texture of this painting that follows the lab."""
+        """Returns the texture of this painting that follows the lab."""
         name = desk.lab.scene.using if desk.lab.scene is not None else ""
         return name if desk.known.scene is not None and name in desk.known.scene.textures else ""
 
@@ -229,7 +229,7 @@ def _heard(desk: Desk, scene: LabScene, _now: float) -> None:
 
 
 def _axes(desk: Desk, corner: ImVec2, side: float, over: bool) -> None:
-    """The zero frequency in the middle, and rings at periods that say how large the features are."""
+    """Marks the zero frequency in the middle, and rings at periods that say how large the features are."""
     painter = imgui.get_window_draw_list()
     middle = ImVec2(corner.x + side / 2, corner.y + side / 2)
     faint = theme.packed((1.0, 1.0, 1.0), 0.10)
@@ -253,7 +253,8 @@ def _invite(corner: ImVec2, side: float, text: str) -> None:
 
 
 def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float) -> None:
-    """The radial window of a copy over the field: where it ends, and where it is half as strong as in the middle."""
+    """Draws the radial window of a copy over the field: where it ends, and where it is half as strong as in the
+    middle."""
     middle, painter = ImVec2(corner.x + size[0] / 2, corner.y + size[1] / 2), imgui.get_window_draw_list()
     painter.push_clip_rect(corner, ImVec2(corner.x + size[0], corner.y + size[1]), True)
     for part, alpha in ((1.0, 0.9), (HALF, 0.5)):
@@ -265,7 +266,7 @@ def _window(corner: ImVec2, size: tuple[float, float], width: int, scale: float)
 
 
 def _label(at: ImVec2, text: str, alpha: float = 1.0) -> None:
-    """A light text that is read over anything."""
+    """Draws a light text that is read over anything."""
     painter = imgui.get_window_draw_list()
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         painter.add_text(ImVec2(at.x + dx, at.y + dy), theme.packed((0.0, 0.0, 0.0), 0.6 * alpha), text)

@@ -205,7 +205,7 @@ def dropped(rows: tuple[LayerRow, ...], moved: LayerRow, onto: LayerRow, where: 
 
 
 def _within(rows: tuple[LayerRow, ...], row: LayerRow, group: LayerRow) -> bool:
-    """Whether a row lies somewhere inside a group."""
+    """Tells whether a row lies somewhere inside a group."""
     parents = {r.name: r.parent for r in rows}
     parent = row.parent
     while parent is not None:

@@ -44,7 +44,7 @@ class MatchingPanel(Panel):
         self.hears = {MatchScene: _heard}
 
     def wants(self, desk: Desk, now: float) -> None:
-        """The texture as it is set."""
+        """Asks for the texture as it is set."""
         desk.match.ask(desk.post)
 
     def dropped(self, desk: Desk, path: Path, x: float, y: float) -> bool:
@@ -77,7 +77,7 @@ class MatchingPanel(Panel):
         self._welcome(desk)
 
     def bar(self, desk: Desk) -> None:
-        """What is wrong, in the strip's title line."""
+        """Draws what is wrong, in the strip's title line."""
         fault = desk.match.scene.fault if desk.match.scene is not None else ""
         if fault:
             imgui.same_line(0, 14 * desk.scale)
@@ -110,7 +110,7 @@ class MatchingPanel(Panel):
         self._sources(desk, index, wide, line)
 
     def _sources(self, desk: Desk, index: int, wide: float, side: float) -> None:
-        """Where an example comes from."""
+        """Draws where an example comes from."""
         match, gap = desk.match, 2 * desk.scale
         imgui.push_id(index)
         free = index == 0 or match.examples[0] is not None
@@ -210,7 +210,7 @@ def _heard(desk: Desk, scene: MatchScene, _now: float) -> None:
 
 
 def _stem(desk: Desk) -> str:
-    """A name that says what the texture is made of."""
+    """Returns a name that says what the texture is made of."""
     stems = [title(example).rpartition(".")[0] or "View" for example in desk.match.examples if example is not None]
     return " and ".join(dict.fromkeys(stems))
 
@@ -224,7 +224,7 @@ def _within(corner: ImVec2, room: tuple[float, float], size: tuple[int, int]) ->
 
 
 def _dashed(corner: ImVec2, end: ImVec2, lit: bool) -> None:
-    """The edge of a place where something may be dropped."""
+    """Draws the edge of a place where something may be dropped."""
     painter, colour = imgui.get_window_draw_list(), theme.packed(theme.ACCENT if lit else (0.32,) * 3)
     inset, dash = 5.0, 6.0
     x0, y0, x1, y1 = corner.x + inset, corner.y + inset, end.x - inset, end.y - inset

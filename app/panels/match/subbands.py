@@ -39,7 +39,7 @@ def draw(match: MatchState, levels: int, orientations: int) -> None:
 
 
 def part_of(gain: float) -> float:
-    """How far a cell is filled: half at gain 1, all at 4, which an octave of gain takes a quarter of it."""
+    """Tells how far a cell is filled: half at gain 1, all at 4, which an octave of gain takes a quarter of it."""
     return 0.5 * gain if gain <= 1.0 else min(0.5 + 0.25 * math.log2(gain), 1.0)
 
 

@@ -35,7 +35,7 @@ class Document:
 
 
 def opened(path: Path, live: bool = False) -> Document:
-    """What a file holds: a recording, a painting of ours or of another program, or a picture.
+    """Returns what a file holds: a recording, a painting of ours or of another program, or a picture.
 
     FileError if it is none that can be read.
     """
@@ -55,12 +55,12 @@ def opened(path: Path, live: bool = False) -> Document:
 
 
 def save(path: Path, painting: Painting, recording: Recording | None) -> None:
-    """The painting, grown to its end, as .ora, with its recording if that is known, replaced in one step; WriteError if
-    that failed."""
+    """Writes the painting, grown to its end, as .ora, with its recording if that is known, replaced in one step;
+    WriteError if that failed."""
     saving.save(path, saving.Snapshot(painting, recording))
 
 
 def write_picture(request: q.Export, painting: Painting) -> None:
-    """The frame, or the rectangle asked for, of a painting grown to its end, as a picture; WriteError if that
+    """Writes the frame, or the rectangle asked for, of a painting grown to its end, as a picture; WriteError if that
     failed."""
     export.export(request.path, export.Picture(painting, request.level, request.area))

@@ -71,7 +71,7 @@ class Playing(Owned):
 
     @property
     def drawing(self) -> bool:
-        """Whether the stroke in progress is the recording's."""
+        """Tells whether the stroke in progress is the recording's."""
         return self._rest is not None
 
     def complete(self, stage: Stage) -> None:

@@ -29,7 +29,7 @@ class Post:
         threading.Thread(target=self._read, name="inkfall post", daemon=True).start()
 
     def next(self) -> dict[str, Any]:
-        """The next line, when it comes."""
+        """Returns the next line, when it comes."""
         return self._lines.get()
 
     def tell(self, **told: object) -> None:

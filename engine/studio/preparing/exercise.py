@@ -54,7 +54,8 @@ def run(told: dict[str, Any]) -> None:
 
 
 def draw_once(brush: Brush, textures: Sequence[c.DefineTexture] = ()) -> None:
-    """A stroke over paint as the pen draws it, seen at several levels while it grows and after, and taken back."""
+    """Paints a stroke over paint as the pen draws it, seen at several levels while it grows and after, and taken
+    back."""
     studio = Studio(lambda result: None, lambda request: None)
     try:
         for definition in textures:
@@ -89,7 +90,7 @@ def stamped() -> None:
 
 
 def filed() -> None:
-    """A painting saved, opened and exported, in a folder beside the kernels that goes again."""
+    """Saves a painting saved, opened and exported, in a folder beside the kernels that goes again."""
     with tempfile.TemporaryDirectory(dir=os.environ["NUMBA_CACHE_DIR"], prefix="files-") as folder:
         ora, png = Path(folder) / "painting.ora", Path(folder) / "picture.png"
         studio = Studio(lambda result: None, lambda request: None)

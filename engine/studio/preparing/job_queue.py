@@ -25,12 +25,12 @@ class Job:
 
     @cached_property
     def key(self) -> str:
-        """What tells it from others."""
+        """Returns what tells it from others."""
         return hashlib.sha256(self.line.encode()).hexdigest()[:16]
 
 
 def job_of(swatch: Swatch) -> Job:
-    """What compiles all that a swatch's brush needs.  Colours and the pixels' number are not part of it."""
+    """Returns what compiles all that a swatch's brush needs.  Colours and the pixels' number are not part of it."""
     told = brush_to_json(swatch.brush)
     told.pop("colour", None)
     textures = definitions.to_json(swatch.textures)
@@ -44,8 +44,8 @@ PLAIN_PAINT = (_PLAIN, COMMIT)  # what the first strokes of plain paint need
 
 
 def expected(swatches: Iterable[Swatch]) -> tuple[Job, ...]:
-    """The jobs of brushes, most likely first: those that grow examples last; files after all brushes, as it takes a
-    quarter of the time, and who saves waits for it where nobody sees it."""
+    """Returns the jobs of brushes, most likely first: those that grow examples last; files after all brushes, as it
+    takes a quarter of the time, and who saves waits for it where nobody sees it."""
     listed = sorted(swatches, key=lambda swatch: swatch.brush.row.grows)
     return (*dict.fromkeys(map(job_of, listed)), FILES)
 
@@ -65,12 +65,12 @@ class JobQueue:
         self._claimed: dict[str, int] = {}  # kernel: number of the process that compiles it
 
     def __len__(self) -> int:
-        """Those that are not done."""
+        """Returns those that are not done."""
         return len(self._jobs) + len(self.working)
 
     @property
     def untaken(self) -> int:
-        """Those that no process has taken."""
+        """Returns those that no process has taken."""
         return len(self._jobs)
 
     def add(self, jobs: Iterable[Job], soon: bool) -> None:
@@ -83,7 +83,7 @@ class JobQueue:
             self._jobs += [job for job in told if job not in self._jobs]
 
     def take(self, urgent: bool) -> Job | None:
-        """The next job that a process may begin now; `urgent`: of those that are waited for."""
+        """Returns the next job that a process may begin now; `urgent`: of those that are waited for."""
         for job in self._jobs:
             if (job.key in self._urgent or not urgent) and self._blocked.get(job.key) not in self._claimed:
                 self._jobs.remove(job)
@@ -108,7 +108,7 @@ class JobQueue:
         self._jobs.clear()
 
     def claim(self, kernel: str, number: int) -> bool:
-        """Whether a process may compile a kernel: no other does."""
+        """Tells whether a process may compile a kernel: no other does."""
         return self._claimed.setdefault(kernel, number) == number
 
     def compiled(self, kernel: str) -> None:

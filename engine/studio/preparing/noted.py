@@ -28,7 +28,7 @@ class Noted:
                 self._keys = set(map(str, told["ready"]))
 
     def __contains__(self, job: Job) -> bool:
-        """Whether a job is done."""
+        """Tells whether a job is done."""
         return job.key in self._keys
 
     def add(self, job: Job) -> None:
@@ -47,12 +47,13 @@ class Noted:
 
 
 def folder() -> Path:
-    """Where the kernels are."""
+    """Tells where the kernels are."""
     return Path(os.environ["NUMBA_CACHE_DIR"])
 
 
 def stamp() -> str:
-    """What compiled kernels depend on: Inkfall and those of its sources that hold kernels, numba, Python, processor."""
+    """Returns what compiled kernels depend on: Inkfall and those of its sources that hold kernels, numba, Python,
+    processor."""
     from llvmlite import binding
 
     total = hashlib.sha256()

@@ -60,18 +60,18 @@ class Preparing:
             self._signal.notify_all()
 
     def ready(self, job: Job) -> bool:
-        """Whether a job is done, or will not be."""
+        """Tells whether a job is done, or will not be."""
         with self._signal:
             return job in self._noted or job in self._lost or not self._queue
 
     def done(self, job: Job) -> bool:
-        """Whether it is done."""
+        """Tells whether it is done."""
         with self._signal:
             return job in self._noted
 
     @property
     def busy(self) -> bool:
-        """Whether there are jobs that are not done."""
+        """Tells whether there are jobs that are not done."""
         with self._signal:
             return bool(self._queue)
 
@@ -101,7 +101,7 @@ class Preparing:
     # --- the threads -------------------------------------------------------------------------------------------------
 
     def _start_threads(self) -> None:
-        """A thread for each process that there may be and is not."""
+        """Starts a thread for each process that there may be and is not."""
         if not os.access(folder(), os.W_OK):
             self._queue.clear()  # nothing can be kept
         for number in range(min(self._cores, len(self._queue)) if self._queue.untaken else 0):
@@ -126,7 +126,7 @@ class Preparing:
             self._leave(number, process, job)
 
     def _take(self, number: int) -> Job | None:
-        """The next job for a process; None when there is none left."""
+        """Returns the next job for a process; None when there is none left."""
         with self._signal:
             while self._queue.untaken and not self._closing:
                 resting = number > 0 and (self._painting or time.monotonic() - self._painted < REST)
@@ -178,7 +178,7 @@ class Preparing:
 
 
 def cores() -> int:
-    """Those that this process may use."""
+    """Returns those that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

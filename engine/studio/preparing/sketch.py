@@ -35,7 +35,7 @@ class Sketch:
             self.add(request)
 
     def add(self, request: q.Request) -> tuple[int, Rect] | None:
-        """One request more; the level and the pixels that look different by it."""
+        """Returns one request more; the level and the pixels that look different by it."""
         match request:
             case q.Begin():
                 row = request.brush.row
@@ -58,11 +58,11 @@ class Sketch:
         return None
 
     def rects(self, level: int) -> list[Rect]:
-        """The pixels of a level that they may cover."""
+        """Returns the pixels of a level that they may cover."""
         return [stroke.rect for stroke, _ in self._strokes if stroke.level == level and not stroke.empty]
 
     def over(self, level: int, rect: Rect, pixels: np.ndarray) -> np.ndarray:
-        """A picture of a rectangle, float32 (4, h, w), premultiplied, with them above it."""
+        """Returns a picture of a rectangle, float32 (4, h, w), premultiplied, with them above it."""
         for stroke, erases in self._strokes:
             if stroke.level == level and not stroke.empty and stroke.rect.meets(rect):
                 paint = stroke.preview(rect).rgba
@@ -71,5 +71,5 @@ class Sketch:
 
 
 def _plain(brush: Brush) -> Brush:
-    """A brush without texture of any sort."""
+    """Returns a brush without texture of any sort."""
     return Brush(**{name: getattr(brush, name) for name in _KEPT})

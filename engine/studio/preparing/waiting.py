@@ -72,7 +72,7 @@ class Waiting:
 
     @property
     def waits(self) -> bool:
-        """Whether commands wait that were taken from the post."""
+        """Tells whether commands wait that were taken from the post."""
         return self._line.waits
 
     @property
@@ -90,7 +90,7 @@ class Waiting:
         return soon if due is None else min(due, soon)
 
     def step(self) -> bool:
-        """The most urgent piece of open work, swatches last."""
+        """Returns the most urgent piece of open work, swatches last."""
         self._again()
         return self._stepped() if self._seen else self._swatches.step()
 

@@ -34,12 +34,12 @@ class WaitingLine:
 
     @property
     def waits(self) -> bool:
-        """Whether commands are in line."""
+        """Tells whether commands are in line."""
         return bool(self._queue)
 
     @property
     def stalled(self) -> bool:
-        """Whether nothing has been compiled since the last try, and something will be."""
+        """Tells whether nothing has been compiled since the last try, and something will be."""
         return self._tried == self._preparing.count and self._preparing.busy
 
     def do(self, request: q.Request) -> None:
@@ -63,7 +63,7 @@ class WaitingLine:
         self._tried = self._preparing.count
 
     def restart(self) -> bool:
-        """The stroke on the easel cannot be shown: it waits, to be begun anew; False if there is none."""
+        """Returns the stroke on the easel cannot be shown: it waits, to be begun anew; False if there is none."""
         self._tried = self._preparing.count
         if self._studio.easel.live is None:
             return False
@@ -105,7 +105,7 @@ class WaitingLine:
         self._studio.do(q.Abandon())
 
     def _needed(self) -> Job:
-        """What compiles the kernels of the first that waits."""
+        """Returns what compiles the kernels of the first that waits."""
         stroke = next((r for r in (*self._laid, *self._queue) if isinstance(r, q.Begin)), None)
         defined = tuple(
             r.command for r in self._queue if isinstance(r, q.Do) and isinstance(r.command, c.DefineTexture)

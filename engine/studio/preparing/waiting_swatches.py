@@ -23,12 +23,12 @@ class WaitingSwatches:
 
     @property
     def open(self) -> bool:
-        """Whether brushes are to become ready."""
+        """Tells whether brushes are to become ready."""
         return bool(self._swatches) or self._told[0] < self._told[1]
 
     @property
     def pending(self) -> bool:
-        """Whether a swatch waits whose brush has become ready."""
+        """Tells whether a swatch waits whose brush has become ready."""
         return self._next() is not None
 
     def expect(self, request: q.Prepare) -> None:

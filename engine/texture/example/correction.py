@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric.hashing import mix64
-from engine.numeric.kernel import Int, inlined, inner_uncounted, uncounted
+from engine.numeric.kernel import Array, Int, inlined, inner_uncounted, uncounted
 from engine.numeric.neighbourhood import (
     RADIUS,
     SIDE,
@@ -96,7 +96,7 @@ def _colours_apart(
 def _energy(
     window: Window, y: Int, x: Int, example: Example, name: Int, rules: Rules, bits: Int, rim: bool, least: Int
 ) -> Int:
-    """The energy between the neighbourhoods of a pixel and of an example's, or some number from `least` on.
+    """Returns the energy between the neighbourhoods of a pixel and of an example's, or some number from `least` on.
 
     At a `rim` what lies outside the region does not count but for its shape.
     """
@@ -110,7 +110,7 @@ def _energy(
 
 @inlined
 def _corrected(window: Window, y: Int, x: Int, p: Int, example: Example, rules: Rules, tried: np.ndarray) -> Int:
-    """The best source for one pixel: what continues its neighbours' sources, or what is much nearer."""
+    """Returns the best source for one pixel: what continues its neighbours' sources, or what is much nearer."""
     bits = window.bits[y, x] & rules.square
     rim = bits != rules.square
     if not rules.rims:
@@ -139,7 +139,8 @@ def _corrected(window: Window, y: Int, x: Int, p: Int, example: Example, rules: 
 
 @inlined
 def _continued(window: Window, y: Int, x: Int, example: Example, coarsest: bool, names: np.ndarray) -> Int:
-    """The coherence search: lists the sources that continue those of a pixel and its neighbours; gives their number."""
+    """Makes the coherence search: lists the sources that continue those of a pixel and its neighbours; gives their
+    number."""
     count = 0
     for k in range(9):
         if k == 0 and coarsest:
@@ -179,7 +180,7 @@ def _searched(
     last: Int,
     stride: Int,
 ) -> Int:
-    """The best of some of the example's pixels in their order, if its energy is below `limit`; else `best`."""
+    """Returns the best of some of the example's pixels in their order, if its energy is below `limit`; else `best`."""
     for i in range(first, last, stride):
         e = _energy(window, y, x, example, example.order[i], rules, bits, rim, limit)
         if e < limit:
@@ -189,17 +190,9 @@ def _searched(
 
 @inner_uncounted
 def _searched_rim(
-    window: Window,
-    y: Int,
-    x: Int,
-    example: Example,
-    rules: Rules,
-    bits: Int,
-    limit: Int,
-    best: Int,
-    h: Int,
+    window: Window, y: Int, x: Int, example: Example, rules: Rules, bits: Int, limit: Int, best: Int, h: Int
 ) -> Int:
-    """The best of those with about as many neighbours inside whose shapes are nearest, if it is below `limit`.
+    """Returns the best of those with about as many neighbours inside whose shapes are nearest, if it is below `limit`.
 
     What is another shape weighs as it is, only colours weigh (1 + kappa) times as much as those of what continues the
     neighbours: so shapes override colours, whatever the rim looks like (Ritter et al. 2006, section 5).
@@ -232,13 +225,14 @@ def _searched_rim(
 
 @inlined
 def _corner(example: Example, name: Int) -> Int:
-    """Where the neighbourhood of a pixel of the example begins."""
+    """Tells where the neighbourhood of a pixel of the example begins."""
     return 4 * (((name >> 16) - RADIUS) * example.region.shape[1] + (name & 0xFFFF) - RADIUS)  # type: ignore[no-any-return]
 
 
 @inner_uncounted
 def _alike(starts: np.ndarray, count: Int) -> tuple[Int, Int]:
-    """The part of the order with about so many neighbours inside, though not all, or with the next fewer and more."""
+    """Returns the part of the order with about so many neighbours inside, though not all, or with the next fewer and
+    more."""
     most = SIDE * SIDE - 1
     low, high = max(0, count - _COUNTS_APART), min(most, count + _COUNTS_APART)
     while low > 0 and starts[low] == starts[count]:
@@ -251,14 +245,14 @@ def _alike(starts: np.ndarray, count: Int) -> tuple[Int, Int]:
 @uncounted
 def _correct(
     window: Window,
-    places: np.ndarray,
+    places: Array,
     first: Int,
     last: Int,
     p: Int,
     example: Example,
     rules: Rules,
-    found: np.ndarray,
-    tried: np.ndarray,
+    found: Array,
+    tried: Array,
 ) -> None:
     width = window.mask.shape[1]
     for i in range(first, last):
@@ -300,7 +294,7 @@ def settle(
 
 
 def correct_all(window: Window, p: int, beyond: int, example: Example, rules: Rules) -> None:
-    """All of a pass."""
+    """Corrects all of a pass."""
     places = np.empty(window.mask.size // 4 + window.mask.shape[0] + window.mask.shape[1] + 1, np.int32)
     found = np.empty(places.size, np.int32)
     for turn in range(SUBPASSES):

@@ -68,7 +68,7 @@ class Exemplar:
 
     @cached_property
     def average(self) -> np.ndarray:
-        """The mean colour of the region: premultiplied float32 (4,) in 0..1."""
+        """Returns the mean colour of the region: premultiplied float32 (4,) in 0..1."""
         out: np.ndarray = premultiplied(self.pixels)[self.mask].mean(axis=0, dtype=np.float64).astype(np.float32)
         return out
 
@@ -84,7 +84,8 @@ class Exemplar:
 
     @cached_property
     def colours(self) -> tuple[np.ndarray, ...]:
-        """The pyramid as premultiplied float32 (h, w, 4) in 0..1, not padded, the finest first; 0 outside the region.
+        """Returns the pyramid as premultiplied float32 (h, w, 4) in 0..1, not padded, the finest first; 0 outside
+        the region.
 
         Levels beyond the ones compared are not there.
         """
@@ -92,7 +93,8 @@ class Exemplar:
 
 
 def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Parameters | None = None) -> Exemplar:
-    """The exemplar of a picture, uint8 or uint16 RGBA (h, w, 4), whose region is `mask`, bool (h, w), or alpha > 0.
+    """Returns the exemplar of a picture, uint8 or uint16 RGBA (h, w, 4), whose region is `mask`, bool (h, w), or
+    alpha > 0.
 
     FieldError where there is nothing to learn from.
     """
@@ -111,8 +113,8 @@ def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Par
 
 
 def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
-    """The example at 1 / 2^detail of its size: synthesis begins so many octaves coarser, and `finer` holds the octaves
-    that are left out, for zooming in.  Its pixels are uint16."""
+    """Returns the example at 1 / 2^detail of its size: synthesis begins so many octaves coarser, and `finer` holds
+    the octaves that are left out, for zooming in.  Its pixels are uint16."""
     if detail <= 0:
         return exemplar
     *below, (colours, region) = _pyramid(exemplar, detail + 1)
@@ -150,7 +152,8 @@ def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Paramete
 
 
 def _smoothed(mask: np.ndarray, sigma: float) -> np.ndarray:
-    """A smoother outline, a little wider: what was ragged in it is then left to the alpha of the region's pixels."""
+    """Returns a smoother outline, a little wider: what was ragged in it is then left to the alpha of the region's
+    pixels."""
     from scipy.ndimage import gaussian_filter
 
     out: np.ndarray = gaussian_filter(mask.astype(np.float32), sigma, mode="constant") > _SMOOTHED
@@ -168,7 +171,7 @@ def _level_count(mask: np.ndarray, parameters: Parameters, boundary: bool) -> in
 
 
 def _coarser(colours: np.ndarray, region: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The next level of colours (h, w, 4) and region (h, w)."""
+    """Returns the next level of colours (h, w, 4) and region (h, w)."""
     above = halved_region(region)
     return halved(colours, region) * above[..., None], above
 
@@ -189,7 +192,7 @@ def _level(colours: np.ndarray, region: np.ndarray, parameters: Parameters, boun
 
 
 def _compared(colours: np.ndarray, parameters: Parameters) -> np.ndarray:
-    """What neighbourhoods are compared by: int16 (h, w, 4)."""
+    """Returns what neighbourhoods are compared by: int16 (h, w, 4)."""
     found = np.rint(np.float32(255.0) * colours)
     if parameters.channels == "luminance":  # as heavy as three channels, in one
         found[..., 0] = np.rint(255.0 * np.tensordot(colours[..., :3], np.asarray(_LUMINANCE, np.float32), 1))
@@ -208,7 +211,8 @@ def _by_count(region: np.ndarray, bits: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def _blocks(level: ExampleLevel, block: int) -> tuple[np.ndarray, int]:
-    """Where patches of `block` pixels begin that lie wholly in the region, as names; smaller ones where there are few.
+    """Tells where patches of `block` pixels begin that lie wholly in the region, as names; smaller ones where there
+    are few.
 
     Some reach its rim: what there is to its inner side, for instance shading, is then copied with it.
     """
@@ -221,7 +225,7 @@ def _blocks(level: ExampleLevel, block: int) -> tuple[np.ndarray, int]:
 
 
 def _eroded(mask: np.ndarray, side: int) -> np.ndarray:
-    """Where a square of `side` pixels, from its upper left one on, lies wholly in the mask (h, w)."""
+    """Tells where a square of `side` pixels, from its upper left one on, lies wholly in the mask (h, w)."""
     total = np.pad(np.cumsum(np.cumsum(mask, 0, dtype=np.int64), 1), ((1, 0), (1, 0)))
     out = np.zeros(mask.shape, bool)
     rows, columns = (n - side + 1 for n in mask.shape)
@@ -239,7 +243,7 @@ def premultiplied(pixels: np.ndarray) -> np.ndarray:
 
 
 def _frozen(array: np.ndarray) -> np.ndarray:
-    """A copy that cannot be written to."""
+    """Returns a copy that cannot be written to."""
     held = np.array(array, order="C")
     held.flags.writeable = False
     return held

@@ -117,7 +117,8 @@ def check(name: str, value: Any, place: str) -> None:
 
 
 def read_toml(data: bytes) -> Parameters:
-    """The parameters in a file's bytes; `title` and `group`, under which a palette lists the example, are none of them.
+    """Returns the parameters in a file's bytes; `title` and `group`, under which a palette lists the example, are
+    none of them.
 
     FieldError names the line and the field.
     """
@@ -143,7 +144,7 @@ def read_toml(data: bytes) -> Parameters:
 
 
 def line_of(text: str, field: str) -> int:
-    """The line, from 1, on which a file sets `field`; the parser does not tell."""
+    """Returns the line, from 1, on which a file sets `field`; the parser does not tell."""
     bare = re.escape(field)
     start = re.compile(rf"""\s*(\[+\s*)?(["']?){bare}\2\s*[].=]""")
     lines = text.splitlines()

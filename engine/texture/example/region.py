@@ -63,7 +63,7 @@ class Region:
     levels: tuple[Filled, ...]
 
     def fresh(self, level: int) -> bool:
-        """Whether a level, and so every coarser one, is as it will stay for this region."""
+        """Tells whether a level, and so every coarser one, is as it will stay for this region."""
         count = len(self.levels)
         return all(self._agrees(n) for n in range(level, count))
 
@@ -76,7 +76,7 @@ class Region:
 
     @property
     def finest(self) -> int:
-        """The finest level that is refined; as many as there are levels if none is."""
+        """Returns the finest level that is refined; as many as there are levels if none is."""
         count = len(self.levels)
         return next((n + 1 for n in reversed(range(count)) if not self._agrees(n)), 0)
 
@@ -123,8 +123,8 @@ def refined(region: Region, upto: int = 0, threads: Executor | None = None) -> R
 
 
 def refining(region: Region, upto: int = 0, threads: Executor | None = None) -> Iterator[Step]:
-    """The steps of a refinement, coarse to fine, some milliseconds each.  Any may be the last that is asked for; the
-    levels that its region has are finished, and a later refinement goes on from there."""
+    """Yields the steps of a refinement, coarse to fine, some milliseconds each.  Any may be the last that is asked
+    for; the levels that its region has are finished, and a later refinement goes on from there."""
     for n in reversed(range(upto, len(region.levels))):
         if region.fresh(n):
             continue
@@ -138,7 +138,7 @@ def refining(region: Region, upto: int = 0, threads: Executor | None = None) -> 
 
 
 def _refining_level(region: Region, n: int, threads: Executor | None) -> Iterator[tuple[float, Tiles]]:
-    """The part done, and the sources so far, which hold nothing but finished squares."""
+    """Yields the part done, and the sources so far, which hold nothing but finished squares."""
     sources = region.levels[n].sources
     squares = _squares(region, n, threads is not None)
     if threads is None or len(squares) < 2:
@@ -179,7 +179,7 @@ def _at_once(region: Region, n: int, squares: list[Square], threads: Executor) -
 
 
 def _alone(region: Region, n: int, square: Rect, room: int, over: Event) -> np.ndarray | None:
-    """What a square is filled with; None if that is over before it is done."""
+    """Returns what a square is filled with; None if that is over before it is done."""
     filling = _filling(region, n, square, room, None)
     while not over.is_set():
         _, found = next(filling)
@@ -191,7 +191,7 @@ def _alone(region: Region, n: int, square: Rect, room: int, over: Event) -> np.n
 def _filling(
     region: Region, n: int, square: Rect, room: int, threads: Executor | None
 ) -> Iterator[tuple[float, np.ndarray | None]]:
-    """The part done after each piece of work, at last with what the square is filled with."""
+    """Yields the part done after each piece of work, at last with what the square is filled with."""
     window = yield from _readying(region, n, square, room)
     for done in _correcting(region, n, window, room, threads):
         yield done, None
@@ -199,7 +199,7 @@ def _filling(
 
 
 def _kept(region: Region, n: int, window: Window, room: int) -> np.ndarray:
-    """The sources of a square, (planes, h, w), of all passes that are kept."""
+    """Returns the sources of a square, (planes, h, w), of all passes that are kept."""
     return window.planes[0 if _coarsest(region, n) else 1 :, room:-room, room:-room]
 
 
@@ -253,7 +253,7 @@ def _square_keys(rect: Rect) -> Iterator[tuple[int, int]]:
 
 
 def _masks(region: Region, n: int, rect: Rect) -> np.ndarray:
-    """What belongs to the region now, and before: uint8 (2, h, w)."""
+    """Returns what belongs to the region now, and before: uint8 (2, h, w)."""
     both = np.zeros((2, 1, rect.height, rect.width), np.uint8)
     tiles.gathered(region.masks[n], rect, both[0])
     tiles.gathered(region.levels[n].mask, rect, both[1])
@@ -261,13 +261,13 @@ def _masks(region: Region, n: int, rect: Rect) -> np.ndarray:
 
 
 def _filled_part(region: Region, n: int, square: Rect) -> Rect:
-    """The part of a square beyond which there is no region, nor was."""
+    """Returns the part of a square beyond which there is no region, nor was."""
     y0, y1, x0, x1 = tiles.bounds(_masks(region, n, square))
     return Rect(square.x0 + x0, square.y0 + y0, square.x0 + x1, square.y0 + y1)
 
 
 def _readying(region: Region, n: int, square: Rect, room: int) -> Generator[tuple[float, None], None, Window]:
-    """A square with `room` pixels around it, ready for its first pass; pauses between pieces of work."""
+    """Yields a square with `room` pixels around it, ready for its first pass; pauses between pieces of work."""
     old = region.levels[n]
     rect = square.grown(room)
     size = rect.height, rect.width
@@ -302,7 +302,7 @@ def _start_coarsest(region: Region, window: Window, rect: Rect) -> None:
 
 
 def _correcting(region: Region, n: int, window: Window, room: int, threads: Executor | None) -> Iterator[float]:
-    """The part done, 0..1, after each piece of work."""
+    """Yields the part done, 0..1, after each piece of work."""
     example, rules = example_of(region.exemplar, n), rules_of(region.exemplar, n)
     passes = len(window.planes) - 1
     heavy = _SEARCHING if _coarsest(region, n) else 1

@@ -69,7 +69,7 @@ class Window(NamedTuple):
 def window_of(
     mask: np.ndarray, was: np.ndarray, planes: np.ndarray, hashes: np.ndarray, parity: tuple[int, int]
 ) -> Window:
-    """A window whose shapes, and what they ask for, are known; a `starts` function has to follow."""
+    """Returns a window whose shapes, and what they ask for, are known; a `starts` function has to follow."""
     size = mask.shape
     bits, need = np.zeros(size, np.uint64), np.zeros(planes.shape, np.uint8)
     shown, care = np.zeros(4 * mask.size, np.int16), np.zeros(4 * mask.size, np.int16)
@@ -82,20 +82,20 @@ def window_of(
 
 @inlined
 def shape_at(example: Example, i: int) -> np.uint64:
-    """The shape around a pixel of the order."""
+    """Returns the shape around a pixel of the order."""
     return example.shapes[min(i, example.shapes.size - 1)]  # type: ignore[no-any-return]
 
 
 @inlined
 def first_of(window: Window, turn: int) -> tuple[int, int]:
-    """The first row and column of the four sub-passes' pixels: every other one, beginning with (0, 0), (1, 1), (0, 1)
-    and (1, 0) where the window's own place is even."""
+    """Returns the first row and column of the four sub-passes' pixels: every other one, beginning with (0, 0), (1,
+    1), (0, 1) and (1, 0) where the window's own place is even."""
     return (turn ^ window.y) & 1, ((turn + 1 >> 1) ^ window.x) & 1
 
 
 @inlined
 def turn_of(window: Window, y: int, x: int) -> int:
-    """The sub-pass that corrects a pixel."""
+    """Returns the sub-pass that corrects a pixel."""
     return (y + window.y & 1) * 3 if (x + window.x & 1) == 0 else 2 - (y + window.y & 1)
 
 

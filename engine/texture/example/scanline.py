@@ -15,7 +15,7 @@ import numpy as np
 
 from engine.numeric.halving import halved_region
 from engine.numeric.hashing import fold_key, hash_plane
-from engine.numeric.kernel import Int, inner, kernel
+from engine.numeric.kernel import Array, Int, inner, kernel
 from engine.numeric.neighbourhood import (
     FULL,
     RADIUS,
@@ -68,7 +68,7 @@ class Data:
 
 
 def filled(exemplar: Exemplar, region: np.ndarray, seed: int) -> np.ndarray:
-    """The example's pixels, RGBA (h, w, 4) of its type, over a region, bool (h, w); 0 elsewhere."""
+    """Returns the example's pixels, RGBA (h, w, 4) of its type, over a region, bool (h, w); 0 elsewhere."""
     regions = [region]
     for _ in exemplar.levels[1:]:
         regions.append(halved_region(regions[-1]))
@@ -218,7 +218,7 @@ def _apart(
 
 @kernel
 def _continued(ys: np.ndarray, xs: np.ndarray, levels: Levels, found: np.ndarray, energy: np.ndarray) -> None:
-    """The coherence search (Ashikhmin 2001) for the pixels of a line."""
+    """Makes the coherence search (Ashikhmin 2001) for the pixels of a line."""
     own, made = levels[0], levels[2]
     for k in range(ys.size):
         for n in range(24):
@@ -238,14 +238,7 @@ def _continued(ys: np.ndarray, xs: np.ndarray, levels: Levels, found: np.ndarray
 
 @kernel
 def _compare(
-    ys: np.ndarray,
-    xs: np.ndarray,
-    which: np.ndarray,
-    near: np.ndarray,
-    levels: Levels,
-    closeness: Int,
-    found: np.ndarray,
-    energy: np.ndarray,
+    ys: Array, xs: Array, which: Array, near: Array, levels: Levels, closeness: Int, found: Array, energy: Array
 ) -> None:
     """Takes what the data search found where it is so much nearer than what continues the neighbours."""
     for i in range(which.size):
@@ -257,17 +250,17 @@ def _compare(
 
 @kernel
 def _searched(
-    ys: np.ndarray,
-    xs: np.ndarray,
-    which: np.ndarray,
-    rims: np.ndarray,
-    starts: np.ndarray,
+    ys: Array,
+    xs: Array,
+    which: Array,
+    rims: Array,
+    starts: Array,
     levels: Levels,
     closeness: Int,
-    hashes: np.ndarray,
-    found: np.ndarray,
+    hashes: Array,
+    found: Array,
 ) -> None:
-    """The data search at the rim: all with as many pixels inside, or with the next fewer and more."""
+    """Makes the data search at the rim: all with as many pixels inside, or with the next fewer and more."""
     made, above = levels[2], levels[3]
     two = levels[4][SIDE * ROW + 3 * ROW + 3 * 4] != 0
     most = starts.size - 2

@@ -12,7 +12,7 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.numeric.grid import snapped
-from engine.numeric.kernel import Int, Real, inlined, inner, kernel
+from engine.numeric.kernel import Array, Int, Real, inlined, inner, kernel
 from engine.texture.example import tiles
 from engine.texture.example.exemplar import PAD
 from engine.texture.example.region import Region
@@ -22,7 +22,8 @@ FAINT = 0.5  # part of a coarse level's colour that a pixel shows, at least, whe
 
 
 def sources(region: Region, rect: Rect, level: int = 0) -> np.ndarray:
-    """Where each pixel of a level comes from: int32 (h, w), rows and columns as `exemplar` names them; -1 outside."""
+    """Tells where each pixel of a level comes from: int32 (h, w), rows and columns as `exemplar` names them; -1
+    outside."""
     out = np.full((1, rect.height, rect.width), OUTSIDE, np.int32)
     result: np.ndarray = tiles.gathered_last(region.levels[level].sources, rect, out)[0]
     return result
@@ -78,7 +79,7 @@ def _valid(region: Region, rect: Rect, level: int) -> np.ndarray:
 
 
 def pixels(region: Region, rect: Rect) -> np.ndarray:
-    """The finest level as the example's own pixels, of its type: RGBA (h, w, 4), not premultiplied."""
+    """Returns the finest level as the example's own pixels, of its type: RGBA (h, w, 4), not premultiplied."""
     own = region.exemplar.pixels
     planes, blended = _blended(region, rect, 0)
     out = to_rgba8(planes) if own.dtype == np.uint8 else to_rgba16(planes)
@@ -118,11 +119,11 @@ def _left(mask: np.ndarray, names: np.ndarray) -> int:
 
 @kernel
 def _fill(
-    out: np.ndarray,
-    mask: np.ndarray,
-    names: np.ndarray,
-    finest: np.ndarray,
-    coarse: np.ndarray,
+    out: Array,
+    mask: Array,
+    names: Array,
+    finest: Array,
+    coarse: Array,
     mirrored: bool,
     n: Int,
     top: Int,
@@ -156,7 +157,8 @@ def _fill(
 
 @inlined
 def _around(k: Int, y: Int, x: Int) -> tuple[Int, Int, Real, Real]:
-    """The first of the four pixels `k` levels coarser that lie around a pixel, and how far it is to the others."""
+    """Returns the first of the four pixels `k` levels coarser that lie around a pixel, and how far it is to the
+    others."""
     side = 1 << k
     row, column = (y - (side >> 1)) >> k, (x - (side >> 1)) >> k
     down = np.float32(y - (side >> 1) - row * side + 0.5) / side
@@ -212,14 +214,7 @@ def below(names: np.ndarray, colours: np.ndarray, mirrored: bool, k: Int, y: Int
 
 
 @kernel
-def _blend(
-    around: np.ndarray,
-    colours: np.ndarray,
-    region: np.ndarray,
-    weights: np.ndarray,
-    out: np.ndarray,
-    blended: np.ndarray,
-) -> None:
+def _blend(around: Array, colours: Array, region: Array, weights: Array, out: Array, blended: Array) -> None:
     """`around`: sources, with as many pixels around `out` (4, h, w) as `weights` reach."""
     reach = weights.shape[0] // 2
     for y in range(out.shape[1]):
@@ -237,7 +232,7 @@ def _blend(
 
 @kernel
 def _alone(around: np.ndarray, y: Int, x: Int, reach: Int, source: Int) -> bool:
-    """Whether all neighbours inside come from the same place of the example."""
+    """Tells whether all neighbours inside come from the same place of the example."""
     for dy in range(2 * reach + 1):
         for dx in range(2 * reach + 1):
             other = around[y + dy, x + dx]
@@ -250,7 +245,7 @@ def _alone(around: np.ndarray, y: Int, x: Int, reach: Int, source: Int) -> bool:
 def _mean(
     around: np.ndarray, y: Int, x: Int, colours: np.ndarray, region: np.ndarray, weights: np.ndarray, out: np.ndarray
 ) -> None:
-    """The mean of what the neighbours' sources continue with."""
+    """Writes the mean of what the neighbours' sources continue with."""
     reach = weights.shape[0] // 2
     total = np.float32(0.0)
     for dy in range(2 * reach + 1):

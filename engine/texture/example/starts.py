@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric.hashing import mix64
-from engine.numeric.kernel import Int, inlined, inner_uncounted, uncounted
+from engine.numeric.kernel import Array, Int, inlined, inner_uncounted, uncounted
 from engine.numeric.neighbourhood import RADIUS, ones
 from engine.texture.example.region_window import OUTSIDE, Example, Rules, Window, mark_readers, shape_at, turn_of
 
@@ -45,7 +45,8 @@ def _begin(window: Window, before: np.ndarray, example: Example) -> None:
 
 @inlined
 def _child(parent: Int, y: Int, x: Int, region: np.ndarray) -> Int:
-    """The pixel below a coarser source for an even or odd row and column, or the nearest of its four in the region."""
+    """Returns the pixel below a coarser source for an even or odd row and column, or the nearest of its four in the
+    region."""
     row, column = 2 * (parent >> 16) - RADIUS - 1, 2 * (parent & 0xFFFF) - RADIUS - 1
     for k in range(4):
         r, c = row + (y ^ (k >> 1)), column + (x ^ (k & 1))
@@ -58,7 +59,7 @@ def _child(parent: Int, y: Int, x: Int, region: np.ndarray) -> Int:
 def _children(
     mask: np.ndarray, parents: np.ndarray, odd_y: Int, odd_x: Int, region: np.ndarray, out: np.ndarray
 ) -> None:
-    """The sources that a window of the region begins with below coarser ones: int32 (h, w)."""
+    """Writes the sources that a window of the region begins with below coarser ones: int32 (h, w)."""
     for y in range(mask.shape[0]):
         inside, row, above = mask[y], out[y], parents[(y + odd_y) >> 1]
         for x in range(row.size):
@@ -97,13 +98,7 @@ def start_coarsest(
 
 @uncounted
 def _draw(
-    window: Window,
-    patches: np.ndarray,
-    corners: np.ndarray,
-    block: Int,
-    offset: tuple[Int, Int],
-    example: Example,
-    rules: Rules,
+    window: Window, patches: Array, corners: Array, block: Int, offset: tuple[Int, Int], example: Example, rules: Rules
 ) -> None:
     """Puts the starts that are new, or whose neighbourhoods are, into planes[0]."""
     height, width = window.mask.shape

@@ -19,7 +19,7 @@ _LAST = slice(-1, None)
 
 
 def keys_of(rect: Rect) -> Iterator[Key]:
-    """The tiles that meet a rectangle, row by row."""
+    """Yields the tiles that meet a rectangle, row by row."""
     if rect.empty:
         return
     for row in range(rect.y0 // TILE_SIDE, (rect.y1 - 1) // TILE_SIDE + 1):
@@ -33,7 +33,7 @@ def rect_of(key: Key) -> Rect:
 
 
 def hull(tiles: Tiles) -> Rect:
-    """The smallest rectangle around all tiles."""
+    """Returns the smallest rectangle around all tiles."""
     if not tiles:
         return Rect(0, 0, 0, 0)
     rows, columns = zip(*tiles, strict=True)
@@ -43,7 +43,7 @@ def hull(tiles: Tiles) -> Rect:
 
 
 def _shared(rect: Rect) -> Iterator[tuple[Key, tuple[slice, slice], tuple[slice, slice]]]:
-    """The tiles that meet a rectangle, and where what they share lies in the rectangle and in the tile."""
+    """Yields the tiles that meet a rectangle, and where what they share lies in the rectangle and in the tile."""
     if rect.empty:
         return
     for row in range(rect.y0 // TILE_SIDE, -(-rect.y1 // TILE_SIDE)):
@@ -66,7 +66,7 @@ def gathered(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
 
 
 def gathered_last(tiles: Tiles, rect: Rect, out: np.ndarray) -> np.ndarray:
-    """The same with the last plane of each tile alone; `out` (1, h, w)."""
+    """Returns the same with the last plane of each tile alone; `out` (1, h, w)."""
     for key, outer, inner in _shared(rect):
         tile = tiles.get(key)
         if tile is not None:
@@ -101,7 +101,7 @@ def laid(tiles: Tiles, rect: Rect, values: np.ndarray, empty: int, within: Rect)
 
 
 def changed(old: Tiles, new: Tiles) -> set[Key]:
-    """The tiles that differ."""
+    """Returns the tiles that differ."""
     if old is new:
         return set()
     keys = {key for key, tile in new.items() if old.get(key) is not tile}
@@ -110,7 +110,7 @@ def changed(old: Tiles, new: Tiles) -> set[Key]:
 
 
 def changed_rect(old: Tiles, new: Tiles, empty: int) -> Rect:
-    """The smallest rectangle around what differs, in the last of the planes."""
+    """Returns the smallest rectangle around what differs, in the last of the planes."""
     found = Rect(0, 0, 0, 0)
     for rect in changed_rects(old, new, empty):
         found = found.union(rect)
@@ -118,7 +118,8 @@ def changed_rect(old: Tiles, new: Tiles, empty: int) -> Rect:
 
 
 def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> Iterator[Rect]:
-    """What differs in each tile, in the last of the planes or in those named: the smallest rectangle around it."""
+    """Yields what differs in each tile, in the last of the planes or in those named: the smallest rectangle around
+    it."""
     nothing = None
     for key in changed(old, new):
         one, other = old.get(key), new.get(key)
@@ -136,7 +137,7 @@ def changed_rects(old: Tiles, new: Tiles, empty: int, planes: slice = _LAST) -> 
 
 @kernel
 def bounds(planes: np.ndarray) -> tuple[int, int, int, int]:
-    """Rows [0, 1) and columns [2, 3) outside which arrays (planes, h, w) are 0; empty ones if all of it is."""
+    """Returns rows [0, 1) and columns [2, 3) outside which arrays (planes, h, w) are 0; empty ones if all of it is."""
     y0, y1, x0, x1 = planes.shape[1], 0, planes.shape[2], 0
     for c in range(planes.shape[0]):
         for y in range(planes.shape[1]):
@@ -154,7 +155,8 @@ def bounds(planes: np.ndarray) -> tuple[int, int, int, int]:
 
 @kernel
 def _differing(one: np.ndarray, other: np.ndarray) -> tuple[int, int, int, int]:
-    """Rows [0, 1) and columns [2, 3) within which two arrays (planes, h, w) of tiles differ; none if they do not."""
+    """Returns rows [0, 1) and columns [2, 3) within which two arrays (planes, h, w) of tiles differ; none if they do
+    not."""
     y0, y1, x0, x1 = TILE_SIDE, 0, TILE_SIDE, 0
     for c in range(one.shape[0]):
         for y in range(TILE_SIDE):

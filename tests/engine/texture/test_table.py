@@ -13,7 +13,7 @@ from engine.texture.planes import merged
 from engine.texture.table import KINDS, TextureError, from_key, instance
 
 SOURCE = ImageSource.of("a picture", np.full((4, 6, 10), 0.25, np.float32))
-NAMES = "white, rock, stripes, sawtooth, squares, image, canvas, spectrum, matched, series, sparse, example"
+NAMES = ", ".join(KINDS)
 NUMBERS = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=3), st.lists(st.integers()))
 
 
