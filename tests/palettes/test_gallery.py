@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from app.__main__ import main
 from app.desk import presets
@@ -22,6 +23,7 @@ RECORDING = PALETTES / "gallery" / "still-life.jsonl"
 POINTS, PIXELS, REGIONS = 10_000, 250_000, 100_000  # at most, exactly, at least
 
 
+@pytest.mark.nightly
 def test_ten_thousand_points_make_a_hundred_thousand_regions(tmp_path, capsys):
     strokes = [c for c in read(RECORDING).commands if isinstance(c, commands.Stroke)]
     assert sum(len(stroke.points) for stroke in strokes) <= POINTS

@@ -14,6 +14,7 @@ from engine.texture import matching, solid
 from engine.texture.matching import Shape, analysed, matched, matched_colours
 
 SIDE = 32
+EXAMPLES = ["granite", *(pytest.param(name, marks=pytest.mark.nightly) for name in ("moss", "sand"))]
 
 
 def made(example, side=SIDE, seed=1, shape=None, **more):
@@ -49,7 +50,7 @@ def granite():
     return grown("granite")
 
 
-@pytest.mark.parametrize("name", ["granite", "moss", "sand"])
+@pytest.mark.parametrize("name", EXAMPLES)
 def test_planes_look_like_the_example(name):
     example, cube = grown(name)
     flat = []
@@ -66,7 +67,7 @@ def test_planes_look_like_the_example(name):
     assert max(found) < 0.65 * noisy
 
 
-@pytest.mark.parametrize("name", ["granite", "moss", "sand"])
+@pytest.mark.parametrize("name", EXAMPLES)
 def test_planes_askew_look_like_the_example(name):
     """As much as pieces of a flat texture that were cut out of it, and so do not tile either."""
     example, cube = grown(name)
@@ -91,6 +92,7 @@ def streaks(cube):
     return found[fine & along].mean() / found[fine].mean()
 
 
+@pytest.mark.nightly
 def test_a_cube_that_grows_from_a_smaller_one_has_no_streaks(monkeypatch):
     example = specimens.granite((96, 96))[:1]
     assert streaks(made(example, 48)) < 1.3
