@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ import numpy as np
 
 from engine.archive.imports import open_image
 from engine.archive.opening import open_painting
+from engine.brush.checks import BrushError
 from engine.brush.settings import Brush
 from engine.brush.settings import from_json as brush_from_json
 from engine.brush.stamp import Edit, Stamp
@@ -24,7 +26,7 @@ from engine.canvas.store import Pyramid
 from engine.makers import definitions
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.painting import commands as c
-from engine.painting.value import Painting
+from engine.painting.value import Painting, Refusal
 from engine.studio import requests as q
 from engine.studio import warming
 from engine.studio.studio import Studio
@@ -45,12 +47,13 @@ def run(told: dict[str, Any]) -> None:
         return
     brush = brush_from_json(told["brush"])
     textures = definitions.read(told["textures"], "textures")
-    if brush.row.grows:
-        warming.paint_once()
-    else:
-        draw_once(brush, textures)
     width, height = told["size"]
-    painted(q.Swatch("", brush, (width, height), told["kind"], textures=textures), Painting())
+    with suppress(Refusal, BrushError):  # it may name what only the artist's painting has
+        if brush.row.grows:
+            warming.paint_once()
+        else:
+            draw_once(brush, textures)
+        painted(q.Swatch("", brush, (width, height), told["kind"], textures=textures), Painting())
 
 
 def draw_once(brush: Brush, textures: Sequence[c.DefineTexture] = ()) -> None:

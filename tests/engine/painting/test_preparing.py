@@ -11,9 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from engine.studio.preparing import noted
-from engine.studio.preparing.job_queue import Job
+from engine.brush.parts import Surface
+from engine.brush.settings import Brush
+from engine.studio.preparing import exercise, noted
+from engine.studio.preparing.job_queue import Job, job_of
 from engine.studio.preparing.processes import Preparing
+from engine.studio.requests import Swatch
 
 ROOT = Path(__file__).parents[3]
 # Stands in for a process that compiles: does as the job says, and writes down what it "compiled".
@@ -230,6 +233,11 @@ def _alive(pid):
 
 @pytest.mark.timeout(280)
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks at processes in /proc")
+@pytest.mark.parametrize("brush", [Brush(mode="example", example="a"), Brush(grain=Surface("weave"))])
+def test_a_brush_that_names_what_only_a_painting_has_is_no_fault(brush):
+    exercise.run(json.loads(job_of(Swatch("", brush, (104, 44))).line))
+
+
 def test_a_preparation_that_is_killed_leaves_usable_kernels_and_no_process(tmp_path):
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     with subprocess.Popen(
