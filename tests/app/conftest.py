@@ -184,7 +184,7 @@ class Program:
         time.sleep(0.1)
         self.do("mouseup", 1)
 
-    def save_as(self, path: Path, seconds: float = 30.0) -> None:
+    def save_as(self, path: Path, seconds: float = PATIENCE) -> None:
         """Saves under a name, in the dialog that comes up, and waits for the file."""
         end = time.monotonic() + seconds
         self.keys("ctrl+s")
