@@ -32,6 +32,7 @@ class Waiting:
         self._swatches = WaitingSwatches(studio, preparing, send)
         self._examples: Job | None = None  # what GetReady waits for
         self._unseen: float | None = None  # since when pictures wait
+        self._looked = 0.0  # when what has been compiled was last looked at
 
     # --- requests ----------------------------------------------------------------------------------------------------
 
@@ -86,7 +87,7 @@ class Waiting:
         due = self._studio.due
         if not (self.waits or self._swatches.open or self._unseen or self._examples):
             return due
-        soon = time.monotonic() + POLL
+        soon = self._looked + POLL
         return soon if due is None else min(due, soon)
 
     def step(self) -> bool:
@@ -96,6 +97,7 @@ class Waiting:
 
     def _again(self) -> None:
         """Tries what waits, if a kernel has come since."""
+        self._looked = time.monotonic()
         if self._examples is not None and self._preparing.ready(self._examples):
             self._examples = None
             self._studio.do(q.GetReady())

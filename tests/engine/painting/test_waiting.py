@@ -1,5 +1,6 @@
 """What waits for a kernel keeps its place: the order of commands is that in which they were asked for."""
 
+import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -122,6 +123,22 @@ def test_a_later_stroke_whose_kernels_are_there_is_committed_after_one_that_wait
     waiting.play()
     assert easel.log == [(3.0, 1.0, 2.0), (12.0, 3.0)]
     assert not waiting.waits
+
+
+def test_what_waits_is_looked_at_again_by_itself():
+    """When nothing else is asked for, too: the worker asks again and again when that is due."""
+    kernels, easel, waiting, _ = made()
+    for request in stroke(ROCK, 1):
+        waiting.do(request)
+    kernels.come("begin 3.0", "lay 3.0", "commit 3.0")
+    end = time.monotonic() + 10.0
+    while easel.log == [] and time.monotonic() < end:
+        due = waiting.due
+        assert due is not None
+        time.sleep(max(0.0, due - time.monotonic()))
+        if waiting.due <= time.monotonic():
+            waiting.play()
+    assert easel.log == [(3.0, 1.0)]
 
 
 def test_its_brush_jumps_the_queue():
