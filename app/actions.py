@@ -46,7 +46,8 @@ def _hidden(desk: Desk) -> bool:
 
 
 def _can_undo(desk: Desk) -> bool:
-    return _ready(desk) and desk.known.scene is not None and desk.known.scene.can_undo
+    scene = desk.known.scene
+    return _ready(desk) and scene is not None and (scene.can_undo or desk.behind())  # a stroke may still be laid
 
 
 def _can_redo(desk: Desk) -> bool:

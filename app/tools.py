@@ -47,7 +47,7 @@ def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, sta
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:
     """Returns a stroke, at the level that is shown."""
-    if not desk.known.ready:
+    if desk.known.opening and not desk.known.ready:  # who paints before the engine is there paints on a new painting
         desk.say("The paint engine is still loading")
         return
     layer = desk.known.active

@@ -112,7 +112,7 @@ class Window:
         desk, now, spare = self.desk, time.monotonic(), self._guard.spare
         seconds = self.pace.begin(now)
         self._resize()
-        for event in self.pointers.events():
+        for event in self.pointers.events() if desk.known.presets else ():  # kept until there is a brush to paint with
             self.pace.event()
             with spare("on what the pointer did"):
                 self.router.pointer(event)

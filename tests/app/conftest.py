@@ -26,9 +26,17 @@ REST = (640, 790)  # on the status line: there the pointer covers nothing that i
 
 class Program:
     """`python -m app` on a display, moved by xdotool, seen through pictures of its screen.  `module`: one beside this
-    file that starts the program in place of `app`."""
+    file that starts the program in place of `app`; `ready`: what the program has told when it is handed over."""
 
-    def __init__(self, display: str, folder: Path, *words: str, trace: str = "1", module: str = "app") -> None:
+    def __init__(
+        self,
+        display: str,
+        folder: Path,
+        *words: str,
+        trace: str = "1",
+        module: str = "app",
+        ready: str = "engine ready",
+    ) -> None:
         self.display, self.folder = display, folder
         environment = {
             **os.environ,
@@ -46,7 +54,7 @@ class Program:
         with self.log.open("w") as log:
             command = [sys.executable, "-W", "error::RuntimeWarning", "-m", module, *words]
             self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=log)
-        self.wait_for("engine ready")
+        self.wait_for(ready)
 
     def wait_for(self, words: str) -> None:
         end = time.monotonic() + PATIENCE
@@ -219,8 +227,8 @@ def display():
 def program(display, tmp_path):
     opened = []
 
-    def start(*words: str, on: str = display, trace: str = "1", module: str = "app") -> Program:
-        opened.append(Program(on, tmp_path, *words, trace=trace, module=module))
+    def start(*words: str, on: str = display, **told: str) -> Program:
+        opened.append(Program(on, tmp_path, *words, **told))
         return opened[-1]
 
     yield start

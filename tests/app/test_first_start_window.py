@@ -11,11 +11,17 @@ PREPARING = re.compile(r"Preparing brushes, (\d+) of (\d+)$")
 
 
 @pytest.fixture
-def fresh(program, tmp_path, monkeypatch):
-    """A program whose cache of kernels is empty."""
+def fresh_at(program, tmp_path, monkeypatch):
+    """Starts a program whose cache of kernels is empty, and hands it over when it has told something."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    return program()
+    return lambda told: program(ready=told)
+
+
+@pytest.fixture
+def fresh(fresh_at):
+    """A program whose cache of kernels is empty, and whose engine is loaded."""
+    return fresh_at("engine ready")
 
 
 def prepared(program, seconds=90.0):
@@ -47,3 +53,26 @@ def test_a_stroke_is_seen_long_before_all_brushes_are_ready(fresh):
     seen = fresh.screen()[FROM[1] - 3 : FROM[1] + 4, FROM[0] : FROM[0] + 12]  # as far as the stabiliser came
     unpainted = fresh.screen()[600, 500]
     assert np.abs(seen.astype(int) - unpainted).max() > 60
+
+
+def test_strokes_made_before_the_engine_is_loaded_are_painted(fresh_at):
+    app = fresh_at("first frame")
+    app.do("mousemove", *FROM, "mousedown", 1, "mousemove", *TO, "mouseup", 1)
+    app.do("mousemove", 500, 500, "mousedown", 1, "mousemove", 620, 530, "mouseup", 1)
+    loaded = "engine ready" in app.log.read_text()
+    assert painted(app) == [True, True]
+    assert not loaded, "they came too late to tell anything"
+    app.keys("ctrl+z")
+    assert painted(app, [True, False]) == [True, False]
+
+
+def painted(app, expected=(True, True), seconds=60.0):
+    """Whether there is paint on the ways of the first and of the second stroke, as soon as it is as expected."""
+    end = time.monotonic() + seconds
+    while True:
+        app.park()
+        screen = app.screen().astype(int)
+        found = [bool(np.abs(screen[y, 560] - screen[600, 500]).max() > 60) for y in (415, 515)]
+        if found == list(expected) or time.monotonic() > end:
+            return found
+        time.sleep(0.2)

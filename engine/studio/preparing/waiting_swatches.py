@@ -17,7 +17,7 @@ class WaitingSwatches:
 
     def __init__(self, studio: Studio, preparing: Preparing, send: Callable[[results.Result], None]) -> None:
         self._studio, self._preparing, self._send = studio, preparing, send
-        self._swatches: dict[str, q.Swatch] = {}  # that wait
+        self._swatches: dict[str, tuple[q.Swatch, Job]] = {}  # that wait, and what makes their brushes ready
         self._expected: tuple[Job, ...] = ()
         self._told = (0, 0)
 
@@ -46,24 +46,23 @@ class WaitingSwatches:
 
     def ask(self, request: q.Swatch) -> None:
         """Paints a swatch, now or when its brush is ready."""
-        if self._preparing.ready(job_of(request)):
+        job = job_of(request)
+        if self._preparing.ready(job):
             self._swatches.pop(request.ident, None)
             self._paint(request)
         else:
-            self._swatches[request.ident] = request
-            self._preparing.want((job_of(request),), request.soon)
+            self._swatches[request.ident] = request, job
+            self._preparing.want((job,), request.soon)
 
     def step(self) -> bool:
         """Paints a swatch that has waited; False if there is none whose brush is ready."""
         ident = self._next()
         if ident is not None:
-            self._paint(self._swatches.pop(ident))
+            self._paint(self._swatches.pop(ident)[0])
         return ident is not None
 
     def _next(self) -> str | None:
-        if not self._swatches:
-            return None
-        return next((i for i, swatch in self._swatches.items() if self._preparing.ready(job_of(swatch))), None)
+        return next((ident for ident, (_, job) in self._swatches.items() if self._preparing.ready(job)), None)
 
     def _paint(self, request: q.Swatch) -> None:
         try:
