@@ -1,12 +1,18 @@
 """What all tests share: objects of one thread are checked to be touched by no other, also in programs they start; and
 no test passes while a fault of the program is told, unless it takes the fault away."""
 
+import atexit
 import logging
 import os
+import shutil
+import tempfile
 
 import pytest
 
 os.environ["INKFALL_CHECK_THREADS"] = "1"  # before any module of the program is loaded
+_OWN = tempfile.mkdtemp(prefix="inkfall-tests-")  # what is kept, and preferred, is not that of whoever runs the tests
+atexit.register(shutil.rmtree, _OWN, ignore_errors=True)
+os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/config"}
 
 
 class _Kept(logging.Handler):

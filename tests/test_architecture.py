@@ -19,6 +19,7 @@ ORDER = (
     ("engine.brush",),
     ("engine.canvas",),
     ("engine.files",),
+    ("engine.keeping",),
     ("engine.painting",),
     ("engine.strokes",),
     ("engine.makers",),

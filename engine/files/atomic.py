@@ -61,8 +61,9 @@ def replacing(path: str | os.PathLike[str], verify: Callable[[Path], None] | Non
                 part.unlink()
 
 
-def sweep(target: Path) -> int:
-    """Removes temporary files of `target` that a killed process left behind; gives their number."""
+def sweep(target: Path, gone: int = 0) -> int:
+    """Removes temporary files of `target` that a killed process left behind; gives their number.  `gone`: the number of
+    a process that is known to be gone, whoever has that number now."""
     pattern = re.compile(re.escape(_stem(target)) + r"\.(\d+)\.[0-9a-f]{8}\.part")
     removed = 0
     try:
@@ -71,7 +72,7 @@ def sweep(target: Path) -> int:
         return 0
     for name in names:
         found = pattern.fullmatch(name)
-        if found and _abandoned(target.parent / name, int(found[1])):
+        if found and (int(found[1]) == gone or _abandoned(target.parent / name, int(found[1]))):
             with suppress(OSError):
                 (target.parent / name).unlink()
                 removed += 1

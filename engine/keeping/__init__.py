@@ -1,0 +1,1 @@
+"""What is kept of the painting's file besides itself: what it was, whose it is, what it was before."""

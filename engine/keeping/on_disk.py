@@ -1,0 +1,128 @@
+"""A painting's files on the disk: what this window last saw of them, and which of them it has claimed.
+
+One record goes with each painting that is open; its files are saved one at a time, on a writer's thread.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from engine.files.fault import FileError, system_words
+from engine.keeping.claim import Claim, claim, turn
+from engine.keeping.fingerprint import Fingerprint, fingerprint
+from engine.keeping.preferences import Preferences
+from engine.keeping.unfinished import unfinished
+from engine.keeping.versions import keep_version, let_go
+
+
+class Overtaken(Exception):
+    """A file is not to be replaced without asking.  `elsewhere`: it is open in another window, too; else another
+    program changed it."""
+
+    def __init__(self, elsewhere: bool) -> None:
+        super().__init__("open in another window" if elsewhere else "changed by another program")
+        self.elsewhere = elsewhere
+
+
+class Replacement:
+    """A file that is to be replaced.  `missing`: it was there, and is no more; `lost`: why its old version was not
+    kept, "" if it was; `written`: what takes its place."""
+
+    def __init__(self, target: Path, seen: Fingerprint | None, sure: bool, preferences: Preferences) -> None:
+        self._target, self._seen, self._sure, self._preferences = target, seen, sure, preferences
+        self.missing, self.lost = False, ""
+        self.written: Fingerprint | None = None
+        self.stack = ExitStack()  # of what ends after it is in its place
+
+    def compare(self) -> Fingerprint | None:
+        """Returns what is there now; Overtaken if that is not what was seen last, unless the artist is sure."""
+        there = fingerprint(self._target)
+        self.missing = there is None and self._seen is not None
+        changed = self._seen is not None and there is not None and not there.same_file(self._seen)
+        if changed and not self._sure:
+            raise Overtaken(elsewhere=False)
+        return there
+
+    def ready(self, part: Path) -> None:
+        """Compares once more, just before `part` takes the file's place, and keeps what is there as a version."""
+        self.written = fingerprint(part)
+        self.stack.enter_context(turn(self._target))
+        there = self.compare()
+        if there is None or self.written is None or there.same_bytes(self.written):
+            return
+        try:
+            keep_version(self._target, self._preferences.versions)
+            let_go(self._preferences)
+        except FileError as error:
+            self.lost = str(error)
+        except OSError as error:
+            self.lost = system_words(error)
+
+
+class OnDisk:
+    """What is known of one painting's files.  Its calls may come from any thread."""
+
+    def __init__(self, preferences: Preferences) -> None:
+        self._preferences = preferences
+        self._lock = threading.Lock()
+        self._seen: dict[Path, Fingerprint] = {}  # by real paths, as all here
+        self._claims: dict[Path, Claim] = {}
+        self._shared: set[Path] = set()  # open elsewhere, and the artist knows
+        self._released = False
+
+    def opened(self, path: Path, seen: Fingerprint | None) -> bool:
+        """Takes over what a file was as it was opened; False if it is open in another window, too."""
+        target = Path(os.path.realpath(path))
+        if seen is not None:
+            self._seen[target] = seen
+        return self._claim(target)
+
+    def release(self) -> None:
+        """Gives up its files: the painting is not open any more."""
+        with self._lock:
+            self._released = True
+            self._drop(set())
+
+    @contextmanager
+    def saving(self, path: Path, sure: bool) -> Iterator[Replacement]:
+        """Within it a file is written, and `ready` of what it yields is called before that is put into its place.
+
+        Overtaken if it is open elsewhere, or not what was seen of it last; never if the artist is `sure`.  Once it is
+        written, it is the painting's only file.
+        """
+        target = Path(os.path.realpath(path))
+        with self._lock:
+            before = set(self._claims)
+        if not self._claim(target) and target not in self._shared:
+            if not sure:
+                raise Overtaken(elsewhere=True)
+            self._shared.add(target)
+        one = Replacement(target, self._seen.get(target), sure, self._preferences)
+        stays = before
+        try:
+            with one.stack, unfinished(target):
+                one.compare()
+                yield one
+                if one.written is not None:
+                    self._seen[target] = one.written
+            stays = {target}
+        finally:
+            with self._lock:
+                self._drop(set() if self._released else stays)
+
+    def _claim(self, target: Path) -> bool:
+        with self._lock:
+            if target not in self._claims:
+                one = claim(target)
+                if one is None:
+                    return False
+                self._claims[target] = one
+            return True
+
+    def _drop(self, stays: set[Path]) -> None:
+        for target in [target for target in self._claims if target not in stays]:
+            self._claims.pop(target).release()
