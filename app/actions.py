@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
+from app.desk import offers
 from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
 from engine.painting import commands as c
@@ -199,6 +200,8 @@ ACTIONS: dict[str, Action] = {
     "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", Desk.save, _ready),
     "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", _asks("save as"), _ready),
     "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF", _asks("export"), _ready),
+    "try_again": A("Try again", "File", (), "Try once more what did not work", offers.try_again, offers.can_try),
+    "free_space": A("Free space", "File", (), "Tell how much room is left, and show the folder", offers.free_space),
     "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),
@@ -240,6 +243,7 @@ ACTIONS: dict[str, Action] = {
         "Examples", "View", ("P",), "Paint with textures that have a rim", _strip("examples"), _ready, _open("examples")
     ),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
+    "copy_details": A("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
     "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),
 }  # fmt: skip
 MENUS = ("File", "Edit", "Tools", "Layer", "View", "Help")

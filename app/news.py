@@ -23,8 +23,13 @@ def _note(desk: Desk, note: results.Note, _now: float) -> None:
 
 
 def _saved(desk: Desk, saved: results.Saved, _now: float) -> None:
+    desk.notices.settle("save")
     desk.say(f"Saved {Path(saved.path).name}")
     desk.asked.saved()
+
+
+def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
+    desk.notices.shown(scene.serial)
 
 
 def _done(desk: Desk, done: Done, _now: float) -> None:
@@ -40,6 +45,7 @@ HEARS: dict[type, Hear] = {
     Done: _done,
     results.Note: _note,
     results.Saved: _saved,
+    results.Scene: _scene,
     results.Picked: _picked,
     results.Looked: flight.fly,
 }

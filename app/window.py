@@ -37,6 +37,7 @@ from app.wanted_tiles import Tiles
 from engine.studio import results
 from engine.studio.worker import Worker
 
+_FAULT = results.Note("A fault in Inkfall", True, fault=True, stays=True, offers=("copy_details",), about="fault")
 DOUBLE = 0.5  # seconds from one click to the next, at most, that are a double click
 
 
@@ -57,7 +58,8 @@ class Window:
         theme.apply(scale)
         width, height = glfw.get_framebuffer_size(handle)
         self.desk = Desk(View(Place(0, 0, 0), 0, 0.0, max(1, width), max(1, height)), self._not_yet, scale)
-        self._guard = FaultGuard(lambda words: self.desk.say(words, bad=True))
+        self.desk.graphics = f"{self.ctx.info['GL_RENDERER']}, {self.ctx.info['GL_VERSION']}"
+        self._guard = FaultGuard(lambda: self.desk.told(_FAULT))
         self.layout = Layout(self._guard)
         self.router = Router(self.desk, self.layout)
         self.pointers = Pointers(handle)

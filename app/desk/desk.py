@@ -19,6 +19,7 @@ from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
+from app.desk.notices import Notice, Notices
 from app.desk.previews import FileRow
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
@@ -93,6 +94,8 @@ class Desk:
     pointer: Pointer = field(default_factory=Pointer)
     glide: Glide = field(default_factory=Glide)
     message: Message = Message()  # noqa: RUF009  # it never changes
+    notices: Notices = field(default_factory=Notices)
+    graphics: str = ""  # the card and its driver
     behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
     asked: Asked = field(default_factory=Asked)
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
@@ -115,8 +118,14 @@ class Desk:
         self.message = Message(text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1), offer)
 
     def told(self, note: Note) -> None:
-        """Shows what the engine tells."""
-        self.say(fault_words(note.text) if note.fault else note.text, note.bad)
+        """Shows what the engine tells: for some seconds, or until it is dealt with."""
+        text = fault_words(note.text) if note.fault else note.text
+        if note.stays:
+            self.notices.add(Notice(text, note.bad, note.offers, note.about, note.path, note.lines))
+            self.message = Message()
+        else:
+            self.notices.settle(note.about)
+            self.say(text, note.bad)
         if note.bad:
             self.asked.give_up()
 

@@ -11,16 +11,16 @@ from contextlib import contextmanager
 
 from imgui_bundle import imgui
 
-from app.faults.log import LOGGER, fault_words
+from app.faults.log import LOGGER
 
 QUIET = 60.0  # seconds in which a fault of one place is told once: a panel's comes with every frame
 
 
 class FaultGuard:
     """What is done within `spare` or `spare_drawing` may fail, and what comes after it is done all the same.  `say`:
-    shows the artist a line."""
+    shows the artist that there was a fault."""
 
-    def __init__(self, say: Callable[[str], None]) -> None:
+    def __init__(self, say: Callable[[], None]) -> None:
         self._say = say
         self._told: dict[tuple[str, int], tuple[float, int]] = {}  # by place: when, and how many came since
 
@@ -52,7 +52,7 @@ class FaultGuard:
         if LOGGER.handlers:  # else it was the first frame's, before the log is open: it is to stand there, too
             self._told[place] = now, 0
         LOGGER.error("a fault, %s%s", doing, f", {more} times more" if more else "", exc_info=error)
-        self._say(fault_words())
+        self._say()
 
 
 def _raised_at(error: Exception) -> tuple[str, int]:

@@ -69,7 +69,7 @@ class Layout:
         """Draws it into the present window."""
         self._covered = []
         top = self._menu(desk)
-        bottom = self._status(desk, pointer_name) if desk.panels else 0.0
+        bottom = self._status(desk, pointer_name) if desk.panels or desk.notices.rows else 0.0
         left = right = 0.0
         if desk.panels:
             height = desk.view.height - top - bottom

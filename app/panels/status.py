@@ -11,6 +11,7 @@ from app import icons, theme
 from app.actions import ACTIONS, perform
 from app.canvas.view import zoom_text
 from app.desk.desk import Desk
+from app.panels import notice_line
 from app.panels.controls import widgets as w
 from app.tools import TOOLS
 
@@ -19,19 +20,9 @@ _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets
 
 def draw(desk: Desk, pointer_name: str) -> None:
     """Fills the present window, one line high."""
-    if _says(desk):
-        _message(desk)
-    elif desk.known.opening:
-        imgui.text_unformatted(f"Opening {desk.known.opening}")
-        w.named(f"Opening {desk.known.opening}")
-    elif desk.examples.swapping:
-        name = desk.examples.entry.title if desk.examples.entry else ""
-        imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
-    elif not desk.known.ready:
-        imgui.text_disabled("Loading the paint engine…")
-    else:
-        imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
+    left = imgui.get_cursor_pos_x()
     right = imgui.get_window_width() - imgui.get_style().window_padding.x
+    imgui.dummy(ImVec2(0, 0))
     for label, hint, fixed in reversed(_fields(desk, pointer_name)):
         width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())
         right -= width
@@ -41,7 +32,30 @@ def draw(desk: Desk, pointer_name: str) -> None:
             w.named(f"status: {label}")
         w.tooltip(hint)
         right -= 1.4 * imgui.get_font_size()
-    imgui.dummy(ImVec2(0, 0))
+    right = notice_line.count_button(desk, right)
+    imgui.same_line(left)
+    _left(desk, right)
+
+
+def _left(desk: Desk, right: float) -> None:
+    """Draws what is told, up to `right`: what has just happened, then what went wrong, else what can be done here."""
+    held = desk.notices.seen and imgui.is_window_hovered()  # somebody may be about to press one of its buttons
+    desk.notices.seen = False
+    if _says(desk) and not (held and desk.notices.rows):
+        _message(desk)
+    elif desk.known.opening:
+        imgui.text_unformatted(f"Opening {desk.known.opening}")
+        w.named(f"Opening {desk.known.opening}")
+    elif desk.notices.rows:
+        desk.notices.seen = True
+        notice_line.draw(desk, right)
+    elif desk.examples.swapping:
+        name = desk.examples.entry.title if desk.examples.entry else ""
+        imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
+    elif not desk.known.ready:
+        imgui.text_disabled("Loading the paint engine…")
+    else:
+        imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
 
 
 def _says(desk: Desk) -> bool:

@@ -6,7 +6,9 @@ standard error, and into the log, which the window opens.
 
 from __future__ import annotations
 
+import errno
 import logging
+from pathlib import Path
 
 from engine.canvas.layers import LayerError
 from engine.checks.field_error import FieldError
@@ -17,15 +19,39 @@ from engine.studio.results import Note
 
 EXPECTED = (FileError, FieldError, FormulaError, LayerError, Refusal, Cancelled, MemoryError)
 FAULT = "A fault in Inkfall"
+# What can be done about what did not work, by what that was: names of rows of app.actions.ACTIONS.
+OFFERS: dict[str, tuple[str, ...]] = {
+    "save": ("try_again", "save_as"),
+    "export": ("try_again",),
+    "open": ("try_again", "open"),
+}
+NO_ROOM, LOGGED = ("free_space",), ("copy_details",)  # about a full disk; about a fault
 LOGGER = logging.getLogger("inkfall")
 
 
-def told(error: Exception, doing: str) -> Note:
-    """Returns what the window is told of an error, and logs it if it is a fault.  `doing`: what was being done."""
+def told(error: Exception, doing: str, about: str = "", path: Path | None = None) -> Note:
+    """Returns what the window is told of an error, and logs it if it is a fault.
+
+    `doing`: what was being done; `about`: a row of OFFERS, then the line stays with what can be done about it, to the
+    file `path`, if it is not the one that the error names.
+    """
     fault = not isinstance(error, EXPECTED)
     if fault:
         LOGGER.error("a fault, %s", doing, exc_info=error)
-    return Note(words(error), bad=True, fault=fault)
+    if isinstance(error, FileError) and path is None:
+        path = Path(error.path)
+    offers = OFFERS.get(about, ()) + (NO_ROOM if about and is_full(error) else ()) + (LOGGED if fault else ())
+    return Note(words(error), True, fault, fault or bool(about), offers, about or ("fault" if fault else ""), path)
+
+
+def is_full(error: BaseException) -> bool:
+    """Tells whether an error, or what it was raised from, says that there is no room left on a disk."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, OSError) and cause.errno in (errno.ENOSPC, errno.EDQUOT):
+            return True
+        cause = cause.__cause__
+    return False
 
 
 def words(error: Exception) -> str:

@@ -93,11 +93,21 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A line for the artist; `bad` when something did not work, `fault` when that is told in the log."""
+    """A line for the artist; `bad` when something did not work, `fault` when that is told in the log.
+
+    `stays`: it is shown until it is dealt with or closed by hand; `offers`: what can be done about it, names of rows of
+    `app.actions.ACTIONS`; `about`: of what it is ("save", "open", "journal"), a newer one of the same takes its place,
+    and deals with it if it does not stay; `path`: of which file; `lines`: what more there is to tell, a line each.
+    """
 
     text: str
     bad: bool = False
     fault: bool = False
+    stays: bool = False
+    offers: tuple[str, ...] = ()
+    about: str = ""
+    path: Path | None = None
+    lines: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -202,7 +202,9 @@ class Worker:
             bench = self._make(self._send, self.post)
         except Exception as error:
             _LOGGER.error("the paint engine did not load", exc_info=error)
-            self._send(Note("The paint engine did not load", bad=True, fault=True))
+            self._send(
+                Note("The paint engine did not load", bad=True, fault=True, stays=True, offers=("copy_details",))
+            )
             return
         self._work(bench)
         bench.close()

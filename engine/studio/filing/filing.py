@@ -11,8 +11,8 @@ from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
 from engine.painting.value import Painting
 from engine.session.session import Session
+from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.studio import results
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.documents import Document
@@ -59,7 +59,7 @@ class Filing(Owned):
         """Tells, once all that was painted with examples is grown, if it is not what it was in the file."""
         marks, self._marks = self._marks, ()
         if otherwise(marks, self._easel.session.painting.root):
-            self._easel.send(results.Note(OTHERWISE, bad=True))
+            self._easel.send(results.Note(OTHERWISE, bad=True, stays=True, about="grown"))
 
     def play(self) -> None:
         """Plays the next piece of a recording."""
@@ -78,12 +78,16 @@ class Filing(Owned):
         self._show(Document(Session(Painting(frame=request.frame, seed=request.seed))))
 
     def _open(self, request: q.Open) -> None:
-        found = documents.opened(request.path, request.live)
+        try:
+            found = documents.opened(request.path, request.live)
+        except Exception as error:
+            self._easel.send(faults.told(error, "while a file was opened", "open", request.path))
+            return
         self._show(found)
         if found.script is not None:
             self._easel.send(results.Note(f"Playing {request.path.name}"))
         elif found.notes:
-            self._easel.send(results.Note(f"{request.path.name}: {found.notes[0]}", bad=True))
+            self._easel.send(_losses(request.path.name, found.notes))
 
     def _show(self, document: Document) -> None:
         self._known, self._script, self._marks = document.known, document.script, document.marks
@@ -108,6 +112,14 @@ class Filing(Owned):
 
     def _export(self, request: q.Export) -> None:
         def done() -> None:
-            self._easel.send(results.Note(f"Wrote {request.path.name}"))
+            self._easel.send(results.Note(f"Wrote {request.path.name}", about="export"))
 
         self._writers.start(partial(documents.write_picture, request), self._easel.session.painting, done)
+
+
+def _losses(name: str, lines: tuple[str, ...]) -> results.Note:
+    """Returns what is told of a file that does not give all that it held: one line of it, or how many there are."""
+    if len(lines) == 1:
+        return results.Note(f"{name}: {lines[0]}", bad=True, stays=True, about="painting")
+    text = f"{name}: {len(lines)} things are not as they were"
+    return results.Note(text, bad=True, stays=True, about="painting", lines=lines)

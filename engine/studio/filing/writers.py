@@ -46,8 +46,9 @@ class Writers(Owned):
     def start(self, write: Write, painting: Painting, done: Callable[[], None], saving: bool = False) -> None:
         """Has a painting grown to its end and given to `write` on a thread of its own; calls `done` here afterwards."""
         self._count += 1
+        about = "save" if saving else "export"
         thread = threading.Thread(
-            target=_run, args=(self._count, write, painting, self._post), name="inkfall file", daemon=False
+            target=_run, args=(self._count, write, painting, self._post, about), name="inkfall file", daemon=False
         )
         self._files[self._count] = _File(thread, saving, done)
         self._tell()
@@ -76,8 +77,8 @@ class Writers(Owned):
         self._send(results.Writing(len(files), saving, grown))
 
 
-def _run(file: int, write: Write, painting: Painting, post: Post) -> None:
-    """Writes a file, on a thread of its own."""
+def _run(file: int, write: Write, painting: Painting, post: Post, about: str) -> None:
+    """Writes a file, on a thread of its own.  `about`: "save" or "export"."""
     told = 0.0
 
     def tell(part: float) -> None:
@@ -90,6 +91,6 @@ def _run(file: int, write: Write, painting: Painting, post: Post) -> None:
     try:
         write(settled(painting, tell=tell))
     except Exception as error:
-        post(q.Written(file, faults.told(error, "while a file was written")))
+        post(q.Written(file, faults.told(error, "while a file was written", about)))
     else:
         post(q.Written(file))
