@@ -35,6 +35,7 @@ from app.panels.layout import Layout
 from app.router import Router
 from app.wanted_tiles import Tiles
 from engine.studio import results
+from engine.studio.requests import at_time
 from engine.studio.worker import Worker
 
 _FAULT = results.Note("A fault in Inkfall", True, fault=True, stays=True, offers=("copy_details",), about="fault")
@@ -100,7 +101,8 @@ class Window:
         """From now on pens are heard, and requests go to the engine's thread."""
         self.pointers.hear_pens()
         shelf, previews = Shelf(glfw.post_empty_event), Previews(glfw.post_empty_event)
-        self.desk.post, self.desk.thumbnails, self.pace.worker = worker.post, shelf.ask, worker
+        self.desk.post = lambda request: worker.post(at_time(request, round(time.time(), 3)))
+        self.desk.thumbnails, self.pace.worker = shelf.ask, worker
         self.desk.behind = lambda: worker.behind
         self._files = files = Files(glfw.post_empty_event)
         self.desk.work = files.post

@@ -22,6 +22,7 @@ from engine.makers.definitions import FIELDS, USUAL, kind_of
 from engine.painting.capture import PictureSource, captured, read_picture
 from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around, Texture
+from engine.painting.times import untimed
 from engine.strokes import example_textures
 from engine.texture.image import ImageSource
 from engine.texture.table import KINDS
@@ -37,7 +38,7 @@ def define(command: DefineTexture, root: Group, around: Around) -> Texture:
     make = MAKERS.get(command.maker)
     if make is None:
         raise FieldError("maker", f"{command.maker!a}", f"one of {', '.join(MAKERS)}")
-    texture = make(command, root, around)
+    texture = make(untimed(command), root, around)
     texture.instance({}, 0, 0)  # its parameters are checked where it is defined, not where it is used
     return texture
 

@@ -5,7 +5,7 @@ Light on purpose: importing it loads neither numba nor scipy, so a window can be
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -57,18 +57,21 @@ class Export:
 
 @dataclass(frozen=True, slots=True)
 class Do:
-    """A command, carried out in the order of posting."""
+    """A command, carried out in the order of posting; `time`: of posting, seconds since 1970."""
 
     command: Command
+    time: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Begin:
-    """The pen touches down.  `radius` of the brush is in pixels of `level`; points come relative to `origin`."""
+    """The pen touches down.  `radius` of the brush is in pixels of `level`; points come relative to `origin`; `time`:
+    of posting, seconds since 1970."""
 
     level: int
     origin: tuple[int, int]
     brush: Brush
+    time: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -330,3 +333,8 @@ Request = (
     | Written
     | Prepare
 )
+
+
+def at_time(request: Request, time: float) -> Request:
+    """Returns a request that says when it was posted, seconds since 1970, if it is of a kind that does."""
+    return replace(request, time=time) if isinstance(request, Do | Begin) and request.time is None else request

@@ -14,6 +14,7 @@ from engine.checks.owned import Owned
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting.points import rounded
+from engine.painting.times import members, timed
 from engine.studio import requests as q
 from engine.studio import results, swatches
 from engine.studio.easel import Easel
@@ -80,7 +81,7 @@ class Studio(Owned):
             _of(Examiner(easel)),
         )
         self._handlers: dict[type, Callable[[Any], None]] = {
-            q.Do: lambda r: easel.carry_out(r.command),
+            q.Do: lambda r: easel.carry_out(timed(r.command, r.time)),
             q.Begin: self._begin,
             q.Points: lambda r: easel.extend(rounded(r.points)),
             q.Finish: lambda r: easel.finish(),
@@ -131,7 +132,8 @@ class Studio(Owned):
 
     def _begin(self, request: q.Begin) -> None:
         self.lab.settle()
-        self.easel.begin(c.Stroke(request.level, request.origin, np.empty((0, 6)), request.brush))
+        no_points, when = np.empty((0, 6)), members(request.time)
+        self.easel.begin(c.Stroke(request.level, request.origin, no_points, request.brush, extra=when))
 
     def _grow(self) -> None:
         self.grower.step()
