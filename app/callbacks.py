@@ -31,7 +31,7 @@ class Callbacks:
         self._address, self._router, self._layout = address, router, layout
         self._event, self._drop = event, drop
         self.exposed = True  # the window system has lost what the window showed, or never had it
-        self._keys: list[tuple[int, int, int, int]] = []
+        self._keys: list[tuple[int, int, int, int] | None] = []  # None: the focus was lost
         self._characters: list[int] = []
         glfw.set_key_callback(window, self._key)
         glfw.set_char_callback(window, self._typed)
@@ -43,10 +43,14 @@ class Callbacks:
         glfw.set_drop_callback(window, dropped)
 
     def deliver(self) -> None:
-        """Gives the router what was pressed and typed since the last call; what follows a key that fails comes with
-        the next one."""
+        """Gives the router what was pressed and typed since the last call, and that the focus was lost; what follows a
+        key that fails comes with the next one."""
         while self._keys:
-            self._router.key(*self._keys.pop(0))
+            key = self._keys.pop(0)
+            if key is None:
+                self._router.lost_focus()
+            else:
+                self._router.key(*key)
         characters, self._characters = self._characters, []
         for character in characters if self._router.typing else ():
             backends.glfw_char_callback(self._address, character)
@@ -70,7 +74,7 @@ class Callbacks:
         self._event()
         backends.glfw_window_focus_callback(self._address, focused)
         if not focused:
-            self._router.lost_focus()
+            self._keys.append(None)
 
     def _refresh(self, _w: Any) -> None:
         self._event()

@@ -12,21 +12,24 @@ import os
 import sys
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import imgui_bundle  # before glfw, so that both use one libglfw
 
 import glfw  # isort: skip
 
+from app.faults.endings import Signals, hear_display_loss
 from app.faults.file_guard import guard_files
 from app.faults.log import log_file, open_log
 from app.trace import trace
 
 if TYPE_CHECKING:
     from app.window import Window
+    from engine.studio.worker import Worker
 
 assert imgui_bundle
 WIDTH, HEIGHT = 1280, 800
+GRACE = 10.0  # seconds that the engine has to carry out what was posted, once the program is asked to end
 SWITCH = 0.0005  # seconds after which a thread that computes lets another have the interpreter
 
 
@@ -46,26 +49,51 @@ def run(path: str | None = None, play: str | None = None) -> int:
     guard_files()
     sys.setswitchinterval(SWITCH)
     worker = _worker(window)
+    signals = Signals(glfw.post_empty_event)
+    hear_display_loss(lambda: _leave(window, worker))
     for name, live in ((path, False), (play, True)):
         if name is not None:
             window.desk.open(Path(name), live)
     try:
-        while not window.closed():
+        while not window.closed() and not signals.asked:
             window.wait(window.frame())
     finally:
         try:
             window.hide()
-            worker.close(None)  # files may still be written for a while
+            worker.close(GRACE if signals.asked else None)  # files may still be written for a while
         finally:
             window.close()
+    if worker.alive:
+        _go(_told(worker))
     return _told(worker)
 
 
-def _told(worker: Any) -> int:
+def _leave(window: Window, worker: Worker) -> NoReturn:
+    """Ends the program when its window is gone already: nothing may be drawn or given back any more."""
+    status = 1
+    try:
+        window.let_go()
+        worker.close(GRACE)
+        status = _told(worker)
+    finally:
+        _go(status)
+
+
+def _go(status: int) -> NoReturn:
+    """Ends the process at once, whatever its threads are at."""
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(status)
+
+
+def _told(worker: Worker) -> int:
     """Tells the terminal what went wrong when no window was there any more to show it; the exit status."""
     from engine.studio.results import Note
 
     faults = [result for result in worker.results() if isinstance(result, Note) and result.bad]
+    if worker.alive:
+        faults.append(Note("what was asked for last could not be carried out in time", bad=True))
     for fault in faults:
         print(f"inkfall: {fault.text}{f': {log_file()} tells more' if fault.fault else ''}", file=sys.stderr)
     return 1 if faults else 0
@@ -91,7 +119,7 @@ def _load(name: str) -> None:
         importlib.import_module(name)
 
 
-def _worker(window: Window) -> Any:
+def _worker(window: Window) -> Worker:
     from engine.studio.worker import Worker
 
     worker = Worker(window.pace.told)

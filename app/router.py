@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import glfw
 from imgui_bundle import imgui
@@ -29,6 +30,7 @@ class Router:
         self.desk, self.layout = desk, layout
         self.gesture: Gesture | None = None
         self._button = 0
+        self._last = PenEvent("lost", 0.0, 0.0)  # what the gesture was told last
         self._panel_buttons: set[int] = set()
         self._keys: set[int] = set()
         self._field_until = 0.0
@@ -38,8 +40,12 @@ class Router:
         desk = self.desk
         desk.pointer.x, desk.pointer.y, desk.pointer.pen = event.x, event.y, event.pen
         if self.gesture is not None:
-            if event.kind in ("move", "wheel") or event.button == self._button:
+            if event.kind == "lost":
+                self.lift()
+            elif event.kind in ("move", "wheel") or event.button == self._button:
                 self._send(event)
+            return
+        if event.kind == "lost":
             return
         if event.kind == "down" and event.button in self._panel_buttons:
             self._forget(event.button)
@@ -72,7 +78,7 @@ class Router:
         stroke = self.layout.stroke(self.desk, event.x, event.y) if covered and event.button == LEFT else None
         if stroke is not None:
             self._button = event.button
-            self.gesture = stroke(self.desk, event)
+            self.gesture, self._last = stroke(self.desk, event), event
             self._send(None)
             return
         if covered:
@@ -82,7 +88,7 @@ class Router:
             return
         imgui.set_window_focus(None)
         self._button = event.button
-        self.gesture = self._chosen(event)
+        self.gesture, self._last = self._chosen(event), event
         imgui.get_io().add_mouse_pos_event(_AWAY, _AWAY)
         self._send(None)
 
@@ -109,6 +115,7 @@ class Router:
             if event is None:
                 next(self.gesture)
             else:
+                self._last = event
                 self.gesture.send(event)
         except StopIteration:
             self.gesture = None
@@ -121,6 +128,12 @@ class Router:
         if self.gesture is not None:
             self.gesture.close()
             self.gesture = None
+
+    def lift(self) -> None:
+        """Ends a stroke in progress where it is, which stays; every other gesture as if it had not been."""
+        if self.gesture is not None:
+            self._send(replace(self._last, kind="lost"))
+        self.cancel()
 
     def key(self, key: int, scancode: int, action: int, mods: int) -> None:
         """Takes one key event; those that a text field or a dialog wants are left to it."""
@@ -144,9 +157,9 @@ class Router:
             perform(self.desk, found)
 
     def lost_focus(self) -> None:
-        """Another window is in front: keys are no longer known to be down."""
+        """Another window is in front: keys are no longer known to be down, nor is what a gesture began with."""
         self._keys.clear()
-        self.cancel()
+        self.lift()
 
     def hover(self) -> None:
         """Finds what the pointer is over, now that the panels are drawn: a dialog may have opened under it."""

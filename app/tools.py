@@ -1,6 +1,7 @@
 """The tools: each gesture is a generator that gets pen events from touch-down to lift-off.
 
-A gesture may be closed early (Esc, another window in front): it then leaves nothing half done.
+A gesture may be closed early (Esc): it then leaves nothing half done.  Where the pen is lost (`events.ENDS`), strokes
+end and stay; all other gestures are closed.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.match_state import SMALLEST
-from app.input.events import PenEvent
+from app.input.events import ENDS, PenEvent
 from engine.brush.smoothing import Smoother
 from engine.numeric.address import Rect
 from engine.studio.requests import (
@@ -67,10 +68,9 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     try:
         event = first
         while True:
-            ends = event.kind == "up"
             if event.kind in ("down", "move"):
                 _post(desk, smoother.add(np.array([_point(desk.view, level, origin, event, first.time)])))
-            if ends:
+            if event.kind in ENDS:
                 break
             event = yield
         _post(desk, smoother.finish())
@@ -98,7 +98,7 @@ def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
                 pressure = event.pressure if event.pen else 1.0
                 row = [*lab.place(event.x, event.y), pressure, event.tilt_x, event.tilt_y, event.time - first.time]
                 _post(desk, smoother.add(np.array([row])), LabPoints)
-            if event.kind == "up":
+            if event.kind in ENDS:
                 break
             event = yield
         _post(desk, smoother.finish(), LabPoints)
@@ -210,7 +210,7 @@ def paint_region(desk: Desk, first: PenEvent) -> Gesture:
         while True:
             if event.kind in ("down", "move", "up"):
                 _post(desk, np.array([[*state.place(event.x, event.y), 1.0, 0.0, 0.0, 0.0]]), RegionPoints)
-            if event.kind == "up":
+            if event.kind in ENDS:
                 break
             event = yield
         done = True

@@ -177,15 +177,22 @@ class Window:
         return self.desk.asked.quit
 
     def hide(self) -> None:
-        """Takes it from the screen; waits for the files that it writes."""
+        """Takes it from the screen; ends the stroke in hand, and waits for the files that it writes."""
         glfw.hide_window(self.handle)
         glfw.poll_events()
+        self.let_go()
+
+    def let_go(self) -> None:
+        """Ends the stroke in hand, which stays, and waits for the files that it writes."""
+        with self._guard.spare("on the end of a stroke"):
+            for event in self.pointers.events() if self.router.gesture is not None else ():
+                self.router.pointer(event)
+            self.router.lift()
         if self._files is not None:
             self._files.close()
 
     def close(self) -> None:
-        """Drops the gesture in hand, and gives back pen, card and window."""
-        self.router.cancel()
+        """Gives back pen, card and window."""
         self.pointers.close()
         backends.opengl3_shutdown()
         backends.glfw_shutdown()

@@ -13,7 +13,7 @@ import select
 import threading
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 
@@ -268,6 +268,7 @@ class XInput2Pointer:
         self._wake = wake
         self._queue: deque[PenEvent] = deque()
         self._devices = self._query()
+        self._held: dict[int, PenEvent] = {}  # by the ids of devices that are pressed, what came last of each
         self._select(window)
         self._quit_read, self._quit_write = os.pipe()
         self._thread = threading.Thread(target=self._run, name="inkfall pointer", daemon=True)
@@ -292,13 +293,13 @@ class XInput2Pointer:
         self._lib.x.XFlush(self._display)
 
     def _query(self) -> dict[int, Device]:
-        """Returns the slave pointers by their ids."""
+        """Returns the slave pointers that are there, by their ids."""
         count = ct.c_int()
         infos = self._lib.xi.XIQueryDevice(self._display, ALL_DEVICES, count)
         out = {}
         for i in range(count.value):
             info = infos[i]
-            if info.use in (SLAVE_POINTER, FLOATING_SLAVE):
+            if info.enabled and info.use in (SLAVE_POINTER, FLOATING_SLAVE):
                 out[info.deviceid] = self._device(info)
         self._lib.xi.XIFreeDeviceInfo(infos)
         return out
@@ -350,9 +351,22 @@ class XInput2Pointer:
             found = pen_event(report, self._devices.get(report.sourceid))
             if found is not None:
                 self._queue.append(found)
+                self._hold(report.sourceid, found)
         else:
             self._devices = self._query()
+            self._miss()
         self._lib.x.XFreeEventData(self._display, cookie)
+
+    def _hold(self, device: int, event: PenEvent) -> None:
+        if event.kind == "down" or (event.kind == "move" and device in self._held):
+            self._held[device] = event
+        elif event.kind == "up":
+            self._held.pop(device, None)
+
+    def _miss(self) -> None:
+        """Tells of devices that were pressed and are gone."""
+        for device in self._held.keys() - self._devices.keys():
+            self._queue.append(replace(self._held.pop(device), kind="lost"))
 
     def events(self) -> list[PenEvent]:
         """Gives what came since the last call, in order."""

@@ -126,6 +126,11 @@ class Worker:
         """Tells whether results lie ready."""
         return bool(self._results)
 
+    @property
+    def alive(self) -> bool:
+        """Tells whether the thread runs."""
+        return self._thread.is_alive()
+
     def results(self) -> list[Result]:
         """Returns what came since the last call, in order."""
         out: list[Result] = []

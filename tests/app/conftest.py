@@ -207,7 +207,7 @@ class Program:
     def close(self) -> None:
         """Ends it; fails if it has told a fault, which a test that provokes one takes out of `log`."""
         self.process.terminate()
-        self.process.wait(10)
+        self.process.wait(30)
         words = self.log.read_text(errors="replace")
         assert "Traceback (most recent call last)" not in words, words
         told = [line for line in self.log.read_text(errors="replace").splitlines() if line.startswith(TOLD)]
