@@ -117,6 +117,19 @@ def _reachable(value: Any) -> bool:
     return "rect" not in value and all(Path(path).is_absolute() for path in paths) and _reachable(tuple(value.values()))
 
 
+def names_files(command: DefineTexture) -> bool:
+    """Tells whether a definition names pictures by their paths: what these hold may change."""
+    return _holds_path(command.arguments)
+
+
+def _holds_path(value: object) -> bool:
+    if isinstance(value, tuple):
+        return any(map(_holds_path, value))
+    if not isinstance(value, Mapping):
+        return False
+    return any(_is_path(key, part) or _holds_path(part) for key, part in value.items())
+
+
 def _is_path(key: str, value: Any) -> bool:
     named = key in ("path", "pattern", "start", "mask", "params") or (key == "phase" and "." in str(value))
     return isinstance(value, str) and named

@@ -101,7 +101,8 @@ class Look:
 @dataclass(frozen=True, slots=True)
 class Swatch:
     """A small picture painted with a brush, `size` (width, height) pixels; `zoom` levels nearer than painted.
-    `textures`: definitions that the brush brings along; `soon`: before those that are not."""
+    `textures`: definitions that the brush brings along; `soon`: before those that are not; `kept`: in a file, so that
+    it is painted once."""
 
     ident: str
     brush: Brush
@@ -110,6 +111,7 @@ class Swatch:
     zoom: int = 0
     textures: tuple[DefineTexture, ...] = ()
     soon: bool = False
+    kept: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from engine.painting import commands as c
 from engine.painting.points import rounded
 from engine.painting.times import members, timed
 from engine.studio import requests as q
-from engine.studio import results, swatches
+from engine.studio import results, swatch_files, swatches
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
 from engine.studio.filing.filing import Filing
@@ -141,5 +141,9 @@ class Studio(Owned):
             self.filing.grown()
 
     def _swatch(self, request: q.Swatch) -> None:
-        pixels = swatches.painted(request, self.easel.session.painting)
-        self.easel.send(results.Picture(request.ident, results.frozen(to_premul8(pixels))))
+        painting = self.easel.session.painting
+        pixels = swatch_files.kept(request, painting)
+        if pixels is None:
+            pixels = to_premul8(swatches.painted(request, painting))
+            swatch_files.keep(request, painting, pixels)
+        self.easel.send(results.Picture(request.ident, results.frozen(pixels)))

@@ -229,7 +229,11 @@ def test_long_work_shows_a_bar_and_can_be_stopped(tmp_path):
     ours, theirs = pty.openpty()
     words = ["texture", "solid", str(path), "--size", "64", "--iterations", "500", "--out", str(tmp_path / "out")]
     with subprocess.Popen(
-        [sys.executable, "-m", "app", *words], cwd=ROOT, stderr=theirs, stdout=subprocess.PIPE
+        [sys.executable, "-m", "app", *words],
+        cwd=ROOT,
+        stderr=theirs,
+        stdout=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # also where the tests run in the background
     ) as run:
         os.close(theirs)
         seen = b""

@@ -57,7 +57,10 @@ def test_a_kernel_is_compiled_once(toy):
     assert toy.kernels()[0].is_relative_to(toy.cache)
 
 
-@pytest.mark.parametrize("damage", ["empty", "half", "flipped", "no pickle"])
+NIGHTLY = [pytest.param(damage, marks=pytest.mark.nightly) for damage in ("empty", "flipped")]
+
+
+@pytest.mark.parametrize("damage", ["half", "no pickle", *NIGHTLY])
 def test_a_damaged_one_is_made_anew(toy, damage):
     toy.call()
     (path,) = toy.kernels()

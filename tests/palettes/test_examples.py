@@ -120,6 +120,7 @@ def test_the_rim_is_unlike_the_inside_in_every_direction(name):
         assert across > max(2.0 * within, 0.06)
 
 
+@pytest.mark.nightly
 def test_the_script_makes_the_same_picture_again(tmp_path):
     """Within rounding: transforms differ in their last bits from machine to machine."""
     name = "torn-kraft-paper"

@@ -18,6 +18,7 @@ from engine.painting.recording import read
 
 GALLERY = Path(__file__).resolve().parents[2] / "palettes" / "gallery"
 NAMES = ("collage", "orange")
+MOSTLY_NIGHTLY = [pytest.param("collage", marks=pytest.mark.nightly), "orange"]
 
 
 def strokes(name: str) -> list[commands.Stroke]:
@@ -46,7 +47,7 @@ def test_the_orange_is_shaded_by_raster_operations():
     assert modes.count("example") >= 12
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", MOSTLY_NIGHTLY)
 def test_scripts_write_the_same_recordings_again(name, tmp_path):
     """But for last bits of sines, which differ from machine to machine, where a place is rounded."""
     shutil.copy(GALLERY / f"make_{name}.py", tmp_path)
@@ -59,7 +60,7 @@ def test_scripts_write_the_same_recordings_again(name, tmp_path):
     assert sum(a != b for a, b in zip(made, bundled, strict=True)) <= 3
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", MOSTLY_NIGHTLY)
 def test_it_becomes_the_picture(name, tmp_path, capsys):
     """But for what synthesis chooses within a piece, and the few colours of the file."""
     shown = GALLERY.parent / "pictures" / f"{name}.png"

@@ -11,6 +11,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PIL import Image
 
 from app.__main__ import main
@@ -45,6 +46,7 @@ def test_washes_lie_over_one_another():
     assert sum(map(len, depths.values())) >= 15
 
 
+@pytest.mark.nightly
 def test_the_script_writes_the_same_recording_again(tmp_path):
     """But for last bits of sines, which differ from machine to machine, where a place is rounded."""
     shutil.copy(GALLERY / "make_watercolour_tree.py", tmp_path)

@@ -160,7 +160,7 @@ class BrushList:
 def _picture(desk: Desk, preset: Preset) -> Swatch:
     """Returns the request for a stroke of a brush."""
     size = (int(THUMB[0] * desk.scale), int(THUMB[1] * desk.scale))
-    return Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures)
+    return Swatch(f"preset {preset.name}", preset.brush, size, textures=preset.textures, kept=True)
 
 
 def hold(desk: Desk, preset: Preset) -> None:

@@ -50,7 +50,7 @@ def laid(mask, rect):
     return out
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=25)
 @given(DABS)
 def test_the_kernel_does_what_plain_numpy_does(dabs):
     mask = StrokeMask(0, (0, 0))
@@ -59,7 +59,7 @@ def test_the_kernel_does_what_plain_numpy_does(dabs):
     np.testing.assert_allclose(laid(mask, rect), plain(dabs, rect), atol=2e-4)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=25)
 @given(DABS, st.lists(st.integers(0, 8), max_size=4))
 def test_any_portions_give_the_same_coverage_bit_for_bit(dabs, cuts):
     whole, parts = StrokeMask(0, (0, 0)), StrokeMask(0, (0, 0))
@@ -74,7 +74,7 @@ def test_any_portions_give_the_same_coverage_bit_for_bit(dabs, cuts):
     assert whole.rect == parts.rect
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(DABS)
 def test_opacity_is_a_ceiling_and_coverage_only_grows(dabs):
     mask = StrokeMask(0, (0, 0))
@@ -100,7 +100,7 @@ def test_many_dabs_come_up_to_the_opacity_and_no_further():
     assert m.max() == 0.5
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(DABS)
 def test_rect_and_keys_hold_all_that_is_covered(dabs):
     mask = StrokeMask(2, (1000, -77))

@@ -71,7 +71,7 @@ def test_a_stroke_without_alpha_is_no_stroke():
     assert commit(pyramid, nothing) is pyramid
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=6)
 @given(
     seed=st.integers(0, 99), level=st.integers(0, 4), x=st.integers(-40, 40), y=st.integers(-40, 40),
     width=st.integers(1, 30), height=st.integers(1, 30), alpha=st.sampled_from([0.02, 0.5, 0.9, 1.0]),

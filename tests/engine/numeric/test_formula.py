@@ -268,7 +268,7 @@ def tried(text):
     return None
 
 
-@settings(deadline=None, max_examples=600)
+@settings(deadline=None, max_examples=250)
 @given(st.lists(st.sampled_from(TOKENS), max_size=40).map("".join))
 def test_random_tokens_never_get_out(text):
     tried(text)
@@ -280,7 +280,7 @@ def test_random_text_never_gets_out(text):
     tried(text)
 
 
-@settings(deadline=None, max_examples=400)
+@settings(deadline=None, max_examples=200)
 @given(
     st.sampled_from(FORMULAS),
     st.lists(st.tuples(st.integers(0, 80), st.sampled_from(TOKENS), st.integers(0, 3)), max_size=4),

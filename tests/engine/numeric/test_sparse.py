@@ -60,7 +60,7 @@ def test_compiled_field_against_plain(x, y, shape, noise):
     assert np.abs(found - plain(copied, noise, rect)).max() < 1e-4
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=25)
 @given(ORIGINS, ORIGINS, SHAPES, NOISES, st.integers(0, 6), st.data())
 def test_any_rectangle_holds_the_same_bits(x, y, shape, noise, coarser, data):
     impulse = Impulse.of(response(shape))

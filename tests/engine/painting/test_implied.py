@@ -115,7 +115,7 @@ def test_sizes_of_packs():
     assert 2 * len(pack(tiles)) < len(pack([(key, record, None) for key, record in pyramid.all_records()]))
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=12)
 @given(
     st.integers(0, 1 << 30),
     st.tuples(st.integers(0, 9), st.integers(0, 9), st.integers(1, 20), st.integers(1, 20)),

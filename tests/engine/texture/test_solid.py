@@ -14,7 +14,7 @@ from engine.texture import matching, solid
 from engine.texture.matching import Shape, analysed, matched, matched_colours
 
 SIDE = 32
-EXAMPLES = ["granite", *(pytest.param(name, marks=pytest.mark.nightly) for name in ("moss", "sand"))]
+EXAMPLES = [pytest.param(name, marks=pytest.mark.nightly) for name in ("granite", "moss", "sand")]
 
 
 def made(example, side=SIDE, seed=1, shape=None, **more):
