@@ -15,7 +15,7 @@ import platformdirs
 
 from engine.files.fault import shown, system_words
 
-CAP = 1 << 20  # bytes
+LARGEST_FILE = 1 << 20  # bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Row(NamedTuple):
     put: Callable[[Preferences, float], Preferences]
 
 
-ROWS = {
+SETTINGS = {
     ("kept", "versions"): Row(1, 100, True, lambda told, number: replace(told, versions=int(number))),
     ("kept", "gigabytes"): Row(0.0, 1e6, False, lambda told, number: replace(told, gigabytes=number)),
     ("kept", "part_of_free"): Row(0.0, 1.0, False, lambda told, number: replace(told, part_of_free=number)),
@@ -62,7 +62,7 @@ def read_preferences(path: Path) -> tuple[Preferences, tuple[str, ...]]:
         return Preferences(), (f"{path}: {reason}; the preferences are as they come",)
     found, faults = Preferences(), []
     for (table, key), value in told.items():
-        row = ROWS.get((table, key))
+        row = SETTINGS.get((table, key))
         if row is None:
             faults.append(f"{path}: [{table}] found {shown(key)}, expected one of {_names(table)}")
         elif not _is_number(value, row.whole) or not row.low <= value <= row.high:
@@ -77,11 +77,11 @@ def read_preferences(path: Path) -> tuple[Preferences, tuple[str, ...]]:
 def _loaded(path: Path) -> dict[tuple[str, str], object]:
     """Returns what each table and key of the file is set to."""
     with path.open("rb") as file:
-        data = file.read(CAP + 1)
-    if len(data) > CAP:
-        raise ValueError(f"found more than {CAP} bytes, expected preferences")
+        data = file.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise ValueError(f"found more than {LARGEST_FILE} bytes, expected preferences")
     tables: dict[str, object] = tomllib.loads(data.decode("utf-8"))
-    names = {table for table, _ in ROWS}
+    names = {table for table, _ in SETTINGS}
     for name, members in tables.items():
         if name not in names or not isinstance(members, dict):
             raise ValueError(f"found {shown(name)}, expected a table, one of {', '.join(sorted(names))}")
@@ -91,7 +91,7 @@ def _loaded(path: Path) -> dict[tuple[str, str], object]:
 
 
 def _names(table: str) -> str:
-    return ", ".join(key for name, key in ROWS if name == table)
+    return ", ".join(key for name, key in SETTINGS if name == table)
 
 
 def _is_number(value: object, whole: bool) -> TypeGuard[float]:

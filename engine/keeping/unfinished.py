@@ -20,7 +20,7 @@ except ImportError:  # Windows: nothing tells whether a process is still at it
     fcntl = None  # type: ignore[assignment]
 
 FORGET = 30 * 86400.0  # seconds after which a folder that is not there is waited for no longer
-MOST = 1 << 16  # bytes of a record
+MOST_BYTES = 1 << 16  # bytes of a record
 
 
 @contextmanager
@@ -73,7 +73,7 @@ def sweep_unfinished() -> int:
 
 def _swept(record: Path, descriptor: int) -> int:
     """Removes what one record tells of, and the record, unless the folder may still come back."""
-    target, process = _told(os.read(descriptor, MOST))
+    target, process = _told(os.read(descriptor, MOST_BYTES))
     away = target is not None and not target.parent.is_dir()
     if away and time.time() - os.fstat(descriptor).st_mtime < FORGET:
         return 0

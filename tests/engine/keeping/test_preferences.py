@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from engine.keeping.preferences import CAP, ROWS, Preferences, read_preferences
+from engine.keeping.preferences import LARGEST_FILE, SETTINGS, Preferences, read_preferences
 
 WHOLE = b"[kept]\nversions = 5\ngigabytes = 2\npart_of_free = 0.25\n"
 
@@ -20,7 +20,7 @@ def read(tmp_path):
 
 def test_every_row_is_read(read):
     assert read(WHOLE) == (Preferences(5, 2, 0.25), ())
-    assert len(ROWS) == len(Preferences.__dataclass_fields__)
+    assert len(SETTINGS) == len(Preferences.__dataclass_fields__)
 
 
 def test_none_are_the_usual_ones(read, tmp_path):
@@ -42,7 +42,7 @@ def test_none_are_the_usual_ones(read, tmp_path):
         (b"[kept", "expected ']'"),
         (b"\xff", "utf-8"),
         (b"a = " + b"[" * 5000, "preferences are as they come"),
-        (b"#" * (CAP + 1), "expected preferences"),
+        (b"#" * (LARGEST_FILE + 1), "expected preferences"),
     ],
 )
 def test_what_is_wrong_is_told_in_one_line(read, data, words):
@@ -67,6 +67,6 @@ def test_cut_or_flipped_anywhere_it_is_read_without_an_error(tmp_path_factory, p
     path = tmp_path_factory.getbasetemp() / "flipped.toml"
     path.write_bytes(WHOLE[:place] if cut else WHOLE[:place] + bytes([byte]) + WHOLE[place + 1 :])
     found, faults = read_preferences(path)
-    for (_, key), row in ROWS.items():
+    for (_, key), row in SETTINGS.items():
         assert row.low <= getattr(found, key) <= row.high
     assert found == Preferences(5, 2, 0.25) or faults or found != Preferences() or cut
