@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from app.cli.arguments import rectangle
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output, grown, opened_painting, picture_of, rect_of
+from app.cli.output import checked_output, grown, opened_painting, picture_of, rect_of, salvage_option
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="level, and rectangle in its pixels")
     parser.add_argument("--layer", metavar="NAME", help="only this layer or group")
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits of each channel")
+    salvage_option(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -34,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
         raise Refused("--depth: found 16 for an .ora, expected it for a picture")
     if os.path.exists(options.out) and os.path.samefile(options.painting, options.out):
         raise Refused(f"{options.out}: found the painting itself, expected another file to write to")
-    found = opened_painting(options.painting)
+    found = opened_painting(options.painting, salvage=options.salvage)
     from engine.canvas.layers import LayerError, find
 
     if options.layer is not None:

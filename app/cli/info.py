@@ -8,7 +8,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from app.cli.outcome import DONE
-from app.cli.output import opened_painting
+from app.cli.output import opened_painting, salvage_option
 
 if TYPE_CHECKING:
     from engine.archive.imports import Opened
@@ -24,11 +24,12 @@ def declare(parser: argparse.ArgumentParser) -> None:
     """Declares the command's arguments."""
     parser.add_argument("painting", metavar="PAINTING.ora")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    salvage_option(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
-    told = facts(opened_painting(options.painting, tell=not options.json))
+    told = facts(opened_painting(options.painting, not options.json, options.salvage))
     told = {"file": options.painting, "file_bytes": os.path.getsize(options.painting), **told}
     if options.json:
         print(json.dumps(told))

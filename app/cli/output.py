@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import errno
 import os
 import sys
@@ -16,19 +17,38 @@ from app.cli.progress import Progress
 if TYPE_CHECKING:
     from engine.archive.export import Picture
     from engine.archive.imports import Opened
+    from engine.files.fault import FileError
     from engine.numeric.address import Rect
     from engine.painting.value import Painting
 
 
-def opened_painting(path: str, tell: bool = True) -> Opened:
-    """Returns the painting in an .ora; what was lost or replaced on the way is told on standard error."""
+def salvage_option(parser: argparse.ArgumentParser) -> None:
+    """Declares `--salvage`, which commands that read files have."""
+    parser.add_argument("--salvage", action="store_true", help="of a damaged file, take what can be had, and tell")
+
+
+def opened_painting(path: str, tell: bool = True, salvage: bool | None = None) -> Opened:
+    """Returns the painting in an .ora; what was lost or replaced on the way is told on standard error.  `salvage`: of a
+    damaged one what can be had, and what is missing is told in any case; None where the command has no such option."""
     from engine.archive.opening import open_painting
+    from engine.files.fault import FileError, TooMuch
+    from engine.session.damaged import open_or_salvage
 
     with Progress("opening", 100) as progress:
-        found = open_painting(path, progress.part)
-    for note in found.notes if tell else ():
+        try:
+            found = (open_or_salvage if salvage else open_painting)(path, progress.part)
+        except TooMuch:
+            raise
+        except FileError as error:
+            raise salvageable(error) if salvage is False and os.path.isfile(path) else error from None
+    for note in found.notes if tell or (salvage and not found.native) else ():
         print(f"inkfall: {path}: {note}", file=sys.stderr)
     return found
+
+
+def salvageable(error: FileError) -> FileError:
+    """Returns the same error, which says what can be done."""
+    return type(error)(error.path, f"{error.message}; --salvage takes what is whole of it")
 
 
 def grown(path: str, found: Opened) -> Painting:

@@ -5,14 +5,20 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import sys
 import time
+from typing import TYPE_CHECKING
 
 from app.cli.arguments import count, rectangle, seed
 from app.cli.match_command import MOST, whole
 from app.cli.outcome import DONE, Refused
-from app.cli.output import checked_output, picture_of
+from app.cli.output import checked_output, picture_of, salvage_option, salvageable
 from app.cli.progress import Progress
 from engine.brush.modes import MODES
+
+if TYPE_CHECKING:
+    from engine.files.fault import FileError
+    from engine.painting.recording import Recording
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +31,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=seed, metavar="S", help="of the textures, instead of the recording's")
     parser.add_argument("--threads", type=whole(1, MOST), metavar="N", help="default: as many as there are cores")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    salvage_option(parser)
     modes = [f"  {row.name:<8} {row.tooltip}" for row in MODES.values()]
     where = "palettes/recording.md tells all that a recording may hold."
     parser.epilog = "\n".join(["modes of a brush:", *modes, "", where])
@@ -40,15 +47,21 @@ def run(options: argparse.Namespace) -> int:
     from engine.archive.export import export
     from engine.archive.saving import Snapshot, save
     from engine.painting.grown import settled
-    from engine.painting.recording import read
-    from engine.session.replay import replay
+    from engine.session.replay import replay_torn
 
-    recording = read(options.recording)
-    if options.until is not None:
-        recording = recording.until(options.until)
+    recording, torn = _read(options)
     start = time.perf_counter()
-    with Progress("playing", len(recording.commands)) as tell:
-        session = replay(recording, seed=options.seed, tell=tell)
+    played = 0
+    with Progress("playing", len(recording.commands)) as progress:
+
+        def tell(done: int) -> None:
+            nonlocal played
+            played = done
+            progress(done)
+
+        session, fault = replay_torn(recording, seed=options.seed, tell=tell)
+        if fault is not None and not options.salvage:
+            raise fault
         painting = settled(session.painting, options.threads)
     seconds = time.perf_counter() - start
     if options.save is not None:
@@ -57,8 +70,21 @@ def run(options: argparse.Namespace) -> int:
     if options.png is not None:
         with Progress("writing", 100) as tell:
             export(options.png, picture_of(painting, options.rect), tell.part)
-    _tell(options, len(recording.commands), seconds)
+    _tell(options, played, seconds)
+    missing = fault or torn
+    if missing is not None:
+        print(f"inkfall: {missing}; what comes before was played, the rest is missing", file=sys.stderr)
     return DONE
+
+
+def _read(options: argparse.Namespace) -> tuple[Recording, FileError | None]:
+    """Returns the commands to play, and what is wrong with what follows them if that may be."""
+    from engine.painting.recording import COMMANDS_CAP, read_torn
+
+    recording, torn = read_torn(options.recording, COMMANDS_CAP if options.until is None else options.until)
+    if torn is not None and not options.salvage:
+        raise salvageable(torn)
+    return recording, torn
 
 
 def _tell(options: argparse.Namespace, commands: int, seconds: float) -> None:

@@ -19,7 +19,7 @@ from engine.canvas import layers
 from engine.canvas.commit import commit
 from engine.canvas.layers import Group, Layer, LayerError, Node
 from engine.canvas.store import Pyramid
-from engine.files.fault import FileError, shown
+from engine.files.fault import FileError, TooMuch, shown
 from engine.files.images import read_image
 from engine.files.limits import LIMITS, Limits, memory_cap
 from engine.files.png_reader import PngReader
@@ -277,9 +277,7 @@ class _Import:
         pyramid = pasted(reader.strips(), entry.x, entry.y, self._cancelled)
         self._bytes += pyramid.nbytes
         if self._bytes > memory_cap():
-            raise FileError(
-                self._archive.name, f"its layers take over {self._bytes >> 20} MB, all that this machine has"
-            )
+            raise TooMuch(self._archive.name, f"its layers take over {self._bytes >> 20} MB, all that this machine has")
         self._done += reader.header.width * reader.header.height
         if self._progress is not None:
             self._progress(self._done / max(1, self._pixels))

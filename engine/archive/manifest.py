@@ -34,6 +34,7 @@ from engine.texture.table import TextureError
 FORMAT = 3  # 2: nothing of examples; 1: no tile without the colour that its ink implies, no `texture`
 WITHOUT_EXAMPLES = 2  # what a painting is written as that has none, so that older programs open all of it
 MANIFEST = "inkfall/manifest.json"
+MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
 RECORDING = "inkfall/recording.jsonl"
 _CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
 

@@ -7,14 +7,14 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from engine.archive.manifest import MANIFEST, Manifest
+from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, Manifest
 from engine.files.fault import FileError, shown
 from engine.files.zip_reader import ZipArchive
 from engine.painting.rendering import Stop, check_cancelled
 
 WORKERS = 2
 PIECE = 1 << 20
-UNREAD = ("mergedimage", "Thumbnails")  # members that are for other programs alone
+UNREAD = ("mergedimage", "Thumbnails", MANIFEST_AGAIN)  # members that an undamaged file is opened without
 LOST = "deep detail is missing: this file was saved by another program"
 CHANGED = "another program changed {what}: its pictures are shown, the deep detail that no longer fits is left out"
 

@@ -25,7 +25,7 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
 from engine.checks.field_error import FieldError
-from engine.files.fault import FileError, shown
+from engine.files.fault import FileError, TooMuch, shown
 from engine.files.limits import LIMITS, Limits, memory_cap
 from engine.files.stack_xml import parse_stack
 from engine.files.strict_json import loads
@@ -68,7 +68,17 @@ def open_painting(
     except (OSError, ValueError) as error:
         raise FileError(name, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
     except MemoryError as error:
-        raise FileError(name, "not enough memory to open it") from error
+        raise TooMuch(name, "not enough memory to open it") from error
+
+
+def open_native(
+    archive: ZipArchive, manifest: Manifest, limits: Limits = LIMITS, progress: Progress = None, cancelled: Stop = None
+) -> Opened:
+    """Returns the painting of ours that a manifest tells of, all of which must be in the archive; else FileError."""
+    try:
+        return _Opening(archive, limits, progress, cancelled).native(manifest, Members(archive, manifest, cancelled))
+    except (FieldError, LayerError) as error:
+        raise FileError(archive.name, f"{MANIFEST}: {error}") from error
 
 
 Masks = Callable[[str, int], Tiles]
@@ -91,10 +101,12 @@ class _Opening:
             members = None if manifest is None else Members(self._archive, manifest, self._cancelled)
             if members is not None:
                 note = members.overtaken()
+            if note not in ("", NEWER) and not all(map(self._archive.agrees, self._archive.members.values())):
+                raise FileError(self._archive.name, "its directory is damaged: it differs from its members' headers")
             if manifest is None or members is None or note:
                 found = read_raster(self._archive, self._limits, self._progress, self._cancelled)
                 return replace(found, notes=(*((note,) if note else ()), *found.notes))
-            return self._native(manifest, members)
+            return self.native(manifest, members)
         except (FieldError, LayerError) as error:
             raise FileError(self._archive.name, f"{MANIFEST}: {error}") from error
 
@@ -114,13 +126,14 @@ class _Opening:
 
     # ---- our own ----
 
-    def _native(self, manifest: Manifest, members: Members) -> Opened:
+    def native(self, manifest: Manifest, members: Members) -> Opened:
+        """Returns the painting that a manifest tells of."""
         packs = [p for group in manifest.packs.values() for p in group]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
         most = self._total + manifest.grown_bytes()
         if most > memory_cap():
-            raise FileError(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
+            raise TooMuch(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
         sources = {sha: self._picture(entry, members) for sha, entry in manifest.pictures.items()}
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)

@@ -44,6 +44,7 @@ RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
 T = TypeVar("T", bound=tuple[Any, ...])
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 _LEVEL = 1
+InkOf = Callable[[Any], Instance]  # makes an instance of a key
 _ADDRESS = re.compile("-?[0-9a-f]+")
 
 
@@ -111,9 +112,7 @@ _FORMATS = {
 }
 
 
-def unpack(
-    data: bytes, name: str, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None = None
-) -> list[Coded]:
+def unpack(data: bytes, name: str, ink_of: InkOf, announced: tuple[int, int] | None = None) -> list[Coded]:
     """Returns the tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
 
     `announced`: the numbers of tiles and of bytes there must be.  FileError if anything is not as it should be, before
@@ -126,7 +125,7 @@ def unpack(
 
 
 @dataclass(frozen=True, slots=True)
-class _Head:
+class _TileHead:
     """What the head of a pack tells of one tile; `shape` is that of its data."""
 
     key: TileKey
@@ -137,9 +136,62 @@ class _Head:
     implied: Implied | None
 
 
-def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int, int] | None) -> list[Coded]:
+def unpack_torn(data: bytes, ink_of: InkOf, announced: tuple[int, int]) -> tuple[list[Coded], list[TileKey]]:
+    """Returns the tiles in whole blocks of a damaged pack, and the places of the others; nothing if its head is
+    damaged, or must be, since no block is."""
+    tiles: list[Coded] = []
+    gone: list[TileKey] = []
+    try:
+        head = _announced(_head(data, ink_of), announced)
+        for block, run in _by_block(head):
+            found = _whole_block(data, block, run, head.form)
+            tiles += found or []
+            gone += [] if found is not None else [tile.key for tile in run]
+    except (FieldError, PackFault, ValueError):
+        return [], []
+    return (tiles, gone) if gone else ([], [])
+
+
+def _whole_block(data: bytes, block: _Block, run: Sequence[_TileHead], form: _Format) -> list[Coded] | None:
+    try:
+        return list(_block(memoryview(data)[block.start : block.stop], block.plain, run, form))
+    except PackFault:
+        return None
+
+
+def _unpack(data: bytes, ink_of: InkOf, announced: tuple[int, int] | None) -> list[Coded]:
+    head = _announced(_head(data, ink_of), announced)
+    tiles: list[Coded] = []
+    stop = head.start
+    for block, run in _by_block(head):
+        need(block.stop <= len(data), "stored bytes of a block", block.stop - block.start)
+        tiles.extend(_block(memoryview(data)[block.start : block.stop], block.plain, run, head.form))
+        stop = block.stop
+    need(stop == len(data) and len(tiles) == len(head.tiles), "end of a pack", (stop, len(tiles)))
+    return tiles
+
+
+@dataclass(frozen=True, slots=True)
+class _Head:
+    """The head of a pack: its tiles, what it says of its blocks, and where these begin."""
+
+    form: _Format
+    tiles: list[_TileHead]
+    blocks: list[Any]
+    start: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Block:
+    """Where a block lies in a pack, and its plain bytes."""
+
+    start: int
+    stop: int
+    plain: int
+
+
+def _head(data: bytes, ink_of: InkOf) -> _Head:
     need(data[:8] in _FORMATS and len(data) >= 12, "start of a pack of tiles", data[:8])
-    form = _FORMATS[data[:8]]
     (length,) = struct.unpack_from("<I", data, 8)
     start = 12 + length
     need(start <= len(data), "length of the head", length)
@@ -147,31 +199,38 @@ def _unpack(data: bytes, ink_of: Callable[[Any], Instance], announced: tuple[int
     lists = isinstance(head, dict) and all(isinstance(head.get(k), list) for k in ("inks", "tiles", "blocks"))
     need(lists, "head", "")
     inks = [ink_of(key) for key in head["inks"]]
-    heads = [_tile_head(line, inks) for line in head["tiles"]]
-    found = len(heads), sum(form.size(h.shape, h.bits) for h in heads)
+    return _Head(_FORMATS[data[:8]], [_tile_head(line, inks) for line in head["tiles"]], head["blocks"], start)
+
+
+def _announced(head: _Head, announced: tuple[int, int] | None) -> _Head:
+    """Returns a head that tells of so many tiles and bytes; else PackFault."""
+    found = len(head.tiles), sum(head.form.size(tile.shape, tile.bits) for tile in head.tiles)
     need(announced is None or found == announced, "tiles and bytes of a pack", found)
-    tiles: list[Coded] = []
-    for block in head["blocks"]:
+    return head
+
+
+def _by_block(head: _Head) -> Iterator[tuple[_Block, list[_TileHead]]]:
+    """Yields the blocks with their tiles, as the head tells them."""
+    done, start = 0, head.start
+    for block in head.blocks:
         whole = isinstance(block, list) and len(block) == 3 and all(type(v) is int and v >= 0 for v in block)
         need(whole, "block", block)
         count, plain, stored = block
-        run = heads[len(tiles) : len(tiles) + count]
-        need(len(run) == count and plain <= _most(run, form) <= BLOCK_CAP, "block", block)
-        need(not form.exact or plain == _most(run, form), "block", block)
-        need(start + stored <= len(data), "stored bytes of a block", stored)
-        tiles.extend(_block(memoryview(data)[start : start + stored], plain, run, form))
-        start += stored
-    need(start == len(data) and len(tiles) == len(heads), "end of a pack", (start, len(tiles)))
-    return tiles
+        run = head.tiles[done : done + count]
+        most = _most(run, head.form)
+        need(len(run) == count and plain <= most <= BLOCK_CAP, "block", block)
+        need(not head.form.exact or plain == most, "block", block)
+        yield _Block(start, start + stored, plain), run
+        done, start = done + count, start + stored
 
 
-def _most(run: Sequence[_Head], form: _Format) -> int:
+def _most(run: Sequence[_TileHead], form: _Format) -> int:
     """Plain bytes that a block of these tiles can have: where rows have widths, also one byte for each."""
     size = sum(form.size(h.shape, h.bits) for h in run)
     return size if form.exact else size + sum(tilecode.code_size(h.shape) for h in run)
 
 
-def _tile_head(line: Any, inks: list[Instance]) -> _Head:
+def _tile_head(line: Any, inks: list[Instance]) -> _TileHead:
     need(isinstance(line, list) and len(line) in (9, 12), "tile", line)
     level, x, y, *corners, bits, indices = line[:9]
     need(type(level) is int and abs(level) <= LEVEL_CAP, "level of a tile", level)
@@ -182,7 +241,7 @@ def _tile_head(line: Any, inks: list[Instance]) -> _Head:
     need(type(bits) is int and bits in KINDS, "bits of a tile", bits)
     there = _chosen(indices, inks)
     implied = _implied(line[9:], level, inks) if len(line) == 12 else None
-    return _Head(key, rect, (COLOURS + 3 * len(there), rect.height, rect.width), bits, there, implied)
+    return _TileHead(key, rect, (COLOURS + 3 * len(there), rect.height, rect.width), bits, there, implied)
 
 
 def _chosen(indices: Any, inks: list[Instance]) -> tuple[Instance, ...]:
@@ -215,7 +274,7 @@ def _address(text: Any) -> int:
     return int(text, 16)
 
 
-def _block(stored: memoryview, plain: int, run: Sequence[_Head], form: _Format) -> Iterator[Coded]:
+def _block(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Format) -> Iterator[Coded]:
     raw = np.empty(plain, np.uint8)
     stream = Inflated(iter([bytes(stored)]))
     try:

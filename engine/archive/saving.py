@@ -1,7 +1,8 @@
 """Saving a painting as OpenRaster: pictures for every program, and beside them all that makes it refine on zoom.
 
-Layout: mimetype (first, stored), data/L*.png (each layer's part of the frame), mergedimage.png,
-Thumbnails/thumbnail.png, stack.xml, then under inkfall/ the tiles in packs, pictures, recording and manifest.  The
+Layout: mimetype (first, stored), under inkfall/ the recording, the manifest, the tiles in packs and pictures, then
+data/L*.png (each layer's part of the frame), mergedimage.png, Thumbnails/thumbnail.png, stack.xml, and the manifest
+once more: what gives most back lies where a file that is cut short still has it, and the manifest at both ends.  The
 same painting gives the same bytes.  A save takes a frozen snapshot, so it can run on any thread.
 """
 
@@ -25,7 +26,7 @@ from engine.archive.cascade import Cascade
 from engine.archive.grounds import GroundEntry
 from engine.archive.implied import needed, ordered
 from engine.archive.jobs import Job, pack_jobs
-from engine.archive.manifest import MANIFEST, RECORDING, Pack, PictureEntry, format_of, manifest_json
+from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.plot_files import PlotEntry
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node, isolation
@@ -85,6 +86,7 @@ def save(
         with replacing(path, verify=lambda part: _verify(part, path, plan)) as file:
             writer = ZipWriter(file)
             writer.add("mimetype", MIMETYPE)
+            plan.begin(writer)
             with closing(_made(plan, cancelled)) as made:
                 for number, (job, product) in enumerate(made):
                     _add(writer, job.name, product, job.deflate)
@@ -149,7 +151,7 @@ def _verify(part: Path, path: str | os.PathLike[str], plan: SavePlan) -> None:
         with open(part, "rb") as file:
             archive = ZipArchive(file, os.fspath(path))
             archive.check()
-            if set(archive.members) != {"mimetype", "stack.xml", MANIFEST, *plan.names}:
+            if set(archive.members) != {MANIFEST, MANIFEST_AGAIN, *plan.told}:
                 raise WriteError(path, "the file written lacks members")
             for name in plan.names:
                 if name.endswith(".png"):
@@ -177,10 +179,12 @@ class SavePlan:
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
         grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
-        told = [] if recording is None else [Job(RECORDING, lambda: _told(recording), deflate=True)]
-        self.jobs = [*laid, *stored, *grown, *seen, *told]
+        self._recording = recording
+        self.jobs = [*seen, *laid, *stored, *grown]  # the recording needs the pictures, so they follow it
         self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
+        recorded = [] if recording is None else [RECORDING]
+        self.told = ["mimetype", *recorded, *self.names, "stack.xml"]  # those that the manifest names
 
     # ---- pictures for other programs ----
 
@@ -299,17 +303,32 @@ class SavePlan:
         yield from pack_jobs(f"inkfall/pictures/{source.sha}", pictures.tiles(source), packs)
         self._pictures.append(PictureEntry(source.name, source.sha, (source.width, source.height), tuple(packs)))
 
+    # ---- what tells of them ----
+
+    def begin(self, writer: ZipWriter) -> None:
+        """Adds the recording, and leaves room for the manifest, whose sums are known at the end."""
+        if self._recording is not None:
+            writer.add(RECORDING, _told(self._recording), deflate=True)
+        widest = dict.fromkeys([*self.told, MANIFEST_AGAIN], (1 << 62, "0" * 64))
+        writer.reserve(MANIFEST, len(self._manifest(widest)))
+
     def finish(self, writer: ZipWriter) -> None:
-        """Adds stack.xml and the manifest, which tell of all that went before."""
+        """Adds stack.xml and the manifest, which tell of all that went before, and fills the room that was left."""
         root = self._entry(self._painting.root)
         assert isinstance(root, StackEntry)
         root = _with_sums(root, {name: entry.sha256 for name, entry in writer.written.items()})
         attributes = {"format": str(format_of(self._painting)), "manifest": MANIFEST}
         text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
         writer.add("stack.xml", text, deflate=True)
-        members = {name: (entry.size, entry.sha256) for name, entry in writer.written.items()}
+        written = [writer.written[name] for name in self.told]
+        members = {entry.name: (entry.size, entry.sha256) for entry in written}
+        again = writer.add(MANIFEST_AGAIN, self._manifest(members), deflate=True)
+        members[MANIFEST_AGAIN] = again.size, again.sha256
+        writer.fill(MANIFEST, self._manifest(members).ljust(writer.written[MANIFEST].size))
+
+    def _manifest(self, members: dict[str, tuple[int, str]]) -> bytes:
         told = manifest_json(self._painting, self._packs, self._grounds, self._plots, self._pictures, members)
-        writer.add(MANIFEST, dumps(told).encode(), deflate=True)
+        return dumps(told).encode()
 
 
 def _with_sums(stack: StackEntry, sums: dict[str, str]) -> StackEntry:

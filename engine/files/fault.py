@@ -21,6 +21,10 @@ class WriteError(FileError):
     """The work failed while writing; what was there before is untouched and nothing half-written is left."""
 
 
+class TooMuch(FileError):
+    """A file that asks for more than is let: nothing of it is opened, and it is not for being damaged."""
+
+
 class Cancelled(Exception):
     """The one who asked no longer wants the result; nothing was written."""
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from isal import isal_zlib
 
-from engine.files.fault import FileError, shown
+from engine.files.fault import FileError, TooMuch, shown
 from engine.files.inflate import PIECE, RAW, DeflateError, Inflated
 from engine.files.limits import LIMITS, Limits
 
@@ -30,6 +30,7 @@ END64 = struct.Struct("<4sQ2H2L4Q")
 ENTRY = struct.Struct("<4s6H3L5H2L")
 LOCAL = struct.Struct("<4s5H3L2H")
 ENCRYPTED = 0x2041  # bits 0, 6 and 13 of the flags
+DESCRIPTOR = 0x8  # bit 3: checksum and sizes follow the bytes
 UTF8 = 0x800
 FULL16, FULL32 = 0xFFFF, 0xFFFFFFFF
 
@@ -52,15 +53,18 @@ class ZipArchive:
     """The members of an archive, by name.  `file` must be seekable; `name` stands in the messages."""
 
     def __init__(self, file: BinaryIO, name: str, limits: Limits = LIMITS) -> None:
+        self._measure(file, name, limits)
+        count, size, self._directory = self._end_record()
+        self.members: Mapping[str, Member] = MappingProxyType(self._read_directory(count, size))
+        self._check_overlap()
+
+    def _measure(self, file: BinaryIO, name: str, limits: Limits) -> None:
         self._file = file
         self.name = name
         self._limits = limits
         self._size = file.seek(0, io.SEEK_END)
         if self._size > limits.file:
-            raise FileError(name, f"{self._size} bytes; expected at most {limits.file}")
-        count, size, self._directory = self._end_record()
-        self.members: Mapping[str, Member] = MappingProxyType(self._read_directory(count, size))
-        self._check_overlap()
+            raise TooMuch(name, f"{self._size} bytes; expected at most {limits.file}")
 
     # ---- the directory ----
 
@@ -133,7 +137,7 @@ class ZipArchive:
         flags, method, crc, stored, size = fields[3], fields[4], fields[7], fields[8], fields[9]
         raw_name, extra = rest[: fields[10]], rest[fields[10] : fields[10] + fields[11]]
         name = self._checked_name(raw_name, flags)
-        size, stored, offset = self._wide((size, stored, fields[16]), extra, name)
+        size, stored, offset = _wide((size, stored, fields[16]), extra, self.name, name)
         if fields[1] >> 8 == 3 and stat.S_ISLNK(fields[15] >> 16):
             raise FileError(self.name, f"member {shown(name)} is a symbolic link")
         if method == STORED and size != stored and not flags & ENCRYPTED:
@@ -141,23 +145,6 @@ class ZipArchive:
         if size > self._limits.ratio * stored + 64:
             raise FileError(self.name, f"member {shown(name)}: {size} bytes out of {stored} cannot be")
         return Member(name, raw_name, method, flags, crc, stored, size, offset)
-
-    def _wide(self, values: tuple[int, int, int], extra: bytes, name: str) -> list[int]:
-        """Size, stored size and offset, from the ZIP64 field where the short ones are full."""
-        wide = b""
-        while len(extra) >= 4:
-            kind, length = struct.unpack_from("<2H", extra)
-            if kind == 1:
-                wide = extra[4 : 4 + length]
-            extra = extra[4 + length :]
-        result = []
-        for value in values:
-            if value == FULL32:
-                if len(wide) < 8:
-                    raise FileError(self.name, f"member {shown(name)}: its ZIP64 field is missing")
-                value, wide = int.from_bytes(wide[:8], "little"), wide[8:]
-            result.append(value)
-        return result
 
     def _checked_name(self, raw: bytes, flags: int) -> str:
         if not 0 < len(raw) <= self._limits.name:
@@ -196,17 +183,29 @@ class ZipArchive:
             raise FileError(self.name, f"member {shown(name)} is encrypted")
         if member.method not in (STORED, DEFLATED):
             raise FileError(self.name, f"member {shown(name)}: method {member.method}; expected 0 or 8")
-        local = LOCAL.unpack(self._at(member.offset, LOCAL.size, f"member {shown(name)}"))
-        start = member.offset + LOCAL.size
-        named = self._at(start, len(member.raw_name), f"member {shown(name)}")
-        if (local[0], local[3], local[9]) != (b"PK\3\4", member.method, len(named)) or named != member.raw_name:
-            raise FileError(self.name, f"member {shown(name)}: its header differs from the directory")
-        start += local[9] + local[10]
+        start = self._start(member)
         if start + member.stored > self._directory:
             raise FileError(self.name, f"member {shown(name)} reaches into the directory")
         whole = at_once and member.method == STORED
-        pieces = self._pieces(start, member.stored, member.stored if whole else PIECE)
+        pieces = pieces_of(self._file, start, member.stored, member.stored if whole else PIECE)
         return MemberStream(self.name, member, pieces)
+
+    def _start(self, member: Member) -> int:
+        """Returns where a member's bytes begin; FileError if its own header is not the one of the directory."""
+        local = LOCAL.unpack(self._at(member.offset, LOCAL.size, f"member {shown(member.name)}"))
+        start = member.offset + LOCAL.size
+        named = self._at(start, len(member.raw_name), f"member {shown(member.name)}")
+        if (local[0], local[3], local[9]) != (b"PK\3\4", member.method, len(named)) or named != member.raw_name:
+            raise FileError(self.name, f"member {shown(member.name)}: its header differs from the directory")
+        return int(start + local[9] + local[10])
+
+    def agrees(self, member: Member) -> bool:
+        """Tells whether a member's own header says of it what the directory does; True where it leaves that open."""
+        start = self._start(member)
+        local = LOCAL.unpack(self._at(member.offset, LOCAL.size, f"member {shown(member.name)}"))
+        told = local[6:9]  # checksum, stored size, size
+        open_ = bool(local[2] & DESCRIPTOR) or FULL32 in told or start > self._directory
+        return open_ or told == (member.crc, member.stored, member.size)
 
     def read(self, name: str, most: int) -> bytes:
         """Returns a whole member of at most `most` bytes."""
@@ -224,15 +223,35 @@ class ZipArchive:
             if not name.endswith("/"):
                 self.open(name).finish()
 
-    def _pieces(self, start: int, count: int, most: int) -> Iterator[bytes]:
-        stop = start + count
-        while start < stop:
-            self._file.seek(start)
-            piece = self._file.read(min(most, stop - start))
-            if not piece:
-                return
-            start += len(piece)
-            yield piece
+
+def _wide(values: tuple[int, int, int], extra: bytes, archive: str, name: str) -> list[int]:
+    """Size, stored size and offset, from the ZIP64 field where the short ones are full."""
+    wide = b""
+    while len(extra) >= 4:
+        kind, length = struct.unpack_from("<2H", extra)
+        if kind == 1:
+            wide = extra[4 : 4 + length]
+        extra = extra[4 + length :]
+    result = []
+    for value in values:
+        if value == FULL32:
+            if len(wide) < 8:
+                raise FileError(archive, f"member {shown(name)}: its ZIP64 field is missing")
+            value, wide = int.from_bytes(wide[:8], "little"), wide[8:]
+        result.append(value)
+    return result
+
+
+def pieces_of(file: BinaryIO, start: int, count: int, most: int) -> Iterator[bytes]:
+    """Yields `count` bytes of a file from `start` on, at most `most` at a time; fewer where it ends."""
+    stop = start + count
+    while start < stop:
+        file.seek(start)
+        piece = file.read(min(most, stop - start))
+        if not piece:
+            return
+        start += len(piece)
+        yield piece
 
 
 class MemberStream(io.RawIOBase):

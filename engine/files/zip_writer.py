@@ -9,7 +9,7 @@ import hashlib
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 from isal import igzip_lib, isal_zlib
@@ -88,6 +88,26 @@ class ZipWriter:
         end = self._file.tell()
         self._file.seek(offset)
         self._file.write(self._local(entry, wide))
+        self._file.seek(end)
+        self.written[name] = entry
+
+    def reserve(self, name: str, size: int) -> None:
+        """Leaves room for a member of `size` bytes that is made later: `fill` stores it there."""
+        entry = Written(name, size, "", 0, STORED, size, self._begin(name))
+        self._file.write(self._local(entry, wide=size >= FULL32))
+        self._file.write(bytes(size))
+        self.written[name] = entry
+
+    def fill(self, name: str, data: bytes) -> None:
+        """Stores the bytes of a member for which just as much room was left; ValueError if there are others."""
+        entry = self.written[name]
+        if len(data) != entry.size:
+            raise ValueError(f"member {name}: {len(data)} bytes, room was left for {entry.size}")
+        entry = replace(entry, sha256=hashlib.sha256(data).hexdigest(), crc=isal_zlib.crc32(data))
+        end = self._file.tell()
+        self._file.seek(entry.offset)
+        self._file.write(self._local(entry, wide=entry.size >= FULL32))
+        self._file.write(data)
         self._file.seek(end)
         self.written[name] = entry
 

@@ -7,10 +7,10 @@ V is the oldest version of the format that knows all that the recording tells.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
 from immutables import Map
 
@@ -28,6 +28,7 @@ COMMANDS_CAP = 4_000_000
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
 _BOM = b"\xef\xbb\xbf"
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,35 +77,66 @@ def version_of(command: Command) -> int:
     return 2 if isinstance(command, DefineTexture) and "region" in command.arguments else 1
 
 
-def read(path: str | os.PathLike[str]) -> Recording:
-    """Returns the recording in a file; FileError names the line, the member, what was found and what was expected."""
+def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:
+    """Returns the recording in a file, of which only the first `most` commands are read; FileError names the line, the
+    member, what was found and what was expected."""
+    found, fault = read_torn(path, most)
+    if fault is not None:
+        raise fault
+    return found
+
+
+def read_torn(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> tuple[Recording, FileError | None]:
+    """Returns a recording up to its last whole line, and what is wrong with the next; FileError if the first line is
+    none, or the file cannot be read."""
     try:
         with open(path, "rb") as file:
-            return read_from(file, os.fspath(path), Path(path).parent)
+            return torn_from(file, os.fspath(path), Path(path).parent, most)
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
 
 
 def read_from(file: BinaryIO, name: str, folder: Path | None = None) -> Recording:
     """As `read`, from an open binary file.  Lines end with a newline; blank ones and a byte order mark are ignored."""
+    found, fault = torn_from(file, name, folder)
+    if fault is not None:
+        raise fault
+    return found
+
+
+def torn_from(
+    file: BinaryIO, name: str, folder: Path | None = None, most: int = COMMANDS_CAP
+) -> tuple[Recording, FileError | None]:
+    """As `read_torn`, from an open binary file."""
     header: Header | None = None
     commands: list[Command] = []
     places: list[int] = []
-    for number, line in _lines(file, name):
-        try:
-            value = loads(line)
+    fault: FileError | None = None
+    try:
+        for number, line in _lines(file, name):
             if header is None:
-                header = parse_header(value)
+                header = _told(parse_header, line, name, number)
+            elif len(commands) == COMMANDS_CAP:
+                raise FileError(name, f"line {number}: found more than {COMMANDS_CAP} commands, expected fewer")
+            elif len(commands) == most:
+                break
             else:
-                commands.append(parse(value))
+                commands.append(_told(parse, line, name, number))
                 places.append(number)
-        except FieldError as error:
-            raise FileError(name, f"line {number}: {error}") from None
-        if len(commands) > COMMANDS_CAP:
-            raise FileError(name, f"line {number}: found more than {COMMANDS_CAP} commands, expected fewer")
+    except FileError as error:
+        fault = error
     if header is None:
-        raise FileError(name, 'found no line, expected the header {"inkfall": 1, "frame": [X, Y, W, H], "seed": S}')
-    return Recording(header, tuple(commands), tuple(places), folder, name)
+        expected = 'the header {"inkfall": 1, "frame": [X, Y, W, H], "seed": S}'
+        raise fault or FileError(name, f"found no line, expected {expected}")
+    return Recording(header, tuple(commands), tuple(places), folder, name), fault
+
+
+def _told(parsed: Callable[[object], T], line: bytes, name: str, number: int) -> T:
+    """Returns what a line tells; FileError names it."""
+    try:
+        return parsed(loads(line))
+    except FieldError as error:
+        raise FileError(name, f"line {number}: {error}") from None
 
 
 def _lines(file: BinaryIO, name: str) -> Iterator[tuple[int, bytes]]:

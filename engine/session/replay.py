@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+
+from immutables import Map
 
 from engine.canvas.evaluate import TileCache
 from engine.files.fault import FileError
@@ -10,6 +12,9 @@ from engine.painting.recording import Recording, undo_reach
 from engine.session.apply import STEPS, Painting, Refusal
 from engine.session.history import History
 from engine.session.session import HISTORY_BYTES, Session
+from engine.texture.image import ImageSource
+
+NO_PICTURES: Map[str, ImageSource] = Map()
 
 
 def opened(
@@ -35,11 +40,29 @@ def replay(
 
     FileError names the line of a command that cannot be done.
     """
+    session, fault = replay_torn(recording, cache, seed, tell)
+    if fault is not None:
+        raise fault
+    return session
+
+
+def replay_torn(
+    recording: Recording,
+    cache: TileCache | None = None,
+    seed: int | None = None,
+    tell: Callable[[int], object] = lambda done: None,
+    pictures: Mapping[str, ImageSource] = NO_PICTURES,
+) -> tuple[Session, FileError | None]:
+    """Returns the session after all commands up to the first that cannot be done, and what is wrong with that.
+
+    As `replay`; `pictures`: what definitions may name by their sha, wherever their files are now.
+    """
     session = opened(recording, cache, seed, history_bytes=0)
+    session.pictures = pictures
     for i, command in enumerate(recording.commands):
         try:
             session.do(command)
         except (Refusal, FileError) as error:
-            raise recording.fault(i, str(error)) from None
+            return session, recording.fault(i, str(error))
         tell(i + 1)
-    return session
+    return session, None

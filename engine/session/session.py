@@ -7,7 +7,7 @@ number of steps that were there to undo.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -36,6 +36,7 @@ class Session(Owned):
 
     `state`: another object as soon as the painting is another one; the same while it is only refined;
     `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
+    `pictures`: those that definitions may name by their sha besides the painting's, wherever their files are now;
     `extra`: members of the recording's header that this version does not know.
     """
 
@@ -52,6 +53,7 @@ class Session(Owned):
         self.state: object = object()
         self.cache = cache if cache is not None else TileCache(cache_budget())
         self.folder = folder
+        self.pictures: Mapping[str, ImageSource] = Map()
         self.log: list[c.Command] = list(log)
         self._history = history if history is not None else History(HISTORY_BYTES)
         self._extra = extra if extra is not None else Map()
@@ -106,7 +108,8 @@ class Session(Owned):
         now; `lent` among them."""
         textures = self.painting.textures.values()
         sources = (lent, *(t.source for t in textures), *(t.mask for t in textures))
-        return Around(self.cache, self.folder, {source.sha: source for source in sources if source is not None})
+        known = {source.sha: source for source in sources if source is not None}
+        return Around(self.cache, self.folder, {**self.pictures, **known})
 
     def _done(self, command: c.Command, after: Painting) -> Painting:
         if type(command) in STEPS:

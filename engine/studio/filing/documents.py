@@ -7,11 +7,11 @@ from pathlib import Path
 
 from engine.archive import export, saving
 from engine.archive.imports import open_image
-from engine.archive.opening import open_painting
 from engine.archive.plot_files import Mark
-from engine.painting.recording import Recording, read
+from engine.painting.recording import Recording, read_torn
 from engine.painting.value import Painting
 from engine.session import replay
+from engine.session.damaged import open_or_salvage
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.filing.playing import Playing
@@ -37,13 +37,14 @@ class Document:
 def opened(path: Path, live: bool = False) -> Document:
     """Returns what a file holds: a recording, a painting of ours or of another program, or a picture.
 
-    FileError if it is none that can be read.
+    Of a damaged file, what can be had.  FileError if that is nothing.
     """
     ending = path.suffix.lower()
     if ending == ".jsonl":
-        recording = read(path)
-        return Document(replay.opened(recording), script=Playing(recording, live))
-    found = open_painting(path) if ending == ".ora" else open_image(path)
+        recording, torn = read_torn(path)
+        notes = () if torn is None else (f"{torn.message}: what comes before is played, the rest is missing",)
+        return Document(replay.opened(recording), script=Playing(recording, live), notes=notes)
+    found = open_or_salvage(path) if ending == ".ora" else open_image(path)
     told = found.recording
     session = Session(
         found.painting,

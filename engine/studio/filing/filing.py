@@ -84,7 +84,7 @@ class Filing(Owned):
             self._easel.send(faults.told(error, "while a file was opened", "open", request.path))
             return
         self._show(found)
-        if found.script is not None:
+        if found.script is not None and not found.notes:
             self._easel.send(results.Note(f"Playing {request.path.name}"))
         elif found.notes:
             self._easel.send(_losses(request.path.name, found.notes))

@@ -1,0 +1,1 @@
+"""Damaged paintings: what is whole of them, and the ways in which they are opened."""

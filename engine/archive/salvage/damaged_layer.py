@@ -1,0 +1,127 @@
+"""A layer of which tiles are missing: its picture, as other programs see it, stands in for them.
+
+The picture has 8 bits and one level.  A tile of that level or a coarser one that is missing gets a residual by which it
+shows the picture, reduced; so does whatever else there shows something other than the picture.  All other tiles stay
+as they are, so that levels coarser than what is missing are as they were, and finer ones keep what they add.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.archive.grounds import with_tiles
+from engine.archive.implied import Coded, restored
+from engine.archive.imports import Pasted, pasted
+from engine.canvas.commit import commit
+from engine.canvas.evaluate import evaluate
+from engine.canvas.growth import Growth, meets
+from engine.canvas.layers import Layer
+from engine.canvas.reading import layer_planes
+from engine.canvas.store import Pyramid, Record
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.colour import from_rgba8, from_rgba16, to_rgba8
+from engine.numeric.grid import Q, snapped
+from engine.numeric.pyramid import reduce
+
+REACHING = 1 << 28  # pixels below a tile: at levels so coarse, nothing stands in for it
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Shown:
+    """A picture, uint8 or uint16 RGBA (h, w, 4), and where it lies: `rect` of `level`."""
+
+    pixels: np.ndarray
+    rect: Rect
+    level: int = 0
+
+    def laid(self) -> Pyramid:
+        """Returns a layer of nothing else."""
+        if self.level == 0:
+            return pasted(iter([self.pixels]), self.rect.x0, self.rect.y0)
+        return commit(Pyramid(), Pasted(self.pixels, self.rect, self.level))
+
+    def planes(self, level: int, rect: Rect) -> np.ndarray:
+        """Returns what the picture is like over `rect` of its level or a coarser one: float32 (4, h, w) on the grid, 0
+        outside it."""
+        finer = self.level - level
+        whole = rect.zoomed(finer)
+        part = whole.intersect(self.rect)
+        planes = np.zeros((4, whole.height, whole.width), np.float32)
+        if not part.empty:
+            pixels = np.ascontiguousarray(self.pixels[part.slices(self.rect)])
+            planes[:, *part.slices(whole)] = (from_rgba16 if pixels.dtype == np.uint16 else from_rgba8)(pixels)
+        for _ in range(finer):
+            planes = snapped(reduce(planes))
+        return planes
+
+    def differs(self, layer: Layer, rect: Rect) -> bool:
+        """Tells whether a layer shows something else over `rect` of the picture's level, to the bit of 8."""
+        seen = layer_planes(layer, self.level, rect)
+        pixels = self.pixels[rect.slices(self.rect)]
+        if seen is None:
+            return bool(pixels[..., 3].any())
+        if pixels.dtype == np.uint16:
+            pixels = to_rgba8(self.planes(self.level, rect))
+        return bool((pixels != to_rgba8(np.ascontiguousarray(seen))).any())
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Rest:
+    """What is left of a layer's tiles: those that are whole, the places of those that are not, and how many these are,
+    some of which may have had nothing in them."""
+
+    tiles: Sequence[Coded]
+    gone: Sequence[TileKey] = ()
+    missing: int = 0
+
+
+def rebuilt(ground: Pyramid, rest: Rest, growth: Growth = (), shown: Shown | None = None) -> Pyramid:
+    """Returns a layer of the tiles that are whole, on the picture that it began with; `shown` stands in for others."""
+    if shown is None:
+        return _with(ground, rest.tiles)
+    coarse = [tile for tile in rest.tiles if tile[0].level <= shown.level]
+    pyramid = _with(ground, coarse)
+    for key in sorted({key for key in rest.gone if key.level <= shown.level}):
+        if not meets(growth, key.level, key.rect):
+            pyramid = _showing(pyramid, key, shown)
+    layer = Layer(1, "layer", pyramid=pyramid)
+    for key in shown.rect.tiles(shown.level):
+        part = key.rect.intersect(shown.rect)
+        if not meets(growth, shown.level, part) and shown.differs(layer, part):
+            pyramid = _showing(pyramid, key, shown)
+    return _with(pyramid, [tile for tile in rest.tiles if tile[0].level > shown.level])
+
+
+def _with(pyramid: Pyramid, tiles: Sequence[Coded]) -> Pyramid:
+    levels: dict[int, dict[tuple[int, int], Record]] = {}
+    for key, record, _ in tiles:
+        levels.setdefault(key.level, {})[key.x, key.y] = record
+    pyramid = with_tiles(pyramid, levels)
+    restored(pyramid, tiles)
+    return pyramid
+
+
+def _showing(pyramid: Pyramid, key: TileKey, shown: Shown) -> Pyramid:
+    """With a residual by which a tile shows the picture, where that lies."""
+    part = key.rect.intersect(shown.rect.zoomed(key.level - shown.level))
+    if part.empty or part.zoomed(shown.level - key.level).area > REACHING:
+        return pyramid
+    place = part.slices(key.rect)
+    seen = evaluate(pyramid, key.level, part).rgba
+    wanted = shown.planes(key.level, part)
+    lacking = wanted - seen
+    if key.level == shown.level:  # what is the same in 8 bits is whole
+        same = (to_rgba8(wanted) == to_rgba8(np.ascontiguousarray(seen))).all(axis=-1)
+        lacking[:, same] = 0
+    stored = pyramid.levels.get(key.level)
+    old = None if stored is None else stored.get((key.x, key.y))
+    data = np.zeros((4 if old is None else len(old.data), TILE, TILE), np.int32)
+    if old is not None:
+        data[:, *old.rect.slices(Rect(0, 0, TILE, TILE))] = old.data
+    data[:4, *place] += np.rint(lacking / np.float32(Q)).astype(np.int32)
+    data.flags.writeable = False
+    record = Record(Rect(0, 0, TILE, TILE), data, () if old is None else old.inks, pyramid.depth)
+    return with_tiles(pyramid, {key.level: {(key.x, key.y): record}})

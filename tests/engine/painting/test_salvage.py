@@ -1,0 +1,310 @@
+"""Damaged paintings: what can be had of them is had.
+
+What can be had is told here, from where the damage lies, by a reader of its own:
+
+1. all paint, bit for bit, with frame, layers and textures, if either the recording is whole, with the pictures that it
+   needs and a manifest to find them by, or all packs and pictures are, with a manifest;
+2. else, with a manifest: each layer whose packs are whole, bit for bit; of the others all levels coarser than the
+   missing tiles, bit for bit, and within the frame the picture of the layer, to 1/255, if it is whole;
+3. else all commands before the first that cannot be read or done;
+4. else the layers' pictures, or that of all layers together.
+"""
+
+import json
+import struct
+import zipfile
+import zlib
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
+from engine.canvas import layers
+from engine.canvas.evaluate import TileCache
+from engine.canvas.fold import fold
+from engine.canvas.reading import layer_planes
+from engine.files.fault import FileError
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.session.apply import Painting
+from engine.session.damaged import open_or_salvage
+from engine.session.session import Session
+
+FRAME = Rect.at(-30, 10, 150, 110)
+FLIPS, CUTS = 150, 64
+RECORDING, MANIFESTS = "inkfall/recording.jsonl", ("inkfall/manifest.json", "inkfall/manifest-again.json")
+ROCK = [{"texture": "rock", "amount": 0.7, "colour": "#ffffff", "period": 24}]
+
+
+def stroke(x, y, level=0, **more):
+    brush = {"radius": 16, "colour": "#c04020", "hardness": 0.5, **more}
+    return {"do": "stroke", "level": level, "origin": [x, y], "points": [[0, 0], [30, 15, 0.7]], "brush": brush}
+
+
+COMMANDS = (
+    stroke(0, 60),
+    {"do": "layer", "add": "ink"},
+    stroke(40, 50, ink=ROCK),
+    stroke(80, 120, level=1, ink=ROCK, radius=12),
+    {"do": "texture", "name": "leaf", "maker": "image", "path": "leaf.png"},
+    {"do": "layer", "add": "Group", "kind": "group", "group": None},
+    {"do": "layer", "add": "inside", "group": "Group"},
+    stroke(20, 40, ink=[{"texture": "leaf", "amount": 1, "period": 20}]),
+    {"do": "layer", "set": "Group", "opacity": 0.6, "blend": "multiply"},
+    {"do": "layer", "add": "deep", "group": None},
+    stroke(4, 8, level=-3, radius=5),
+    stroke(200, 300, level=3, radius=40),
+    {"do": "undo", "count": 1},
+    stroke(250, 310, level=3, radius=50, mode="erase"),
+)
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """Four layers and levels -3 to 3, one of the textures a picture."""
+    return played(len(COMMANDS), tmp_path_factory.mktemp("pictures"))
+
+
+def played(count, folder):
+    y, x = np.mgrid[0:24, 0:40]
+    pixels = np.stack([x * 6, y * 10, x * 3 + y, 255 - x * 2], axis=-1).astype(np.uint8)
+    Image.fromarray(pixels).save(folder / "leaf.png")
+    session = Session(Painting(FRAME, 11), TileCache(64 << 20), folder=folder)
+    for command in COMMANDS[:count]:
+        session.do(c.parse(command))
+    return session
+
+
+@dataclass(frozen=True)
+class Member:
+    """`start`, `stop`: of its header and bytes in the file."""
+
+    start: int
+    stop: int
+
+
+@dataclass(frozen=True)
+class File:
+    """A saved painting, and what a reader of ZIP files finds in it."""
+
+    data: bytes
+    members: dict
+    manifest: dict
+    painting: object
+
+    def whole(self, name, damaged):
+        own = self.members[name]
+        return damaged[own.start : own.stop] == self.data[own.start : own.stop]
+
+
+def file_of(session, folder, recorded=True):
+    path = folder / "a.ora"
+    save(path, Snapshot(session.painting, session.recording() if recorded else None))
+    data = path.read_bytes()
+    members = {}
+    with zipfile.ZipFile(path) as archive:
+        for info in archive.infolist():
+            name, extra = struct.unpack_from("<2H", data, info.header_offset + 26)
+            stop = info.header_offset + 30 + name + extra + info.compress_size
+            members[info.filename] = Member(info.header_offset, stop)
+        manifest = json.loads(archive.read(MANIFESTS[0]))
+    return File(data, members, manifest, open_painting(path).painting)
+
+
+@pytest.fixture(scope="module")
+def recorded(session, tmp_path_factory):
+    return file_of(session, tmp_path_factory.mktemp("saved"))
+
+
+@pytest.fixture(scope="module")
+def unrecorded(session, tmp_path_factory):
+    return file_of(session, tmp_path_factory.mktemp("saved"), recorded=False)
+
+
+def flips(data, count, seed=5):
+    rng = np.random.default_rng(seed)
+    for place, bit in zip(rng.choice(len(data), count, replace=False), rng.integers(8, size=count), strict=True):
+        bad = bytearray(data)
+        bad[place] ^= 1 << int(bit)
+        yield int(place), bytes(bad)
+
+
+def cuts(data, count):
+    for length in np.linspace(100, len(data) - 1, count).astype(int):
+        yield int(length), data[:length]
+
+
+# ---- what is the same ----
+
+
+@lru_cache(maxsize=8)
+def residuals(pyramid):
+    """All that is stored of a layer: equal ones look the same at every level."""
+    found = {}
+    for key, record in fold(pyramid).all_records():
+        full = np.zeros((record.data.shape[0], 128, 128), np.int32)
+        r = record.rect
+        full[:, r.y0 : r.y1, r.x0 : r.x1] = record.data
+        found[key] = [full[:4], *((ink.key, full[4 + 3 * i : 7 + 3 * i]) for i, ink in enumerate(record.inks))]
+    return found
+
+
+def same_residuals(one, other):
+    if one.keys() != other.keys():
+        return False
+    return all(
+        len(a) == len(b)
+        and np.array_equal(a[0], b[0])
+        and all(same_ink(*pair) for pair in zip(a[1:], b[1:], strict=True))
+        for a, b in ((one[key], other[key]) for key in one)
+    )
+
+
+def same_ink(one, other):
+    return one[0] == other[0] and np.array_equal(one[1], other[1])
+
+
+def tree(painting):
+    """All properties of the layers, without their paint."""
+    told = [
+        (type(n).__name__, n.id, n.name, n.opacity, n.visible, n.blend, n.locked, layers.place(painting.root, n.name))
+        for n in layers.walk(painting.root)
+    ]
+    return told, painting.frame, painting.seed, painting.active
+
+
+def same(one, other):
+    if tree(one) != tree(other) or set(one.textures) != set(other.textures):
+        return False
+    pairs = zip(layers.layers(one.root), layers.layers(other.root), strict=True)
+    return all(same_residuals(residuals(a.pyramid), residuals(b.pyramid)) for a, b in pairs)
+
+
+# ---- what can be had ----
+
+
+def all_can_be_had(file, damaged):
+    known = any(file.whole(name, damaged) for name in MANIFESTS)
+    pictures = all(file.whole(n, damaged) for n in file.members if n.startswith("inkfall/pictures/"))
+    packs = all(file.whole(n, damaged) for n in file.members if n.endswith(".tiles"))
+    recording = RECORDING in file.members and file.whole(RECORDING, damaged)
+    return known and pictures and (packs or recording)
+
+
+def anything_can_be_had(file, damaged):
+    shown = "mergedimage.png" in file.members and file.whole("mergedimage.png", damaged)
+    return (
+        all_can_be_had(file, damaged)
+        or shown
+        or any(file.whole(n, damaged) for n in MANIFESTS)
+        or commands_whole(file, damaged, 0)
+    )
+
+
+def packs_of(file, name):
+    """The packs of a layer, by the manifest as it was."""
+
+    def found(nodes):
+        for node in nodes:
+            yield from found(node.get("children", ()))
+            if node["name"] == name and "packs" in node:
+                yield from (member for member, _, _ in node["packs"])
+
+    return list(found(file.manifest["layers"]))
+
+
+def levels_of(file, member):
+    """The levels of the tiles in a pack, as its head told them."""
+    own = file.members[member]
+    start = file.data.index(b"inkfall\x02", own.start) + 12
+    (length,) = struct.unpack_from("<I", file.data, start - 4)
+    return [tile[0] for tile in json.loads(file.data[start : start + length])["tiles"]]
+
+
+def lost_of(file, damaged, folder):
+    """Says what is lost that can be had; "" for nothing.  Damage is told where the file does not open as it was."""
+    path = folder / "damaged.ora"
+    path.write_bytes(damaged)
+    try:
+        found = open_or_salvage(path)
+    except FileError as error:
+        return f"refused: {error}" if anything_can_be_had(file, damaged) else ""
+    if not found.native and not found.notes:
+        return "nothing is told"
+    if all_can_be_had(file, damaged):
+        return "" if same(found.painting, file.painting) else "not all of the paint"
+    if found.native:
+        return "nothing is told"
+    if any(file.whole(name, damaged) for name in MANIFESTS):
+        return "; ".join(lost_of_layers(file, damaged, found.painting))
+    whole = next(n for n in range(len(COMMANDS), -1, -1) if commands_whole(file, damaged, n))
+    return "" if same(found.painting, played(whole, folder / "pictures").painting) else f"not all {whole} commands"
+
+
+def lost_of_layers(file, damaged, painting):
+    if tree(painting)[0][: len(tree(file.painting)[0])] != tree(file.painting)[0]:
+        yield "the layers"
+    pictures = all(file.whole(n, damaged) for n in file.members if n.startswith("inkfall/pictures/"))
+    for layer in layers.layers(file.painting.root):
+        torn = [member for member in packs_of(file, layer.name) if not file.whole(member, damaged)]
+        missing = min((level for member in torn for level in levels_of(file, member)), default=99)
+        if not pictures and layer.name == "inside":
+            missing = -99
+        before, after = residuals(layer.pyramid), residuals(layers.find(painting.root, layer.name).pyramid)
+        coarse, now = ({key: at for key, at in found.items() if key.level < missing} for found in (before, after))
+        if not same_residuals(coarse, now):
+            yield f"levels of {layer.name} coarser than {missing}"
+        png = f"data/L{layer.id}.png"
+        if missing < 99 and file.whole(png, damaged) and file.whole("stack.xml", damaged):
+            one, other = (picture(layers.find(p.root, layer.name)) for p in (file.painting, painting))
+            if np.abs(one - other).max() > 1:
+                yield f"the picture of {layer.name}"
+
+
+def picture(layer):
+    """The part in the frame, premultiplied, in units of 1/255."""
+    planes = layer_planes(layer, 0, FRAME)
+    return np.zeros((4, FRAME.height, FRAME.width)) if planes is None else 255.0 * planes
+
+
+def commands_whole(file, damaged, count):
+    """Whether so many commands can be read, and done without the picture of a texture, if that is not whole."""
+    own = file.members[RECORDING]
+    inflate, text = zlib.decompressobj(-15), b""
+    length = struct.unpack_from("<H", file.data, own.start + 26)[0]
+    text = inflate.decompress(damaged[own.start + 30 + length : own.stop])
+    named = next(n for n, command in enumerate(COMMANDS) if command["do"] == "texture")
+    return text.count(b"\n") > count and count <= named
+
+
+# ---- the proof ----
+
+
+def all_lost(file, damaged, folder):
+    """By the place of the damage, what is lost of that which can be had."""
+    (folder / "pictures").mkdir()
+    told = ((place, lost_of(file, bad, folder)) for place, bad in damaged)
+    return {place: lost for place, lost in told if lost}
+
+
+def test_no_flip_and_no_cut_loses_paint_that_can_be_had(recorded, tmp_path):
+    some = [*list(flips(recorded.data, FLIPS))[::5], *list(cuts(recorded.data, CUTS))[::5]]
+    assert not all_lost(recorded, some, tmp_path)
+
+
+@pytest.mark.nightly
+def test_none_of_many_does(recorded, tmp_path):
+    assert not all_lost(recorded, [*flips(recorded.data, FLIPS), *cuts(recorded.data, CUTS)], tmp_path)
+
+
+def test_without_a_recording_each_layer_is_had_as_far_as_it_is_whole(unrecorded, tmp_path):
+    assert not all_lost(unrecorded, list(flips(unrecorded.data, FLIPS, seed=6))[::8], tmp_path)
+
+
+@pytest.mark.nightly
+def test_without_a_recording_none_of_many_does(unrecorded, tmp_path):
+    assert not all_lost(unrecorded, flips(unrecorded.data, FLIPS, seed=6), tmp_path)
