@@ -69,7 +69,7 @@ def joined_options(words: list[str]) -> list[str]:
     """`--rect -4,0,0,8,8` as `--rect=-4,0,0,8,8`: argparse would take the value for an option."""
     out: list[str] = []
     for word in words:
-        if out and out[-1] in ("--rect", "--origin") and _RECTANGLE.fullmatch(word):
+        if out and out[-1] in ("--rect", "--origin", "--at") and _RECTANGLE.fullmatch(word):
             out[-1] += f"={word}"
         else:
             out.append(word)
@@ -86,6 +86,16 @@ def rectangle(text: str) -> Rectangle:
     if found.width < 1 or found.height < 1 or abs(found.level) > 4096:
         raise argparse.ArgumentTypeError(f"found {text[:80]!r}, {expected}, L from -4096 to 4096")
     return found
+
+
+def pixel(text: str) -> tuple[int, int, int]:
+    """`L,X,Y`: a level and a pixel of it, integers of any size."""
+    parts = text.split(",")
+    right = len(parts) == 3 and all(re.fullmatch(r"\s*[+-]?[0-9]{1,4000}\s*", part) for part in parts)
+    if not right or abs(int(parts[0])) > 4096:
+        raise argparse.ArgumentTypeError(f"found {text[:80]!r}, expected L,X,Y: three integers, L from -4096 to 4096")
+    level, x, y = (int(part) for part in parts)
+    return level, x, y
 
 
 def count(text: str) -> int:

@@ -1,14 +1,16 @@
-"""Tell what a painting holds: layers, ink instances, levels used, bytes, bounds."""
+"""Tell what a painting holds: layers, ink instances, levels used, bytes, bounds; or what was painted at a place."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import os
+from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
-from app.cli.outcome import DONE
-from app.cli.output import opened_painting, salvage_option
+from app.cli.arguments import pixel
+from app.cli.outcome import DONE, Failed
+from app.cli.output import grown, opened_painting, salvage_option
 
 if TYPE_CHECKING:
     from engine.archive.imports import Opened
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from engine.canvas.layers import Group, Node
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
+    from engine.session.painted_here import ShownStroke
 
 _WIDE = 2048  # pixels: how finely bounds are found
 
@@ -25,10 +28,21 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("painting", metavar="PAINTING.ora")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     salvage_option(parser)
+    parser.add_argument(
+        "--at", type=pixel, metavar="L,X,Y", help="the strokes that show at a pixel of a level, newest first"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
+    if options.at is not None:
+        seed, found = strokes_at(options.painting, options.at, not options.json, options.salvage)
+        if options.json:
+            strokes = [told_stroke(shown, seed) for shown in found]
+            print(json.dumps({"file": options.painting, "at": list(options.at), "strokes": strokes}))
+        else:
+            print("\n".join(map(_line_of, found)) or "no stroke shows there")
+        return DONE
     told = facts(opened_painting(options.painting, not options.json, options.salvage))
     told = {"file": options.painting, "file_bytes": os.path.getsize(options.painting), **told}
     if options.json:
@@ -36,6 +50,44 @@ def run(options: argparse.Namespace) -> int:
     else:
         _print(told)
     return DONE
+
+
+def strokes_at(
+    path: str, at: tuple[int, int, int], tell: bool = True, salvage: bool = False
+) -> tuple[int, tuple[ShownStroke, ...]]:
+    """Returns the seed of a painting, and its strokes that show at a pixel (level, x, y), newest first.
+
+    Failed if the painting does not say how it was made.
+    """
+    from engine.painting.value import Painting
+    from engine.session.painted_here import CanvasPixel, PaintedHere
+    from engine.session.steps import Steps
+
+    found = opened_painting(path, tell, salvage)
+    if found.recording is None:
+        raise Failed(f"{path}: found no recording, expected one: what was painted where is not known")
+    painting = grown(path, found)
+    steps = Steps(Painting(painting.frame, painting.seed), found.recording.commands)
+    return painting.seed, PaintedHere().at(CanvasPixel(*at), painting, steps)
+
+
+def told_stroke(shown: ShownStroke, seed: int) -> dict[str, object]:
+    """Returns what is told of a stroke, ready for JSON.  `index` counts the commands of the painting's recording, from
+    1; `shows` is the stroke's share of the pixel, 0..1; `seed`: of the painting."""
+    from engine.brush import settings
+    from engine.painting.times import time_of
+
+    stroke = shown.stroke
+    return {
+        "index": shown.step.index + 1,
+        "layer": shown.layer,
+        "level": stroke.level,
+        "shows": round(shown.share, 4),
+        "brush": settings.to_json(stroke.brush),
+        "textures": settings.textures_of(stroke.brush),
+        "seed": seed if stroke.seed is None else stroke.seed,
+        "time": time_of(stroke),
+    }
 
 
 def facts(found: Opened) -> dict[str, Any]:
@@ -158,6 +210,18 @@ def _print(told: dict[str, Any]) -> None:
         print(f"texture: {name}, {kind}")
     if told["commands"] is not None:
         print(f"recording: {told['commands']} commands")
+
+
+def _line_of(shown: ShownStroke) -> str:
+    from engine.brush.settings import textures_of
+    from engine.painting.times import time_of
+
+    brush, textures, time = shown.stroke.brush, ", ".join(textures_of(shown.stroke.brush)), time_of(shown.stroke)
+    when = "" if time is None else f"; {datetime.fromtimestamp(time):%Y-%m-%d %H:%M:%S}"
+    return (
+        f"command {shown.step.index + 1}: {brush.mode} {brush.colour}{f' with {textures}' if textures else ''}, radius"
+        f" {brush.radius:g} at level {shown.stroke.level}, on {shown.layer!r}; {shown.share:.1%} shows{when}"
+    )
 
 
 def _told_plot(plot: dict[str, Any]) -> str:

@@ -184,6 +184,11 @@ class Chosen:
         """Tells whether the texture tells what is done, and not how strongly."""
         return self.parameters.get("by") == "texture"
 
+    @property
+    def hides(self) -> bool:
+        """Tells whether what it makes at full strength does not go by the colour that was there."""
+        return self.row is not None and (self.row.lays or self.by_texture or self.row.kernel == "smooth")
+
 
 def read(value: Any, place: str) -> OpValue:
     """Returns the checked value of a brush's `op`: a name, or an immutable object.  BrushError names what is wrong."""

@@ -171,6 +171,13 @@ def to_json(brush: Brush) -> dict[str, Any]:
     return out
 
 
+def textures_of(brush: Brush) -> list[str]:
+    """Returns the names of the textures that a brush uses, each once: of its ink, coverage, tip and example."""
+    parts = (*brush.ink, brush.density, brush.grain, brush.tip)
+    named = [*(part.texture for part in parts if part is not None), *([brush.example] if brush.example else ())]
+    return list(dict.fromkeys(named))
+
+
 _RARE: dict[str, Any] = {
     "ink": (),
     "op": "toward",

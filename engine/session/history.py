@@ -77,6 +77,12 @@ class History(Owned):
         self.held += step.lost - step.gained
         return step.after
 
+    def at(self, by: int) -> Painting | None:
+        """Returns the painting so many steps on, or back if that is negative; None where that is not held, or is 0."""
+        if 0 < -by <= len(self._done):
+            return self._done[by].before
+        return self._undone[-by].after if 0 < by <= len(self._undone) else None
+
     def amend(self, root: Group) -> None:
         """The layers as they are now, further refined, are `root`."""
         if self._done:

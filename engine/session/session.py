@@ -24,6 +24,7 @@ from engine.painting.textures import Around, recorded
 from engine.painting.value import Painting
 from engine.session.apply import STEPS, apply
 from engine.session.history import History
+from engine.session.steps import Steps
 from engine.strokes.example_stroke import Live, kind_of
 from engine.texture.image import ImageSource
 
@@ -37,7 +38,8 @@ class Session(Owned):
     `state`: another object as soon as the painting is another one; the same while it is only refined;
     `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
     `pictures`: those that definitions may name by their sha besides the painting's, wherever their files are now;
-    `extra`: members of the recording's header that this version does not know.
+    `extra`: members of the recording's header that this version does not know; `base`: what the
+    log begins with; `leapt`: whether there are steps beyond what the history holds that can be reached.
     """
 
     def __init__(
@@ -57,21 +59,32 @@ class Session(Owned):
         self.log: list[c.Command] = list(log)
         self._history = history if history is not None else History(HISTORY_BYTES)
         self._extra = extra if extra is not None else Map()
+        self.base = Painting(self.painting.frame, self.painting.seed) if self.log else self.painting
+        self.leapt = False
+        self._steps: Steps | None = None
 
     @property
     def can_undo(self) -> bool:
         """Tells whether there is a step to take back."""
-        return self._history.undo_count > 0
+        return self._history.undo_count > 0 or (self.leapt and self.steps.count > 0)
 
     @property
     def can_redo(self) -> bool:
         """Tells whether there is a step to do again."""
-        return self._history.redo_count > 0
+        return self._history.redo_count > 0 or (self.leapt and bool(self.steps.undone))
 
     @property
     def history(self) -> History:
         """Gives the paintings before and after."""
         return self._history
+
+    @property
+    def steps(self) -> Steps:
+        """Gives the steps that the log comes to, as it is now."""
+        if self._steps is None:
+            self._steps = Steps(self.base)
+        self._steps.follow(self.log)
+        return self._steps
 
     def do(self, command: c.Command, lent: ImageSource | None = None) -> Painting:
         """Carries out any command; returns the painting after it.  Refusal or FileError: nothing has changed, nothing
@@ -137,12 +150,24 @@ class Session(Owned):
         step = self._history.undo if undoing else self._history.redo
         for _ in range(count):
             found = step()
-        # What is no step stays as it is: the textures defined, and the active layer if it is still there.
+        return self._arrive(found, replace(command, count=count))
+
+    def leap(self, number: int, found: Painting, history: History) -> Painting:
+        """Makes the step of a number (`Steps`) the last one that is done, though the history does not hold it.
+
+        `found`: the painting after it, played anew, and `history` what led to it.  Recorded as undo or redo is.
+        """
+        by = number - self.steps.count
+        self._history, self.leapt = history, True
+        return self._arrive(found, c.Undo(-by) if by < 0 else c.Redo(by))
+
+    def _arrive(self, found: Painting, command: c.Undo | c.Redo) -> Painting:
+        """What is no step stays as it is: the textures defined, and the active layer if it is still there."""
         active = self.painting.active
         if active is None or not layers.has(found.root, active):
             active = found.active
         self.painting, self.state = replace(found, textures=self.painting.textures, active=active), object()
-        self.log.append(replace(command, count=count))
+        self.log.append(command)
         return self.painting
 
 

@@ -107,3 +107,23 @@ def test_a_cut_painting_is_refused(saved, tmp_path, capsys):
         assert str(path) in refused(capsys, "info", path)
         assert str(path) in refused(capsys, "export", path, tmp_path / "o.png")
     assert not (tmp_path / "o.png").exists()
+
+
+def test_what_was_painted_at_a_place(saved, tmp_path, capsys):
+    capsys.readouterr()
+    assert main(["info", str(saved), "--at", "0,26,21", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["at"] == [0, 26, 21]
+    top, sky = told["strokes"]
+    assert (top["index"], top["layer"], top["level"], top["textures"]) == (4, "Top", 3, [])
+    assert (sky["index"], sky["layer"], sky["textures"], sky["seed"], sky["time"]) == (2, "Sky", ["rock"], 7, None)
+    assert sky["brush"]["colour"] == "#803010"
+    assert 0 < top["shows"] < 1
+    assert main(["info", str(saved), "--at", "0,60,3"]) == 0
+    assert capsys.readouterr().out == "no stroke shows there\n"
+    assert main(["info", str(saved), "--at", f"60,{26 << 60},{21 << 60}"]) == 0
+    assert capsys.readouterr().out.startswith("command 4: paint #000000, radius 9 at level 3, on 'Top'; ")
+    assert "expected L,X,Y: three integers" in refused(capsys, "info", saved, "--at", "0,5")
+    part = tmp_path / "part.ora"
+    assert main(["export", str(saved), str(part), "--layer", "Sky"]) == 0
+    assert "found no recording" in refused(capsys, "info", part, "--at", "0,26,21", status=1)

@@ -1,0 +1,191 @@
+"""How much of a few pixels, of any level, a stroke covered: found again from its command, by the dabs that lie near.
+
+At levels finer than its own a stroke is expanded, at coarser ones averaged, as the canvas does it; where it is more
+than three levels finer than the pixels, its dabs are laid smaller, and what thins its coverage is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from engine.brush import ops, relief, tip
+from engine.brush.dabs import Stroker
+from engine.brush.dynamics import knots_of
+from engine.brush.extent import WIDEST
+from engine.brush.footprint import Footprint
+from engine.brush.ink import Texture
+from engine.brush.mask import StrokeMask
+from engine.brush.mixture import Mixture, mixture
+from engine.brush.relief import Relief
+from engine.brush.settings import Brush, textures_of
+from engine.checks.field_error import FieldError
+from engine.numeric.address import Rect
+from engine.numeric.pyramid import expand, reduce
+from engine.painting.commands import Stroke
+from engine.texture.image import ImageSource
+
+_EXACT = 3  # levels finer than the pixels asked for at which dabs are laid as they were
+_OPACITY = 3  # column of a dab
+_SEEN = 2  # px around a stroke within which it is seen at finer levels
+
+Textures = Mapping[str, Texture | ImageSource]
+
+
+def stroke_bounds(stroke: Stroke) -> Rect:
+    """Returns a rectangle of pixels of the stroke's level outside which it covers nothing."""
+    widest = stroke.brush.radius * max(factor for _, factor in knots_of(stroke.brush.dynamics.get("radius")))
+    reach = widest + 2.0 + (WIDEST if stroke.brush.extent else 0.0)
+    x0, y0 = (int((low - reach) // 1) for low in stroke.points[:, :2].min(axis=0))
+    x1, y1 = (int(-((-high - reach) // 1)) for high in stroke.points[:, :2].max(axis=0))
+    x, y = stroke.origin
+    return Rect(x + x0, y + y0, x + x1, y + y1)
+
+
+def near(stroke_level: int, level: int, rect: Rect) -> Rect:
+    """Returns the pixels of a stroke's level whose coverage is seen in `rect` of another level."""
+    found = rect.zoomed(stroke_level - level)
+    return found if stroke_level >= level else found.grown(_SEEN)
+
+
+class Seeds(NamedTuple):
+    """Of the stroke's textures, and of the painting, to which the grain belongs."""
+
+    own: int
+    painting: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Parts:
+    """What a brush's coverage depends on besides its dabs, at the level of its strokes."""
+
+    tip: tip.Pattern | None
+    relief: Relief
+    mixture: Mixture | None
+
+
+class Covering:
+    """Finds coverages; what is known of a brush's textures is kept from one stroke to the next of the same look."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[object, ...], _Parts] = {}
+
+    def over(self, stroke: Stroke, level: int, rect: Rect, textures: Textures, seeds: Seeds) -> np.ndarray | None:
+        """Returns how much of each pixel the stroke changes, 0..1: float32 (h, w) over `rect` of `level`; None where it
+        covers nothing.  `textures`: those that it was painted with, by name."""
+        at = min(stroke.level, level + _EXACT)
+        seen = rect.zoomed(at - level) if at >= level else _ancestors(rect, level - at)[-1]
+        found = self._laid(stroke, at, seen, textures, seeds)
+        if found is None:
+            return None
+        if at >= level:
+            for _ in range(at - level):
+                found = reduce(found[None])[0]
+            return found
+        return _expanded(found, rect, level - at)
+
+    def _laid(self, stroke: Stroke, at: int, rect: Rect, textures: Textures, seeds: Seeds) -> np.ndarray | None:
+        """Returns the coverage over a rectangle of a level that is not finer than the stroke's."""
+        if stroke.brush.row.grows:
+            return _taken(stroke, at, rect)
+        coarser = stroke.level - at
+        parts = self._parts(stroke, textures, seeds) if not coarser else _Parts(None, Relief(), None)
+        corner, dabs = _dabs(stroke, coarser)
+        if not _keep_near(dabs, corner, rect.grown(parts.relief.reach + 1)):
+            return None
+        mask = StrokeMask(at, corner, tip=parts.tip)
+        mask.paint(dabs)
+        coverage = parts.relief.over(mask.coverage())
+        out = np.zeros((rect.height, rect.width), np.float32)
+        for key in rect.tiles(at):
+            if key in coverage.tiles:
+                part = key.rect.intersect(rect)
+                tile = coverage.on_grid(key)
+                if parts.mixture is not None:
+                    tile *= np.clip(parts.mixture.tile(key), 0.0, 1.0)
+                out[part.slices(rect)] = tile[part.slices(key.rect)]
+        return out if out.any() else None
+
+    def _parts(self, stroke: Stroke, textures: Textures, seeds: Seeds) -> _Parts:
+        brush = stroke.brush
+        look = replace(brush, colour="#000000", flow=1.0, spacing=1.0)
+        named = tuple(textures.get(name) for name in textures_of(brush))
+        key = look, stroke.level, seeds, named
+        if key not in self._known:
+            try:
+                self._known[key] = _resolved(brush, stroke.level, textures, seeds)
+            except FieldError:  # a texture that is gone: the dabs alone tell
+                self._known[key] = _Parts(None, Relief(), None)
+        return self._known[key]
+
+
+def hides(brush: Brush) -> bool:
+    """Tells whether a stroke at full strength leaves nothing to see of what was there: false for raster-ops that only
+    change it."""
+    return not brush.row.uses_op or ops.chosen(brush.op).hides
+
+
+def _resolved(brush: Brush, level: int, textures: Textures, seeds: Seeds) -> _Parts:
+    mixed = None
+    if brush.row.uses_op and brush.ink and not ops.chosen(brush.op).by_texture:
+        mixed = Mixture(mixture(brush, textures, level, seeds.own), level)
+    return _Parts(tip.resolve(brush, textures, level, seeds.own), relief.resolve(brush, textures, level, seeds), mixed)
+
+
+def _dabs(stroke: Stroke, coarser: int) -> tuple[tuple[int, int], np.ndarray]:
+    """Returns the stroke's origin and its dabs, float64 (n, 6), in pixels of a level so much coarser."""
+    dabs = Stroker(stroke.brush).walk(stroke.points)
+    x, y = stroke.origin
+    corner = x >> coarser, y >> coarser
+    if coarser:
+        scale = 2.0**-coarser
+        dabs[:, 0] = (dabs[:, 0] + (x - (corner[0] << coarser))) * scale
+        dabs[:, 1] = (dabs[:, 1] + (y - (corner[1] << coarser))) * scale
+        dabs[:, 2] *= scale
+    return corner, dabs
+
+
+def _keep_near(dabs: np.ndarray, corner: tuple[int, int], rect: Rect) -> bool:
+    """Takes the paint from the dabs that do not reach a rectangle; they still count, or tips would lie otherwise.
+    Returns whether any is left."""
+    x0, y0, x1, y1 = (float(edge - corner[n % 2]) for n, edge in enumerate(rect))
+    x, y, reach = dabs[:, 0], dabs[:, 1], np.maximum(dabs[:, 2], 0.5) + 1.0
+    met = (x + reach > x0) & (x - reach < x1) & (y + reach > y0) & (y - reach < y1)
+    dabs[~met, _OPACITY] = 0.0
+    return bool(met.any())
+
+
+def _taken(stroke: Stroke, at: int, rect: Rect) -> np.ndarray | None:
+    """Returns 1 where a stroke with an example takes pixels, 0 elsewhere: its dabs' shape is not looked at."""
+    found = Footprint(stroke.brush, stroke.origin, at - stroke.level, None, rect)
+    out = np.zeros((rect.height, rect.width), np.float32)
+    for part, mask in found.lay(stroke.points):
+        meeting = part.intersect(rect)
+        view = out[meeting.slices(rect)]
+        np.maximum(view, mask[meeting.slices(part)], out=view)
+    return out if out.any() else None
+
+
+def _expanded(coverage: np.ndarray, rect: Rect, finer: int) -> np.ndarray | None:
+    """Returns a coverage over `near` of a rectangle, carried down to it."""
+    rects = _ancestors(rect, finer)
+    for outer, inner in pairwise(reversed(rects)):
+        first = coverage[0, 0]
+        if (coverage == first).all():
+            return np.full((rect.height, rect.width), first, np.float32) if first else None
+        coverage = expand(coverage[None, *inner.parents().slices(outer)])[0]
+    return coverage[rect.slices(rects[0])]
+
+
+@lru_cache(64)
+def _ancestors(rect: Rect, levels: int) -> tuple[Rect, ...]:
+    """Returns a rectangle, and what expand reads to make it, up to the level so many above."""
+    rects = [rect.evened()]
+    for _ in range(levels):
+        rects.append(rects[-1].parents().evened())
+    return tuple(rects)
