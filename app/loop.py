@@ -120,9 +120,12 @@ def _load(name: str) -> None:
 
 
 def _worker(window: Window) -> Worker:
+    from engine.journal.heads import head_of_new
+    from engine.journal.journal import Journal
+    from engine.studio.posts import Posts
     from engine.studio.worker import Worker
 
-    worker = Worker(window.pace.told)
+    worker = Worker(window.pace.told, posts=Posts(Journal(head_of_new())))
     window.connect(worker)
     return worker
 

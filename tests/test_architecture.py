@@ -25,6 +25,7 @@ ORDER = (
     ("engine.makers",),
     ("engine.archive",),
     ("engine.session",),
+    ("engine.journal",),
     ("engine.studio",),
     ("app.input", "app.theme", "app.icons", "app.keys", "app.trace", "app.faults"),
     ("app.canvas",),

@@ -51,7 +51,7 @@ def replacing(path: str | os.PathLike[str], verify: Callable[[Path], None] | Non
             verify(part)
         os.replace(part, target)
         done = True
-        _sync_folder(target.parent)
+        sync_folder(target.parent)
     except OSError as error:
         outcome = "was written, but may not survive a loss of power" if done else "cannot be written"
         raise WriteError(path, f"{outcome}: {_reason(error)}") from error
@@ -140,7 +140,7 @@ def _abandoned(part: Path, pid: int) -> bool:
     return True
 
 
-def _sync_folder(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
     """Makes the rename durable; systems that cannot open or sync a folder do without."""
     try:
         descriptor = os.open(folder, os.O_RDONLY)

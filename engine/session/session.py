@@ -7,7 +7,7 @@ number of steps that were there to undo.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -30,6 +30,7 @@ from engine.texture.image import ImageSource
 
 HISTORY_BYTES = 1 << 30
 SMALLEST_CACHE = 64 << 20
+Heard = Callable[[c.Command, Live | None], None]
 
 
 class Session(Owned):
@@ -39,7 +40,8 @@ class Session(Owned):
     `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
     `pictures`: those that definitions may name by their sha besides the painting's, wherever their files are now;
     `extra`: members of the recording's header that this version does not know; `base`: what the
-    log begins with; `leapt`: whether there are steps beyond what the history holds that can be reached.
+    log begins with; `leapt`: whether there are steps beyond what the history holds that can be reached;
+    `heard` is told each command as it is recorded, with the stroke if it grew as one.
     """
 
     def __init__(
@@ -62,6 +64,7 @@ class Session(Owned):
         self.base = Painting(self.painting.frame, self.painting.seed) if self.log else self.painting
         self.leapt = False
         self._steps: Steps | None = None
+        self.heard: Heard = lambda command, live: None
 
     @property
     def can_undo(self) -> bool:
@@ -108,8 +111,9 @@ class Session(Owned):
         if live.empty:
             return self.painting
         if live.before is not self.painting:  # something else was done in between
-            return self.do(live.to_command())
-        return self._done(live.to_command(), live.commit())
+            command = live.to_command()
+            return self._done(command, apply(self.painting, command, self.around()), live)
+        return self._done(live.to_command(), live.commit(), live)
 
     def recording(self) -> Recording:
         """Returns all that was done, as a recording that gives this painting."""
@@ -124,7 +128,7 @@ class Session(Owned):
         known = {source.sha: source for source in sources if source is not None}
         return Around(self.cache, self.folder, {**self.pictures, **known})
 
-    def _done(self, command: c.Command, after: Painting) -> Painting:
+    def _done(self, command: c.Command, after: Painting, live: Live | None = None) -> Painting:
         if type(command) in STEPS:
             self._history.push(self.painting, after)
         last = self.log[-1] if self.log else None
@@ -133,6 +137,7 @@ class Session(Owned):
         self.log.append(command)
         if after is not self.painting:
             self.painting, self.state = after, object()
+        self.heard(command, live)
         return after
 
     def amend(self, painting: Painting) -> None:
@@ -168,6 +173,7 @@ class Session(Owned):
             active = found.active
         self.painting, self.state = replace(found, textures=self.painting.textures, active=active), object()
         self.log.append(command)
+        self.heard(command, None)
         return self.painting
 
 

@@ -26,6 +26,7 @@ class Drawn:
 
     `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
     points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
+    `asked`: the number under which the journal knows its points.
     `own`: the seed of its random numbers, the painting's where its command (`seed`) has none.
     BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
     """
@@ -47,6 +48,7 @@ class Drawn:
         self.own = painting.seed if seed is None else seed
         self.dropped = 0
         self.extra: Map[str, Any] = Map()
+        self.asked: int | None = None
         self._named = layer
         self._points: list[np.ndarray] = []
         self._count = 0

@@ -44,6 +44,7 @@ class Easel(Owned):
 
     def show(self, session: Session, path: Path | None) -> None:
         """Puts another painting on the easel."""
+        session.heard = self.session.heard
         self.live, self.session = None, session
         self.path, self.saved = path, session.state
         self.serial += 1
@@ -79,9 +80,11 @@ class Easel(Owned):
             return
         self._grew(self.live.add(points))
         if self.live.full:
-            stroke = self.live.to_command()
+            stroke, asked = self.live.to_command(), self.live.asked
             self.finish()
             self.begin(replace(stroke, points=points[:0]))
+            assert self.live is not None
+            self.live.asked = asked
 
     def finish(self) -> None:
         """Commits the stroke."""

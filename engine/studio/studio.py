@@ -17,6 +17,7 @@ from engine.painting.points import rounded
 from engine.painting.times import members, timed
 from engine.studio import requests as q
 from engine.studio import results, swatch_files, swatches
+from engine.studio.answers import Answers
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
 from engine.studio.filing.filing import Filing
@@ -24,6 +25,7 @@ from engine.studio.filing.writers import Post, Send
 from engine.studio.grower import Grower
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
+from engine.studio.posts import Posts
 from engine.studio.ready import ready
 from engine.studio.region_strokes import Regions
 from engine.studio.warming import Warming
@@ -63,11 +65,15 @@ class Studio(Owned):
     """What the worker works at.  It belongs to the engine's thread.
 
     `send` and `post` may be called from any thread: `send` takes results to the window, `post` requests to this.
+    `posts`: what was asked for, as the journal knows it; None without a journal.
     """
 
-    def __init__(self, send: Send, post: Post) -> None:
+    def __init__(self, send: Send, post: Post, posts: Posts | None = None) -> None:
         self.easel = easel = Easel(send)
         self.filing, self.lab, self.grower = Filing(easel, post), Lab(easel), Grower(easel)
+        self._answers = None if posts is None else Answers(easel, posts)
+        if self._answers is not None:
+            self.filing.turned, self.filing.mark = self._answers.turn, self._answers.mark
         viewer = easel.viewer
         # From the most urgent: first what the pen just painted, on the canvas or in a region.
         self._rows = (
@@ -98,7 +104,11 @@ class Studio(Owned):
     def do(self, request: q.Request) -> None:
         """Carries out a request that changes something; sends its results."""
         if self.filing.comes_between(request):
-            self._handlers[type(request)](request)
+            handle = self._handlers[type(request)]
+            if self._answers is None:
+                handle(request)
+            else:
+                self._answers.carry_out(request, handle)
 
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""

@@ -13,10 +13,14 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import Protocol
+from functools import partial
+from typing import TYPE_CHECKING, Protocol
 
 from engine.studio.requests import Look, Request, Swatch
 from engine.studio.results import Note, Pending, Result
+
+if TYPE_CHECKING:
+    from engine.studio.posts import Posts
 
 
 class Bench(Protocol):
@@ -64,7 +68,7 @@ _PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at m
 _Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
 
 
-def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> Bench:
+def _studio(send: Callable[[Result], None], post: Callable[[Request], None], posts: Posts | None = None) -> Bench:
     from engine.studio.preparing.job_queue import PLAIN_PAINT
     from engine.studio.preparing.processes import Preparing
 
@@ -74,14 +78,18 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None]) -> 
     from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
 
-    return Waiting(Studio(send, post), preparing, send)
+    return Waiting(Studio(send, post, posts), preparing, send)
 
 
 class Worker:
-    """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread."""
+    """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread.
+    `posts`: takes what is posted to the journal."""
 
-    def __init__(self, wake: Callable[[], None], make: _Maker = _studio) -> None:
-        self._wake, self._make = wake, make
+    def __init__(self, wake: Callable[[], None], make: _Maker = _studio, posts: Posts | None = None) -> None:
+        self._wake, self._make, self._posts = wake, make if posts is None else partial(_studio, posts=posts), posts
+        self._stays = True  # whether the painting is to be recovered
+        if posts is not None:
+            posts.hear(self._send)
         self._posted: deque[Request] = deque()
         self._look: Look | None = None
         self._swatches: dict[str, Swatch] = {}
@@ -100,6 +108,8 @@ class Worker:
 
     def post(self, request: Request) -> None:
         """Leaves a request; returns at once."""
+        if self._posts is not None:
+            self._posts.tell(request)
         with self._signal:
             if isinstance(request, Look):
                 self._look = request
@@ -144,11 +154,11 @@ class Worker:
         with self._signal:
             return bool(self._posted) or self._doing or self._waiting or bool(self._results)
 
-    def close(self, timeout: float | None = 10.0) -> None:
+    def close(self, timeout: float | None = 10.0, by_choice: bool = True) -> None:
         """Ends the thread after what was posted before is done and files are written; waits so many seconds for it,
-        at most."""
+        at most.  `by_choice`: the artist closed the painting as it is; else it is to be recovered."""
         with self._signal:
-            self._closing = True
+            self._closing, self._stays = True, not by_choice
             self._signal.notify()
         self._thread.join(timeout)
 
@@ -214,6 +224,8 @@ class Worker:
         self._work(bench)
         bench.close()
         self._work(bench)  # what the threads that wrote files have posted
+        if self._posts is not None:
+            self._posts.close(self._stays)
 
     def _work(self, bench: Bench) -> None:
         """Does what is to be done, until the worker is closed and nothing posted is left."""

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
+from engine.journal.heads import FileStamp, head_of_file, head_of_new
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.studio import faults, results
@@ -33,6 +35,8 @@ class Filing(Owned):
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._known = True  # whether the session's log leads from nothing to the painting
         self._writers = Writers(easel.send, post)
+        self.turned: Callable[[Mapping[str, object]], None] = lambda head: None  # another painting comes on the easel
+        self.mark: Callable[[], Callable[[Path], None]] = lambda: lambda path: None  # what hears of it when it is saved
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
@@ -75,21 +79,24 @@ class Filing(Owned):
             self._easel.send(results.Note("The recording has ended"))
 
     def _new(self, request: q.New) -> None:
-        self._show(Document(Session(Painting(frame=request.frame, seed=request.seed))))
+        session = Session(Painting(frame=request.frame, seed=request.seed))
+        self._show(Document(session), head_of_new(session.recording().header))
 
     def _open(self, request: q.Open) -> None:
+        stamp = FileStamp.of(request.path)
         try:
             found = documents.opened(request.path, request.live)
         except Exception as error:
             self._easel.send(faults.told(error, "while a file was opened", "open", request.path))
             return
-        self._show(found)
+        self._show(found, _head(request.path, stamp, found))
         if found.script is not None and not found.notes:
             self._easel.send(results.Note(f"Playing {request.path.name}"))
         elif found.notes:
             self._easel.send(_losses(request.path.name, found.notes))
 
-    def _show(self, document: Document) -> None:
+    def _show(self, document: Document, head: Mapping[str, object]) -> None:
+        self.turned(head)
         self._known, self._script, self._marks = document.known, document.script, document.marks
         self.due = None if document.script is None else 0.0
         self._easel.show(document.session, document.path)
@@ -100,9 +107,10 @@ class Filing(Owned):
             self._easel.finish()
         painting, state = self._easel.session.painting, self._easel.session.state
         recording = self._easel.session.recording() if self._known else None
-        serial = self._easel.serial
+        serial, mark = self._easel.serial, self.mark()
 
         def done() -> None:
+            mark(request.path)
             if serial == self._easel.serial:  # the same painting is still on the easel
                 self._easel.path, self._easel.saved = request.path, state
                 self._easel.tell()
@@ -123,3 +131,10 @@ def _losses(name: str, lines: tuple[str, ...]) -> results.Note:
         return results.Note(f"{name}: {lines[0]}", bad=True, stays=True, about="painting")
     text = f"{name}: {len(lines)} things are not as they were"
     return results.Note(text, bad=True, stays=True, about="painting", lines=lines)
+
+
+def _head(path: Path, stamp: FileStamp | None, found: Document) -> Mapping[str, object]:
+    """Returns what the journal says a painting began with that was opened: its file, or nothing and what plays."""
+    if found.script is not None or stamp is None:
+        return head_of_new(found.session.recording().header, path.name, found.session.folder)
+    return head_of_file(stamp, found.path is not None)

@@ -102,7 +102,7 @@ def test_folder_that_cannot_be_synced_is_told(tmp_path, monkeypatch):
     def fail(folder):
         raise OSError(errno.EIO, "Input/output error")
 
-    monkeypatch.setattr("engine.files.atomic._sync_folder", fail)
+    monkeypatch.setattr("engine.files.atomic.sync_folder", fail)
     with pytest.raises(WriteError, match="may not survive"), replacing(tmp_path / "a") as file:
         file.write(b"new")
 

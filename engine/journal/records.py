@@ -1,0 +1,131 @@
+"""The records of a journal: what each kind of frame tells.
+
+What is asked for has a number, by which what became of it is told.  Commands are told as in a recording, but for the
+points of strokes, which follow as they are: six float64 each.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+
+from engine.brush import settings
+from engine.brush.settings import Brush
+from engine.checks.field_error import FieldError
+from engine.files.strict_json import dumps, loads
+from engine.painting.commands import Command, Stroke, parse, to_json
+from engine.painting.points import POINT_COLUMNS
+
+LENGTH = struct.Struct("<I")
+NUMBER = struct.Struct("<Q")
+ASKED = struct.Struct("<Qd")  # its number, and when by the clock (seconds since 1970)
+Members = dict[str, object]  # of a JSON object
+_NO_POINTS = np.empty((0, len(POINT_COLUMNS)))
+_ANY_POINT = [[0, 0]]
+_TEXT_CAP = 1 << 26  # bytes
+
+
+class Kind(IntEnum):
+    """What a frame tells."""
+
+    HEAD = 1  # what the painting began with: the first frame of each file
+    BEGIN = 2  # asked for: the pen touches down
+    POINTS = 3  # asked for: more of that stroke
+    FINISH = 4  # asked for: the pen lifts
+    ABANDON = 5  # asked for: the stroke is dropped
+    ASK = 6  # asked for: a command
+    DONE = 7  # carried out: a stroke or a command that was asked for
+    REFUSED = 8  # not carried out, or there was nothing to do
+    DID = 9  # carried out: a command that nobody asked for
+    CHECKPOINT = 10  # written: the painting as it was after so many commands
+    SAVED = 11  # written: the painting's own file
+    BASE = 12  # kept: the bytes of the file that was opened
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """How a stroke begins: where, with what brush, and when, where the window tells (seconds since 1970)."""
+
+    level: int
+    origin: tuple[int, int]
+    brush: Brush
+    time: float | None = None
+
+
+def told_object(value: Mapping[str, object]) -> bytes:
+    """Returns a JSON object as bytes."""
+    return dumps(value).encode()
+
+
+def read_object(payload: bytes) -> Members:
+    """Returns the object again; FieldError if it is none."""
+    value = loads(payload, cap=_TEXT_CAP)
+    if not isinstance(value, dict):
+        raise FieldError("record", type(value).__name__, "an object")
+    return value
+
+
+def told_command(command: Command) -> bytes:
+    """Returns a command as bytes.  ValueError if it holds what JSON cannot."""
+    points = b""
+    if isinstance(command, Stroke):
+        points = told_points(command.points)
+        command = replace(command, points=_NO_POINTS)
+    text = told_object(to_json(command))
+    return LENGTH.pack(len(text)) + text + points
+
+
+def read_command(payload: bytes) -> Command:
+    """Returns the command again; FieldError names what is wrong with it."""
+    if len(payload) < LENGTH.size:
+        raise FieldError("record", f"{len(payload)} bytes", "a command")
+    end = LENGTH.size + LENGTH.unpack_from(payload)[0]
+    value = read_object(payload[LENGTH.size : end])
+    if value.get("do") != "stroke":
+        return parse(value)
+    stroke = parse({**value, "points": _ANY_POINT})
+    assert isinstance(stroke, Stroke)
+    return replace(stroke, points=read_points(payload[end:]))
+
+
+def told_points(points: np.ndarray) -> bytes:
+    """Returns the bytes of points, float64 (n, 6)."""
+    return np.ascontiguousarray(points, "<f8").tobytes()
+
+
+def read_points(payload: bytes) -> np.ndarray:
+    """Returns the same points, read-only; FieldError if these are no whole ones."""
+    if len(payload) % (8 * len(POINT_COLUMNS)):
+        raise FieldError("record", f"{len(payload)} bytes", "whole points")
+    return np.frombuffer(payload, "<f8").reshape(-1, len(POINT_COLUMNS))
+
+
+def told_brush(brush: Brush) -> str:
+    """Returns a brush as text."""
+    return dumps(settings.to_json(brush))
+
+
+def told_touch(touch: Touch, brush: str) -> bytes:
+    """Returns how a stroke begins as bytes; `brush`: the text of its brush."""
+    about: Members = {"level": touch.level, "origin": list(touch.origin)}
+    if touch.time is not None:
+        about["time"] = touch.time
+    text = told_object(about)
+    return LENGTH.pack(len(text)) + text + brush.encode()
+
+
+def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
+    """Returns the beginning again; `brushes`: those read before, by their text.  FieldError names what is wrong."""
+    if len(payload) < LENGTH.size:
+        raise FieldError("record", f"{len(payload)} bytes", "how a stroke begins")
+    end = LENGTH.size + LENGTH.unpack_from(payload)[0]
+    text = payload[end:]
+    if text not in brushes:
+        brushes[text] = settings.from_json(read_object(text))
+    stroke = parse({"do": "stroke", **read_object(payload[LENGTH.size : end]), "points": _ANY_POINT})
+    assert isinstance(stroke, Stroke)
+    return Touch(stroke.level, stroke.origin, brushes[text], stroke.extra.get("time"))

@@ -1,0 +1,102 @@
+"""What the engine tells the journal: what became of what was asked for, and what was done without being asked.
+
+It hears of a command before any result that shows it is sent.  Beside the journal it has pictures kept, and checkpoints
+written, where what was done takes long to do again.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from engine.brush.checks import thawed
+from engine.checks.owned import Owned
+from engine.journal.records import Kind, told_command, told_object
+from engine.journal.story import COMMAND, STROKE
+from engine.journal.volume import Continued, End
+from engine.kernel_cache import NotCompiled
+from engine.painting import commands as c
+from engine.strokes.example_stroke import Live
+from engine.studio import requests as q
+from engine.studio.easel import Easel
+from engine.studio.posts import Posts
+
+
+class Answers(Owned):
+    """It belongs to the engine's thread."""
+
+    def __init__(self, easel: Easel, posts: Posts) -> None:
+        self._easel, self._posts, self._journal = easel, posts, posts.journal
+        self._stroke: int | None = None  # the one on the easel
+        self._command: int | None = None  # the one that is being carried out
+        self._parted = False  # whether points of the stroke were refused
+        self._count = 0  # of the commands that the journal has of this painting
+        easel.session.heard = self._heard
+        posts.is_modified = lambda: easel.modified
+
+    def carry_out(self, request: q.Request, handle: Callable[[q.Request], None]) -> None:
+        """Has a request handled, and tells what became of it."""
+        number = self._posts.number(request) if isinstance(request, q.Begin | q.Do) else None
+        self._command = number if isinstance(request, q.Do) else None
+        try:
+            handle(request)
+        except NotCompiled:
+            raise  # it is tried again
+        except Exception:
+            self._parted = self._parted or isinstance(request, q.Points)
+            self._settle(request, number)
+            raise
+        else:
+            self._settle(request, number)
+        finally:
+            self._command = None
+
+    def turn(self, head: Mapping[str, object], continued: Continued | None = None, count: int = 0) -> None:
+        """Another painting comes on the easel, which has so many commands already; what is there, the artist knew of
+        when he asked for another."""
+        self._count = count
+        self._journal.turn(head, End.BIN if self._easel.modified else End.DELETED, continued)
+
+    def mark(self) -> Callable[[Path], None]:
+        """Returns what tells that the painting as it is now has been written to a file."""
+        count, folder = self._count, self._journal.folder
+
+        def saved(path: Path) -> None:
+            if folder == self._journal.folder:
+                self._journal.note(Kind.SAVED, told_object({"path": os.path.abspath(path), "commands": count}))
+
+        return saved
+
+    def _settle(self, request: q.Request, number: int | None) -> None:
+        """Tells of what is over, and was not carried out, that it was refused."""
+        live, before = self._easel.live, self._stroke
+        if isinstance(request, q.Begin) and live is not None and live.asked is None:
+            live.asked, self._parted = number, False
+        self._stroke = None if live is None else live.asked
+        if isinstance(request, q.Abandon):  # told by who posted it, or only put off
+            return
+        for one in {number, before} - {None, self._stroke}:
+            assert one is not None
+            self._journal.answer(one, Kind.REFUSED)
+            self._posts.settle(one)
+
+    def _heard(self, command: c.Command, live: Live | None) -> None:
+        """A command was carried out; `live`: as a stroke that grew on the easel."""
+        self._count += 1
+        number = self._command if live is None else live.asked
+        if live is None:
+            self._command = None
+        last = live is None or not live.full
+        if number is not None:
+            told = COMMAND + told_command(command) if live is None or self._parted else _told_stroke(command, last)
+            if self._journal.answer(number, Kind.DONE, told, last):
+                return
+        self._journal.note(Kind.DID, told_command(command))
+
+
+def _told_stroke(stroke: c.Command, last: bool) -> bytes:
+    """Returns what a stroke is besides what was asked for."""
+    assert isinstance(stroke, c.Stroke)
+    about = {"count": len(stroke.points), "last": last, "layer": stroke.layer, "seed": stroke.seed}
+    return STROKE + told_object({**about, "extra": thawed(stroke.extra)})
