@@ -60,7 +60,8 @@ def run(path: str | None = None, play: str | None = None) -> int:
     finally:
         try:
             window.hide()
-            worker.close(GRACE if signals.asked else None)  # files may still be written for a while
+            seconds = GRACE if signals.asked else None
+            worker.close(seconds, by_choice=not signals.asked)  # files may still be written for a while
         finally:
             window.close()
     if worker.alive:
@@ -73,7 +74,7 @@ def _leave(window: Window, worker: Worker) -> NoReturn:
     status = 1
     try:
         window.let_go()
-        worker.close(GRACE)
+        worker.close(GRACE, by_choice=False)
         status = _told(worker)
     finally:
         _go(status)
