@@ -123,7 +123,7 @@ def _load(name: str) -> None:
 def _worker(window: Window) -> Worker:
     from engine.journal.heads import head_of_new
     from engine.journal.journal import Journal
-    from engine.studio.posts import Posts
+    from engine.studio.journalled.posts import Posts
     from engine.studio.worker import Worker
 
     worker = Worker(window.pace.told, posts=Posts(Journal(head_of_new())))

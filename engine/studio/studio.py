@@ -17,15 +17,15 @@ from engine.painting.points import rounded
 from engine.painting.times import members, timed
 from engine.studio import requests as q
 from engine.studio import results, swatch_files, swatches
-from engine.studio.answers import Answers
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
 from engine.studio.filing.filing import Filing
 from engine.studio.filing.writers import Post, Send
 from engine.studio.grower import Grower
+from engine.studio.journalled.answers import Answers
+from engine.studio.journalled.posts import Posts
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
-from engine.studio.posts import Posts
 from engine.studio.ready import ready
 from engine.studio.region_strokes import Regions
 from engine.studio.warming import Warming

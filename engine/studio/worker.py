@@ -20,7 +20,7 @@ from engine.studio.requests import Look, Request, Swatch
 from engine.studio.results import Note, Pending, Result
 
 if TYPE_CHECKING:
-    from engine.studio.posts import Posts
+    from engine.studio.journalled.posts import Posts
 
 
 class Bench(Protocol):

@@ -12,7 +12,7 @@ from engine.journal.story import read_story
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.posts import Posts
+from engine.studio.journalled.posts import Posts
 from engine.studio.worker import Worker
 
 

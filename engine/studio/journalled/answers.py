@@ -20,7 +20,7 @@ from engine.painting import commands as c
 from engine.strokes.example_stroke import Live
 from engine.studio import requests as q
 from engine.studio.easel import Easel
-from engine.studio.posts import Posts
+from engine.studio.journalled.posts import Posts
 
 
 class Answers(Owned):
