@@ -93,6 +93,7 @@ def told_stroke(shown: ShownStroke, seed: int) -> dict[str, object]:
 def facts(found: Opened) -> dict[str, Any]:
     """Returns what there is to know of a painting, ready for JSON."""
     from engine.canvas import layers
+    from engine.painting.places import write_bookmark
 
     painting, frame = found.painting, found.painting.frame
     rows = [_row(painting.root, node) for node in layers.walk(painting.root)]
@@ -109,6 +110,7 @@ def facts(found: Opened) -> dict[str, Any]:
         "levels": levels,
         "bytes": sum(record.nbytes for record in records),
         "textures": {name: texture.kind for name, texture in sorted(painting.textures.items())},
+        "bookmarks": [write_bookmark(mark) for mark in painting.bookmarks.values()],
         "commands": None if found.recording is None else len(found.recording.commands),
         "notes": list(found.notes),
     }
@@ -208,6 +210,9 @@ def _print(told: dict[str, Any]) -> None:
         print(f"ink: {key[0]}, base level {key[1]}, {', '.join(map(str, key[2:])) or 'no parameters'}")
     for name, kind in told["textures"].items():
         print(f"texture: {name}, {kind}")
+    for mark in told["bookmarks"]:
+        (x, y), (width, height) = mark["origin"], mark["size"]
+        print(f"bookmark: {mark['name']!r}, {width:g} x {height:g} at {x}, {y} of level {mark['level']:g}")
     if told["commands"] is not None:
         print(f"recording: {told['commands']} commands")
 

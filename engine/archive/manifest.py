@@ -5,7 +5,7 @@ All numbers in our members are little-endian, pixel values whole multiples of 2^
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,6 +23,7 @@ from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
+from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
@@ -78,6 +79,7 @@ class Manifest:
     members: Mapping[str, tuple[int, str]] = field(default_factory=dict)
     texture: int = TEXTURES  # the revision of textures' pixels by which colour was left out
     synthesis: int = SYNTHESIS  # and of what examples grow into
+    bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -132,6 +134,7 @@ def manifest_json(
             }
             for name, t in sorted(painting.textures.items())
         },
+        **({"bookmarks": list(map(write_bookmark, painting.bookmarks.values()))} if painting.bookmarks else {}),
         **({"synthesis": SYNTHESIS, "examples": plot_files.examples_json(examples)} if examples else {}),
         "pictures": {
             p.sha: {"name": p.name, "size": list(p.size), "packs": [_pack_json(k) for k in p.packs]} for p in pictures
@@ -208,6 +211,7 @@ def parse_manifest(value: Any) -> Manifest:
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
+        _bookmarks(_list(members, "bookmarks") if "bookmarks" in members else []),
     )
 
 
@@ -285,6 +289,16 @@ def _picture(sha: str, value: Any) -> PictureEntry:
     if width < 1 or height < 1 or width * height > 1 << 28:
         raise members.fault("size", "a width and height from 1 on, at most 2^28 pixels")
     return PictureEntry(members.text("name"), sha, (width, height), _packs(members))
+
+
+def _bookmarks(value: Sequence[object]) -> Bookmarks:
+    bookmarks = NO_BOOKMARKS
+    for i, told in enumerate(value):
+        command = read_bookmark(Fields(told, f"bookmarks[{i}]"))
+        if not isinstance(command, Bookmark) or command.name in bookmarks:
+            raise FieldError(f"bookmarks[{i}]", "no place or a name that is taken", "a place with a name of its own")
+        bookmarks = bookmarks_after(bookmarks, command)
+    return bookmarks
 
 
 def _member(value: Any, where: str) -> tuple[int, str]:

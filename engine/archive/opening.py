@@ -138,7 +138,7 @@ class _Opening:
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
-        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures)
+        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks)
         recording, notes = self._recording()
         if other:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"

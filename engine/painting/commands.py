@@ -19,10 +19,15 @@ from engine.brush.checks import thawed
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
+from engine.painting import places
+from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT
+from engine.painting.places import PLACE_LIMIT as PLACE_LIMIT
+from engine.painting.places import Bookmark as Bookmark
+from engine.painting.places import RemoveBookmark as RemoveBookmark
+from engine.painting.places import RenameBookmark as RenameBookmark
+from engine.painting.places import View as View
 from engine.painting.points import plain, points_array, points_json
 
-LEVEL_LIMIT = 4096  # a level beyond this has more digits than a painting needs
-PLACE_LIMIT = 1 << 8192  # origins: 2^40 level-0 pixels at the finest level have fewer bits
 SEED_LIMIT = (1 << 63) - 1
 COUNT_LIMIT = 1_000_000_000
 _NOTHING: Map[str, Any] = Map()
@@ -153,16 +158,6 @@ class Redo:
 
 
 @dataclass(frozen=True, slots=True)
-class View:
-    """Where the artist looked: real level, origin and size in pixels of it.  It never changes a pixel."""
-
-    level: float = 0.0
-    origin: tuple[float, float] = (0.0, 0.0)
-    size: tuple[float, float] = (0.0, 0.0)
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
 class DefineTexture:
     """A texture under a name.  `arguments` belong to the maker and are checked when the texture is made."""
 
@@ -186,7 +181,7 @@ class Swap:
 
 
 LayerCommand = AddLayer | SelectLayer | RemoveLayer | RenameLayer | DuplicateLayer | MoveLayer | SetLayer
-Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap
+Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap | places.BookmarkCommand
 
 
 def parse(value: Any, where: str = "") -> Command:
@@ -327,24 +322,6 @@ def _write_count(command: Undo | Redo) -> dict[str, Any]:
     return {**({"count": command.count} if command.count != 1 else {}), **thawed(command.extra)}
 
 
-def _pair(members: Fields, name: str, lowest: float) -> tuple[float, float]:
-    value = members.take(name, [0, 0])
-    if not (isinstance(value, list) and len(value) == 2 and all(type(v) in (int, float) for v in value)):
-        raise members.fault(name, "a list of 2 numbers")
-    if any(v < lowest or abs(v) > PLACE_LIMIT for v in value):
-        raise members.fault(name, "numbers that are not negative" if lowest == 0 else "smaller numbers")
-    return (value[0], value[1])
-
-
-def _read_view(members: Fields) -> View:
-    level = members.number("level", 0.0, lo=float(-LEVEL_LIMIT), hi=float(LEVEL_LIMIT))
-    return View(level, _pair(members, "origin", -PLACE_LIMIT), _pair(members, "size", 0), members.rest())
-
-
-def _write_view(view: View) -> dict[str, Any]:
-    return {"level": plain(view.level), "origin": list(view.origin), "size": list(view.size), **thawed(view.extra)}
-
-
 def _read_texture(members: Fields) -> DefineTexture:
     return DefineTexture(members.text("name"), members.text("maker"), members.rest())
 
@@ -392,8 +369,9 @@ COMMANDS: dict[str, Form] = {
     "layer": Form(tuple(_VERBS), _read_layer, _write_layer),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
-    "view": Form((View,), _read_view, _write_view),
+    "view": Form((View,), places.read_view, places.write_view),
     "texture": Form((DefineTexture,), _read_texture, _write_texture),
     "swap": Form((Swap,), _read_swap, _write_swap),
+    "bookmark": Form((Bookmark, RemoveBookmark, RenameBookmark), places.read_bookmark, places.write_bookmark),
 }
 NAMES = {record: name for name, form in COMMANDS.items() for record in form.records}

@@ -21,6 +21,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, Fields, dumps, loads
 from engine.numeric.address import Rect
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Redo, Undo, parse, to_json
+from engine.painting.places import BookmarkCommand
 
 VERSION = 2  # that is read; older ones too
 TOTAL_CAP = 2 << 30  # bytes of a recording
@@ -74,7 +75,8 @@ class Recording:
 
 def version_of(command: Command) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    return 2 if isinstance(command, DefineTexture) and "region" in command.arguments else 1
+    region = isinstance(command, DefineTexture) and "region" in command.arguments
+    return 2 if region or isinstance(command, BookmarkCommand) else 1
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

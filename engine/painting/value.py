@@ -1,4 +1,4 @@
-"""The painting as a value: frame, seed, layers, the active one, and the textures that were defined."""
+"""The painting as a value: frame, seed, layers, the active one, the textures that were defined, bookmarks."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.numeric.address import Rect
 from engine.painting.commands import Same
+from engine.painting.places import NO_BOOKMARKS, Bookmarks
 from engine.painting.recording import DEFAULT_FRAME
 from engine.painting.textures import Texture
 
@@ -21,13 +22,14 @@ class Refusal(ValueError):
 @dataclass(frozen=True, eq=False, slots=True)
 class Painting:
     """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;
-    `active`: name of the layer that strokes go to; `textures`: those defined by name."""
+    `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
     root: Group = layers.EMPTY
     active: str | None = None
     textures: Map[str, Texture] = field(default_factory=Map)
+    bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
 
 
 def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SAME, to: int | None = None) -> Painting:

@@ -14,6 +14,7 @@ from engine.canvas.layers import Group, Layer, LayerError
 from engine.checks.field_error import FieldError
 from engine.makers.makers import define
 from engine.painting import commands as c
+from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, with_node
 from engine.strokes.example_stroke import kind_of, swapped
@@ -22,6 +23,7 @@ __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
 
 NOWHERE = Around()
 _CAUSES = (LayerError, FieldError)
+_BOOKMARKS: tuple[type, ...] = c.COMMANDS["bookmark"].records
 
 
 def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> Painting:
@@ -109,6 +111,10 @@ def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Pa
     return replace(painting, textures=painting.textures.set(command.name, texture))
 
 
+def _bookmark(painting: Painting, command: BookmarkCommand, around: Around) -> Painting:
+    return replace(painting, bookmarks=bookmarks_after(painting.bookmarks, command))
+
+
 _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
     c.AddLayer: _add,
@@ -120,6 +126,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.SetLayer: _set,
     c.DefineTexture: _texture,
     c.Swap: _swap,
+    **dict.fromkeys(_BOOKMARKS, _bookmark),
 }
 # The commands that undo takes back.  Selecting is no step, nor is defining a texture: strokes keep the one they had.
-STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.DefineTexture}
+STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.DefineTexture, *_BOOKMARKS}

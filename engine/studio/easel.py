@@ -156,5 +156,6 @@ class Easel(Owned):
             definitions=tuple((name, texture.kind, texture.parameters) for name, texture in painting.textures.items()),
             texture_widths=tuple((name, t.source.width) for name, t in painting.textures.items() if t.source),
             serial=self.serial,
+            bookmarks=tuple(painting.bookmarks.values()),
         )
         self.send(scene)

@@ -8,12 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+
+if TYPE_CHECKING:
+    from engine.painting.places import Bookmark
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +92,7 @@ class Scene:
     definitions: tuple[tuple[str, str, Mapping[str, Any]], ...] = ()  # and its parameters: name, kind, these
     texture_widths: tuple[tuple[str, int], ...] = ()  # pixels across the pictures of those that have one
     serial: int = 0  # another number: another painting
+    bookmarks: tuple[Bookmark, ...] = ()  # in the order in which they were made
 
 
 @dataclass(frozen=True, slots=True)

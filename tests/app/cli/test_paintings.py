@@ -49,6 +49,21 @@ def test_a_rectangle_as_a_painting(saved, tmp_path, capsys):
     assert np.array_equal(pixels(whole), pixels(part))
 
 
+def test_bookmarks_are_listed(tmp_path, capsys):
+    script, path = tmp_path / "a.jsonl", tmp_path / "a.ora"
+    marks = [
+        {"name": "mill", "level": 3.5, "origin": [5**40, -4.25], "size": [1024, 768], "angle": 15},
+        {"name": "sea", "level": 0, "origin": [0, 0], "size": [64, 48], "zz_later": [1]},
+    ]
+    script.write_text(HEADER.replace(": 1", ": 2") + "".join(f"{json.dumps({'do': 'bookmark', **m})}\n" for m in marks))
+    assert main(["play", str(script), "--save", str(path)]) == 0
+    capsys.readouterr()
+    assert main(["info", str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["bookmarks"] == marks
+    assert main(["info", str(path)]) == 0
+    assert f"bookmark: 'mill', 1024 x 768 at {5**40}, -4.25 of level 3.5" in capsys.readouterr().out
+
+
 def test_a_group_as_a_painting_can_be_painted_on(tmp_path, capsys):
     script, whole, part = (tmp_path / name for name in ("a.jsonl", "a.ora", "b.ora"))
     script.write_text(

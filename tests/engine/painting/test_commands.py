@@ -74,6 +74,18 @@ COMMANDS = st.one_of(
     st.builds(c.Undo, st.integers(1, c.COUNT_LIMIT), later),
     st.builds(c.Redo, st.integers(1, c.COUNT_LIMIT), later),
     st.builds(c.View, st.floats(-4096, 4096), st.tuples(finite, whole), st.tuples(st.integers(0, 9), unit), later),
+    st.builds(
+        c.Bookmark,
+        names,
+        st.floats(-4096, 4096),
+        st.tuples(finite, whole),
+        st.tuples(st.floats(1e-9, 2.0**40), st.integers(1, 1 << 40)),
+        st.floats(-360, 360),
+        st.booleans(),
+        later,
+    ),
+    st.builds(c.RemoveBookmark, names, later),
+    st.builds(c.RenameBookmark, names, names, later),
     st.builds(c.DefineTexture, names, names, later),
     st.builds(
         c.Swap,
@@ -172,6 +184,18 @@ HOSTILE = {
     "view": ({"do": "view", "level": 1e9}, "level: found 1000000000.0"),
     "view origin": ({"do": "view", "origin": [1]}, "origin: found [1]"),
     "view size": ({"do": "view", "size": [1, -1]}, "size: found"),
+    "bookmark without name": ({"do": "bookmark", "level": 2}, "name: found nothing"),
+    "bookmark of no size": (
+        {"do": "bookmark", "name": "a", "size": [0, 4]},
+        "size: found [0, 4], expected numbers above",
+    ),
+    "bookmark too large": ({"do": "bookmark", "name": "a", "size": [1 << 41, 4]}, "size: found"),
+    "bookmark at a word": ({"do": "bookmark", "name": "a", "origin": ["x", 4]}, "origin: found"),
+    "bookmark too far": ({"do": "bookmark", "name": "a", "origin": [1 << 9000, 4]}, "origin: found"),
+    "bookmark at a flag": ({"do": "bookmark", "name": "a", "origin": [True, 4]}, "origin: found"),
+    "bookmark too deep": ({"do": "bookmark", "name": "a", "level": 5000}, "level: found 5000"),
+    "bookmark turned over": ({"do": "bookmark", "name": "a", "angle": 400}, "angle: found 400"),
+    "bookmark away and renamed": ({"do": "bookmark", "name": "a", "remove": True, "to": "b"}, 'to: found "b"'),
     "texture without maker": ({"do": "texture", "name": "a"}, "maker: found nothing"),
 }
 

@@ -82,7 +82,7 @@ COMMANDS = st.one_of(
         [c.RenameLayer("A", "C"), c.MoveLayer("B", 0), c.MoveLayer("A", 0, "G"), c.DuplicateLayer("A", "D")]
     ),
     st.sampled_from([c.SetLayer("A", opacity=0.5), c.SetLayer("B", alpha_locked=True), c.SetLayer("A", locked=True)]),
-    st.sampled_from([c.View(2.5, (3, 4), (64, 64)), TEXTURE]),
+    st.sampled_from([c.View(2.5, (3, 4), (64, 64)), c.Bookmark("here", 1.5, (9, -4)), TEXTURE]),
 )
 
 
