@@ -25,7 +25,7 @@ ORDER = (
     ("engine.makers",),
     ("engine.archive",),
     ("engine.session",),
-    ("engine.journal",),
+    ("engine.journal", "engine.film"),
     ("engine.studio",),
     ("app.input", "app.theme", "app.icons", "app.keys", "app.trace", "app.faults"),
     ("app.canvas",),

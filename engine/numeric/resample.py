@@ -23,7 +23,7 @@ def rows_at(data: np.ndarray, places: np.ndarray) -> np.ndarray:
     (C, places, w)."""
     first = np.floor(places).astype(np.int64)
     offsets = np.arange(-1, 3)[:, None]
-    weights = _cubic(np.abs(places - first - offsets)).astype(np.float32)
+    weights = cubic(np.abs(places - first - offsets)).astype(np.float32)
     return _summed(data, np.clip(first + offsets, 0, data.shape[1] - 1), weights, 1)
 
 
@@ -36,12 +36,13 @@ def _taps(places: np.ndarray, size: int, old: int) -> tuple[np.ndarray, np.ndarr
     first = np.floor(centre).astype(np.int64)
     reach = int(np.ceil(2 * scale))
     offsets = np.arange(1 - reach, reach + 1)[:, None]
-    weights = _cubic(np.abs(centre - first - offsets) / scale)
+    weights = cubic(np.abs(centre - first - offsets) / scale)
     weights /= weights.sum(0)
     return (first + offsets) % old, weights.astype(np.float32)
 
 
-def _cubic(d: np.ndarray) -> np.ndarray:
+def cubic(d: np.ndarray) -> np.ndarray:
+    """Returns the weight of a pixel so far away, 0 or more, in pixels."""
     near = (1.5 * d - 2.5) * d * d + 1.0
     far = ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0
     return np.where(d < 1.0, near, np.where(d < 2.0, far, 0.0))

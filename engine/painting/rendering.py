@@ -54,7 +54,7 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
             check_cancelled(cancelled)
             piece = Rect(x, band.y0, min(x + columns, band.x1), band.y1)
             rows, across = piece.slices(band)
-            strip[:, rows, across] = composite(root, level, piece, _reader(piece))
+            strip[:, rows, across] = composite(root, level, piece, piece_reader(piece))
         yield strip
 
 
@@ -113,8 +113,8 @@ def check_cancelled(cancelled: Stop) -> None:
         raise Cancelled
 
 
-def _reader(piece: Rect) -> Read:
-    """Evaluates each layer once for the whole piece, and hands out its blocks."""
+def piece_reader(piece: Rect) -> Read:
+    """Returns what evaluates each layer once for a whole piece, and hands out its blocks."""
     known: dict[int, np.ndarray | None] = {}
 
     def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:

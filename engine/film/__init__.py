@@ -1,0 +1,1 @@
+"""Films of a painting: how it was made, and flights through its levels."""

@@ -1,0 +1,82 @@
+"""When each command of a recording is seen in a film of how the painting was made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from engine.painting import commands as c
+from engine.session.apply import STEPS
+
+CLOCKS = ("strokes", "pen")
+_INVISIBLE = (c.AddLayer, c.RenameLayer)  # steps that change no pixel
+PAUSE = 1.0  # seconds between two strokes, and those a stroke takes, where nothing tells
+LONGEST_PAUSE = 60.0  # seconds: beyond, the artist was away
+
+
+class Beat(NamedTuple):
+    """A command begins at `begin` and takes `length`, by the film's clock; `seen`: or it is carried out unseen."""
+
+    begin: float
+    length: float
+    seen: bool
+
+
+def beats(commands: Sequence[c.Command], clock: str = "strokes", undone: bool = False) -> tuple[Beat, ...]:
+    """Returns when each command is carried out, from 0 on.
+
+    `clock`: "strokes", each takes as long as the others, or "pen", as long as it took, by the `time` of commands and of
+    points.  `undone`: what was taken back is seen, and how that goes.
+    """
+    now, ended = 0.0, None
+    out: list[Beat] = []
+    for command, seen in zip(commands, _seen(commands, undone), strict=True):
+        length = 0.0
+        if seen and clock == "pen":
+            length, time = _taken(command), _time(command)
+            now += _pause(ended, time) if any(beat.seen for beat in out) else 0.0
+            ended = None if time is None else time + length
+        elif seen:
+            length = 1.0
+        out.append(Beat(now, length, seen))
+        now += length
+    return tuple(out)
+
+
+def _seen(commands: Sequence[c.Command], undone: bool) -> list[bool]:
+    """Tells of each command whether it is to be seen: what changes pixels, and stays unless `undone`."""
+    steps = [type(command) in STEPS for command in commands]
+    seen = [step and not isinstance(command, _INVISIBLE) for step, command in zip(steps, commands, strict=True)]
+    if undone:
+        travels = (isinstance(command, c.Undo | c.Redo) for command in commands)
+        return [is_seen or travel for is_seen, travel in zip(seen, travels, strict=True)]
+    done: list[int] = []
+    taken_back: list[int] = []
+    for i, command in enumerate(commands):
+        if steps[i]:
+            done.append(i)
+            taken_back.clear()
+        elif isinstance(command, c.Undo | c.Redo):
+            source, target = (done, taken_back) if isinstance(command, c.Undo) else (taken_back, done)
+            for _ in range(min(command.count, len(source))):
+                target.append(source.pop())
+    stays = set(done)
+    return [is_seen and i in stays for i, is_seen in enumerate(seen)]
+
+
+def _time(command: c.Command) -> float | None:
+    """Returns when a command began, seconds since 1970; None if it does not tell."""
+    time = None if isinstance(command, c.DefineTexture) else command.extra.get("time")
+    return float(time) if isinstance(time, int | float) else None
+
+
+def _pause(ended: float | None, time: float | None) -> float:
+    return PAUSE if ended is None or time is None else min(max(time - ended, 0.0), LONGEST_PAUSE)
+
+
+def _taken(command: c.Command) -> float:
+    """Returns how long a stroke took; another step takes no time."""
+    if not isinstance(command, c.Stroke):
+        return 0.0
+    taken = float(command.points[-1, 5] - command.points[0, 5])
+    return taken if taken > 0.0 else PAUSE

@@ -1,0 +1,143 @@
+"""Shooting a film: what it shows is decided for every frame first; then the frames are made, one after another."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from engine.film import tip_mark
+from engine.film.aim import Aim
+from engine.film.beats import beats
+from engine.film.course import flight, legs_through, length
+from engine.film.replaying import Replaying
+from engine.film.sheets import Sheets, plan
+from engine.numeric.convolution import Part, write_scaled
+from engine.painting.recording import Recording
+from engine.painting.rendering import folded_layers
+from engine.painting.value import Painting
+
+FPS = 30.0
+_LEVEL_SECONDS = 1.0  # that a flight takes for each level of zoom, if it is not told
+_BEAT_SECONDS = 0.15  # that a replay takes for each stroke, if it is not told
+_SHORTEST, _LONGEST = 4.0, 60.0  # seconds of a film whose length is not told
+_REST = 1.0, 8  # seconds, and part of a film, for which the finished painting is shown at most
+_BAND = 64  # rows of a frame that a thread makes at once
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """What is to be seen, in pictures of `size` (width, height), `fps` a second.
+
+    `places`: the views that it flies through, at least one; `recording`: the painting is made again, by `clock` (one of
+    `beats.CLOCKS`), with what was `undone` and the `brush` or without; None: it is seen as it is; `seconds`: None for
+    as long as it takes.
+    """
+
+    places: tuple[Aim, ...]
+    size: tuple[int, int]
+    fps: float = FPS
+    seconds: float | None = None
+    recording: Recording | None = None
+    clock: str = "strokes"
+    undone: bool = False
+    brush: bool = False
+
+
+class Shooting:
+    """A film that can be shot: `seconds` long, in `count` frames."""
+
+    def __init__(self, film: Film, painting: Painting | None = None) -> None:
+        """`painting`: as it is in the end, grown to its end; not needed where it is made again."""
+        self._film, self._painting = film, painting
+        self._beats = () if film.recording is None else beats(film.recording.commands, film.clock, film.undone)
+        legs = legs_through(film.places, film.size[0])
+        levels, strokes = length(legs), sum(beat.seen for beat in self._beats)
+        natural = max(levels * _LEVEL_SECONDS + 1.0, strokes * _BEAT_SECONDS)
+        self.seconds = min(max(natural, _SHORTEST), _LONGEST) if film.seconds is None else film.seconds
+        self._flight = flight(legs, self.seconds)
+        self.count = max(1, round(self.seconds * film.fps))
+
+    def slower(self, fps: float) -> Shooting:
+        """Returns the same with other frames a second."""
+        return Shooting(replace(self._film, fps=fps, seconds=self.seconds), self._painting)
+
+    @property
+    def film(self) -> Film:
+        """Gives what is to be seen."""
+        return self._film
+
+    def aims(self) -> list[Aim]:
+        """Returns where each frame looks; the last one where the flight ends, unless it loops."""
+        steps = self.count if self._flight.loops else max(self.count - 1, 1)
+        return [self._flight.at(self.seconds * i / steps) for i in range(self.count)]
+
+    def frames(self, threads: int | None = None) -> Iterator[np.ndarray]:
+        """Yields the frames, uint8 (height, width, 3), read-only, made on `threads` (None: as many as there are
+        cores).  FileError if a recording cannot be played."""
+        with ExitStack() as stack:
+            count = (os.cpu_count() or 1) if threads is None else threads
+            pool = stack.enter_context(ThreadPoolExecutor(count, "inkfall film"))
+            aims = self.aims()
+            if self._film.recording is None:
+                assert self._painting is not None
+                painting = replace(self._painting, root=folded_layers(self._painting.root))
+                ahead = stack.enter_context(ThreadPoolExecutor(1, "inkfall film ahead"))
+                sheets = Sheets(plan(aims, self._film.size), pool, ahead)
+                yield from _flown(sheets, painting, self._film.size, self.count, pool)
+            else:
+                yield from self._made_again(self._film.recording, aims, pool)
+
+    def _made_again(self, recording: Recording, aims: list[Aim], pool: Executor) -> Iterator[np.ndarray]:
+        size = self._film.size
+        replaying, sheets = Replaying(recording, self._beats), Sheets(plan(aims, size), pool)
+        total = max((beat.begin + beat.length for beat in self._beats), default=0.0)
+        rest = min(_REST[0], self.seconds / _REST[1])
+        picture = _Picture(size, pool)
+        for i, aim in enumerate(aims):
+            part = i / max(self.count - 1, 1) * self.seconds / (self.seconds - rest)
+            if part < 1.0:
+                replaying.go_to(part * total)
+            else:
+                replaying.end()
+            frame = picture.of(sheets.parts(i, replaying.painting), (aim, replaying.painting))
+            tip = replaying.tip if self._film.brush else None
+            yield frame if tip is None else tip_mark.with_tip(frame, aim, tip)
+
+
+class _Picture:
+    """The frame that is made; the same array as before where nothing changed."""
+
+    def __init__(self, size: tuple[int, int], pool: Executor) -> None:
+        self._size, self._pool = size, pool
+        self._of: tuple[Aim, Painting] | None = None
+        self._last: np.ndarray | None = None
+
+    def of(self, parts: tuple[Part, ...], what: tuple[Aim, Painting]) -> np.ndarray:
+        if self._last is None or self._of is None or self._of[0] != what[0] or self._of[1] is not what[1]:
+            self._last, self._of = frame_of(parts, self._size, self._pool), what
+        return self._last
+
+
+def _flown(
+    sheets: Sheets, painting: Painting, size: tuple[int, int], count: int, pool: Executor
+) -> Iterator[np.ndarray]:
+    for i in range(count):
+        yield frame_of(sheets.parts(i, painting), size, pool)
+
+
+def frame_of(parts: tuple[Part, ...], size: tuple[int, int], pool: Executor) -> np.ndarray:
+    """Returns the sum of some parts as a frame: uint8 (height, width, 3), read-only."""
+    out = np.empty((size[1], size[0], 3), np.uint8)
+
+    def draw(first: int) -> None:
+        write_scaled(parts, first, out[first : first + _BAND])
+
+    for _ in pool.map(draw, range(0, size[1], _BAND)):
+        pass
+    out.flags.writeable = False
+    return out

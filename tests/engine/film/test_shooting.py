@@ -1,0 +1,206 @@
+"""Films frame by frame: as sharp as the painting, without a jump or a shimmer, and made of few pictures."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from engine.canvas.composite import composite
+from engine.canvas.reading import layer_planes
+from engine.film.aim import Aim, aim_at
+from engine.film.beats import beats
+from engine.film.replaying import Replaying
+from engine.film.sheets import Sheets, plan
+from engine.film.shooting import Film, Shooting, frame_of
+from engine.numeric.address import Rect
+from engine.painting.commands import parse
+from engine.painting.recording import Header, Recording
+from engine.session.replay import replay
+
+SIZE = 160, 90
+FRAME = Rect(0, 0, 160, 90)
+
+
+def stroke(points, radius=9.0, level=0, **more):
+    brush = {"radius": radius, "dynamics": {}, **more.pop("brush", {})}
+    return {"do": "stroke", "level": level, "points": points, "brush": brush, **more}
+
+
+INK = [{"texture": "rock", "amount": 0.8, "colour": "#ffe0a0", "period": 24, "roughness": 0.9}]
+PAINTED = [
+    {"do": "layer", "add": "One"},
+    stroke([[20, 45], [140, 45]], 60, brush={"colour": "#305070", "ink": INK}),
+    stroke([[30, 20], [60, 60], [120, 30]], 6, brush={"colour": "#c02010"}),
+    stroke([[300, 200], [360, 220]], 5, level=2, brush={"colour": "#20c040"}),
+]
+
+
+def recorded(lines, frame=FRAME):
+    return Recording(Header(frame, 7), tuple(parse(line) for line in lines))
+
+
+@pytest.fixture(scope="module")
+def painting():
+    return replay(recorded(PAINTED)).painting
+
+
+def seen(painting, level, rect):
+    """The picture itself, over paper: float64 (3, h, w)."""
+    pixels = composite(painting.root, level, rect, layer_planes).astype(np.float64)
+    return pixels[:3] + 1.0 - pixels[3]
+
+
+def shot(film, painting=None):
+    return [frame.copy() for frame in Shooting(film, painting).frames(2)]
+
+
+def test_a_still_film_is_the_picture_itself(painting):
+    place = Rect.at(400, 200, *SIZE)
+    frames = shot(Film((aim_at(3, place, SIZE),), SIZE, 4.0, 1.0), painting)
+    assert len(frames) == 4
+    assert np.array_equal(frames[0], np.floor(seen(painting, 3, place) * 255.0 + 0.5).transpose(1, 2, 0))
+    assert all(np.array_equal(frame, frames[0]) for frame in frames)
+
+
+def test_a_flight_takes_a_picture_a_level():
+    wide = 1920, 1080
+    start = aim_at(0, Rect.at(0, 0, *wide), wide)
+    end = aim_at(12, Rect.at(4_097_939, 1_933_342, *wide), wide)
+    shooting = Shooting(Film((start, end), wide, 60.0, 12.0))
+    made = plan(shooting.aims(), wide).sheets
+    assert sorted(sheet.level for sheet in made) == list(range(13))
+    assert all(sheet.rect.width <= 2 * wide[0] + 200 and sheet.rect.height <= 2 * wide[1] + 200 for sheet in made)
+    glances = plan(shooting.aims(), wide).frames
+    assert all(0.999 < glance.window.step < 2.001 or glance.share < 1.0 for frame in glances for glance in frame)
+
+
+def resampled(painting, aim, finer=2):
+    """A perfect picture: evaluated so many levels nearer, and resampled by a Lanczos filter: float64 (h, w, 3)."""
+    window = aim.window(SIZE, aim.level + finer)
+    rect = window.rect.grown(3 * int(window.step + 1))
+    rows, columns = (
+        lanczos(edge + far, window.step, count, length)
+        for edge, far, count, length in (
+            (window.y - rect.y0, window.top, SIZE[1], rect.height),
+            (window.x - rect.x0, window.left, SIZE[0], rect.width),
+        )
+    )
+    return np.clip(np.einsum("ij,cjk,lk->ilc", rows, seen(painting, window.level, rect), columns, optimize=True), 0, 1)
+
+
+def lanczos(start, step, count, length):
+    places = start + (np.arange(count) + 0.5) * step - 0.5
+    x = (np.arange(length) - places[:, None]) / step
+    weights = np.sinc(x) * np.sinc(x / 3) * (np.abs(x) < 3)
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def changes(frames):
+    return np.array([np.abs(b.astype(float) - a).mean() for a, b in pairwise(frames)])
+
+
+@pytest.mark.parametrize("sideways", [0.0, 3.0])
+def test_a_slow_flight_does_not_shimmer(painting, sideways):
+    """Neighbouring frames differ by less than 1.5 x what perfectly resampled pictures do, and nothing jumps where the
+    flight comes to a level."""
+    start = aim_at(2, Rect.at(300, 160, *SIZE), SIZE)
+    aims = [start.at(2, 0.7 + 0.025 * i).moved(sideways * i, 0.5 * sideways * i) for i in range(25)]
+    with ThreadPoolExecutor(2) as pool:
+        sheets = Sheets(plan(aims, SIZE), pool)
+        ours = changes([frame_of(sheets.parts(i, painting), SIZE, pool) for i in range(len(aims))])
+    perfect = changes([np.rint(255 * resampled(painting, aim)) for aim in aims])
+    assert (ours < 1.5 * perfect).all(), (ours / perfect).max()
+    assert ours.mean() > 0.6 * perfect.mean()  # nor is it merely blurred
+
+
+REPLAYED = [
+    {"do": "layer", "add": "One"},
+    stroke([[20, 20, 1, 0, 0, 0], [140, 20, 1, 0, 0, 2]], brush={"colour": "#802020"}),
+    stroke([[20, 70], [140, 70]], brush={"colour": "#208020"}),
+    {"do": "undo"},
+    stroke([[20, 45, 1, 0, 0, 0], [140, 45, 1, 0, 0, 3]], brush={"colour": "#202080"}, time=1000.0),
+    stroke([[80, 10], [80, 80]], 5, brush={"mode": "erase"}, time=1005.0),
+]
+
+
+def test_beats_by_strokes_and_by_the_pen():
+    commands = recorded(REPLAYED).commands
+    assert [(b.begin, b.length) for b in beats(commands) if b.seen] == [(0, 1), (1, 1), (2, 1)]
+    assert [(b.begin, b.length) for b in beats(commands, undone=True) if b.seen] == [(n, 1) for n in range(5)]
+    # 2 s, a second that nobody told, 3 s, two seconds until the next began, and one for a stroke that tells no time.
+    assert [(b.begin, b.length) for b in beats(commands, "pen") if b.seen] == [(0, 2), (3, 3), (8, 1)]
+
+
+def test_what_was_undone_and_done_again_is_seen():
+    again = [*REPLAYED[:4], {"do": "redo"}]
+    assert [beat.seen for beat in beats(recorded(again).commands)] == [False, True, True, False, False]
+    assert [beat.seen for beat in beats(recorded(again).commands, undone=True)] == [False, True, True, True, True]
+
+
+def of(painting):
+    return np.floor(seen(painting, 0, FRAME) * 255.0 + 0.5).transpose(1, 2, 0)
+
+
+@pytest.mark.parametrize("undone", [False, True])
+def test_a_replay_shows_the_painting_as_it_was(undone):
+    recording = recorded(REPLAYED)
+    film = Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 8.0, recording, undone=undone)
+    shooting = Shooting(film)
+    frames = list(shooting.frames(2))
+    assert len(frames) == 80
+    assert (frames[0] == 255).all()
+    assert np.array_equal(frames[-1], of(replay(recording).painting))
+    whole = {n: of(replay(recording.until(n)).painting) for n in range(1, len(recording.commands) + 1)}
+    shown = [n for n in whole if any(np.array_equal(frame, whole[n]) for frame in frames)]
+    # After each stroke a frame may fall on its end; those of what was undone are never seen unless asked for.
+    assert 6 in shown
+    green = np.array([32, 128, 32])
+    assert any((frame == green).all(axis=2).any() for frame in frames) == undone
+    # A stroke grows from frame to frame, left to right.
+    inks = [(frame < 255).any(axis=2).sum() for frame in frames]
+    assert sum(a < b for a, b in pairwise(inks[:21])) > 12
+
+
+def test_a_painting_in_the_making_is_brought_up_to_date_where_it_changed():
+    """Every frame of a flight over it is what it would be from pictures made anew."""
+    recording = recorded([*PAINTED, *REPLAYED[1:]])
+    times, aims = np.linspace(0.0, 7.0, 15), [aim_at(0, FRAME, SIZE).at(0, 0.1 * i) for i in range(15)]
+    replaying = Replaying(recording, beats(recording.commands))
+    with ThreadPoolExecutor(2) as pool:
+        sheets = Sheets(plan(aims, SIZE), pool)
+        for i, time in enumerate(times):
+            replaying.go_to(time)
+            frame = frame_of(sheets.parts(i, replaying.painting), SIZE, pool)
+            glances = replace(plan(aims, SIZE), frames=(plan(aims, SIZE).frames[i],))
+            again = frame_of(Sheets(glances, pool).parts(0, replaying.painting), SIZE, pool)
+            assert np.array_equal(frame, again), i
+
+
+def test_the_brush_is_seen_where_it_touches():
+    recording = recorded([stroke([[40, 45], [120, 45]], 12, brush={"colour": "#ffffff"})])
+    film = Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 2.0, recording)
+    plain, marked = shot(film), shot(replace(film, brush=True))
+    assert len(plain) == len(marked)
+    found = [np.argwhere((a != b).any(axis=2)) for a, b in zip(plain, marked, strict=True)]
+    middles = [places.mean(axis=0) for places in found if len(places)]
+    assert len(middles) > 10
+    assert np.allclose([y for y, _ in middles], 44.5, atol=0.6)
+    assert all(a[1] < b[1] for a, b in pairwise(middles))
+    assert not len(found[-1])  # lifted
+    reach = np.ptp(found[5][:, 0])
+    assert 24 <= reach <= 30
+
+
+def test_deep_places_are_flown_to():
+    """At level 60, where a double lost 17 bits: a still film there, and the end of a flight to it, are alike."""
+    level, rect = 60, Rect.at((80 << 60) + 12345, (45 << 60) + 678, *SIZE)
+    recording = recorded([*PAINTED, stroke([[20, 20], [120, 70]], 8, level=level, origin=[rect.x0, rect.y0])])
+    painting = replay(recording).painting
+    end = aim_at(level, rect, SIZE)
+    flown = shot(Film((aim_at(0, FRAME, SIZE), end), SIZE, 4.0, 6.0), painting)
+    still = shot(Film((end,), SIZE, 1.0, 1.0), painting)
+    assert np.array_equal(flown[-1], still[0])
+    assert np.array_equal(still[0], np.floor(seen(painting, level, rect) * 255 + 0.5).transpose(1, 2, 0))
+    assert Aim(level, 0.0, end.x, end.y) == end
