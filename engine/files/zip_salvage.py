@@ -32,7 +32,7 @@ from engine.files.zip_reader import (
 LOCAL_MARK, ENTRY_MARK, END_MARK, END64_MARK = b"PK\3\4", b"PK\1\2", b"PK\5\6", b"PK\6\6"
 WINDOW = 1 << 20  # bytes of the file that are searched at a time
 CLAIMS = 4  # times the file's size: bytes that are read to find out what is whole
-INFLATED = 4 << 30  # bytes that all members may have together when they are inflated
+INFLATED = 2 << 30  # bytes that all members may have together when they are inflated
 STEP = 4 << 10  # bytes that are inflated at a time where damage is expected
 TRIES = 4  # places where the bytes of a member of one name are looked for
 WIDE_EXTRA = 20  # bytes of the field that a header of a member of 4 GiB has in a file of ours
@@ -58,6 +58,7 @@ class SalvagedArchive(ZipArchive):
         self._measure(file, name, limits)
         self._cancelled = cancelled
         self._directory = self._size
+        self._window = 0, b""  # the part of the file that is being searched, and where it begins
         self._claims, self._inflated = CLAIMS * self._size, INFLATED
         self._starts: dict[str, int] = {}
         self.torn: dict[str, Found] = {}
@@ -168,16 +169,15 @@ class SalvagedArchive(ZipArchive):
     def _next(self, mark: bytes, place: int) -> int:
         """Returns where a mark is found next, -1 for nowhere."""
         while place + len(mark) <= self._size:
-            if self._cancelled is not None and self._cancelled():
-                raise Cancelled
-            self._file.seek(place)
-            window = self._file.read(WINDOW)
-            at = window.find(mark)
+            start, window = self._window
+            if not start <= place <= start + len(window) - len(mark):
+                if self._cancelled is not None and self._cancelled():
+                    raise Cancelled
+                start, window = self._window = place, self._at(place, min(WINDOW, self._size - place), "a header")
+            at = window.find(mark, place - start)
             if at >= 0:
-                return place + at
-            if len(window) < len(mark):
-                return -1
-            place += len(window) - len(mark) + 1
+                return start + at
+            place = start + len(window) - len(mark) + 1
         return -1
 
     def _marked(self, place: int) -> bool:
@@ -189,8 +189,10 @@ class SalvagedArchive(ZipArchive):
     def _is_whole(self, found: Found) -> bool:
         """Tells whether a member's bytes are those that its header promises."""
         member = found.member
+        if found.start + member.stored > self._size:
+            return False
         self._claims -= member.stored
-        if found.start + member.stored > self._size or self._claims < 0:
+        if self._claims < 0:
             return False
         if member.method == DEFLATED:
             self._inflated -= member.size

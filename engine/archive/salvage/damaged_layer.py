@@ -26,16 +26,15 @@ from engine.numeric.colour import from_rgba8, from_rgba16, to_rgba8
 from engine.numeric.grid import Q, snapped
 from engine.numeric.pyramid import reduce
 
-REACHING = 1 << 28  # pixels below a tile: at levels so coarse, nothing stands in for it
+ROWS_AT_ONCE = 256  # of a picture that is made smaller
 
 
-@dataclass(frozen=True, eq=False, slots=True)
 class Shown:
     """A picture, uint8 or uint16 RGBA (h, w, 4), and where it lies: `rect` of `level`."""
 
-    pixels: np.ndarray
-    rect: Rect
-    level: int = 0
+    def __init__(self, pixels: np.ndarray, rect: Rect, level: int = 0) -> None:
+        self.pixels, self.rect, self.level = pixels, rect, level
+        self._smaller: list[tuple[Rect, np.ndarray]] = []  # at the next coarser level and on
 
     def laid(self) -> Pyramid:
         """Returns a layer of nothing else."""
@@ -46,16 +45,24 @@ class Shown:
     def planes(self, level: int, rect: Rect) -> np.ndarray:
         """Returns what the picture is like over `rect` of its level or a coarser one: float32 (4, h, w) on the grid, 0
         outside it."""
-        finer = self.level - level
-        whole = rect.zoomed(finer)
-        part = whole.intersect(self.rect)
-        planes = np.zeros((4, whole.height, whole.width), np.float32)
-        if not part.empty:
+        if level == self.level:
+            part = rect.intersect(self.rect)
             pixels = np.ascontiguousarray(self.pixels[part.slices(self.rect)])
-            planes[:, *part.slices(whole)] = (from_rgba16 if pixels.dtype == np.uint16 else from_rgba8)(pixels)
-        for _ in range(finer):
-            planes = snapped(reduce(planes))
-        return planes
+            return _padded((from_rgba16 if pixels.dtype == np.uint16 else from_rgba8)(pixels), part, rect)
+        while len(self._smaller) < self.level - level:
+            self._smaller.append(self._next())
+        at, planes = self._smaller[self.level - level - 1]
+        part = rect.intersect(at)
+        return _padded(planes[:, *part.slices(at)], part, rect)
+
+    def _next(self) -> tuple[Rect, np.ndarray]:
+        """Returns the picture at the next coarser level, and the rectangle that it takes there."""
+        finer, (at, _) = len(self._smaller), self._smaller[-1] if self._smaller else (self.rect, None)
+        whole = at.evened()
+        rows = range(whole.y0, whole.y1, ROWS_AT_ONCE)
+        bands = (Rect(whole.x0, y, whole.x1, min(y + ROWS_AT_ONCE, whole.y1)) for y in rows)
+        planes = [snapped(reduce(self.planes(self.level - finer, band))) for band in bands]
+        return whole.zoomed(-1), np.concatenate(planes, axis=1)
 
     def differs(self, layer: Layer, rect: Rect) -> bool:
         """Tells whether a layer shows something else over `rect` of the picture's level, to the bit of 8."""
@@ -107,7 +114,7 @@ def _with(pyramid: Pyramid, tiles: Sequence[Coded]) -> Pyramid:
 def _showing(pyramid: Pyramid, key: TileKey, shown: Shown) -> Pyramid:
     """With a residual by which a tile shows the picture, where that lies."""
     part = key.rect.intersect(shown.rect.zoomed(key.level - shown.level))
-    if part.empty or part.zoomed(shown.level - key.level).area > REACHING:
+    if part.empty:
         return pyramid
     place = part.slices(key.rect)
     seen = evaluate(pyramid, key.level, part).rgba
@@ -125,3 +132,11 @@ def _showing(pyramid: Pyramid, key: TileKey, shown: Shown) -> Pyramid:
     data.flags.writeable = False
     record = Record(Rect(0, 0, TILE, TILE), data, () if old is None else old.inks, pyramid.depth)
     return with_tiles(pyramid, {key.level: {(key.x, key.y): record}})
+
+
+def _padded(planes: np.ndarray, part: Rect, rect: Rect) -> np.ndarray:
+    """Returns planes over `part` as planes over `rect`, 0 elsewhere: a new array."""
+    out = np.zeros((4, rect.height, rect.width), np.float32)
+    if not part.empty:
+        out[:, *part.slices(rect)] = planes
+    return out
