@@ -10,6 +10,7 @@ What can be had is told here, from where the damage lies, by a reader of its own
 4. else the layers' pictures, or that of all layers together.
 """
 
+import io
 import json
 import struct
 import zipfile
@@ -20,18 +21,21 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from PIL import Image
+from sown import rewritten
 
 from engine.archive.opening import open_painting
+from engine.archive.salvage.ways import IN_PART
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
+from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
 from engine.canvas.reading import layer_planes
-from engine.files.fault import FileError
+from engine.files.fault import Cancelled, FileError, TooMuch
 from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
 from engine.session.apply import Painting
-from engine.session.damaged import open_or_salvage
+from engine.session.damaged import PLAYED, open_or_salvage
 from engine.session.session import Session
 
 FRAME = Rect.at(-30, 10, 150, 110)
@@ -308,3 +312,109 @@ def test_without_a_recording_each_layer_is_had_as_far_as_it_is_whole(unrecorded,
 @pytest.mark.nightly
 def test_without_a_recording_none_of_many_does(unrecorded, tmp_path):
     assert not all_lost(unrecorded, flips(unrecorded.data, FLIPS, seed=6), tmp_path)
+
+
+# ---- strangers ----
+
+
+def lying(file, path, value):
+    """The file with another manifest at both ends, whose sums are right."""
+    manifest = json.loads(json.dumps(file.manifest))
+    place = manifest
+    for step in path[:-1]:
+        place = place[step]
+    place[path[-1]] = value
+    with zipfile.ZipFile(io.BytesIO(file.data)) as old:
+        members = {name: old.read(name) for name in old.namelist()}
+    return rewritten(members, dict.fromkeys(MANIFESTS, json.dumps(manifest).encode()))
+
+
+LIES = {
+    "frame of text": (("frame",), "all"),
+    "two layers of an id": (("layers", 0, "id"), 2),
+    "a pack of fewer tiles": (("layers", 0, "packs", 0, 1), 1),
+    "a pack that is a picture": (("layers", 0, "packs", 0, 0), "mergedimage.png"),
+    "another sum": (("members", "inkfall/layers/1/0.tiles", 1), "0" * 64),
+    "a texture of no kind": (("textures", "leaf", "kind"), "marble"),
+}
+
+
+@pytest.mark.parametrize("name", LIES)
+def test_of_a_manifest_that_lies_the_recording_is_played(recorded, tmp_path, name):
+    path = tmp_path / "a.ora"
+    path.write_bytes(lying(recorded, *LIES[name]))
+    Image.open(recorded_leaf(recorded)).save(tmp_path / "leaf.png")
+    with pytest.raises(FileError):
+        open_painting(path)
+    found = open_or_salvage(path)
+    assert found.notes[0] == PLAYED
+    assert same(found.painting, recorded.painting)
+
+
+def recorded_leaf(file):
+    leaf = file.painting.textures["leaf"].source
+    out = io.BytesIO()
+    Image.fromarray(to_rgba8(leaf.data)).save(out, "PNG")
+    return out
+
+
+def test_what_asks_for_too_much_is_not_salvaged(recorded, tmp_path):
+    path = tmp_path / "a.ora"
+    path.write_bytes(lying(recorded, ("layers", 0, "packs", 0, 2), 1 << 60))
+    with pytest.raises(TooMuch, match="more than this machine has"):
+        open_or_salvage(path)
+
+
+def test_what_another_program_changed_is_no_damage(recorded, tmp_path):
+    """Its picture is shown, not the paint of before; also of a file that is damaged afterwards."""
+    with zipfile.ZipFile(io.BytesIO(recorded.data)) as old:
+        members = {name: old.read(name) for name in old.namelist()}
+    white = io.BytesIO()
+    Image.new("RGBA", Image.open(io.BytesIO(members["data/L1.png"])).size, "white").save(white, "PNG")
+    data = rewritten(members, {"data/L1.png": white.getvalue()})
+    path = tmp_path / "a.ora"
+    for whole, bad in ((True, data), (False, data[:-9])):
+        path.write_bytes(bad)
+        found = open_or_salvage(path)
+        assert not found.native
+        assert sum("another program changed" in note for note in found.notes) == 1
+        assert (found.notes[0] == IN_PART) == (not whole)
+        layer = layers.find(found.painting.root, "Layer 1")
+        assert evaluate(layer.pyramid, 0, Rect.at(40, 60, 1, 1)).rgba.min() == 1.0
+
+
+def test_hostile_bytes_are_refused_or_opened(recorded, unrecorded, tmp_path):
+    rng = np.random.default_rng(3)
+    path = tmp_path / "a.ora"
+    for turn in range(24):
+        data = bytearray((recorded, unrecorded)[turn % 2].data)
+        for place in rng.integers(0, len(data), 40):
+            data[place : place + int(rng.integers(1, 3000))] = rng.bytes(int(rng.integers(0, 3000)))
+        path.write_bytes(bytes(data))
+        told = opened_or_refused(path)
+        assert told
+        assert all("\n" not in line for line in told)
+
+
+def opened_or_refused(path):
+    """What is told of a damaged file."""
+    try:
+        found = open_or_salvage(path)
+    except FileError as error:
+        return (str(error),)
+    assert not found.native
+    return found.notes
+
+
+def test_progress_and_cancelling_while_the_recording_is_played(recorded, tmp_path):
+    path = tmp_path / "a.ora"
+    torn = bytearray(recorded.data)
+    torn[recorded.members["inkfall/layers/2/0.tiles"].start + 9000] ^= 1
+    path.write_bytes(bytes(torn))
+    told = []
+    open_or_salvage(path, told.append)
+    assert len(told) >= len(COMMANDS)
+    assert told[-1] == 1.0
+    with pytest.raises(Cancelled):
+        open_or_salvage(path, told.append, lambda: told[-1] == 0.5)
+    assert told[-1] == 0.5
