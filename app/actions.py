@@ -38,6 +38,10 @@ def _ready(desk: Desk) -> bool:
     return desk.known.ready and not desk.painting
 
 
+def _has_file(desk: Desk) -> bool:
+    return _ready(desk) and desk.known.path is not None
+
+
 def _layer(desk: Desk) -> bool:
     return _ready(desk) and desk.known.scene is not None and desk.known.scene.active is not None
 
@@ -199,6 +203,7 @@ ACTIONS: dict[str, Action] = {
     "open": A("Open…", "File", ("Ctrl+O",), "Open a painting, a picture or a recording", _asks_guarded("open"), _ready),
     "save": A("Save", "File", ("Ctrl+S",), "Save the painting; you can go on painting meanwhile", Desk.save, _ready),
     "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", _asks("save as"), _ready),
+    "earlier": A("Earlier versions…", "File", (), "What the last saves replaced", _asks("earlier"), _has_file),
     "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF", _asks("export"), _ready),
     "try_again": A("Try again", "File", (), "Try once more what did not work", offers.try_again, offers.can_try),
     "free_space": A("Free space", "File", (), "Tell how much room is left, and show the folder", offers.free_space),

@@ -23,9 +23,13 @@ def _note(desk: Desk, note: results.Note, _now: float) -> None:
 
 
 def _saved(desk: Desk, saved: results.Saved, _now: float) -> None:
-    desk.notices.settle("save")
-    desk.say(f"Saved {Path(saved.path).name}")
+    desk.notices.settle("save", "elsewhere")
+    desk.say(saved.told or f"Saved {Path(saved.path).name}", bad=bool(saved.told))
     desk.asked.saved()
+
+
+def _overtaken(desk: Desk, told: results.Overtaken, _now: float) -> None:
+    desk.asked.about_overtaken(told)
 
 
 def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
@@ -46,6 +50,7 @@ HEARS: dict[type, Hear] = {
     results.Note: _note,
     results.Saved: _saved,
     results.Scene: _scene,
+    results.Overtaken: _overtaken,
     results.Picked: _picked,
     results.Looked: flight.fly,
 }

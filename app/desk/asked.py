@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from engine.studio.results import Overtaken
+
 Then = Callable[[], None]
 
 
 @dataclass(slots=True)
 class Asked:
     """`dialog`: a row of app.panels.dialogs.DIALOGS that is to be shown; `then`: goes on once unsaved changes are dealt
-    with; `after_save`: goes on once the painting is saved; `quit`: the window is to go; `export_level`: how deep the
-    exported picture goes; `texture`: a name under which one is being made, which joins the ink when the painting has
-    it."""
+    with; `after_save`: goes on once the painting is saved; `overtaken`: the save that is asked about; `quit`: the
+    window is to go; `export_level`: how deep the exported picture goes; `texture`: a name under which one is being
+    made, which joins the ink when the painting has it."""
 
     dialog: str = ""
     then: Then | None = None
     after_save: Then | None = None
+    overtaken: Overtaken | None = None
     quit: bool = False
     export_level: int = 0
     texture: str = ""
@@ -35,6 +38,11 @@ class Asked:
         """Asks what is to become of unsaved changes, before `then`."""
         self.then = then
         self.show("unsaved")
+
+    def about_overtaken(self, told: Overtaken) -> None:
+        """Asks what is to become of a save; what follows it waits for the answer."""
+        self.overtaken = told
+        self.show("overtaken")
 
     def close(self) -> None:
         """Lets the window go."""

@@ -136,11 +136,12 @@ class Desk:
         else:
             then()
 
-    def open(self, path: Path, live: bool = False) -> None:
-        """Opens a file, which the status line tells until it is there; `live`: a recording is seen as it grows."""
+    def open(self, path: Path, live: bool = False, untitled: bool = False) -> None:
+        """Opens a file, which the status line tells until it is there; `live`: a recording is seen as it grows;
+        `untitled`: it is not saved there again."""
         self.learn(opening=path.name)
         self.message = Message()
-        self.post(Open(path, live))
+        self.post(Open(path, live, untitled))
 
     def save(self) -> None:
         """Saves where the painting came from; asks where, the first time."""

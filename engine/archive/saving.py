@@ -12,7 +12,7 @@ import io
 import os
 import tempfile
 from collections import deque
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -74,16 +74,18 @@ def save(
     snapshot: Snapshot,
     progress: Progress = None,
     cancelled: Stop = None,
+    ready: Callable[[Path], None] | None = None,
 ) -> None:
     """Writes the painting.  The place holds the old file or the whole new one, which was read back and checked.
 
-    `progress` gets the part done, 0..1, on the calling thread; `cancelled` is asked from several.  WriteError if it
-    cannot be done, Cancelled if it was asked for; either way nothing has changed.
+    `progress` gets the part done, 0..1, on the calling thread; `cancelled` is asked from several; `ready` gets the
+    whole new file before it takes its place, and may raise.  WriteError if it cannot be done, Cancelled if it was asked
+    for; either way nothing has changed.
     """
     try:
         painting = replace(snapshot.painting, root=folded_layers(settled_root(snapshot.painting.root)))
         plan = SavePlan(painting, snapshot.recording, cancelled)
-        with replacing(path, verify=lambda part: _verify(part, path, plan)) as file:
+        with replacing(path, verify=lambda part: _verify(part, path, plan, ready)) as file:
             writer = ZipWriter(file)
             writer.add("mimetype", MIMETYPE)
             plan.begin(writer)
@@ -145,7 +147,7 @@ def _add(writer: ZipWriter, name: str, product: Product, deflate: bool) -> None:
     product.close()
 
 
-def _verify(part: Path, path: str | os.PathLike[str], plan: SavePlan) -> None:
+def _verify(part: Path, path: str | os.PathLike[str], plan: SavePlan, ready: Callable[[Path], None] | None) -> None:
     """Reads the finished file back as a stranger would."""
     try:
         with open(part, "rb") as file:
@@ -158,6 +160,8 @@ def _verify(part: Path, path: str | os.PathLike[str], plan: SavePlan) -> None:
                     PngReader(archive.open(name), name)  # type: ignore[arg-type]
     except FileError as error:
         raise WriteError(path, f"the file written cannot be read back ({error.message})") from error
+    if ready is not None:
+        ready(part)
 
 
 class SavePlan:

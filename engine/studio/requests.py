@@ -13,7 +13,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
-from engine.studio.results import Note
+from engine.studio.results import Note, Result
 
 if TYPE_CHECKING:
     from engine.brush.settings import Brush
@@ -33,17 +33,20 @@ class New:
 
 @dataclass(frozen=True, slots=True)
 class Open:
-    """A painting, a picture or a recording from a file; `live`: the recording is seen as it grows."""
+    """A painting, a picture or a recording from a file; `live`: the recording is seen as it grows; `untitled`: it is
+    not saved there again."""
 
     path: Path
     live: bool = False
+    untitled: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Save:
-    """The painting as it is now, as .ora."""
+    """The painting as it is now, as .ora; `sure`: whatever is there."""
 
     path: Path
+    sure: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,10 +305,12 @@ class FileGrown:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """The file number `file` is written, or cannot be: `fault` says why; posted by the thread that wrote it."""
+    """The file number `file` is written, and `told` is what to say of it, or cannot be: `fault` says why; posted by the
+    thread that wrote it."""
 
     file: int
     fault: Note | None = None
+    told: Result | None = None
 
 
 RegionRequest = (

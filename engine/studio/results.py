@@ -116,9 +116,23 @@ class Note:
 
 @dataclass(frozen=True, slots=True)
 class Saved:
-    """A file was written; `serial` of the painting that it holds."""
+    """A file was written; `told`: what there is to say of that, "" if nothing."""
 
     path: Path
+    told: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Overtaken:
+    """A file was not written: it is open in another window (`elsewhere`), or it has been changed by somebody else."""
+
+    path: Path
+    elsewhere: bool = False
+
+    @property
+    def words(self) -> str:
+        """Returns why."""
+        return "it is open in another window" if self.elsewhere else "another program changed it"
 
 
 @dataclass(frozen=True, slots=True)
@@ -269,6 +283,7 @@ Result = (
     | Scene
     | Note
     | Saved
+    | Overtaken
     | Picture
     | Picked
     | Looked

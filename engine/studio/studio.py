@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from engine.checks.owned import Owned
+from engine.keeping.preferences import Preferences
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting.points import rounded
@@ -32,6 +33,7 @@ from engine.studio.warming import Warming
 
 Handlers = Mapping[type, Callable[[Any], None]]
 _NO_REQUESTS: Handlers = {}
+_DEFAULT = Preferences()
 
 
 class Part(Protocol):
@@ -68,12 +70,12 @@ class Studio(Owned):
     `posts`: what was asked for, as the journal knows it; None without a journal.
     """
 
-    def __init__(self, send: Send, post: Post, posts: Posts | None = None) -> None:
+    def __init__(self, send: Send, post: Post, posts: Posts | None = None, preferences: Preferences = _DEFAULT) -> None:
         self.easel = easel = Easel(send)
-        self.filing, self.lab, self.grower = Filing(easel, post), Lab(easel), Grower(easel)
+        self.filing, self.lab, self.grower = Filing(easel, post, preferences), Lab(easel), Grower(easel)
         self._answers = None if posts is None else Answers(easel, posts)
         if self._answers is not None:
-            self.filing.turned, self.filing.mark = self._answers.turn, self._answers.mark
+            self.filing.turned, self.filing.saves.mark = self._answers.turn, self._answers.mark
         viewer = easel.viewer
         # From the most urgent: first what the pen just painted, on the canvas or in a region.
         self._rows = (

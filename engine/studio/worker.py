@@ -75,10 +75,11 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None], pos
     preparing = Preparing()
     preparing.want(PLAIN_PAINT, soon=True)  # its processes load while the studio does
 
+    from engine.studio.filing.beginning import begun
     from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
 
-    return Waiting(Studio(send, post, posts), preparing, send)
+    return Waiting(Studio(send, post, posts, begun(send)), preparing, send)
 
 
 class Worker:

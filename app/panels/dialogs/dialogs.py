@@ -12,6 +12,8 @@ from app.actions import ACTIONS, MENUS
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
+from app.panels.dialogs.earlier_versions import EarlierVersions
+from app.panels.dialogs.overtaken import OvertakenSave
 from engine.numeric.address import Rect
 from engine.studio.requests import New
 
@@ -216,6 +218,16 @@ class About:
         return not w.default_button("Close", "Close", width=em * 7)
 
 
+def _overtaken(desk: Desk) -> Dialog:
+    assert desk.asked.overtaken is not None
+    return OvertakenSave(desk.asked.overtaken)
+
+
+def _earlier(desk: Desk) -> Dialog:
+    assert desk.known.path is not None
+    return EarlierVersions(desk.known.path)
+
+
 DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "new": lambda desk: NewPainting(),
     "open": file_browser.opening,
@@ -228,6 +240,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "match picture 1": file_browser.choosing_example(1),
     "example picture": file_browser.choosing_own,
     "unsaved": lambda desk: Unsaved(),
+    "overtaken": _overtaken,
+    "earlier": _earlier,
     "keys": lambda desk: Keys(),
     "about": lambda desk: About(),
 }

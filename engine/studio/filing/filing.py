@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
 from engine.journal.heads import FileStamp, head_of_file, head_of_new
+from engine.keeping.preferences import Preferences
+from engine.keeping.unfinished import unfinished
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.studio import faults, results
@@ -19,6 +20,7 @@ from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.documents import Document
 from engine.studio.filing.playing import PIECE, Playing
+from engine.studio.filing.saves import Saves
 from engine.studio.filing.writers import Post, Writers
 
 
@@ -28,26 +30,25 @@ class Filing(Owned):
     `due`: when a recording that plays goes on, by the monotonic clock, None when none plays.
     """
 
-    def __init__(self, easel: Easel, post: Post) -> None:
+    def __init__(self, easel: Easel, post: Post, preferences: Preferences) -> None:
         self._easel = easel
         self.due: float | None = None
         self._script: Playing | None = None
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
-        self._known = True  # whether the session's log leads from nothing to the painting
         self._writers = Writers(easel.send, post)
         self.turned: Callable[[Mapping[str, object]], None] = lambda head: None  # another painting comes on the easel
-        self.mark: Callable[[], Callable[[Path], None]] = lambda: lambda path: None  # what hears of it when it is saved
+        self.saves = Saves(easel, self._writers, preferences)
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
-            q.Save: self._save,
             q.Export: self._export,
+            **self.saves.handlers,
             **self._writers.handlers,
         }
 
     def close(self) -> None:
         """Waits for files that are being written."""
-        self._writers.close()
+        self.saves.close()
 
     def comes_between(self, request: q.Request) -> bool:
         """Lets a request wait for the stroke of a recording that plays; False if it is to be passed over."""
@@ -85,7 +86,7 @@ class Filing(Owned):
     def _open(self, request: q.Open) -> None:
         stamp = FileStamp.of(request.path)
         try:
-            found = documents.opened(request.path, request.live)
+            found = documents.opened(request.path, request.live, request.untitled)
         except Exception as error:
             self._easel.send(faults.told(error, "while a file was opened", "open", request.path))
             return
@@ -97,32 +98,22 @@ class Filing(Owned):
 
     def _show(self, document: Document, head: Mapping[str, object]) -> None:
         self.turned(head)
-        self._known, self._script, self._marks = document.known, document.script, document.marks
+        self._script, self._marks = document.script, document.marks
         self.due = None if document.script is None else 0.0
         self._easel.show(document.session, document.path)
-
-    def _save(self, request: q.Save) -> None:
-        """Writes on a thread of its own, from the painting as it is now; painting goes on meanwhile."""
-        if self._easel.live is not None:
-            self._easel.finish()
-        painting, state = self._easel.session.painting, self._easel.session.state
-        recording = self._easel.session.recording() if self._known else None
-        serial, mark = self._easel.serial, self.mark()
-
-        def done() -> None:
-            mark(request.path)
-            if serial == self._easel.serial:  # the same painting is still on the easel
-                self._easel.path, self._easel.saved = request.path, state
-                self._easel.tell()
-            self._easel.send(results.Saved(request.path))
-
-        self._writers.start(lambda grown: documents.save(request.path, grown, recording), painting, done, saving=True)
+        self.saves.show(document)
 
     def _export(self, request: q.Export) -> None:
-        def done() -> None:
-            self._easel.send(results.Note(f"Wrote {request.path.name}", about="export"))
+        def write(grown: Painting) -> results.Result:
+            with unfinished(request.path):
+                documents.write_picture(request, grown)
+            return results.Note(f"Wrote {request.path.name}", about="export")
 
-        self._writers.start(partial(documents.write_picture, request), self._easel.session.painting, done)
+        self._writers.start(write, self._easel.session.painting, self._exported)
+
+    def _exported(self, told: results.Result | None) -> None:
+        if told is not None:
+            self._easel.send(told)
 
 
 def _losses(name: str, lines: tuple[str, ...]) -> results.Note:

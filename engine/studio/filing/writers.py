@@ -20,17 +20,18 @@ from engine.studio import requests as q
 TELL = 0.1  # seconds between two posts about one file, at least
 Send = Callable[[results.Result], None]
 Post = Callable[[q.Request], None]
-Write = Callable[[Painting], None]
+Write = Callable[[Painting], results.Result | None]  # gives what there is to tell
+Ended = Callable[[results.Result | None], None]  # hears that, None if it failed
 
 
 @dataclass(eq=False, slots=True)
 class _File:
-    """A file on its way.  `saving`: it is the painting's own; `done` is called when it is written; `grown`: how far
-    its painting is, 0..1."""
+    """A file on its way.  `saving`: it is the painting's own; `ended` is called when it is written or has failed;
+    `grown`: how far its painting is, 0..1."""
 
     thread: threading.Thread
     saving: bool
-    done: Callable[[], None]
+    ended: Ended
     grown: float = 1.0
 
 
@@ -43,14 +44,14 @@ class Writers(Owned):
         self._count = 0
         self.handlers: dict[type, Callable[[Any], None]] = {q.FileGrown: self._grown, q.Written: self._written}
 
-    def start(self, write: Write, painting: Painting, done: Callable[[], None], saving: bool = False) -> None:
-        """Has a painting grown to its end and given to `write` on a thread of its own; calls `done` here afterwards."""
+    def start(self, write: Write, painting: Painting, ended: Ended, saving: bool = False) -> None:
+        """Has a painting grown to its end and given to `write` on a thread of its own; calls `ended` here after it."""
         self._count += 1
         about = "save" if saving else "export"
         thread = threading.Thread(
             target=_run, args=(self._count, write, painting, self._post, about), name="inkfall file", daemon=False
         )
-        self._files[self._count] = _File(thread, saving, done)
+        self._files[self._count] = _File(thread, saving, ended)
         self._tell()
         thread.start()
 
@@ -67,8 +68,7 @@ class Writers(Owned):
         file = self._files.pop(request.file)
         if request.fault is not None:
             self._send(request.fault)
-        else:
-            file.done()
+        file.ended(request.told)
         self._tell()
 
     def _tell(self) -> None:
@@ -89,8 +89,8 @@ def _run(file: int, write: Write, painting: Painting, post: Post, about: str) ->
             post(q.FileGrown(file, part))
 
     try:
-        write(settled(painting, tell=tell))
+        outcome = write(settled(painting, tell=tell))
     except Exception as error:
         post(q.Written(file, faults.told(error, "while a file was written", about)))
     else:
-        post(q.Written(file))
+        post(q.Written(file, told=outcome))
