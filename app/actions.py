@@ -192,6 +192,10 @@ def _asks_guarded(name: str) -> Callable[[Desk], None]:
     return lambda desk: desk.guard(lambda: desk.asked.show(name))
 
 
+def _stopped(desk: Desk) -> bool:
+    return desk.notices.offering("start_engine") is not None
+
+
 def close(desk: Desk) -> None:
     """Closes the window, after asking about unsaved changes."""
     desk.guard(desk.asked.close)
@@ -207,6 +211,15 @@ ACTIONS: dict[str, Action] = {
     "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF", _asks("export"), _ready),
     "try_again": A("Try again", "File", (), "Try once more what did not work", offers.try_again, offers.can_try),
     "free_space": A("Free space", "File", (), "Tell how much room is left, and show the folder", offers.free_space),
+    "bin": A("Bin…", "File", (), "Paintings that were closed without saving, or discarded", _asks("bin"), _ready),
+    "start_engine": A(
+        "Start it again",
+        "File",
+        (),
+        "Start the paint engine, with the painting as it was",
+        lambda desk: desk.start_engine(),
+        _stopped,
+    ),
     "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),

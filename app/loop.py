@@ -48,34 +48,34 @@ def run(path: str | None = None, play: str | None = None) -> int:
     open_log()
     guard_files()
     sys.setswitchinterval(SWITCH)
-    worker = _worker(window)
+    _connect(window)
     signals = Signals(glfw.post_empty_event)
-    hear_display_loss(lambda: _leave(window, worker))
+    hear_display_loss(lambda: _leave(window))
     for name, live in ((path, False), (play, True)):
         if name is not None:
             window.desk.open(Path(name), live)
+    ended = False
     try:
         while not window.closed() and not signals.asked:
             window.wait(window.frame())
     finally:
         try:
             window.hide()
-            seconds = GRACE if signals.asked else None
-            worker.close(seconds, by_choice=not signals.asked)  # files may still be written for a while
+            chosen = window.desk.asked.quit
+            ended = window.engine.worker.close(None if chosen else GRACE, by_choice=chosen)  # files are still written
         finally:
             window.close()
-    if worker.alive:
-        _go(_told(worker))
-    return _told(worker)
+    status = _told(window.engine.worker, ended)
+    return status if ended else _go(status)
 
 
-def _leave(window: Window, worker: Worker) -> NoReturn:
+def _leave(window: Window) -> NoReturn:
     """Ends the program when its window is gone already: nothing may be drawn or given back any more."""
     status = 1
     try:
         window.let_go()
-        worker.close(GRACE, by_choice=False)
-        status = _told(worker)
+        ended = window.engine.worker.close(GRACE, by_choice=False)
+        status = _told(window.engine.worker, ended)
     finally:
         _go(status)
 
@@ -88,13 +88,13 @@ def _go(status: int) -> NoReturn:
     os._exit(status)
 
 
-def _told(worker: Worker) -> int:
+def _told(worker: Worker, ended: bool = True) -> int:
     """Tells the terminal what went wrong when no window was there any more to show it; the exit status."""
     from engine.studio.results import Note
 
     faults = [result for result in worker.results() if isinstance(result, Note) and result.bad]
-    if worker.alive:
-        faults.append(Note("what was asked for last could not be carried out in time", bad=True))
+    if not ended:
+        faults.append(Note("what was asked for last is not carried out yet; it is kept", bad=True))
     for fault in faults:
         print(f"inkfall: {fault.text}{f': {log_file()} tells more' if fault.fault else ''}", file=sys.stderr)
     return 1 if faults else 0
@@ -120,15 +120,13 @@ def _load(name: str) -> None:
         importlib.import_module(name)
 
 
-def _worker(window: Window) -> Worker:
+def _connect(window: Window) -> None:
     from engine.journal.heads import head_of_new
     from engine.journal.journal import Journal
     from engine.studio.journalled.posts import Posts
     from engine.studio.worker import Worker
 
-    worker = Worker(window.pace.told, posts=Posts(Journal(head_of_new())))
-    window.connect(worker)
-    return worker
+    window.connect(lambda before: Worker(window.pace.told, posts=Posts(Journal(head_of_new())), before=before))
 
 
 def _open_window() -> Any:

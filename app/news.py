@@ -9,6 +9,7 @@ from app.desk import flight
 from app.desk.desk import Desk, Hear
 from app.desk.files import Done
 from app.desk.known import Known, known_after
+from app.desk.recovery import recovery_work
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
@@ -34,6 +35,7 @@ def _overtaken(desk: Desk, told: results.Overtaken, _now: float) -> None:
 
 def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     desk.notices.shown(scene.serial)
+    recovery_work.offer(desk, scene)
 
 
 def _done(desk: Desk, done: Done, _now: float) -> None:

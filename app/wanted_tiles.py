@@ -20,6 +20,7 @@ class Tiles:
         self._screen = screen
         self._asked: tuple[Any, ...] = ()
         self._serial: int | None = None  # of the painting that is shown
+        self.stays = False  # whether the view does, though another painting comes: it is the same, had back
         self._bare = TRACED  # no paint has been shown so far, and somebody wants to know
         self.hears: dict[type, Hear] = {
             results.Patch: self._patch,
@@ -56,8 +57,9 @@ class Tiles:
         if scene.serial == self._serial:
             return
         self._screen.forget()
-        if self._serial is not None or scene.path is not None:
+        if (self._serial is not None or scene.path is not None) and not self.stays:
             desk.fit()
+        self.stays = self.stays and scene.serial == 0
         self._serial = scene.serial
         trace(f"painting {scene.serial} shown")
 

@@ -25,6 +25,8 @@ from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
 from app.desk.previews import Previews
+from app.desk.recovery.engine_thread import EngineThread, Start
+from app.desk.recovery.recovery_work import FindCards
 from app.desk.stock import TakeStock
 from app.drawing import Drawing
 from app.faults.fault_guard import FaultGuard
@@ -35,7 +37,6 @@ from app.panels.layout import Layout
 from app.router import Router
 from app.wanted_tiles import Tiles
 from engine.studio import results
-from engine.studio.requests import at_time
 from engine.studio.worker import Worker
 
 _FAULT = results.Note("A fault in Inkfall", True, fault=True, stays=True, offers=("copy_details",), about="fault")
@@ -84,7 +85,7 @@ class Window:
             return [lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels)]
         if kind is results.PicturePart:
             return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
-        return [self.tiles.hears[kind]] if kind in self.tiles.hears else []
+        return [hears[kind] for hears in (self.tiles.hears, self.engine.hears) if kind in hears]
 
     def _dropped(self, path: Path) -> bool:
         """Takes a file that was dropped on the window: it is a panel's, or it is opened.  False while it cannot be."""
@@ -97,19 +98,24 @@ class Window:
                 desk.guard(lambda: desk.open(path))
         return True
 
-    def connect(self, worker: Worker) -> None:
-        """From now on pens are heard, and requests go to the engine's thread."""
+    def connect(self, start: Start) -> None:
+        """From now on pens are heard, and requests go to the engine's thread, which `start` begins."""
         self.pointers.hear_pens()
         shelf, previews = Shelf(glfw.post_empty_event), Previews(glfw.post_empty_event)
-        self.desk.post = lambda request: worker.post(at_time(request, round(time.time(), 3)))
-        self.desk.thumbnails, self.pace.worker = shelf.ask, worker
-        self.desk.behind = lambda: worker.behind
+        self.desk.thumbnails = shelf.ask
         self._files = files = Files(glfw.post_empty_event)
         self.desk.work = files.post
         self.desk.previews = previews.ask
-        for source in (worker.results, shelf.take, previews.take, files.take):
+        self.engine = EngineThread(self.desk, start, self.router.lift, self._taken)
+        for source in (self.engine.news, shelf.take, previews.take, files.take):
             self.news.connect(source)
+        self.desk.work(FindCards())  # first: its pictures are to be seen at once
         self.desk.work(TakeStock())
+
+    def _taken(self, worker: Worker, again: bool) -> None:
+        """Works with an engine's thread; `again`: it has the painting back that is on the screen."""
+        self.pace.worker = worker
+        self.tiles.stays = again
 
     def frame(self) -> bool:
         """Takes in what happened and draws; True while something still moves."""

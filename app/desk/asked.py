@@ -12,12 +12,13 @@ Then = Callable[[], None]
 
 @dataclass(slots=True)
 class Asked:
-    """`dialog`: a row of app.panels.dialogs.DIALOGS that is to be shown; `then`: goes on once unsaved changes are dealt
-    with; `after_save`: goes on once the painting is saved; `overtaken`: the save that is asked about; `quit`: the
-    window is to go; `export_level`: how deep the exported picture goes; `texture`: a name under which one is being
-    made, which joins the ink when the painting has it."""
+    """`dialog`: a row of app.panels.dialogs.DIALOGS that is to be shown; `shown`: the one that is; `then`: goes on once
+    unsaved changes are dealt with; `after_save`: goes on once the painting is saved; `overtaken`: the save that is
+    asked about; `quit`: the window is to go; `export_level`: how deep the exported picture goes; `texture`: a name
+    under which one is being made, which joins the ink when the painting has it."""
 
     dialog: str = ""
+    shown: str = ""
     then: Then | None = None
     after_save: Then | None = None
     overtaken: Overtaken | None = None
@@ -31,8 +32,8 @@ class Asked:
 
     def taken(self) -> str:
         """Gives the dialog that is to be shown, once."""
-        dialog, self.dialog = self.dialog, ""
-        return dialog
+        self.shown, self.dialog = self.dialog, ""
+        return self.shown
 
     def about_changes(self, then: Then) -> None:
         """Asks what is to become of unsaved changes, before `then`."""

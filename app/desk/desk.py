@@ -21,6 +21,7 @@ from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from app.desk.notices import Notice, Notices
 from app.desk.previews import FileRow
+from app.desk.recovery.recovery_state import RecoveryState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.requests import Open, Request, Save
@@ -96,12 +97,14 @@ class Desk:
     message: Message = Message()  # noqa: RUF009  # it never changes
     notices: Notices = field(default_factory=Notices)
     graphics: str = ""  # the card and its driver
+    start_engine: Callable[[], None] = lambda: None  # again, once a fault has ended its thread
     behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
     asked: Asked = field(default_factory=Asked)
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
     lab: LabState = field(default_factory=LabState)
     match: MatchState = field(default_factory=MatchState)
     examples: ExampleState = field(default_factory=ExampleState)
+    recovery: RecoveryState = field(default_factory=RecoveryState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

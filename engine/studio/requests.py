@@ -42,6 +42,13 @@ class Open:
 
 
 @dataclass(frozen=True, slots=True)
+class Recover:
+    """A painting that was not closed, from its entry's folder: as an untitled one, not saved."""
+
+    folder: Path
+
+
+@dataclass(frozen=True, slots=True)
 class Save:
     """The painting as it is now, as .ora; `sure`: whatever is there."""
 
@@ -320,6 +327,7 @@ LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
 Request = (
     New
     | Open
+    | Recover
     | Save
     | Export
     | Do

@@ -115,6 +115,11 @@ class Note:
 
 
 @dataclass(frozen=True, slots=True)
+class Stopped:
+    """A fault has ended the engine's thread: nothing more is carried out, and nothing comes after this."""
+
+
+@dataclass(frozen=True, slots=True)
 class Saved:
     """A file was written; `told`: what there is to say of that, "" if nothing."""
 
@@ -282,6 +287,7 @@ Result = (
     | Same
     | Scene
     | Note
+    | Stopped
     | Saved
     | Overtaken
     | Picture

@@ -14,10 +14,11 @@ import time
 from collections import deque
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from engine.studio.requests import Look, Request, Swatch
-from engine.studio.results import Note, Pending, Result
+from engine.studio.results import Note, Pending, Result, Stopped
 
 if TYPE_CHECKING:
     from engine.studio.journalled.posts import Posts
@@ -84,9 +85,17 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None], pos
 
 class Worker:
     """The thread.  `wake` is called from it whenever results lie ready; it must be safe to call from any thread.
-    `posts`: takes what is posted to the journal."""
+    `posts`: takes what is posted to the journal; `before`: the worker that has stopped and this one takes the place of,
+    whose journal is closed first."""
 
-    def __init__(self, wake: Callable[[], None], make: _Maker = _studio, posts: Posts | None = None) -> None:
+    def __init__(
+        self,
+        wake: Callable[[], None],
+        make: _Maker = _studio,
+        posts: Posts | None = None,
+        before: Worker | None = None,
+    ) -> None:
+        self._before, self._stopped = before, False
         self._wake, self._make, self._posts = wake, make if posts is None else partial(_studio, posts=posts), posts
         self._stays = True  # whether the painting is to be recovered
         if posts is not None:
@@ -138,9 +147,9 @@ class Worker:
         return bool(self._results)
 
     @property
-    def alive(self) -> bool:
-        """Tells whether the thread runs."""
-        return self._thread.is_alive()
+    def entry(self) -> Path | None:
+        """Returns the folder that keeps what is painted; None if there is none."""
+        return None if self._posts is None else self._posts.journal.folder
 
     def results(self) -> list[Result]:
         """Returns what came since the last call, in order."""
@@ -155,13 +164,17 @@ class Worker:
         with self._signal:
             return bool(self._posted) or self._doing or self._waiting or bool(self._results)
 
-    def close(self, timeout: float | None = 10.0, by_choice: bool = True) -> None:
+    def close(self, timeout: float | None = 10.0, by_choice: bool = True) -> bool:
         """Ends the thread after what was posted before is done and files are written; waits so many seconds for it,
-        at most.  `by_choice`: the artist closed the painting as it is; else it is to be recovered."""
+        at most, and tells whether it has ended.  `by_choice`: the artist closed the painting as it is; else it is to be
+        recovered."""
         with self._signal:
             self._closing, self._stays = True, not by_choice
             self._signal.notify()
         self._thread.join(timeout)
+        if self._stopped and self._posts is not None:
+            self._posts.close(stays=True)
+        return not self._thread.is_alive()
 
     def _send(self, result: Result) -> None:
         self._results.append(result)
@@ -214,6 +227,9 @@ class Worker:
         return next(soon, None) or next(iter(self._swatches))
 
     def _run(self) -> None:
+        before, self._before = self._before, None
+        if before is not None and before._posts is not None:
+            before._posts.close(stays=True)
         try:
             bench = self._make(self._send, self.post)
         except Exception as error:
@@ -222,9 +238,15 @@ class Worker:
                 Note("The paint engine did not load", bad=True, fault=True, stays=True, offers=("copy_details",))
             )
             return
-        self._work(bench)
-        bench.close()
-        self._work(bench)  # what the threads that wrote files have posted
+        try:
+            self._work(bench)
+            bench.close()
+            self._work(bench)  # what the threads that wrote files have posted
+        except BaseException as error:
+            _LOGGER.critical("a fault that ends the engine's thread", exc_info=error)
+            self._stopped = True
+            self._send(Stopped())
+            return
         if self._posts is not None:
             self._posts.close(self._stays)
 

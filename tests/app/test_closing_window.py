@@ -58,7 +58,7 @@ def test_the_window_goes_at_once_and_the_file_is_whole(program, tmp_path, monkey
 def test_what_fails_when_the_window_is_gone_is_told_on_the_terminal(capsys):
     class Worker:
         def __init__(self, *results):
-            self.results, self.alive = (lambda: results), False
+            self.results = lambda: results
 
     assert _told(Worker(results.Note("written"), results.Pending(0))) == 0
     assert capsys.readouterr().err == ""

@@ -43,8 +43,8 @@ def main(blocks: int) -> dict[str, Any]:
     window = opened_window()
     window.frame()
     sys.setswitchinterval(SWITCH)
-    worker = Worker(window.pace.told)
-    window.connect(worker)
+    window.connect(lambda _before: Worker(window.pace.told))
+    worker = window.engine.worker
     window.pointers.mouse = hand = Hand()
     found: dict[str, list[Pan]] = {"alone": [], "growing": []}
     try:

@@ -30,8 +30,8 @@ def main(file: str, x: int, y: int, exponent: int, levels: int, duration: float)
     window = opened_window()
     window.frame()
     sys.setswitchinterval(SWITCH)
-    worker = Worker(window.pace.told)
-    window.connect(worker)
+    window.connect(lambda _before: Worker(window.pace.told))
+    worker = window.engine.worker
     worker.post(Open(Path(file)))
     place = Place(x, y, exponent)
     try:

@@ -92,14 +92,20 @@ def lines_button(lines: Sequence[str], hint: str, width: float) -> bool:
     return pressed
 
 
-def default_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
-    """Returns the button of a dialog that the Return key presses, too; not one that was held down as the dialog came
-    up."""
+def accent_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
+    """Draws a button that stands out among others; tells whether it was pressed."""
     imgui.push_style_color(Col.button, theme.vec(theme.ACCENT, 0.45))
     imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT, 0.6))
     imgui.push_style_color(Col.button_active, theme.vec(theme.ACCENT, 0.75))
     pressed = text_button(label, hint, enabled=enabled, width=width)
     imgui.pop_style_color(3)
+    return pressed
+
+
+def default_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
+    """Returns the button of a dialog that the Return key presses, too; not one that was held down as the dialog came
+    up."""
+    pressed = accent_button(label, hint, enabled=enabled, width=width)
     return pressed or (enabled and any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN))
 
 

@@ -14,6 +14,7 @@ from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.overtaken import OvertakenSave
+from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
 from engine.studio.requests import New
 
@@ -66,6 +67,8 @@ class Dialogs:
         else:
             self._open = None
         imgui.pop_style_var()
+        if self._open is None:
+            desk.asked.shown = ""
 
 
 class NewPainting:
@@ -242,6 +245,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "unsaved": lambda desk: Unsaved(),
     "overtaken": _overtaken,
     "earlier": _earlier,
+    "unclosed": Cards,
+    "bin": Bin,
     "keys": lambda desk: Keys(),
     "about": lambda desk: About(),
 }

@@ -1,0 +1,1 @@
+"""Paintings that were not closed, and those in the bin."""

@@ -1,0 +1,1 @@
+"""Cards of paintings that can be had back."""
