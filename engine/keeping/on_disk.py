@@ -16,7 +16,7 @@ from engine.keeping.claim import Claim, claim, turn
 from engine.keeping.fingerprint import Fingerprint, fingerprint
 from engine.keeping.preferences import Preferences
 from engine.keeping.unfinished import unfinished
-from engine.keeping.versions import keep_version, let_go
+from engine.keeping.versions import keep_version
 
 
 class Overtaken(Exception):
@@ -56,7 +56,6 @@ class Replacement:
             return
         try:
             keep_version(self._target, self._preferences.versions)
-            let_go(self._preferences)
         except FileError as error:
             self.lost = str(error)
         except OSError as error:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from engine.keeping.claim import forget_unclaimed
 from engine.keeping.preferences import Preferences, preferences_file, read_preferences
 from engine.keeping.unfinished import sweep_unfinished
+from engine.studio.filing.bounds import bound_kept
 from engine.studio.results import Note, Result
 
 _LOGGER = logging.getLogger("inkfall")
@@ -17,16 +18,17 @@ _LOGGER = logging.getLogger("inkfall")
 def begun(send: Callable[[Result], None]) -> Preferences:
     """Returns the preferences, and tells what is wrong with them; sweeps on a thread of its own, which nothing waits
     for: the files may lie in folders that take long to answer."""
-    threading.Thread(target=_sweep, name="inkfall sweep", daemon=True).start()
     preferences, faults = read_preferences(preferences_file())
+    threading.Thread(target=_sweep, args=(preferences,), name="inkfall sweep", daemon=True).start()
     if faults:
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         send(Note(f"{faults[0]}{more}", bad=True, stays=True, about="preferences", lines=faults))
     return preferences
 
 
-def _sweep() -> None:
+def _sweep(preferences: Preferences) -> None:
     try:
+        bound_kept(preferences)
         sweep_unfinished()
         forget_unclaimed()
     except OSError as error:

@@ -15,6 +15,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
+from engine.studio.filing.bounds import bound_kept
 from engine.studio.filing.documents import Document
 from engine.studio.filing.writers import Writers
 
@@ -35,6 +36,7 @@ class _Asked:
     serial: int
     files: OnDisk
     mark: Callable[[Path], None]
+    preferences: Preferences
 
     def write(self, grown: Painting) -> results.Result:
         """Writes it, on a thread of its own; returns what the window is to know."""
@@ -42,6 +44,7 @@ class _Asked:
         try:
             with self.files.saving(path, self.request.sure) as one:
                 documents.save(path, grown, self.recording, one.ready)
+            bound_kept(self.preferences)
         except Overtaken as reason:
             return results.Overtaken(path, reason.elsewhere)
         return results.Saved(path, _told(path, one))
@@ -92,7 +95,14 @@ class Saves(Owned):
             easel.finish()
         recording = easel.session.recording() if self._known else None
         asked = _Asked(
-            request, easel.session.painting, easel.session.state, recording, easel.serial, self._files, self.mark()
+            request,
+            easel.session.painting,
+            easel.session.state,
+            recording,
+            easel.serial,
+            self._files,
+            self.mark(),
+            self._preferences,
         )
         self._waiting.pop(request.path, None)  # it is older
         self._waiting[request.path] = asked

@@ -9,12 +9,15 @@ import pytest
 
 from engine.archive.opening import open_painting
 from engine.canvas import layers
+from engine.journal.entries import change_about, new_entry, paintings_folder
+from engine.keeping.preferences import Preferences
 from engine.keeping.versions import kept_versions, versions_folder
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing import documents
+from engine.studio.filing.bounds import bound_kept
 from engine.studio.studio import Studio
 
 
@@ -180,6 +183,30 @@ def test_a_file_that_is_open_in_another_window_is_told_at_opening_and_asked_abou
     third.do(q.Open(path))
     assert third.written() == []  # the first has let go of it
     second.close()
+
+
+def test_the_bin_and_the_versions_have_their_bounds_together(window, tmp_path, monkeypatch):
+    one, path = window(), tmp_path / "lake.ora"
+    for name in "abcd":
+        one.add(name)
+        one.save(path)
+    paintings = [new_entry(paintings_folder()) for _ in range(3)]
+    for number, (folder, lock) in enumerate(paintings):
+        os.close(lock)
+        (folder / "journal-0").write_bytes(bytes(1000))
+        os.utime(folder / "journal-0", (number, number))
+        if number < 2:
+            change_about(folder, state="closed")
+    kept = kept_versions(versions_folder(path))
+    monkeypatch.setattr("engine.keeping.versions.most_bytes", lambda told: sum(k.stat().st_size for k in kept) + 1500)
+    bound_kept(Preferences())
+    assert [folder.exists() for folder, _ in paintings] == [False, True, True]
+    assert kept_versions(versions_folder(path)) == kept
+    one.do(q.New(Rect(0, 0, 64, 64)))
+    monkeypatch.setattr("engine.keeping.versions.most_bytes", lambda told: 0)
+    one.save(tmp_path / "other.ora")  # a save looks after it
+    assert [folder.exists() for folder, _ in paintings] == [False, False, True]
+    assert kept_versions(versions_folder(path)) == kept[:1]
 
 
 def test_a_save_of_a_painting_that_is_gone_asks_nothing(window, tmp_path, gate):
