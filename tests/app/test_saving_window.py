@@ -1,6 +1,7 @@
 """Saving in the real window: over what others have saved, from two windows, and earlier versions."""
 
 import io
+import json
 import time
 import zipfile
 
@@ -11,6 +12,7 @@ from xserver import started_server
 
 from engine.archive.saving import MERGED
 
+WANTED = "expected a whole number from 1 to 100"
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 
@@ -41,9 +43,24 @@ def saves(app, path):
     until(lambda: path.stat().st_mtime_ns != before)
 
 
+def left_over(folder):
+    """What a process left that was killed in a save, and preferences with a fault; the file beside."""
+    (folder / "state" / "inkfall" / "writing").mkdir(parents=True)
+    told = {"path": str(folder / "old.ora"), "process": 1}
+    (folder / "state" / "inkfall" / "writing" / "1-a.json").write_text(json.dumps(told))
+    (folder / "config" / "inkfall").mkdir(parents=True)
+    (folder / "config" / "inkfall" / "preferences.toml").write_text("[kept]\nversions = 'all'\n")
+    part = folder / ".old.ora.1.0123abcd.part"
+    part.write_bytes(b"half")
+    return part
+
+
 def test_nothing_that_others_saved_is_lost_and_earlier_versions_are_at_hand(program, tmp_path, other_display):
     path = tmp_path / "untitled.ora"
+    part = left_over(tmp_path)
     first = program()
+    first.box(f"{tmp_path}/config/inkfall/preferences.toml: [kept] versions: found 'all', {WANTED}", "status")
+    assert not part.exists()
     first.stroke((400, 300), (700, 320))
     first.canvas()
     first.keys("ctrl+s")
