@@ -59,6 +59,7 @@ class Easel(Owned):
         """
         if self.live is not None:
             self.finish()
+        self.viewer.look_back(None)
         before = self.session.painting
         after = self.session.do(command, lent)
         if after is not before:
@@ -71,6 +72,7 @@ class Easel(Owned):
         """Begins a stroke whose points come later."""
         if self.live is not None:
             self.finish()
+        self.viewer.look_back(None)
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed)
         self.live.extra = stroke.extra
 

@@ -5,6 +5,7 @@ Light on purpose: importing it loads neither numba nor scipy, so a window can be
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 
 if TYPE_CHECKING:
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from engine.painting.commands import Command, DefineTexture
 
 _NOTHING: Map[str, Any] = Map()
+Handlers = dict[type, Callable[[Any], None]]  # of requests, by their types
 SCREEN_TILE = 256  # pixels along a side of a screen tile
 
 
@@ -347,6 +350,7 @@ Request = (
     | FileGrown
     | Written
     | Prepare
+    | PastRequest
 )
 
 

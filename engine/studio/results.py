@@ -14,6 +14,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.studio.past.past_records import Here, PastScene
 
 if TYPE_CHECKING:
     from engine.painting.places import Bookmark
@@ -303,6 +304,8 @@ Result = (
     | GotReady
     | Prepared
     | Growing
+    | PastScene
+    | Here
 )
 
 

@@ -5,8 +5,8 @@ The painting is on the easel; filing, lab, examiner, matcher and grower work at 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -27,19 +27,22 @@ from engine.studio.journalled.answers import Answers
 from engine.studio.journalled.posts import Posts
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
+from engine.studio.past.here import HereFinder
+from engine.studio.past.past_list import PastList
+from engine.studio.past.trail import Trail
+from engine.studio.past.travels import Travels
 from engine.studio.ready import ready
 from engine.studio.region_strokes import Regions
 from engine.studio.warming import Warming
 
-Handlers = Mapping[type, Callable[[Any], None]]
-_NO_REQUESTS: Handlers = {}
+_NO_REQUESTS: q.Handlers = {}
 _DEFAULT = Preferences()
 
 
 class Part(Protocol):
     """What works at the painting for a panel, piece by piece."""
 
-    handlers: dict[type, Callable[[Any], None]]  # of requests, by their types
+    handlers: q.Handlers
 
     @property
     def pending(self) -> int:
@@ -56,7 +59,7 @@ class Work(NamedTuple):
 
     pending: Callable[[], int]
     step: Callable[[], None]
-    handlers: Handlers = _NO_REQUESTS
+    handlers: q.Handlers = _NO_REQUESTS
 
 
 def _of(part: Part) -> Work:
@@ -76,7 +79,9 @@ class Studio(Owned):
         self._answers = None if posts is None else Answers(easel, posts)
         if self._answers is not None:
             self.filing.turned, self.filing.saves.mark = self._answers.turn, self._answers.mark
-        viewer = easel.viewer
+        viewer, trail = easel.viewer, Trail(easel)
+        travels = Travels(trail)
+        past = PastList(trail, travels)
         # From the most urgent: first what the pen just painted, on the canvas or in a region.
         self._rows = (
             Work(lambda: easel.behind, easel.follow),
@@ -84,12 +89,15 @@ class Studio(Owned):
             _of(Regions(send)),
             _of(self.lab),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
+            Work(lambda: past.untold, past.tell),
+            _of(travels),
             Work(lambda: self.grower.pending, self._grow),
             _of(Matcher(easel)),
             _of(Examiner(easel)),
+            _of(past),
         )
-        self._handlers: dict[type, Callable[[Any], None]] = {
-            q.Do: lambda r: easel.carry_out(timed(r.command, r.time)),
+        self._handlers: q.Handlers = {
+            q.Do: lambda r: travels.carry_out(timed(r.command, r.time)),
             q.Begin: self._begin,
             q.Points: lambda r: easel.extend(rounded(r.points)),
             q.Finish: lambda r: easel.finish(),
@@ -97,6 +105,7 @@ class Studio(Owned):
             q.Swatch: self._swatch,
             **self.filing.handlers,
             **Warming(send).handlers,
+            **HereFinder(trail).handlers,
         }
         for row in self._rows:
             self._handlers |= row.handlers

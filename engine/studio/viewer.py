@@ -13,7 +13,8 @@ from engine.canvas.reading import covered, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
-from engine.painting.difference import Areas
+from engine.painting.difference import Areas, areas
+from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.strokes.example_stroke import Live
 from engine.strokes.paint_stroke import LiveStroke
@@ -42,6 +43,7 @@ class Viewer(Owned):
         self.above: Above = lambda level, rect, pixels: pixels  # lays over a picture what is not painted yet
         self._fresh = _NOTHING  # pixels of the live stroke's level not sent yet
         self._level = 0
+        self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick}
 
     @property
@@ -71,9 +73,16 @@ class Viewer(Owned):
         whole = live.flattened or live.bed is not None  # seen at other levels too
         self.changed(lambda level: None if whole else [live.rect] if level == live.level else [])
 
+    def look_back(self, painting: Painting | None) -> None:
+        """Shows another state of the painting; None: as it is now."""
+        now = self._subject.session.painting
+        before, self.looking = self.looking or now, painting
+        if before is not (painting or now):
+            self.changed(areas(before, painting or now))
+
     def forget(self) -> None:
         """Another painting is to be seen."""
-        self._fresh = _NOTHING
+        self._fresh, self.looking = _NOTHING, None
         self.sight.forget()
 
     def send_fresh(self) -> None:
@@ -105,7 +114,7 @@ class Viewer(Owned):
     def picture(self, level: int, whole: Rect) -> np.ndarray:
         """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         live = self._subject.live
-        root = live.root if live is not None else self._subject.session.painting.root
+        root = live.root if live is not None else (self.looking or self._subject.session.painting).root
         known: dict[int, np.ndarray | None] = {}
 
         def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:

@@ -1,0 +1,143 @@
+"""The list of steps as the window shows it, and their small pictures.
+
+A picture is made soon after its step is done, while nothing else waits.  Those of a painting that was opened are made
+while its log is played anew, as long as the list is shown.
+"""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from engine.checks.owned import Owned
+from engine.session.steps import LoggedStep
+from engine.studio import results
+from engine.studio.past import past_records as p
+from engine.studio.past import step_pictures
+from engine.studio.past.rebuilding import Rebuilding
+from engine.studio.past.step_pictures import StepPictures
+from engine.studio.past.trail import Trail
+from engine.studio.past.travels import Travels
+from engine.studio.requests import Handlers
+
+_TELL = 0.1  # seconds between two results about a way, at least
+
+
+class PastList(Owned):
+    """Tells of the steps.  It belongs to the engine's thread."""
+
+    def __init__(self, trail: Trail, travels: Travels) -> None:
+        self._trail, self._travels, self._easel = trail, travels, trail.easel
+        self._shown = p.ShowPast(False)
+        self._told: tuple[object, ...] = ()
+        self._begin()
+        self.handlers: Handlers = {p.ShowPast: self._show}
+
+    def _begin(self) -> None:
+        """Another painting is on the easel."""
+        self._session = self._easel.session
+        self._pictures = StepPictures()
+        self._open: list[LoggedStep] = []  # steps without a picture, the newest last
+        self._logged = 0  # commands in the log that were looked at
+        self._tour: Rebuilding | None = None
+        self._toured = False
+
+    @property
+    def pending(self) -> int:
+        """Counts the pieces of open work."""
+        touring = self._shown.shown and self._tour is not None
+        return int(
+            touring or self.untold or bool(self._open) or self._session is not self._easel.session or self._behind
+        )
+
+    @property
+    def _behind(self) -> bool:
+        return self._logged != len(self._session.log)
+
+    def _follow(self) -> None:
+        """Takes in what was done since."""
+        if self._session is not self._easel.session:
+            self._begin()
+        self._trail.follow()
+        if self._behind:
+            self._open += self._trail.since(self._logged)
+            self._logged = len(self._session.log)
+
+    @property
+    def untold(self) -> bool:
+        """Tells whether the window's list is not what it should be."""
+        return self._shown.shown and self._state() != self._told
+
+    def step(self) -> None:
+        """Does the next piece."""
+        self._follow()
+        if self.untold:
+            self.tell()
+        elif self._open:
+            self._picture(self._open.pop())
+        elif self._tour is not None and self._shown.shown:
+            self._go_on(self._tour)
+
+    def _show(self, request: p.ShowPast) -> None:
+        self._told = self._told if self._shown.shown and request.shown else ()
+        before, self._shown = set(self._shown.pictures), request
+        self._follow()
+        if not request.shown:
+            self._tour = None
+            return
+        wanted = [step for step in self._trail.steps if step.index in request.pictures]
+        for step in wanted:
+            if step in self._pictures:
+                if step.index not in before:
+                    self._send(step)
+            elif self._trail.held(step.number) is not None:
+                self._open.append(step)
+            elif self._tour is None and not self._toured:
+                self._tour, self._toured = self._trail.rebuilding(len(self._trail.steps)), True
+
+    def _picture(self, step: LoggedStep) -> None:
+        """Makes the picture of a step that is at hand."""
+        steps = self._trail.steps
+        there = step.number <= len(steps) and steps[step.number - 1] is step and step not in self._pictures
+        painting = self._trail.held(step.number) if there else None
+        if painting is not None:
+            self._keep(step, step_pictures.made(step, painting, self._session.cache))
+
+    def _go_on(self, tour: Rebuilding) -> None:
+        """Plays the next command, and makes a picture of its step."""
+        at = tour.at
+        if tour.done:
+            self._tour = None
+            return
+        try:
+            tour.play()
+        except Exception:
+            self._tour = None
+            raise
+        step = next((step for step in self._trail.steps if step.index == at), None)
+        if step is not None and step not in self._pictures:
+            self._keep(step, step_pictures.made(step, tour.session.painting, tour.session.cache))
+
+    def _keep(self, step: LoggedStep, pixels: np.ndarray) -> None:
+        self._pictures.keep(step, pixels)
+        if self._shown.shown and step.index in self._shown.pictures:
+            self._send(step)
+
+    def _send(self, step: LoggedStep) -> None:
+        self._easel.send(results.Picture(self._trail.row(step).picture, self._pictures.of(step)))
+
+    def _state(self) -> tuple[object, ...]:
+        """Returns what the list depends on; while a way is gone, the time too."""
+        session, part = self._easel.session, self._travels.part
+        beat = None if part is None else int(time.monotonic() / _TELL)
+        return session, len(session.log), session.state, self._travels.looking, beat
+
+    def tell(self) -> None:
+        """Sends the list."""
+        self._follow()
+        self._told = self._state()
+        trail, history = self._trail, self._trail.session.history
+        rows = tuple(trail.row(step) for step in trail.steps)
+        held = trail.count - history.undo_count, trail.count + history.redo_count
+        self._easel.send(p.PastScene(rows, trail.count, held, self._travels.looking, self._travels.part))

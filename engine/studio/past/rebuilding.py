@@ -1,0 +1,114 @@
+"""States of the painting that the history does not hold any more: its log played anew, from the nearest that is kept.
+
+A state is kept every 200 steps or 3 seconds of playing, in turn forgotten when together they hold too much.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from itertools import pairwise
+
+from engine.canvas.evaluate import TileCache
+from engine.painting import commands as c
+from engine.painting.recording import undo_reach
+from engine.painting.value import Painting
+from engine.session.apply import STEPS
+from engine.session.history import History, difference
+from engine.session.session import HISTORY_BYTES, SMALLEST_CACHE, Session
+
+STEPS_APART, SECONDS_APART = 200, 3.0
+PLAYED_AT_ONCE = 0.02  # seconds of playing at a time
+_STATE_BYTES = 512 << 20  # bytes that the states hold which their neighbours do not
+
+
+class KeptStates:
+    """Paintings by how many commands of the log led to them."""
+
+    def __init__(self, base: Painting) -> None:
+        self._states: dict[int, Painting] = {0: base}
+        self._alone: dict[int, int] = {0: 0}  # bytes that each holds and the one before does not
+        self.held = 0
+
+    def keep(self, count: int, painting: Painting) -> None:
+        """Keeps the painting after the first `count` commands."""
+        before = max((n for n in self._states if n < count), default=None)
+        if count in self._states or before is None:
+            return
+        gained = difference(self._states[before].root, painting.root)[1]
+        self._states[count], self._alone[count] = painting, gained
+        self.held += gained
+        if self.held > _STATE_BYTES:
+            self._thin_out()
+
+    def nearest(self, log: Sequence[c.Command], count: int) -> tuple[int, Painting]:
+        """Returns the latest state from which the first `count` commands can be played on, and how many led to it."""
+        for n in sorted((n for n in self._states if n <= count), reverse=True):
+            if _stays_above(log[n:count]):
+                return n, self._states[n]
+        return 0, self._states[0]
+
+    def _thin_out(self) -> None:
+        """Forgets every other one; those that stay hold more alone then."""
+        kept = [0, *sorted(self._states)[2::2]]
+        self._states = {n: self._states[n] for n in kept}
+        self._alone = {0: 0}
+        for before, n in pairwise(kept):
+            self._alone[n] = difference(self._states[before].root, self._states[n].root)[1]
+        self.held = sum(self._alone.values())
+
+
+def _stays_above(commands: Sequence[c.Command]) -> bool:
+    """Tells whether commands take back and do again nothing but their own steps."""
+    behind = ahead = 0
+    for command in commands:
+        if isinstance(command, c.Undo):
+            behind, ahead = behind - command.count, ahead + command.count
+        elif isinstance(command, c.Redo):
+            behind, ahead = behind + command.count, ahead - command.count
+        elif type(command) in STEPS:
+            behind, ahead = behind + 1, 0
+        if behind < 0 or ahead < 0:
+            return False
+    return True
+
+
+class Rebuilding:
+    """Plays the first `count` commands of a session's log, piece by piece.  FileError or Refusal where one cannot be
+    done."""
+
+    def __init__(self, of: Session, states: KeptStates, count: int) -> None:
+        self._log, self._states, self._of, self._count = of.log, states, of, count
+        self.at, painting = self._states.nearest(self._log, count)
+        self._begun = self.at
+        reach = undo_reach(self._log[self.at : count], STEPS)
+        self.session = Session(
+            painting,
+            TileCache(SMALLEST_CACHE),
+            folder=of.folder,
+            history=History(HISTORY_BYTES, max(reach, 1)),
+        )
+        self._steps, self._since = 0, time.monotonic()
+
+    @property
+    def done(self) -> bool:
+        """Tells whether the state is reached."""
+        return self.at >= self._count
+
+    @property
+    def part(self) -> float:
+        """Tells how far it is, 0..1."""
+        return 1.0 if self.done else (self.at - self._begun) / (self._count - self._begun)
+
+    def play(self) -> None:
+        """Plays the next command."""
+        command = self._log[self.at]
+        lent = None
+        if isinstance(command, c.DefineTexture):  # its file may be gone, and its picture is still here
+            lent = self._of.around().pictures.get(command.arguments.get("sha", ""))
+        self.session.do(command, lent)
+        self.at += 1
+        self._steps += type(command) in STEPS
+        if self._steps >= STEPS_APART or time.monotonic() > self._since + SECONDS_APART:
+            self._states.keep(self.at, self.session.painting)
+            self._steps, self._since = 0, time.monotonic()

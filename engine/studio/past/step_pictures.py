@@ -1,0 +1,77 @@
+"""Small pictures of steps: where a stroke was painted, or the frame, as it was seen after the step."""
+
+from __future__ import annotations
+
+import zlib
+from collections import OrderedDict
+
+import numpy as np
+
+from engine.canvas.composite import composite
+from engine.canvas.evaluate import TileCache
+from engine.canvas.layers import Layer
+from engine.canvas.reading import layer_planes
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_premul8
+from engine.painting import commands as c
+from engine.painting.value import Painting
+from engine.session.steps import LoggedStep
+from engine.strokes.coverage_at import stroke_bounds
+
+PICTURE_WIDTH, PICTURE_HEIGHT = 96, 72  # pixels
+_ROOM = 0.8  # of a picture that a stroke may fill
+_PICTURE_BYTES = 64 << 20  # bytes of pictures kept, the oldest forgotten first
+
+
+def made(step: LoggedStep, painting: Painting, cache: TileCache | None) -> np.ndarray:
+    """Returns the picture of a step: uint8 (72, 96, 4), premultiplied; `painting`: as it was after it."""
+    level, whole = _place(step.command, painting)
+    known: dict[int, np.ndarray | None] = {}
+
+    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        if layer.id not in known:  # once for all blocks
+            known[layer.id] = layer_planes(layer, level, whole, cache)
+        planes = known[layer.id]
+        return None if planes is None else planes[:, *rect.slices(whole)]
+
+    return to_premul8(composite(painting.root, level, whole, read))
+
+
+def _place(command: c.Command, painting: Painting) -> tuple[int, Rect]:
+    """Returns the level, no finer than the stroke's, and its pixels that are shown."""
+    level, whole = (command.level, stroke_bounds(command)) if isinstance(command, c.Stroke) else (0, painting.frame)
+    while whole.width > _ROOM * PICTURE_WIDTH or whole.height > _ROOM * PICTURE_HEIGHT:
+        level, whole = level - 1, whole.zoomed(-1)
+    left = whole.x0 - (PICTURE_WIDTH - whole.width) // 2
+    top = whole.y0 - (PICTURE_HEIGHT - whole.height) // 2
+    return level, Rect.at(left, top, PICTURE_WIDTH, PICTURE_HEIGHT)
+
+
+class StepPictures:
+    """The pictures made so far, by the index of the step and its command, which tells whether it is still that one."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[int, tuple[c.Command, bytes]] = OrderedDict()
+        self.held = 0  # bytes
+
+    def __contains__(self, step: LoggedStep) -> bool:
+        known = self._kept.get(step.index)
+        return known is not None and known[0] is step.command
+
+    def keep(self, step: LoggedStep, pixels: np.ndarray) -> None:
+        """Keeps a picture, uint8 (72, 96, 4)."""
+        self._forget(step.index)
+        packed = zlib.compress(pixels.tobytes(), 1)
+        self._kept[step.index] = step.command, packed
+        self.held += len(packed)
+        while self.held > _PICTURE_BYTES:
+            self._forget(next(iter(self._kept)))
+
+    def of(self, step: LoggedStep) -> np.ndarray:
+        """Returns a picture that is kept."""
+        packed = self._kept[step.index][1]
+        return np.frombuffer(zlib.decompress(packed), np.uint8).reshape(PICTURE_HEIGHT, PICTURE_WIDTH, 4)
+
+    def _forget(self, index: int) -> None:
+        known = self._kept.pop(index, None)
+        self.held -= len(known[1]) if known is not None else 0

@@ -1,0 +1,49 @@
+"""What a step is called where the artist reads it: a few words."""
+
+from __future__ import annotations
+
+from engine.painting import commands as c
+from engine.painting.times import time_of
+from engine.session.steps import LoggedStep
+from engine.studio.past.past_records import PastStep
+
+
+def told(step: LoggedStep, serial: int) -> PastStep:
+    """Returns what the window is told of a step of the painting of that number."""
+    command, picture = step.command, f"step {serial}.{step.index}"
+    when = time_of(command)
+    if isinstance(command, c.Stroke):
+        title = command.brush.row.label
+        return PastStep(step.index, step.number, title, picture, command.brush, command.level, when)
+    return PastStep(step.index, step.number, _title(command), picture, time=when)
+
+
+def _title(command: c.Command) -> str:
+    match command:
+        case c.AddLayer(name=name, kind=kind):
+            return f"New {kind} “{name}”"
+        case c.RemoveLayer(name=name):
+            return f"Delete “{name}”"
+        case c.RenameLayer(name=name, to=to):
+            return f"“{name}” is now “{to}”"
+        case c.DuplicateLayer(name=name):
+            return f"Duplicate “{name}”"
+        case c.MoveLayer(name=name):
+            return f"Move “{name}”"
+        case c.SetLayer():
+            return _setting(command)
+        case c.Swap(example=example):
+            return f"Swap for {example}"
+    return type(command).__name__
+
+
+def _setting(command: c.SetLayer) -> str:
+    """Returns what of a layer was set, of several things the first."""
+    name, changes = command.name, command.changes
+    if "visible" in changes:
+        return f"{'Show' if changes['visible'] else 'Hide'} “{name}”"
+    if "opacity" in changes:
+        return f"Opacity of “{name}”: {changes['opacity']:.0%}"
+    if "blend" in changes:
+        return f"Blending of “{name}”"
+    return f"Lock of “{name}”"

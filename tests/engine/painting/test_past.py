@@ -1,0 +1,257 @@
+"""The past: jumps are undo and redo, whether the history holds the step or not; looking back changes nothing."""
+
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.canvas.composite import composite
+from engine.canvas.evaluate import TileCache
+from engine.canvas.reading import layer_planes
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting import recording as r
+from engine.session.replay import replay
+from engine.session.session import Session
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.past import past_records as p
+from engine.studio.past import step_pictures
+from engine.studio.past.rebuilding import STEPS_APART, KeptStates
+from engine.studio.studio import Studio
+
+FRAME = Rect.at(0, 0, 64, 48)
+TILE = (0, 0, 0)
+
+
+class Asker:
+    """A studio, and what it sent."""
+
+    def __init__(self, session=None):
+        self.sent = []
+        self.studio = Studio(self.sent.append, lambda request: None)
+        self.easel = self.studio.easel
+        if session is not None:
+            self.easel.show(session, None)
+        self.work()
+
+    def ask(self, *requests):
+        for request in requests:
+            self.studio.do(request)
+        self.work()
+
+    def work(self):
+        while self.studio.pending:
+            self.studio.step()
+
+    def last(self, kind):
+        return next(result for result in reversed(self.sent) if isinstance(result, kind))
+
+    @property
+    def scene(self):
+        return self.last(p.PastScene)
+
+    @property
+    def session(self):
+        return self.easel.session
+
+    def seen(self):
+        return self.easel.viewer.picture(0, FRAME)
+
+
+def stroke(x, y, colour="#102030", layer=None):
+    told = {"do": "stroke", "points": [[x, y], [x + 9, y + 4]], "brush": {"radius": 4, "colour": colour}}
+    return c.parse(told if layer is None else {**told, "layer": layer})
+
+
+STROKES = tuple(stroke(5 * n, 3 * n, f"#{40 * n % 256:02x}{90 * n % 256:02x}80") for n in range(12))
+COMMANDS = (
+    *STROKES[:4],
+    c.parse({"do": "layer", "add": "Above"}),
+    c.parse({"do": "texture", "name": "Stone", "maker": "rock"}),
+    *STROKES[4:8],
+    c.parse({"do": "layer", "set": "Above", "opacity": 0.5}),
+    c.parse({"do": "undo", "count": 2}),
+    c.parse({"do": "layer", "select": "Layer 1"}),
+    *STROKES[8:],
+)
+
+
+def painted(session):
+    return composite(session.painting.root, 0, FRAME, layer_planes)
+
+
+def after(commands, count):
+    return painted(replay(r.Recording(r.Header(FRAME, 0), tuple(commands[:count]))))
+
+
+def opened(commands=COMMANDS):
+    """A session as a file gives it: the painting and its log, and a history that holds nothing."""
+    made = replay(r.Recording(r.Header(FRAME, 0), tuple(commands)))
+    return Session(made.painting, TileCache(16 << 20), log=made.log)
+
+
+ACTS = st.one_of(
+    st.integers(0, 14).map(p.Jump),
+    st.integers(0, 14).map(p.LookBack),
+    st.sampled_from(STROKES).map(q.Do),
+    st.just(q.Do(c.Undo())),
+    st.just(q.Do(c.Redo())),
+    st.just(q.Do(c.AddLayer("Other"))),
+)
+
+
+@settings(deadline=None, max_examples=12)
+@given(st.booleans(), st.lists(ACTS, max_size=8))
+def test_whatever_is_jumped_and_looked_at_the_recording_gives_the_painting(held, acts):
+    asker = Asker(None if held else opened())
+    if held:
+        asker.ask(q.New(FRAME), *map(q.Do, COMMANDS))
+    asker.ask(p.ShowPast())
+    for act in acts:
+        if act == q.Do(c.AddLayer("Other")) and any(row.name == "Other" for row in asker.last(results.Scene).layers):
+            continue
+        before, log = painted(asker.session), list(asker.session.log)
+        asker.ask(act)
+        if isinstance(act, p.Jump) and act.number <= len(asker.scene.steps):
+            assert asker.scene.done == act.number
+            if len(log) < len(asker.session.log):
+                (jump,) = asker.session.log[len(log) :]
+                assert isinstance(jump, c.Undo | c.Redo)
+        elif isinstance(act, p.LookBack):
+            assert asker.session.log == log
+            assert np.array_equal(painted(asker.session), before)
+    again = replay(asker.session.recording())
+    assert np.array_equal(painted(again), painted(asker.session))
+    assert again.painting.active == asker.session.painting.active
+    assert (len(again.steps.done), len(again.steps.undone)) == (
+        asker.scene.done,
+        len(asker.scene.steps) - asker.scene.done,
+    )
+
+
+@pytest.mark.parametrize("number", [0, 3, 12])
+def test_a_step_of_a_file_is_reached_and_looked_at(number):
+    asker = Asker(opened())
+    asker.ask(p.ShowPast())
+    scene = asker.scene
+    assert (len(scene.steps), scene.done, scene.held) == (12, 12, (12, 12))
+    index = scene.steps[number - 1].index + 1 if number else 0
+    wanted, present, log = after(COMMANDS, index), painted(asker.session), len(asker.session.log)
+    asker.ask(p.LookBack(number))
+    assert np.array_equal(asker.seen(), wanted)
+    assert len(asker.session.log) == log
+    asker.ask(p.LookBack(None))
+    assert np.array_equal(asker.seen(), present)
+    asker.ask(p.Jump(number))
+    assert np.array_equal(painted(asker.session), wanted)
+    assert np.array_equal(asker.seen(), wanted)
+    assert asker.session.can_redo == (number < 12)
+    for further in range(number + 1, 13):  # redo survives, although nothing is held
+        asker.ask(q.Do(c.Redo()))
+        assert asker.scene.done == further
+    assert np.array_equal(painted(asker.session), present)
+    asker.ask(p.Jump(0), q.Do(stroke(0, 0)))
+    assert not asker.session.can_redo
+
+
+def test_looking_ends_as_soon_as_somebody_paints():
+    asker = Asker()
+    asker.ask(q.New(FRAME), *map(q.Do, STROKES[:4]), p.ShowPast())
+    asker.ask(p.LookBack(1))
+    assert asker.scene.looking == 1
+    assert not np.array_equal(asker.seen(), painted(asker.session))
+    asker.ask(q.Do(STROKES[5]))
+    assert asker.scene.looking is None
+    assert np.array_equal(asker.seen(), painted(asker.session))
+    assert asker.scene.done == 5
+
+
+def test_the_way_to_a_step_can_be_given_up_and_tells_how_far_it_is():
+    many = tuple(stroke(n % 50, n % 40) for n in range(120))
+    asker = Asker(opened(many))
+    asker.ask(p.ShowPast())
+    before = painted(asker.session)
+    asker.studio.do(p.Jump(119))
+    asker.studio.step()
+    asker.studio.do(p.StopJump())
+    asker.work()
+    assert (asker.scene.done, asker.scene.playing) == (120, None)
+    asker.studio.do(p.Jump(5))
+    asker.studio.do(q.Do(STROKES[0]))  # who goes on painting does not want to be taken away
+    asker.work()
+    assert asker.scene.done == 121
+    asker.ask(p.Jump(119))
+    assert any(scene.playing is not None for scene in asker.sent if isinstance(scene, p.PastScene))
+    asker.ask(p.Jump(120))
+    assert np.array_equal(painted(asker.session), before)
+
+
+def test_every_step_has_a_picture_of_where_it_was_painted():
+    asker = Asker(opened())
+    asker.ask(p.ShowPast())
+    steps = asker.scene.steps
+    asker.ask(p.ShowPast(True, tuple(step.index for step in steps)))
+    shown = {result.ident: result.pixels for result in asker.sent if isinstance(result, results.Picture)}
+    assert set(shown) == {step.picture for step in steps}
+    for step in asker.session.steps.done[1::4]:
+        there = replay(r.Recording(r.Header(FRAME, 0), COMMANDS[: step.index + 1])).painting
+        made = step_pictures.made(step, there, None)
+        assert made[30:42, 40:56, 3].any()
+        assert np.array_equal(shown[steps[step.number - 1].picture], made)
+    asker.ask(q.Do(STROKES[0]))
+    asker.ask(p.ShowPast(True, (asker.scene.steps[-1].index,)))
+    assert asker.scene.steps[-1].picture == asker.last(results.Picture).ident
+
+
+def test_a_picture_is_made_in_a_millisecond_or_two():
+    session = Session(cache=TileCache(64 << 20))
+    for n in range(30):
+        points = [[40.0 * n, 200.0 + 10 * k, 0.8] for k in range(40)]
+        session.do(c.parse({"do": "stroke", "level": n % 3, "points": points, "brush": {"radius": 30}}))
+    step, spent = session.steps.done[-1], []
+    for _ in range(20):
+        before = time.process_time()
+        step_pictures.made(step, session.painting, session.cache)
+        spent.append(time.process_time() - before)
+    assert min(spent) < 0.002, spent
+
+
+def test_a_held_step_is_seen_in_thirty_milliseconds():
+    asker = Asker()
+    asker.ask(q.New(Rect.at(0, 0, 512, 512)), *map(q.Do, STROKES * 4), p.ShowPast())
+    tiles = tuple((0, x, y, -1) for x in range(2) for y in range(2))
+    asker.studio.look(q.Look(tiles))
+    asker.work()
+    spent = []
+    for number in (40, 12, 30, 3):
+        before = time.process_time()
+        asker.studio.do(p.Jump(number))
+        asker.studio.look(q.Look(tuple((*tile[:3], asker.easel.viewer.sight.revision - 1) for tile in tiles)))
+        while asker.easel.viewer.sight.open:
+            asker.studio.step()
+        spent.append(time.process_time() - before)
+    assert min(spent) < 0.03, spent
+
+
+def test_kept_states_are_bounded_and_each_leads_on():
+    session = Session(cache=TileCache(16 << 20))
+    states = KeptStates(session.painting)
+    kept = {}
+    for n in range(40):
+        session.do(stroke(90 * n, 60 * n))
+        states.keep(n + 1, session.painting)
+        kept[n + 1] = session.painting
+    assert STEPS_APART == 200
+    assert states.nearest(session.log, 33) == (33, kept[33])
+    states._thin_out()
+    assert len(states._states) == 21
+    assert states.nearest(session.log, 40) == (40, kept[40])
+    assert states.nearest(session.log, 33) == (32, kept[32])
+    session.do(c.Undo(5))
+    session.do(stroke(0, 0))
+    at, painting = states.nearest(session.log, len(session.log))
+    assert at <= 36, "what is undone later cannot be begun with"
+    assert painting in (*kept.values(), states._states[0])
