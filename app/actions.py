@@ -136,8 +136,24 @@ def _open(name: str) -> Check:
     return lambda desk: desk.strip == name
 
 
+def _asks_here(desk: Desk) -> None:
+    desk.strip, desk.panels = "history", True
+    desk.past.listing, desk.past.asking = "here", True
+
+
+def _looking_back(desk: Desk) -> bool:
+    return desk.past.looking is not None
+
+
+def _to_now(desk: Desk) -> None:
+    desk.past.look(desk.post, None)
+
+
 def _escape(desk: Desk) -> None:
     desk.match.marking = None
+    desk.past.asking = False
+    if desk.past.looking is not None:
+        _to_now(desk)
     desk.examples.swapping = False
     desk.hand.use("brush")
 
@@ -223,6 +239,8 @@ ACTIONS: dict[str, Action] = {
     "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),
+    "here": A("What was painted here?", "Edit", ("W",), "The strokes that show at a place", _asks_here, _ready),
+    "now": A("Back to now", "Edit", (), "See the painting as it is, after looking back", _to_now, _looking_back),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
     "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
     "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), _always, _is("brush")),
@@ -259,6 +277,9 @@ ACTIONS: dict[str, Action] = {
     ),
     "examples": A(
         "Examples", "View", ("P",), "Paint with textures that have a rim", _strip("examples"), _ready, _open("examples")
+    ),
+    "history": A(
+        "History", "View", ("Ctrl+H",), "Every step, to go back to", _strip("history"), _ready, _open("history")
     ),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
     "copy_details": A("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),

@@ -14,7 +14,7 @@ from app.desk.desk import Desk
 from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
-from app.tools import TOOLS, Gesture, mark, pan, pick, swap, turn, zoom
+from app.tools import TOOLS, Gesture, ask_here, mark, pan, pick, swap, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
@@ -105,6 +105,8 @@ class Router:
             begin = mark
         elif self.desk.examples.swapping:
             begin = swap
+        elif self.desk.past.asking:
+            begin = ask_here
         else:
             begin = TOOLS[self.desk.hand.tool].gesture
         return begin(self.desk, event)

@@ -51,6 +51,9 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     if desk.known.opening and not desk.known.ready:  # who paints before the engine is there paints on a new painting
         desk.say("The paint engine is still loading")
         return
+    if desk.past.looking is not None:
+        desk.say("This is an earlier step: nothing can be painted on it", bad=True, offer="now")
+        return
     layer = desk.known.active
     if layer is not None and layer.locked:
         desk.say(f"Layer “{layer.name}” is locked", bad=True)
@@ -224,6 +227,15 @@ def swap(desk: Desk, first: PenEvent) -> Gesture:
     while event.kind != "up":
         event = yield
     example_use.swap(desk, event.x, event.y)
+
+
+def ask_here(desk: Desk, first: PenEvent) -> Gesture:
+    """Asks for the strokes that show at the place touched."""
+    event = first
+    while event.kind != "up":
+        event = yield
+    level = desk.view.shown_level
+    desk.past.ask(desk.post, level, *desk.view.to_canvas(event.x, event.y).pixel(level))
 
 
 class Tool(NamedTuple):

@@ -20,6 +20,7 @@ from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from app.desk.notices import Notice, Notices
+from app.desk.past.past_state import PastState
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
 from app.faults.log import fault_words
@@ -105,6 +106,7 @@ class Desk:
     match: MatchState = field(default_factory=MatchState)
     examples: ExampleState = field(default_factory=ExampleState)
     recovery: RecoveryState = field(default_factory=RecoveryState)
+    past: PastState = field(default_factory=PastState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

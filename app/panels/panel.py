@@ -32,6 +32,9 @@ class Panel:
     def wants(self, desk: Desk, now: float) -> None:
         """Posts what it lacks; called after it was drawn, once the engine is there."""
 
+    def closed(self, desk: Desk) -> None:
+        """Posts what follows from its being closed, or another being opened in its place."""
+
     def stroke(self, desk: Desk, x: float, y: float) -> Painting | None:
         """Returns the stroke that a press at a point of the screen begins; None if it begins none."""
         return None

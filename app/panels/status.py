@@ -52,6 +52,8 @@ def _left(desk: Desk, right: float) -> None:
     elif desk.examples.swapping:
         name = desk.examples.entry.title if desk.examples.entry else ""
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
+    elif desk.past.asking:
+        imgui.text_unformatted("Click a place: the strokes that show there are listed  (Esc: not now)")
     elif not desk.known.ready:
         imgui.text_disabled("Loading the paint engine…")
     else:

@@ -20,6 +20,7 @@ from app.panels.lab.analysis_panel import AnalysisPanel
 from app.panels.lab.lab_panel import LabPanel
 from app.panels.match.match_panel import MatchingPanel
 from app.panels.panel import Painting, Panel
+from app.panels.past.history_panel import HistoryPanel
 
 PART, HIGHEST = 0.4, 640.0  # of the window's height; points
 
@@ -38,6 +39,7 @@ STRIPS = {
     "lab": Strip("Texture lab", icons.FLASK, "Paint its grain: coarse in the middle, fine at the rim", LabPanel),
     "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", MatchingPanel),
     "examples": Strip("Examples", icons.EXAMPLES, "Textures that grow where you paint, rim and all", ExamplesPanel),
+    "history": Strip("History", icons.CLOCK, "Every step, with a small picture", HistoryPanel, 290.0),
     "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", AnalysisPanel, 320.0),
 }
 
@@ -47,6 +49,7 @@ class StripPanel:
 
     def __init__(self) -> None:
         self._panels = {name: row.panel() for name, row in STRIPS.items()}
+        self._opened = ""
 
     def hearers(self, kind: type) -> list[Hear]:
         """Returns who hears results of a type."""
@@ -75,7 +78,10 @@ class StripPanel:
             desk.strip = ""
 
     def wants(self, desk: Desk, now: float) -> None:
-        """Posts what the open one lacks."""
+        """Posts what the open one lacks, and what follows from closing another."""
+        before, self._opened = self._opened, desk.strip
+        if before and before != self._opened:
+            self._panels[before].closed(desk)
         panel = self._open(desk)
         if panel is not None:
             panel.wants(desk, now)

@@ -1,0 +1,1 @@
+"""The past of the painting as the window knows it."""
