@@ -10,6 +10,7 @@ from app.desk.desk import Desk, FileWork
 from app.desk.examples import example_state
 from app.desk.examples.example_state import Entry
 from app.desk.examples.example_use import gather
+from app.desk.notices import Notice
 from app.desk.presets import Paper, Preset
 
 
@@ -42,14 +43,21 @@ class TakeStock(FileWork):
         desk.examples.entries = found.examples
         gather(desk)
         _first(desk)
-        for fault in found.faults:
-            desk.say(fault, bad=True)
+        if found.faults:
+            desk.notices.add(_kept(found.faults))
 
     def fail(self, desk: Desk, fault: str) -> None:
         """Goes on with the one brush that needs no file, and says why."""
         desk.learn(presets=(presets.DEFAULT,))
         _first(desk)
         desk.say(fault, bad=True)
+
+
+def _kept(faults: tuple[str, ...]) -> Notice:
+    """Returns what is told of files that are at fault: one line of it, or how many there are."""
+    if len(faults) == 1:
+        return Notice(f"{faults[0]}; the file is kept as it is")
+    return Notice(f"{len(faults)} files of brushes and examples are damaged; they are kept as they are", lines=faults)
 
 
 def _first(desk: Desk) -> None:
