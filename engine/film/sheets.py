@@ -117,7 +117,7 @@ class Sheets:
         return part if glance.share == 1.0 else faded(part, glance.share)
 
     def _brought(self, number: int, painting: Painting) -> np.ndarray:
-        """Returns a sheet's planes, float32 (3, h, w), as they are now."""
+        """Returns a sheet's planes, uint8 (3, h, w), as they are now."""
         sheet = self._plan.sheets[number]
         if number in self._coming:
             self._planes[number] = painting, self._coming.pop(number).result()
@@ -137,7 +137,7 @@ class Sheets:
         self._coming[number] = self._ahead.submit(self._made, self._plan.sheets[number], painting)
 
     def _made(self, sheet: Sheet, painting: Painting) -> np.ndarray:
-        planes = np.empty((3, sheet.rect.height, sheet.rect.width), np.float32)
+        planes = np.empty((3, sheet.rect.height, sheet.rect.width), np.uint8)
         rest = [sheet.rect]
         for number, (shown, known) in list(self._planes.items()):  # what the sheet before has of the same level
             other = self._plan.sheets[number]
@@ -153,7 +153,9 @@ class Sheets:
     def _evaluate(self, sheet: Sheet, rect: Rect, painting: Painting, planes: np.ndarray) -> None:
         def evaluate(piece: Rect) -> None:
             pixels = composite(painting.root, sheet.level, piece, piece_reader(piece))
-            planes[:, *piece.slices(sheet.rect)] = pixels[:3] + (UNDER - UNDER * pixels[3])
+            pixels[:3] += UNDER - UNDER * pixels[3]
+            pixels[:3] *= 255.0
+            planes[:, *piece.slices(sheet.rect)] = np.rint(pixels[:3])
 
         for _ in self._pool.map(evaluate, _pieces(rect)):
             pass
