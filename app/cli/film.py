@@ -17,6 +17,7 @@ from app.cli.progress import Progress
 if TYPE_CHECKING:
     from engine.film.aim import Aim
     from engine.numeric.address import Rect
+    from engine.painting.places import Bookmarks
     from engine.painting.recording import Recording
     from engine.painting.value import Painting
 
@@ -30,13 +31,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("source", metavar="SRC", help="a painting, .ora, or a recording, .jsonl")
     parser.add_argument("out", metavar="OUT", help=_ENDINGS)
     parser.add_argument("--replay", action="store_true", help="the painting is made again (default without --flight)")
-    parser.add_argument(
-        "--flight",
-        metavar="L,X,Y,W,H",
-        type=rectangle,
-        action="append",
-        help="fly to a rectangle; again: on to another",
-    )
+    where = "through bookmarks, NAME,NAME or all, or to L,X,Y,W,H; again: on from there; one place alone: from --rect"
+    parser.add_argument("--flight", metavar="WHERE", action="append", help=where)
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="what is seen, or where the flight begins")
     parser.add_argument("--size", type=size, metavar="WxH", help="of the film (default: the rectangle's)")
     parser.add_argument("--fps", type=_real(MOST_FPS), default=30.0, metavar="N", help="frames a second (default: 30)")
@@ -59,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     if not is_series(options.out):
         checked_output(options.out, tuple(FORMATS))
     source = _source(options.source, replays)
-    places, size = _places(options, source.frame)
+    places, size = _places(options, source)
     film = Film(
         places, size, options.fps, options.seconds, source.recording, options.clock, options.undone, options.brush
     )
@@ -77,6 +73,7 @@ class _Source(NamedTuple):
     """What is filmed: a painting as it is, or its recording."""
 
     frame: Rect
+    bookmarks: Bookmarks
     painting: Painting | None
     recording: Recording | None
 
@@ -88,32 +85,50 @@ def _source(path: str, replays: bool) -> _Source:
     if ending == ".ora":
         found = opened_painting(path)
         if not replays:
-            return _Source(found.painting.frame, grown(path, found), None)
+            return _Source(found.painting.frame, found.painting.bookmarks, grown(path, found), None)
         if found.recording is None:
             raise Refused(f"{path}: found no recording in it, expected one for --replay (--flight needs none)")
-        return _Source(found.painting.frame, None, found.recording)
+        return _Source(found.painting.frame, found.painting.bookmarks, None, found.recording)
+    from engine.film.beats import bookmarks_in
     from engine.painting.grown import settled
     from engine.painting.recording import read
     from engine.session.replay import replay
 
     recording = read(path)
     if replays:
-        return _Source(recording.header.frame, None, recording)
+        return _Source(recording.header.frame, bookmarks_in(recording.commands), None, recording)
     with Progress("painting", len(recording.commands)) as tell:
         painting = settled(replay(recording, tell=tell).painting)
-    return _Source(painting.frame, painting, None)
+    return _Source(painting.frame, painting.bookmarks, painting, None)
 
 
-def _places(options: argparse.Namespace, frame: Rect) -> tuple[tuple[Aim, ...], tuple[int, int]]:
+def _places(options: argparse.Namespace, source: _Source) -> tuple[tuple[Aim, ...], tuple[int, int]]:
     """Returns where the film looks, and how large its pictures are."""
     from engine.film.aim import aim_at
 
-    level, rect = (0, frame) if options.rect is None else rect_of(options.rect)
+    level, rect = (0, source.frame) if options.rect is None else rect_of(options.rect)
     size = options.size or _fitted(rect.width, rect.height)
     if max(size) > MOST_SIDE:
         raise Refused(f"--size: found {size[0]} x {size[1]}, expected at most {MOST_SIDE} each way")
-    ends = [rect_of(rectangle) for rectangle in options.flight or ()]
-    return tuple(aim_at(*end, size) for end in [(level, rect), *ends]), size
+    ends = [end for words in options.flight or () for end in _ends(words, source.bookmarks, size)]
+    if options.rect is None and len(ends) > 1:
+        return tuple(ends), size
+    return (aim_at(level, rect, size), *ends), size
+
+
+def _ends(words: str, bookmarks: Bookmarks, size: tuple[int, int]) -> list[Aim]:
+    """Returns where `--flight` leads."""
+    from engine.film.aim import aim_at, aim_of
+
+    names = list(bookmarks) if words == "all" else [words] if words in bookmarks else words.split(",")
+    if names and all(name in bookmarks for name in names):
+        return [aim_of(bookmarks[name], size) for name in names]
+    try:
+        return [aim_at(*rect_of(rectangle(words)), size)]
+    except argparse.ArgumentTypeError:
+        known = ", ".join(map(repr, bookmarks)) or "none"
+        expected = f"all, names of bookmarks ({known}), or L,X,Y,W,H"
+        raise Refused(f"--flight: found {words[:80]!r}, expected {expected}") from None
 
 
 def _fitted(width: int, height: int) -> tuple[int, int]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from engine.numeric.address import Rect
+from engine.painting.places import Bookmark, middle_of
 
 SUBPIXEL = 24  # bits of a place below a pixel
 
@@ -83,6 +84,15 @@ def aim_at(level: int, rect: Rect, size: tuple[int, int]) -> Aim:
     zoom = min(log2(size[0]) - log2(rect.width), log2(size[1]) - log2(rect.height))
     half = SUBPIXEL - 1
     return Aim(level, 0.0, (rect.x0 + rect.x1) << half, (rect.y0 + rect.y1) << half).at(level, zoom)
+
+
+def aim_of(bookmark: Bookmark, size: tuple[int, int]) -> Aim:
+    """Returns the nearest aim that shows a whole bookmark in a picture of `size` (width, height)."""
+    x, y, exponent = middle_of(bookmark)
+    zoom = bookmark.level + min(math.log2(side / wide) for side, wide in zip(size, bookmark.size, strict=True))
+    level = math.floor(zoom)
+    bits = level + SUBPIXEL - exponent
+    return Aim(level, zoom - level, shifted(x, bits), shifted(y, bits))
 
 
 def log2(value: int) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from engine.painting import commands as c
+from engine.painting.places import NO_BOOKMARKS, BookmarkCommand, Bookmarks, bookmarks_after
 from engine.session.apply import STEPS
 
 CLOCKS = ("strokes", "pen")
@@ -80,3 +81,12 @@ def _taken(command: c.Command) -> float:
         return 0.0
     taken = float(command.points[-1, 5] - command.points[0, 5])
     return taken if taken > 0.0 else PAUSE
+
+
+def bookmarks_in(commands: Sequence[c.Command]) -> Bookmarks:
+    """Returns the bookmarks that commands leave; no undo takes one back.  FieldError if one cannot be done."""
+    out = NO_BOOKMARKS
+    for command in commands:
+        if isinstance(command, BookmarkCommand):
+            out = bookmarks_after(out, command)
+    return out

@@ -83,7 +83,7 @@ def write_scaled(parts: tuple[Part, ...], first: int, out: np.ndarray) -> None:
 
 def _width(columns: Taps) -> int:
     """Returns how many columns of a picture are seen."""
-    return int(columns.first[-1] - columns.first[0]) + columns.weights.shape[1]
+    return int(columns.first[-1] - columns.first[0] + columns.weights.shape[1])
 
 
 @inner_uncounted
@@ -96,7 +96,12 @@ def _add_rows(planes: Array, channel: int, top: int, weights: Array, left: int, 
         for x in range(count):
             line[x] = (p * _of(a[at + x]) + q * _of(b[at + x])) + (r * _of(c[at + x]) + s * _of(d[at + x]))
     else:
-        e, f, g, h = planes[channel, top + 4], planes[channel, top + 5], planes[channel, top + 6], planes[channel, top + 7]
+        e, f, g, h = (
+            planes[channel, top + 4],
+            planes[channel, top + 5],
+            planes[channel, top + 6],
+            planes[channel, top + 7],
+        )
         t, u, v, w = weights[4], weights[5], weights[6], weights[7]
         for x in range(count):
             line[x] = ((p * _of(a[at + x]) + q * _of(b[at + x])) + (r * _of(c[at + x]) + s * _of(d[at + x]))) + (
@@ -126,7 +131,15 @@ def _add_columns(beside: Array, left: Int, first: Array, weights: Array, sums: A
 
 @uncounted
 def _add(
-    planes: Array, rows: Array, down: Array, columns: Array, across: Array, top: Int, count: Int, room: Array, sums: Array
+    planes: Array,
+    rows: Array,
+    down: Array,
+    columns: Array,
+    across: Array,
+    top: Int,
+    count: Int,
+    room: Array,
+    sums: Array,
 ) -> None:
     """Adds rows `top` to `top + count` of a picture to `sums`, float32 (3, w, 16).  `room`: float32 (8 + n, 16), for a
     stretch of columns, so short that what its rows are made of stays at hand, and for the n columns that are seen."""

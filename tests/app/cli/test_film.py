@@ -80,13 +80,31 @@ def test_what_is_wrong_is_told_in_a_line(script, saved, tmp_path, capsys, monkey
     assert "even" in refused(capsys, "film", script, tmp_path / "a.mp4", "--size", "33x20")
     assert "--replay" in refused(capsys, "film", script, out, *FLIGHT, "--brush")
     assert "found '0'" in refused(capsys, "film", script, out, "--fps", "0")
-    assert "W and H" in refused(capsys, "film", script, out, "--flight", "1,2,3")
+    assert "bookmarks (none)" in refused(capsys, "film", script, out, "--flight", "1,2,3")
     assert "expected .ora or .jsonl" in refused(capsys, "film", tmp_path / "a.png", out)
     (tmp_path / "bad.jsonl").write_text(script.read_text() + '{"do": "layer", "remove": "nothing"}\n')
     assert "line 9" in refused(capsys, "film", tmp_path / "bad.jsonl", out)
     monkeypatch.setattr("shutil.which", lambda name: None)
     assert "found no ffmpeg" in refused(capsys, "film", script, tmp_path / "a.mp4", status=1)
     assert [path.name for path in tmp_path.iterdir()] == ["bad.jsonl"]
+
+
+def test_a_flight_through_bookmarks(script, tmp_path, capsys):
+    """From one to the next, each shown as large as the picture allows; a replay reads them from its recording."""
+    marked = tmp_path / "b.jsonl"
+    marks = ('"far, far", "level": 0, "origin": [0, 0]', '"near", "level": 3, "origin": [200, 160]')
+    lines = [f'{{"do": "bookmark", "name": {mark}, "size": [64, 48]}}\n' for mark in marks]
+    marked.write_text(script.read_text() + "".join(lines))
+    for out, words in (("a", ("all",)), ("b", ("far, far", "near")), ("c", ("0,0,0,64,48", "3,200,160,64,48"))):
+        flight = [word for where in words for word in ("--flight", where)]
+        made(marked, tmp_path / f"{out}-%d.png", *flight, "--seconds", "2", "--fps", "3")
+    made(marked, tmp_path / "d-%d.png", "--flight", "near", "--replay", "--seconds", "2", "--fps", "3")
+    for n in range(6):
+        assert len({(tmp_path / f"{out}-{n}.png").read_bytes() for out in "abc"}) == 1
+    assert (tmp_path / "d-5.png").read_bytes() == (tmp_path / "a-5.png").read_bytes()
+    assert (tmp_path / "d-0.png").read_bytes() != (tmp_path / "a-0.png").read_bytes()
+    told = refused(capsys, "film", marked, tmp_path / "e.gif", "--flight", "near,nearer")
+    assert "found 'near,nearer', expected all, names of bookmarks ('far, far', 'near'), or L,X,Y,W,H" in told
 
 
 def test_a_painting_without_a_recording_can_only_be_flown_through(saved, tmp_path, capsys):
