@@ -59,7 +59,7 @@ def test_nothing_that_others_saved_is_lost_and_earlier_versions_are_at_hand(prog
     path = tmp_path / "untitled.ora"
     part = left_over(tmp_path)
     first = program()
-    first.box(f"{tmp_path}/config/inkfall/preferences.toml: [kept] versions: found 'all', {WANTED}", "status")
+    first.box(f"preferences.toml: [kept] versions: found 'all', {WANTED}", "status")
     assert not part.exists()
     first.stroke((400, 300), (700, 320))
     first.canvas()

@@ -76,14 +76,18 @@ class EarlierVersions:
             return False
         for number, row in enumerate(self._rows):
             imgui.set_cursor_pos(ImVec2(pad + number * (card.x + pad), pad))
-            imgui.push_style_color(imgui.Col_.header, theme.vec(theme.ACCENT, 0.25))
-            if imgui.selectable(f"##{row.name}", number == self._chosen, _FLAGS, card)[0]:
+            imgui.push_style_color(imgui.Col_.header_hovered, theme.vec(theme.RAISED, 0.45))
+            if imgui.selectable(f"##{row.name}", False, _FLAGS, card)[0]:
                 self._chosen = number
                 opened = imgui.is_mouse_double_clicked(0)
             imgui.pop_style_color()
             w.named(f"version {number + 1}")
             w.tooltip("Choose this version; a double click opens it")
             _contents(desk, self._found[0], row, (number, side))
+            if number == self._chosen:
+                low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+                accent, rounding = theme.packed(theme.ACCENT), imgui.get_style().frame_rounding
+                imgui.get_window_draw_list().add_rect(low, high, accent, rounding, thickness=2 * desk.scale)
         desk.previews(self._found[0], self._rows, round(side))
         return opened
 

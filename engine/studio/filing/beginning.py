@@ -21,8 +21,9 @@ def begun(send: Callable[[Result], None]) -> Preferences:
     preferences, faults = read_preferences(preferences_file())
     threading.Thread(target=_sweep, args=(preferences,), name="inkfall sweep", daemon=True).start()
     if faults:
-        more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
-        send(Note(f"{faults[0]}{more}", bad=True, stays=True, about="preferences", lines=faults))
+        more, lines = (f" (and {len(faults) - 1} more)", faults) if len(faults) > 1 else ("", ())
+        text, path = f"{faults[0]}{more}", preferences_file()
+        send(Note(text, bad=True, stays=True, about="preferences", path=path, lines=lines))
     return preferences
 
 

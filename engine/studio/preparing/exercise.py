@@ -29,6 +29,7 @@ from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal
 from engine.studio import requests as q
 from engine.studio import warming
+from engine.studio.filing import documents
 from engine.studio.studio import Studio
 from engine.studio.swatches import painted
 from engine.texture.planes import Planes
@@ -101,7 +102,8 @@ def filed() -> None:
             studio.do(q.Begin(0, (0, 0), Brush(radius=_WIDEST)))
             studio.do(q.Points(np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [90.0, 70.0, 1.0, 0.0, 0.0, 0.1]])))
             studio.do(q.Finish())
-            studio.do(q.Save(ora))
+            session = studio.easel.session
+            documents.save(ora, session.painting, session.recording())  # as no save of the artist's: it bounds nothing
             studio.do(q.Export(png))
         finally:
             studio.close()
