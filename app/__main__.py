@@ -15,6 +15,7 @@ COMMANDS = {
     "play": "replay a recording without a window",
     "export": "write a painting, or a rectangle of it at any level, as a picture",
     "film": "make a film of how a painting was made, or of a flight through it",
+    "recover": "list, open or discard paintings that were not closed",
     "info": "tell what a painting holds",
     "texture": "make a texture from a spectrum, a sample, a photograph or examples",
     "analyse": "tell what a picture is made of: spectra, colours, regions",

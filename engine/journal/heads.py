@@ -38,9 +38,9 @@ def head_of_new(header: Header | None = None, name: str = "", folder: Path | Non
     return _head(name, None, {"header": told, "folder": None if folder is None else os.path.abspath(folder)})
 
 
-def head_of_file(stamp: FileStamp, native: bool) -> Members:
+def head_of_file(stamp: FileStamp, native: bool, header: Header) -> Members:
     """Tells of a painting opened from a file; `native`: whether it is to be saved there."""
-    base = {"file": os.fspath(stamp.path), "size": stamp.size, "changed": stamp.changed}
+    base = {"file": os.fspath(stamp.path), "size": stamp.size, "changed": stamp.changed, "header": header.to_json()}
     return _head(stamp.path.name, stamp.path if native else None, base)
 
 
@@ -50,7 +50,7 @@ def renamed_head(head: Mapping[str, object], name: str) -> Members:
 
 
 def header_of(base: Mapping[str, object]) -> Header:
-    """Returns the header of a painting that began empty.  FieldError if it is none."""
+    """Returns the header of the recording that a painting began with.  FieldError if it is none."""
     return parse_header(base.get("header"))
 
 

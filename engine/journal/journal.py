@@ -35,9 +35,9 @@ class Journal:
         self._writing = Writing(lambda guard: Volume(self._folder, head, guard), self._flush_late)
 
     @property
-    def folder(self) -> Path | None:
-        """Returns the folder of the present painting's entry; None while there is none."""
-        return self._writing.now.folder
+    def entry(self) -> Volume:
+        """Returns the entry of the present painting, which may not have a folder yet."""
+        return self._writing.now
 
     @property
     def settled(self) -> bool:
@@ -118,10 +118,11 @@ class Journal:
                 self._asked.pop(number, None)
             return found
 
-    def note(self, kind: Kind, told: bytes) -> None:
-        """Tells what nobody asked for."""
+    def note(self, kind: Kind, told: bytes, of: Volume | None = None) -> None:
+        """Tells what nobody asked for; `of`: only if that is still the entry of the present painting."""
         with self._writing.guard:
-            self._writing.append(kind, told)
+            if of is None or of is self._writing.now:
+                self._writing.append(kind, told)
 
     def turn(self, head: Mapping[str, object], end: End, continued: Continued | None = None) -> None:
         """Another painting is on the easel, which begins with `head`, or goes on where its entry stopped; what has no

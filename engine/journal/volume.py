@@ -6,7 +6,7 @@ import errno
 import os
 import threading
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import Enum
@@ -17,7 +17,7 @@ from engine.files.fault import WriteError
 from engine.journal import entries
 from engine.journal.frames import Frame, framed, frames_in
 from engine.journal.records import Kind, told_object
-from engine.journal.story import JOURNAL
+from engine.journal.story import JOURNAL, Story, journal_files
 
 _AT_ONCE = 64  # frames that are written before another thread has its turn
 
@@ -41,6 +41,12 @@ class Continued:
     files: int
     last: int
     first: tuple[tuple[Kind, bytes], ...] = ()
+
+
+def continued_entry(folder: Path, lock: int | None, story: Story, settled: Iterable[tuple[Kind, bytes]]) -> Continued:
+    """Returns an entry that goes on after what its journal tells, and what became of all that had no answer there."""
+    number = max((int(path.name.removeprefix(JOURNAL)) for path in journal_files(folder)), default=0)
+    return Continued(folder, lock, number, story.last, tuple(settled))
 
 
 class Volume:

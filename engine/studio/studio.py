@@ -144,12 +144,19 @@ class Studio(Owned):
 
     def play(self) -> None:
         """Plays the next piece of a recording."""
-        self.filing.play()
+        if self._answers is None:
+            self.filing.play()
+        else:
+            with self._answers.timed():
+                self.filing.play()
+            self._answers.rest()
 
     def close(self) -> None:
         """Waits for files that are being written.  What their threads posted is still to be carried out."""
         self.filing.close()
         self.grower.close()
+        if self._answers is not None:
+            self._answers.close()
 
     def _begin(self, request: q.Begin) -> None:
         self.lab.settle()

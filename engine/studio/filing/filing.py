@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -12,6 +13,10 @@ from engine.checks.owned import Owned
 from engine.journal.heads import FileStamp, head_of_file, head_of_new
 from engine.keeping.preferences import Preferences
 from engine.keeping.unfinished import unfinished
+from engine.files.fault import FileError
+from engine.journal.entries import lock_entry
+from engine.journal.heads import FileStamp, head_of_file, head_of_new, renamed_head
+from engine.journal.volume import Continued, continued_entry
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.studio import faults, results
@@ -21,7 +26,11 @@ from engine.studio.filing import documents
 from engine.studio.filing.documents import Document
 from engine.studio.filing.playing import PIECE, Playing
 from engine.studio.filing.saves import Saves
+from engine.studio.filing.recovering import recovered
 from engine.studio.filing.writers import Post, Writers
+
+# Hears that another painting comes on the easel: what it began with, the entry that goes on, and its commands so far.
+Turned = Callable[[Mapping[str, object], Continued | None, int], None]
 
 
 class Filing(Owned):
@@ -36,11 +45,12 @@ class Filing(Owned):
         self._script: Playing | None = None
         self._marks: tuple[Mark, ...] = ()  # of what is grown again
         self._writers = Writers(easel.send, post)
-        self.turned: Callable[[Mapping[str, object]], None] = lambda head: None  # another painting comes on the easel
         self.saves = Saves(easel, self._writers, preferences)
+        self.turned: Turned = lambda head, continued, count: None
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
+            q.Recover: self._recover,
             q.Export: self._export,
             **self.saves.handlers,
             **self._writers.handlers,
@@ -96,8 +106,35 @@ class Filing(Owned):
         elif found.notes:
             self._easel.send(_losses(request.path.name, found.notes))
 
-    def _show(self, document: Document, head: Mapping[str, object]) -> None:
-        self.turned(head)
+    def _recover(self, request: q.Recover) -> None:
+        """Opens an entry, whose journal goes on with it: as a painting without a file, and not saved."""
+        lock: int | None = None
+        try:
+            lock = lock_entry(request.folder)
+            found = recovered(request.folder)
+            continued = continued_entry(request.folder, lock, found.story, found.settled)
+        except Exception as error:
+            if lock is not None:
+                os.close(lock)
+            taken = isinstance(error, BlockingIOError)
+            told = FileError(request.folder, "is open in another window") if taken else error
+            self._easel.send(faults.told(told, "while a painting was recovered", "open", request.folder))
+            return
+        document = Document(found.session, known=found.known)
+        self._show(document, renamed_head(found.story.head, found.name), continued, found.count)
+        self._easel.saved = None
+        self._easel.tell()
+        if found.missing:
+            self._easel.send(_losses(found.name, tuple(found.missing)))
+
+    def _show(
+        self,
+        document: Document,
+        head: Mapping[str, object],
+        continued: Continued | None = None,
+        count: int = 0,
+    ) -> None:
+        self.turned(head, continued, count)
         self._script, self._marks = document.script, document.marks
         self.due = None if document.script is None else 0.0
         self._easel.show(document.session, document.path)
@@ -128,4 +165,4 @@ def _head(path: Path, stamp: FileStamp | None, found: Document) -> Mapping[str, 
     """Returns what the journal says a painting began with that was opened: its file, or nothing and what plays."""
     if found.script is not None or stamp is None:
         return head_of_new(found.session.recording().header, path.name, found.session.folder)
-    return head_of_file(stamp, found.path is not None)
+    return head_of_file(stamp, found.path is not None, found.session.recording().header)

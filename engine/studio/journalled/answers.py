@@ -1,26 +1,32 @@
 """What the engine tells the journal: what became of what was asked for, and what was done without being asked.
 
-It hears of a command before any result that shows it is sent.  Beside the journal it has pictures kept, and checkpoints
-written, where what was done takes long to do again.
+The journal hears of a command before any result that shows it is sent.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from engine.brush.checks import thawed
 from engine.checks.owned import Owned
+from engine.journal.entries import change_about
 from engine.journal.records import Kind, told_command, told_object
 from engine.journal.story import COMMAND, STROKE
-from engine.journal.volume import Continued, End
+from engine.journal.volume import Continued, End, Volume
 from engine.kernel_cache import NotCompiled
 from engine.painting import commands as c
 from engine.strokes.example_stroke import Live
 from engine.studio import requests as q
 from engine.studio.easel import Easel
+from engine.studio.journalled.beside import Beside
 from engine.studio.journalled.posts import Posts
+
+_CARRIED_OUT = (q.Begin, q.Points, q.Finish, q.Do)
 
 
 class Answers(Owned):
@@ -32,6 +38,7 @@ class Answers(Owned):
         self._command: int | None = None  # the one that is being carried out
         self._parted = False  # whether points of the stroke were refused
         self._count = 0  # of the commands that the journal has of this painting
+        self._beside = Beside(self._journal)
         easel.session.heard = self._heard
         posts.is_modified = lambda: easel.modified
 
@@ -40,7 +47,8 @@ class Answers(Owned):
         number = self._posts.number(request) if isinstance(request, q.Begin | q.Do) else None
         self._command = number if isinstance(request, q.Do) else None
         try:
-            handle(request)
+            with self.timed() if isinstance(request, _CARRIED_OUT) else _untimed():
+                handle(request)
         except NotCompiled:
             raise  # it is tried again
         except Exception:
@@ -51,20 +59,43 @@ class Answers(Owned):
             self._settle(request, number)
         finally:
             self._command = None
+        self.rest()
+
+    def rest(self) -> None:
+        """Has written what is due beside the journal, unless a stroke is in progress."""
+        if self._easel.live is None:
+            self._beside.rest(self._easel.session.painting, self._count)
+
+    @contextmanager
+    def timed(self) -> Iterator[None]:
+        """What is done within is to be done again by a recovery."""
+        start = time.monotonic()
+        try:
+            yield
+        finally:
+            self._beside.spent += time.monotonic() - start
 
     def turn(self, head: Mapping[str, object], continued: Continued | None = None, count: int = 0) -> None:
         """Another painting comes on the easel, which has so many commands already; what is there, the artist knew of
         when he asked for another."""
+        self._beside.leave(self._easel.session.painting)
         self._count = count
         self._journal.turn(head, End.BIN if self._easel.modified else End.DELETED, continued)
+        self._beside.turn(head)
+
+    def close(self) -> None:
+        """The painting is closed as it is."""
+        self._beside.leave(self._easel.session.painting)
+        self._beside.close()
 
     def mark(self) -> Callable[[Path], None]:
         """Returns what tells that the painting as it is now has been written to a file."""
-        count, folder = self._count, self._journal.folder
+        count, entry = self._count, self._journal.entry
 
         def saved(path: Path) -> None:
-            if folder == self._journal.folder:
-                self._journal.note(Kind.SAVED, told_object({"path": os.path.abspath(path), "commands": count}))
+            told = {"path": os.path.abspath(path), "commands": count}
+            self._journal.note(Kind.SAVED, told_object(told), entry)
+            self._beside.do(partial(_rename, entry, path))
 
         return saved
 
@@ -84,15 +115,29 @@ class Answers(Owned):
     def _heard(self, command: c.Command, live: Live | None) -> None:
         """A command was carried out; `live`: as a stroke that grew on the easel."""
         self._count += 1
+        self._beside.changed()
+        if isinstance(command, c.DefineTexture):
+            self._beside.keep(self._easel.session.painting.textures[command.name])
         number = self._command if live is None else live.asked
+        last = live is None or not live.full
         if live is None:
             self._command = None
-        last = live is None or not live.full
         if number is not None:
             told = COMMAND + told_command(command) if live is None or self._parted else _told_stroke(command, last)
             if self._journal.answer(number, Kind.DONE, told, last):
                 return
         self._journal.note(Kind.DID, told_command(command))
+
+
+@contextmanager
+def _untimed() -> Iterator[None]:
+    yield
+
+
+def _rename(entry: Volume, path: Path) -> None:
+    """Tells in a list that a painting has this file."""
+    if entry.folder is not None and entry.end is None:
+        change_about(entry.folder, name=path.name, path=os.path.abspath(path))
 
 
 def _told_stroke(stroke: c.Command, last: bool) -> bytes:

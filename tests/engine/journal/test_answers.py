@@ -42,8 +42,9 @@ def draw(worker, count=20, seed=0, brush=None, end=True):
 def idle(worker, seconds=120):
     """The results, once all is carried out."""
     end, found = time.monotonic() + seconds, []
-    while worker.behind or not any(isinstance(result, results.Ready) for result in found):
+    while worker.behind or not getattr(worker, "loaded", False):
         found += worker.results()
+        worker.loaded = getattr(worker, "loaded", False) or any(isinstance(result, results.Ready) for result in found)
         assert time.monotonic() < end
         time.sleep(0.01)
     return found + worker.results()

@@ -16,6 +16,7 @@ from engine.journal.records import Kind, Touch, told_brush, told_command, told_t
 from engine.journal.story import read_story
 from engine.journal.volume import End
 from engine.painting import commands as c
+from engine.painting.recording import Header
 
 POINTS = np.arange(24.0).reshape(4, 6)
 
@@ -32,16 +33,16 @@ def stroke(journal, answered=True):
 def settled(journal, folder):
     """The journal's folder, once all is written."""
     end = time.monotonic() + 5
-    while not (journal.folder and entries.read_about(journal.folder) and journal.settled):
+    while not (journal.entry.folder and entries.read_about(journal.entry.folder) and journal.settled):
         assert time.monotonic() < end
         time.sleep(0.01)
-    return journal.folder
+    return journal.entry.folder
 
 
 def test_a_painting_that_was_not_closed_is_listed(tmp_path):
     source = tmp_path / "lake.ora"
     source.write_bytes(b"x" * 100)
-    journal = Journal(head_of_file(FileStamp.of(source), True), tmp_path / "p")
+    journal = Journal(head_of_file(FileStamp.of(source), True, Header()), tmp_path / "p")
     assert entries.listed(tmp_path / "p") == ()  # nothing was painted
     stroke(journal)
     folder = settled(journal, tmp_path)
@@ -100,6 +101,7 @@ from engine.journal.heads import head_of_new
 from engine.journal.journal import Journal
 from engine.journal.records import told_command
 from engine.painting import commands as c
+from engine.painting.recording import Header
 journal = Journal(head_of_new(), Path(sys.argv[1]))
 journal.ask(told_command(c.AddLayer("sky")))
 while not journal.settled: time.sleep(0.01)

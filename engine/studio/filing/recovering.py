@@ -1,0 +1,235 @@
+"""A painting as its journal tells it: from a checkpoint, or from what it began with, by the commands since.
+
+What was asked for and has no answer is carried out last, a stroke without its end as far as it went.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from engine.archive.manifest import RECORDING
+from engine.archive.members import PIECE
+from engine.checks.field_error import FieldError
+from engine.files.fault import FileError
+from engine.files.zip_reader import ZipArchive
+from engine.journal.checkpoints import read_checkpoint
+from engine.journal.heads import header_of
+from engine.journal.kept import kept_file, kept_sources, stamp_of
+from engine.journal.records import NUMBER, Kind, told_command
+from engine.journal.story import COMMAND, Story, Unanswered, read_story
+from engine.painting import commands as c
+from engine.painting.recording import Header, Recording, read_from, undo_reach
+from engine.painting.times import members
+from engine.painting.value import Painting, Refusal
+from engine.session import replay
+from engine.session.apply import STEPS
+from engine.session.history import History
+from engine.session.session import HISTORY_BYTES, Session
+from engine.studio.filing import documents
+
+_CAUSES = (Refusal, FileError, FieldError)
+_GONE = "the file that was opened, {name}: it is gone, or another one by now"
+Tell = Callable[[float], object]
+
+
+@dataclass(eq=False, slots=True)
+class Recovered:
+    """A painting that was recovered.  `known`: whether the session's log leads from nothing to it; `missing`: what
+    could not be had, a line each; `settled`: what became of all that had no answer, for the journal; `story`: what the
+    journal told; `count`: how many commands that makes."""
+
+    session: Session
+    known: bool
+    name: str
+    story: Story
+    missing: list[str] = field(default_factory=list)
+    settled: list[tuple[Kind, bytes]] = field(default_factory=list)
+    count: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """Where to begin: a session after the first `index` commands."""
+
+    session: Session
+    known: bool
+    index: int
+
+
+def recovered(folder: Path, tell: Tell = lambda part: None) -> Recovered:
+    """Returns the painting of an entry, as far as its journal is whole; `tell` hears of the part that is done.
+    FileError if there is nothing to begin with."""
+    story = read_story(folder)
+    if not story.head:
+        raise FileError(folder, "found no journal that can be read")
+    missing = list(story.faults)
+    start = _start(folder, story, missing)
+    name = story.head.get("name")
+    found = Recovered(start.session, start.known, _called(name if isinstance(name, str) else ""), story, missing)
+    tail, failed = story.commands[start.index :], list[str]()
+    for number, command in enumerate(tail):
+        _do(found.session, folder, command, failed)
+        tell((number + 1) / len(tail))
+    if failed:
+        missing.append(f"{len(failed)} of {len(tail)} commands could not be carried out, the first: {failed[0]}")
+    found.count = len(story.commands)
+    for asked in story.asked.values():
+        _answer(found, folder, asked)
+    found.session.pictures = {}
+    return found
+
+
+def _called(name: str) -> str:
+    """Returns the name of a recovered painting: "lake, recovered"."""
+    stem = Path(name).stem if name else "untitled"
+    return stem if stem.endswith(", recovered") else f"{stem}, recovered"
+
+
+def _do(session: Session, folder: Path, command: c.Command, failed: list[str]) -> None:
+    if isinstance(command, c.DefineTexture):
+        session.pictures = kept_sources(folder, _shas(command))
+    try:
+        session.do(command)
+    except _CAUSES as error:
+        failed.append(str(error).partition("\n")[0])
+
+
+def _shas(command: c.DefineTexture) -> Iterator[str]:
+    """Yields the shas of all pictures that a definition names."""
+    shapes = command.arguments.get("shapes", ())
+    for told in (command.arguments, *(shapes if isinstance(shapes, tuple) else ())):
+        for name in ("sha", "mask_sha"):
+            sha = told.get(name) if hasattr(told, "get") else None
+            if isinstance(sha, str) and sha.isalnum():
+                yield sha
+
+
+def _answer(found: Recovered, folder: Path, asked: Unanswered) -> None:
+    """Carries out what had no answer, and keeps what came of it for the journal."""
+    number, command = NUMBER.pack(asked.number), asked.command
+    if asked.touch is not None:
+        points = asked.fitted()[asked.taken :]
+        touch, extra = asked.touch, members(asked.touch.time)
+        if len(points):
+            points.flags.writeable = False
+            command = c.Stroke(touch.level, touch.origin, points, touch.brush, extra=extra)
+        if not asked.finished:
+            found.missing.append(f"the end of the last stroke: {len(points)} of its points are there")
+    before = len(found.session.log)
+    if command is not None:
+        _do(found.session, folder, command, [])  # the engine would have refused it, too
+    if len(found.session.log) > before:
+        found.settled.append((Kind.DONE, number + COMMAND + told_command(found.session.log[-1])))
+        found.count += 1
+    else:
+        found.settled.append((Kind.REFUSED, number))
+
+
+# --- where to begin --------------------------------------------------------------------------------------------------
+
+
+def _start(folder: Path, story: Story, missing: list[str]) -> _Start:
+    """Returns the latest state that there is from which all undo and redo since can be done."""
+    base = _Base(folder, story)
+    for checkpoint in reversed(story.checkpoints):
+        tail = story.commands[checkpoint.commands :]
+        if checkpoint.commands > len(story.commands) or not _reaches(tail):
+            continue
+        painting = read_checkpoint(folder, checkpoint, base.header.frame)
+        if painting is not None:
+            return base.continued(painting, checkpoint.commands)
+    if _reaches(story.commands):
+        found = base.opened()
+        if found is not None:
+            return found
+    elif base.log is not None:  # it was leapt back behind the opening
+        whole = Recording(base.header, (*base.log, *story.commands), folder=base.folder)
+        session = replay.opened(whole)
+        for command in base.log:
+            _do(session, folder, command, [])
+        return _Start(session, True, 0)
+    missing.append(_GONE.format(name=base.name))
+    return _Start(Session(Painting(base.header.frame, base.header.seed), folder=base.folder), False, 0)
+
+
+def _reaches(commands: Sequence[c.Command]) -> bool:
+    """Tells whether no undo among the commands goes behind them, and no redo does what was undone before them."""
+    done = undone = 0
+    for command in commands:
+        if isinstance(command, c.Undo):
+            done, undone = done - command.count, undone + command.count
+        elif isinstance(command, c.Redo):
+            done, undone = done + command.count, undone - command.count
+        elif type(command) in STEPS:
+            done, undone = done + 1, 0
+        if done < 0 or undone < 0:
+            return False
+    return True
+
+
+class _Base:
+    """What a painting began with.  `log`: the commands that led to it, None if they are not known; `header`: of its
+    recording; `folder`: what paths are relative to."""
+
+    def __init__(self, folder: Path, story: Story) -> None:
+        told = story.head.get("base")
+        base = told if isinstance(told, dict) else {}
+        self._commands = story.commands
+        self._file: Path | None = None
+        self.log: tuple[c.Command, ...] | None = None
+        self.header = header_of(base)
+        self.folder: Path | None = None
+        self.name = ""
+        if "file" not in base:
+            self.log, self.folder = (), Path(str(base["folder"])) if base.get("folder") else None
+            return
+        stamp = stamp_of(base)
+        self._file = kept_file(folder, stamp, (story.base or {}).get("sha"))
+        self.folder, self.name = stamp.path.parent, stamp.path.name
+        self.log = None if self._file is None or self._file.suffix.lower() != ".ora" else _commands(self._file)
+
+    def opened(self) -> _Start | None:
+        """Returns it as it was when nothing was done yet; None if it is gone."""
+        if self._file is None and self.log is not None:
+            session = replay.opened(Recording(self.header, tuple(self._commands), folder=self.folder))
+            return _Start(session, True, 0)
+        if self._file is None:
+            return None
+        found = documents.opened(self._file)
+        before = found.session.recording()
+        session = self._session(found.session.painting, before.commands, before.header, 0)
+        session.base = found.session.base
+        return _Start(session, found.known, 0)
+
+    def continued(self, painting: Painting, index: int) -> _Start:
+        """Returns a painting that a checkpoint holds, after the first `index` commands."""
+        log = (*self.log, *_folded(self._commands[:index])) if self.log is not None else ()
+        return _Start(self._session(painting, log, self.header, index), self.log is not None, index)
+
+    def _session(self, painting: Painting, log: Sequence[c.Command], header: Header, index: int) -> Session:
+        history = History(HISTORY_BYTES, undo_reach(self._commands[index:], STEPS))
+        return Session(painting, log=log, folder=self.folder, history=history, extra=header.extra)
+
+
+def _commands(path: Path) -> tuple[c.Command, ...] | None:
+    """Returns the commands that led to a painting's file; None if it tells none, or not all."""
+    try:
+        with open(path, "rb") as file:
+            archive = ZipArchive(file, str(path))
+            if RECORDING not in archive:
+                return None
+            return read_from(io.BufferedReader(archive.open(RECORDING), PIECE), str(path)).commands
+    except (OSError, FileError, FieldError):
+        return None
+
+
+def _folded(commands: Sequence[c.Command]) -> Iterator[c.Command]:
+    """Yields commands as a log holds them: of definitions of one name in a row, the last."""
+    for number, command in enumerate(commands):
+        after = commands[number + 1] if number + 1 < len(commands) else None
+        same = isinstance(command, c.DefineTexture) and isinstance(after, c.DefineTexture)
+        if not (same and command.name == after.name):  # type: ignore[union-attr]
+            yield command

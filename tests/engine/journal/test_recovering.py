@@ -1,0 +1,135 @@
+"""A painting that was not closed is opened again, goes on in its entry, and can be opened again after that."""
+
+import json
+
+import numpy as np
+import pytest
+from headless import pen
+from test_answers import draw, idle
+from test_killed import pixels
+
+from app.__main__ import main
+from engine.archive.opening import open_painting
+from engine.brush.settings import Brush
+from engine.journal import entries
+from engine.journal.heads import head_of_new
+from engine.journal.journal import Journal
+from engine.painting import commands as c
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.filing.recovering import recovered
+from engine.studio.journalled.posts import Posts
+from engine.studio.worker import Worker
+
+
+def painter(folder):
+    """A worker with a journal."""
+    return Worker(lambda: None, posts=Posts(Journal(head_of_new(), folder)))
+
+
+def left(worker):
+    """Ends it as a signal would."""
+    idle(worker)
+    worker.close(60, by_choice=False)
+
+
+def saved(worker, path):
+    """Saves, and waits until that is done."""
+    worker.post(q.Save(path))
+    found = []
+    while not any(isinstance(result, results.Saved) for result in found):
+        found += idle(worker)
+
+
+def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
+    folder = tmp_path / "p"
+    one = painter(folder)
+    draw(one, 40, 1)
+    draw(one, 40, 2, end=False)  # in hand
+    left(one)
+    (entry,) = entries.listed(folder)
+    first = recovered(entry.folder)
+    assert [len(command.points) for command in first.session.log] == [40, 40]
+    two = painter(folder)
+    idle(two)
+    two.post(q.Recover(entry.folder))
+    draw(two, 30, 3)
+    scenes = [result for result in idle(two) if isinstance(result, results.Scene)]
+    assert scenes[-1].modified
+    assert scenes[-1].path is None
+    assert [alive.alive for alive in entries.listed(folder)] == [True]
+    two.post(q.Do(c.Undo(1)))
+    two.post(q.Do(c.AddLayer("sky")))
+    left(two)
+    (entry,) = entries.listed(folder)
+    assert entry.name == "untitled, recovered"
+    again = recovered(entry.folder)
+    assert again.missing == []
+    assert [type(command) for command in again.session.log] == [c.Stroke, c.Stroke, c.Stroke, c.Undo, c.AddLayer]
+    assert np.array_equal(pixels(again.session.painting), pixels(first.session.painting))
+
+
+def test_an_opened_file_is_what_it_was_though_it_was_replaced(tmp_path):
+    folder, file = tmp_path / "p", tmp_path / "lake.ora"
+    one = painter(folder)
+    draw(one, 40, 1)
+    saved(one, file)
+    one.close(60)
+    assert entries.listed(folder) == ()  # saved, so nothing is left
+    two = painter(folder)
+    two.post(q.Open(file))
+    draw(two, 40, 2)
+    saved(two, file)  # the file that was opened is gone
+    draw(two, 40, 3)
+    left(two)
+    (entry,) = entries.listed(folder)
+    assert (entry.name, entry.path) == ("lake.ora", file)
+    found = recovered(entry.folder)
+    assert found.name == "lake, recovered"
+    assert [len(command.points) for command in found.session.log] == [40, 40, 40]
+    assert found.missing == []
+    assert found.known
+
+
+@pytest.fixture
+def state(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    return tmp_path / "state" / "inkfall" / "paintings"
+
+
+def test_the_command_line_lists_saves_and_discards(tmp_path, state, capsys):
+    assert main(["recover"]) == 0
+    assert "no painting" in capsys.readouterr().out
+    one = painter(None)
+    draw(one, 40, 1)
+    left(one)
+    (entry,) = entries.listed()
+    assert main(["recover", "--json"]) == 0
+    (told,) = json.loads(capsys.readouterr().out)["paintings"]
+    assert (told["id"], told["strokes"], told["open"]) == (entry.ident, 1, False)
+    assert main(["recover", "1", "--save", str(tmp_path / "out.ora")]) == 0
+    painting = open_painting(tmp_path / "out.ora")
+    assert np.array_equal(pixels(painting.painting), pixels(recovered(entry.folder).session.painting))
+    assert len(painting.recording.commands) == 1
+    assert main(["recover", entry.ident, "--discard"]) == 0
+    assert entries.listed()[0].in_bin
+    assert main(["recover", entry.ident, "--discard"]) == 0
+    assert entries.listed() == ()
+    capsys.readouterr()
+    assert main(["recover", entry.ident, "--discard"]) == 2
+    assert "found no such painting" in capsys.readouterr().err
+
+
+def test_points_are_given_back_as_they_were_told(tmp_path):
+    """Six float64 each, those that no decimal tells too."""
+    journal = Journal(head_of_new(), tmp_path)
+    posts = Posts(journal)
+    told = pen(np.random.default_rng(3), 500) + np.pi / 7
+    posts.tell(q.Begin(3, (1 << 90, -5), Brush()))
+    for part in np.array_split(told, 70):
+        posts.tell(q.Points(part))
+    posts.close(True)
+    (entry,) = entries.listed(tmp_path)
+    (asked,) = recovered(entry.folder).story.asked.values()
+    assert np.array_equal(np.concatenate(asked.points), told)
+    assert asked.touch.origin == (1 << 90, -5)
