@@ -164,9 +164,9 @@ def change_about(folder: Path, **members: object) -> None:
         file.write(dumps(told).encode())
 
 
-def tidy(folder: Path | None = None, cap: int | None = None, today: int | None = None) -> None:
-    """Deletes entries that hold nothing, those that were in the bin for more than DAYS_KEPT days of use, and the oldest
-    in the bin while all entries have more than `cap` bytes.  `today`: counted from 1970."""
+def tidy(folder: Path | None = None, today: int | None = None) -> None:
+    """Deletes entries that hold nothing, and those that were in the bin for more than DAYS_KEPT days of use.  `today`:
+    counted from 1970."""
     if fcntl is None:
         return
     places, today = list(_places(folder or paintings_folder())), int(time.time() // 86400) if today is None else today
@@ -174,9 +174,6 @@ def tidy(folder: Path | None = None, cap: int | None = None, today: int | None =
         with suppress(OSError, WriteError):
             if not is_alive(place) and (_count_day(place, today) > DAYS_KEPT or not _worth(place)):
                 remove_entry(place)
-    for place in _heaviest_bin(places, cap):
-        with suppress(OSError, WriteError):
-            remove_entry(place)
 
 
 def entry_bytes(folder: Path) -> int:
@@ -248,17 +245,3 @@ def _count_day(folder: Path, today: int) -> int:
         days += 1
         change_about(folder, days=days, day=today)
     return days
-
-
-def _heaviest_bin(places: list[Path], cap: int | None) -> Iterator[Path]:
-    """Yields what is to go from the bin, the oldest first, until all entries have at most `cap` bytes."""
-    if cap is None:
-        return
-    held = {place: entry_bytes(place) for place in places if place.is_dir()}
-    total = sum(held.values())
-    closed = [place for place in held if read_about(place).get("state") == "closed" and not is_alive(place)]
-    for place in sorted(closed, key=lambda place: glance(place).last):
-        if total <= cap:
-            return
-        total -= held[place]
-        yield place

@@ -52,13 +52,6 @@ class Recover:
 
 
 @dataclass(frozen=True, slots=True)
-class Recover:
-    """A painting that was not closed, from its entry's folder: as an untitled one, not saved."""
-
-    folder: Path
-
-
-@dataclass(frozen=True, slots=True)
 class Save:
     """The painting as it is now, as .ora; `sure`: whatever is there."""
 

@@ -149,7 +149,7 @@ class Worker:
     @property
     def entry(self) -> Path | None:
         """Returns the folder that keeps what is painted; None if there is none."""
-        return None if self._posts is None else self._posts.journal.folder
+        return None if self._posts is None else self._posts.journal.entry.folder
 
     def results(self) -> list[Result]:
         """Returns what came since the last call, in order."""

@@ -6,6 +6,7 @@ import logging
 import threading
 from collections.abc import Callable
 
+from engine.journal.entries import tidy
 from engine.keeping.claim import forget_unclaimed
 from engine.keeping.preferences import Preferences, preferences_file, read_preferences
 from engine.keeping.unfinished import sweep_unfinished
@@ -29,6 +30,7 @@ def begun(send: Callable[[Result], None]) -> Preferences:
 
 def _sweep(preferences: Preferences) -> None:
     try:
+        tidy()
         bound_kept(preferences)
         sweep_unfinished()
         forget_unclaimed()

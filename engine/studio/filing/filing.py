@@ -10,13 +10,12 @@ from typing import Any
 
 from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
-from engine.journal.heads import FileStamp, head_of_file, head_of_new
-from engine.keeping.preferences import Preferences
-from engine.keeping.unfinished import unfinished
 from engine.files.fault import FileError
 from engine.journal.entries import lock_entry
 from engine.journal.heads import FileStamp, head_of_file, head_of_new, renamed_head
 from engine.journal.volume import Continued, continued_entry
+from engine.keeping.preferences import Preferences
+from engine.keeping.unfinished import unfinished
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.studio import faults, results
@@ -25,8 +24,8 @@ from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.documents import Document
 from engine.studio.filing.playing import PIECE, Playing
-from engine.studio.filing.saves import Saves
 from engine.studio.filing.recovering import recovered
+from engine.studio.filing.saves import Saves
 from engine.studio.filing.writers import Post, Writers
 
 # Hears that another painting comes on the easel: what it began with, the entry that goes on, and its commands so far.

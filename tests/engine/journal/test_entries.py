@@ -116,7 +116,7 @@ def test_another_program_is_seen_alive_until_it_is_killed(tmp_path):
         assert program.stdout.readline() == b"there\n"
         (entry,) = entries.listed(tmp_path)
         assert entry.alive
-        entries.tidy(tmp_path, cap=0, today=99)
+        entries.tidy(tmp_path, today=99)
         assert entry.folder.exists()
         with pytest.raises(BlockingIOError):
             entries.lock_entry(entry.folder)
@@ -145,7 +145,7 @@ def test_a_broken_entry_hides_no_other_and_says_so(tmp_path):
     assert {entry.name for entry in entries.listed(tmp_path)} == {"whole", "Untitled"}
 
 
-def test_days_of_use_are_counted_and_the_oldest_of_the_bin_makes_room(tmp_path):
+def test_the_bin_is_emptied_after_days_of_use(tmp_path):
     for name in ("first", "second", "kept"):
         journal = Journal(head_of_new(name=name), tmp_path)
         stroke(journal)
@@ -154,8 +154,5 @@ def test_days_of_use_are_counted_and_the_oldest_of_the_bin_makes_room(tmp_path):
         entries.tidy(tmp_path, today=day)
         entries.tidy(tmp_path, today=day)
     assert len(entries.listed(tmp_path)) == 3
-    size = max(entries.entry_bytes(entry.folder) for entry in entries.listed(tmp_path))
-    entries.tidy(tmp_path, cap=2 * size + size // 2, today=129)
-    assert [entry.name for entry in entries.listed(tmp_path)] == ["kept", "second"]
     entries.tidy(tmp_path, today=130)
     assert [entry.name for entry in entries.listed(tmp_path)] == ["kept"]
