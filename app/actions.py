@@ -12,6 +12,7 @@ from typing import NamedTuple
 from app.desk import offers
 from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
+from app.desk.places import going
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -57,6 +58,18 @@ def _can_undo(desk: Desk) -> bool:
 
 def _can_redo(desk: Desk) -> bool:
     return _ready(desk) and desk.known.scene is not None and desk.known.scene.can_redo
+
+
+def _back(desk: Desk) -> bool:
+    return desk.places.trail.can_go_back and not desk.painting
+
+
+def _forward(desk: Desk) -> bool:
+    return desk.places.trail.can_go_forward and not desk.painting
+
+
+def _lost(desk: Desk) -> bool:
+    return desk.places.lost and not desk.painting
 
 
 def _posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
@@ -149,6 +162,22 @@ def _to_now(desk: Desk) -> None:
     desk.past.look(desk.post, None)
 
 
+def _steps(by: int) -> Callable[[Desk], None]:
+    return lambda desk: going.step(desk, by)
+
+
+def _bookmark(desk: Desk) -> None:
+    taken = {mark.name for mark in desk.known.scene.bookmarks} if desk.known.scene else set()
+    bookmark = going.bookmark_here(desk, _free("Place", taken))
+    if bookmark is not None:
+        desk.post(Do(bookmark))
+        desk.say(f"Bookmarked as “{bookmark.name}”", offer="" if desk.strip == "places" else "places")
+
+
+def _type_place(desk: Desk) -> None:
+    desk.places.typed, desk.places.fault = going.typed_text(desk), ""
+
+
 def _escape(desk: Desk) -> None:
     desk.match.marking = None
     desk.past.asking = False
@@ -160,7 +189,10 @@ def _escape(desk: Desk) -> None:
 
 def next_layer_name(desk: Desk, stem: str) -> str:
     """`stem` with the first number that no layer has yet."""
-    taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
+    return _free(stem, {row.name for row in desk.known.scene.layers} if desk.known.scene else set())
+
+
+def _free(stem: str, taken: set[str]) -> str:
     n = 1
     while f"{stem} {n}" in taken:
         n += 1
@@ -281,11 +313,17 @@ ACTIONS: dict[str, Action] = {
     "history": A(
         "History", "View", ("Ctrl+H",), "Every step, to go back to", _strip("history"), _ready, _open("history")
     ),
+    "back": A("Back", "Go", ("Alt+Left",), "To where you were before; the mouse’s back button, too", _steps(-1), _back),
+    "forward": A("Forward", "Go", ("Alt+Right",), "To where you came back from", _steps(1), _forward),
+    "nearest": A("Nearest paint", "Go", ("Home",), "Go to the nearest paint", going.go_to_nearest, _lost),
+    "type_place": A("Go to place", "Go", ("Ctrl+L",), "Type or copy level and place", _type_place),
+    "bookmark": A("Bookmark this view", "Go", ("Ctrl+B",), "Keep this view under a name", _bookmark, _ready),
+    "places": A("Places", "Go", ("G",), "Bookmarks, and a map of the paint", _strip("places"), _ready, _open("places")),
     "keys": A("Keys…", "Help", ("F1",), "All keys in one list", _asks("keys")),
     "copy_details": A("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
     "about": A("About Inkfall…", "Help", (), "What this program is", _asks("about")),
 }  # fmt: skip
-MENUS = ("File", "Edit", "Tools", "Layer", "View", "Help")
+MENUS = ("File", "Edit", "Tools", "Layer", "View", "Go", "Help")
 
 
 def by_key(keys: str) -> Action | None:

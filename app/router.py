@@ -9,15 +9,16 @@ from dataclasses import replace
 import glfw
 from imgui_bundle import imgui
 
-from app.actions import by_key, perform
+from app.actions import ACTIONS, by_key, perform
 from app.desk.desk import Desk
-from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
+from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
 from app.tools import TOOLS, Gesture, ask_here, mark, pan, pick, swap, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
+_ACTIONS = {BACK: "back", FORWARD: "forward"}  # of buttons that mean the same wherever they are pressed
 _AWAY = -3.4e38  # where imgui looks for a pointer that is not there
 FOCUSING = 0.5  # seconds after a press on a panel in which a text field there may get the focus
 _TYPED_ANYWHERE = ("Ctrl+S", "Ctrl+Q", "F1")
@@ -44,6 +45,10 @@ class Router:
                 self.lift()
             elif event.kind in ("move", "wheel") or event.button == self._button:
                 self._send(event)
+            return
+        if event.button in _ACTIONS:
+            if event.kind == "down" and not _busy(desk, self.layout):
+                perform(desk, ACTIONS[_ACTIONS[event.button]])
             return
         if event.kind == "lost":
             return
@@ -87,6 +92,7 @@ class Router:
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
             return
         imgui.set_window_focus(None)
+        self.desk.glide.land()
         self._button = event.button
         self.gesture, self._last = self._chosen(event), event
         imgui.get_io().add_mouse_pos_event(_AWAY, _AWAY)
@@ -147,11 +153,11 @@ class Router:
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
             return
-        dialog = self.layout.dialogs.open or bool(self.desk.asked.dialog)
+        dialog = _dialog(self.desk, self.layout)
         if keys == "Escape" and self.layout.popup and not dialog:
             self.layout.dismiss()
             return
-        busy = dialog or self.layout.popup or imgui.get_io().want_text_input
+        busy = _busy(self.desk, self.layout)
         found = by_key(keys)
         if not busy and found is not None and self.layout.strip.takes(self.desk, found):
             return
@@ -185,3 +191,12 @@ class Router:
     def panning_key(self) -> bool:
         """Tells whether the key is down that makes every press pan."""
         return glfw.KEY_SPACE in self._keys
+
+
+def _dialog(desk: Desk, layout: Layout) -> bool:
+    return layout.dialogs.open or bool(desk.asked.dialog)
+
+
+def _busy(desk: Desk, layout: Layout) -> bool:
+    """Tells whether keys are a dialog's, a list's or a text field's."""
+    return bool(_dialog(desk, layout) or layout.popup or imgui.get_io().want_text_input)

@@ -24,6 +24,7 @@ from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
+from app.desk.places import going
 from app.desk.previews import Previews
 from app.desk.recovery.engine_thread import EngineThread, Start
 from app.desk.recovery.recovery_work import FindCards
@@ -133,6 +134,7 @@ class Window:
         moving = desk.glide.moving
         with spare("on the view's way"):
             desk.view = desk.glide.step(desk.view, seconds)
+            going.watch(desk, now)
         self._panels()
         with spare("asking for what is to be seen"):
             if desk.known.ready:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from app.canvas.standpoint import Standpoint
+from app.canvas.travel import Travel
 from app.canvas.view import Place, View, distance
 
 PACE = 0.055  # seconds in which the rest of the way falls to 1/e
@@ -18,14 +20,18 @@ class Glide:
         self._target: tuple[int, float] | None = None
         self._anchor: tuple[Place, float, float] | None = None
         self._left = 0.0  # seconds that a flight still takes
+        self._travel: Travel | None = None
+        self._gone = 0.0  # seconds of it
+        self._middle = (0.0, 0.0)
 
     @property
     def moving(self) -> bool:
         """Tells whether the view is on its way."""
-        return self._target is not None
+        return self._target is not None or self._travel is not None
 
     def zoom(self, view: View, levels: float, x: float, y: float) -> None:
         """Zooms `levels` farther than the present target, about the screen point (x, y)."""
+        self._travel = None
         level, fraction = self._target or (view.level, view.fraction)
         whole = math.floor(fraction + levels)
         self._target = level + whole, fraction + levels - whole
@@ -58,13 +64,30 @@ class Glide:
         self._left = seconds
         return view
 
+    def travel(self, view: View, there: Standpoint, x: float, y: float) -> View:
+        """Flies to a standpoint, of which the middle is the screen point (x, y); the view to begin with."""
+        self.stop()
+        travel = Travel(Standpoint.of(view, x, y), there, min(view.width, view.height))
+        self._travel, self._gone, self._middle = travel, 0.0, (x, y)
+        return view
+
     def stop(self) -> None:
         """The view is moved by something else: the place under the pointer is no longer the one held."""
-        self._target = self._anchor = None
+        self._target = self._anchor = self._travel = None
         self._left = 0.0
+
+    def land(self) -> None:
+        """A flight ends where it is; a zoom goes on."""
+        self._travel = None
 
     def step(self, view: View, seconds: float) -> View:
         """Returns the view `seconds` later."""
+        if self._travel is not None:
+            self._gone += seconds
+            part = self._gone / self._travel.seconds
+            view = self._travel.at(part).seen_from(view, *self._middle)
+            self._travel = self._travel if part < 1.0 else None
+            return view
         if self._target is None or self._anchor is None:
             return view
         level, fraction = self._target

@@ -21,6 +21,7 @@ from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
 from app.desk.notices import Notice, Notices
 from app.desk.past.past_state import PastState
+from app.desk.places.place_state import PlaceState
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
 from app.faults.log import fault_words
@@ -107,6 +108,7 @@ class Desk:
     examples: ExampleState = field(default_factory=ExampleState)
     recovery: RecoveryState = field(default_factory=RecoveryState)
     past: PastState = field(default_factory=PastState)
+    places: PlaceState = field(default_factory=PlaceState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

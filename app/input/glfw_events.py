@@ -7,9 +7,15 @@ from typing import Any
 
 import glfw
 
-from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
+from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
 
-_BUTTONS = {glfw.MOUSE_BUTTON_LEFT: LEFT, glfw.MOUSE_BUTTON_MIDDLE: MIDDLE, glfw.MOUSE_BUTTON_RIGHT: RIGHT}
+_BUTTONS = {
+    glfw.MOUSE_BUTTON_LEFT: LEFT,
+    glfw.MOUSE_BUTTON_MIDDLE: MIDDLE,
+    glfw.MOUSE_BUTTON_RIGHT: RIGHT,
+    glfw.MOUSE_BUTTON_4: BACK,
+    glfw.MOUSE_BUTTON_5: FORWARD,
+}
 
 
 class GlfwPointer:

@@ -15,14 +15,14 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from app.input.events import LEFT, MIDDLE, RIGHT, PenEvent
+from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
 
 ALL_DEVICES, ALL_MASTERS = 0, 1
 DEVICE_CHANGED, BUTTON_PRESS, BUTTON_RELEASE, MOTION, HIERARCHY_CHANGED = 1, 4, 5, 6, 11
 GENERIC_EVENT = 35
 VALUATOR_CLASS = 2
 FLOATING_SLAVE, MASTER_POINTER, SLAVE_POINTER = 5, 1, 3
-_BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT}
+_BUTTONS = {1: LEFT, 2: MIDDLE, 3: RIGHT, 8: BACK, 9: FORWARD}
 _WHEEL = {4: (0.0, 1.0), 5: (0.0, -1.0), 6: (1.0, 0.0), 7: (-1.0, 0.0)}
 _ROLES = {"Abs Pressure": "pressure", "Abs Tilt X": "tilt_x", "Abs Tilt Y": "tilt_y"}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import theme, trace
+from app.desk import pictured
 from app.desk.desk import Desk, Hear
 from app.faults.fault_guard import FaultGuard
 from app.panels import menu_bar, status
@@ -14,6 +15,7 @@ from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
 from app.panels.layers.layers_panel import LayersPanel
 from app.panels.panel import Painting
+from app.panels.places import place_field
 from app.panels.strip import StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
@@ -60,6 +62,8 @@ class Layout:
 
     def wants(self, desk: Desk, now: float) -> None:
         """Posts what the panels lack that are to be seen; called once the engine is there."""
+        if not desk.painting and not desk.glide.moving:
+            desk.places.seek(desk.post, desk.view.shown_level, pictured.seen(desk), desk.known.scene)
         if desk.panels:
             self.brush.wants(desk, now)
             self.ink.wants(desk, now)
@@ -84,6 +88,8 @@ class Layout:
         self._make_room(desk, (left, top, right, bottom))
         with self._guard.spare_drawing("drawing a dialog"):
             self.dialogs.draw(desk)
+        with self._guard.spare_drawing("drawing the field for a place"):
+            place_field.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
         trace.tell_places()

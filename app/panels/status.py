@@ -15,6 +15,7 @@ from app.panels import notice_line
 from app.panels.controls import widgets as w
 from app.tools import TOOLS
 
+_LEVEL = "The level of detail shown and painted on; each level is twice as fine.  Click to type or copy a place"
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
 
 
@@ -23,13 +24,17 @@ def draw(desk: Desk, pointer_name: str) -> None:
     left = imgui.get_cursor_pos_x()
     right = imgui.get_window_width() - imgui.get_style().window_padding.x
     imgui.dummy(ImVec2(0, 0))
-    for label, hint, fixed in reversed(_fields(desk, pointer_name)):
+    for label, hint, fixed, action in reversed(_fields(desk, pointer_name)):
         width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())
         right -= width
         imgui.same_line(right)
         imgui.text_unformatted(label)
         if label:
             w.named(f"status: {label}")
+        if action and imgui.is_item_hovered():
+            _underline()
+            if imgui.is_mouse_clicked(imgui.MouseButton_.left):
+                perform(desk, ACTIONS[action])
         w.tooltip(hint)
         right -= 1.4 * imgui.get_font_size()
     right = notice_line.count_button(desk, right)
@@ -54,6 +59,8 @@ def _left(desk: Desk, right: float) -> None:
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
     elif desk.past.asking:
         imgui.text_unformatted("Click a place: the strokes that show there are listed  (Esc: not now)")
+    elif desk.places.lost and not desk.painting:
+        _offer(desk, "No paint in sight", "nearest")
     elif not desk.known.ready:
         imgui.text_disabled("Loading the paint engine…")
     else:
@@ -74,12 +81,29 @@ def _message(desk: Desk) -> None:
     sign = f"{icons.WARNING}  " if bad else ""
     imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
     if offer:
-        imgui.same_line(0, imgui.get_font_size())
-        pressed = imgui.small_button(ACTIONS[offer].title)
-        w.named(ACTIONS[offer].title)
-        w.tooltip(ACTIONS[offer].hint)
-        if pressed:
-            perform(desk, ACTIONS[offer])
+        _button(desk, offer)
+
+
+def _offer(desk: Desk, text: str, action: str) -> None:
+    """Draws a line that holds for now, with a button for an action."""
+    imgui.text_unformatted(text)
+    w.named(text)
+    _button(desk, action)
+
+
+def _button(desk: Desk, offer: str) -> None:
+    imgui.same_line(0, imgui.get_font_size())
+    pressed = imgui.small_button(ACTIONS[offer].title)
+    w.named(ACTIONS[offer].title)
+    w.tooltip(ACTIONS[offer].hint)
+    if pressed:
+        perform(desk, ACTIONS[offer])
+
+
+def _underline() -> None:
+    """Shows that the item just drawn can be clicked."""
+    corner, end = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    imgui.get_window_draw_list().add_line(ImVec2(corner.x, end.y), end, theme.packed(theme.TEXT))
 
 
 def _work(desk: Desk) -> str:
@@ -98,20 +122,20 @@ def _work(desk: Desk) -> str:
     return f"{desk.known.pending} tiles to do" if desk.known.pending else ""
 
 
-def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float]]:
-    """(text, hint, least width in ems), left to right."""
+def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float, str]]:
+    """(text, hint, least width in ems, what a click does), left to right."""
     view = desk.view
     out = [
-        (_work(desk), "What is still being computed, or written; you can go on painting", 6.0),
-        (pointer_name, "The device that last moved the pointer", 0.0),
+        (_work(desk), "What is still being computed, or written; you can go on painting", 6.0, ""),
+        (pointer_name, "The device that last moved the pointer", 0.0, ""),
     ]
     if view.angle or view.mirrored:
         turned = f"{math.degrees(view.angle):.0f}°" if view.angle else ""
         out.append(
-            (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0)
+            (f"{turned} {'mirrored' if view.mirrored else ''}".strip(), "How the view is turned (5: upright)", 0.0, "")
         )
     out += [
-        (f"Level {view.shown_level}", "The level of detail shown and painted on; each level is twice as fine", 4.2),
-        (zoom_text(view.level, view.fraction), "How much the painting is magnified (F: fit, 1: one to one)", 6.5),
+        (f"Level {view.shown_level}", _LEVEL, 4.2, "type_place"),
+        (zoom_text(view.level, view.fraction), "How much the painting is magnified (F: fit, 1: one to one)", 6.5, ""),
     ]
     return out

@@ -1,4 +1,4 @@
-"""What opens below the canvas, between the panels: the texture lab, textures matched to examples, the analysis.
+"""What opens below the canvas, between the panels: the texture lab, textures matched to examples, places, the analysis.
 
 A panel of this kind is a row in STRIPS, and one in app.actions.ACTIONS under the same name, which opens it.
 """
@@ -21,6 +21,7 @@ from app.panels.lab.lab_panel import LabPanel
 from app.panels.match.match_panel import MatchingPanel
 from app.panels.panel import Painting, Panel
 from app.panels.past.history_panel import HistoryPanel
+from app.panels.places.places_panel import PlacesPanel
 
 PART, HIGHEST = 0.4, 640.0  # of the window's height; points
 
@@ -40,6 +41,7 @@ STRIPS = {
     "match": Strip("Match a texture", icons.MATCH, "Noise becomes like an example, band by band", MatchingPanel),
     "examples": Strip("Examples", icons.EXAMPLES, "Textures that grow where you paint, rim and all", ExamplesPanel),
     "history": Strip("History", icons.CLOCK, "Every step, with a small picture", HistoryPanel, 290.0),
+    "places": Strip("Places", icons.PLACES, "Bookmarks, and where there is paint", PlacesPanel),
     "analysis": Strip("Analysis", icons.CHART, "What the picture is made of", AnalysisPanel, 320.0),
 }
 

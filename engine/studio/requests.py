@@ -20,6 +20,7 @@ from engine.studio.results import Note, Result
 if TYPE_CHECKING:
     from engine.brush.settings import Brush
     from engine.painting.commands import Command, DefineTexture
+    from engine.painting.places import Bookmark
 
 _NOTHING: Map[str, Any] = Map()
 Handlers = dict[type, Callable[[Any], None]]  # of requests, by their types
@@ -293,6 +294,29 @@ class RegionClose:
 
 
 @dataclass(frozen=True, slots=True)
+class Seek:
+    """Asks whether there is paint in a rectangle of a level, and where the nearest is if not.  The newest counts."""
+
+    level: int
+    area: Rect
+
+
+@dataclass(frozen=True, slots=True)
+class AskMap:
+    """Asks for the map, about `size` (width, height) pixels large.  The newest counts."""
+
+    size: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class AskMiniatures:
+    """Asks for small pictures of bookmarks, "place NAME", at most `size` (width, height) large.  The newest counts."""
+
+    bookmarks: tuple[Bookmark, ...]
+    size: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
 class Prepare:
     """Brushes that are likely to be painted with, most likely first: their kernels are compiled meanwhile."""
 
@@ -346,6 +370,9 @@ Request = (
     | Analyse
     | MatchSet
     | MatchUse
+    | Seek
+    | AskMap
+    | AskMiniatures
     | GetReady
     | FileGrown
     | Written

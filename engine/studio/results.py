@@ -244,6 +244,36 @@ class Looked:
 
 
 @dataclass(frozen=True, slots=True)
+class Sought:
+    """Whether there is paint in what Seek asked for, `area` of `level`; if not, the nearest painted pixel that was
+    found, (level, x, y)."""
+
+    level: int
+    area: Rect
+    in_sight: bool
+    nearest: tuple[int, int, int] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """Paint on the map: the pixels `rect` of the level at which it was painted, and how many tiles it has around
+    there."""
+
+    level: int
+    rect: Rect
+    tiles: int
+
+
+@dataclass(frozen=True, slots=True)
+class PaintMap:
+    """Where there is paint; its picture, "map", shows the pixels `area` of `level`.  `spots`: the coarsest first."""
+
+    level: int
+    area: Rect
+    spots: tuple[Spot, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Pending:
     """How many tiles wait to be made."""
 
@@ -294,6 +324,8 @@ Result = (
     | Picture
     | Picked
     | Looked
+    | Sought
+    | PaintMap
     | Pending
     | Writing
     | LabScene

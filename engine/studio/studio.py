@@ -18,6 +18,7 @@ from engine.painting.points import rounded
 from engine.painting.times import members, timed
 from engine.studio import requests as q
 from engine.studio import results, swatch_files, swatches
+from engine.studio.atlas.atlas import Atlas
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
 from engine.studio.filing.filing import Filing
@@ -94,6 +95,7 @@ class Studio(Owned):
             Work(lambda: self.grower.pending, self._grow),
             _of(Matcher(easel)),
             _of(Examiner(easel)),
+            _of(Atlas(easel)),
             _of(past),
         )
         self._handlers: q.Handlers = {

@@ -81,7 +81,7 @@ def test_buttons_four_to_seven_are_the_wheel(detail, dx, dy):
     assert x.pen_event(event, None) is None
 
 
-@pytest.mark.parametrize(("detail", "button"), [(1, 1), (2, 2), (3, 3)])
+@pytest.mark.parametrize(("detail", "button"), [(1, 1), (2, 2), (3, 3), (8, 4), (9, 5)])
 def test_presses_and_releases(detail, button):
     for kind, word in ((x.BUTTON_PRESS, "down"), (x.BUTTON_RELEASE, "up")):
         event, _keep = report(kind, detail=detail)
@@ -90,7 +90,7 @@ def test_presses_and_releases(detail, button):
 
 
 def test_other_buttons_mean_nothing():
-    event, _keep = report(x.BUTTON_PRESS, detail=9)
+    event, _keep = report(x.BUTTON_PRESS, detail=10)
     assert x.pen_event(event, None) is None
 
 

@@ -1,0 +1,1 @@
+"""Where there is paint: the map, pictures of places, and the way back to paint."""
