@@ -32,18 +32,18 @@ class Replacement:
     """A file that is to be replaced.  `missing`: it was there, and is no more; `lost`: why its old version was not
     kept, "" if it was; `written`: what takes its place."""
 
-    def __init__(self, target: Path, seen: Fingerprint | None, sure: bool, preferences: Preferences) -> None:
-        self._target, self._seen, self._sure, self._preferences = target, seen, sure, preferences
+    def __init__(self, target: Path, seen: Fingerprint | None, asks: bool, preferences: Preferences) -> None:
+        self._target, self._seen, self._asks, self._preferences = target, seen, asks, preferences
         self.missing, self.lost = False, ""
         self.written: Fingerprint | None = None
         self.stack = ExitStack()  # of what ends after it is in its place
 
     def compare(self) -> Fingerprint | None:
-        """Returns what is there now; Overtaken if that is not what was seen last, unless the artist is sure."""
+        """Returns what is there now; Overtaken if that is not what was seen last, where one `asks` about that."""
         there = fingerprint(self._target)
         self.missing = there is None and self._seen is not None
-        changed = self._seen is not None and there is not None and not there.same_file(self._seen)
-        if changed and not self._sure:
+        same = there is None or (self._seen is not None and there.same_file(self._seen))
+        if self._asks and not same:
             raise Overtaken(elsewhere=False)
         return there
 
@@ -68,14 +68,15 @@ class OnDisk:
     def __init__(self, preferences: Preferences) -> None:
         self._preferences = preferences
         self._lock = threading.Lock()
-        self._seen: dict[Path, Fingerprint] = {}  # by real paths, as all here
+        self._targets: dict[Path, Path] = {}  # where paths led to: a link may lead somewhere else by now
+        self._seen: dict[Path, Fingerprint] = {}  # by real paths, as what follows
         self._claims: dict[Path, Claim] = {}
         self._shared: set[Path] = set()  # open elsewhere, and the artist knows
         self._released = False
 
     def opened(self, path: Path, seen: Fingerprint | None) -> bool:
         """Takes over what a file was as it was opened; False if it is open in another window, too."""
-        target = Path(os.path.realpath(path))
+        self._targets[path] = target = Path(os.path.realpath(path))
         if seen is not None:
             self._seen[target] = seen
         return self._claim(target)
@@ -100,14 +101,15 @@ class OnDisk:
             if not sure:
                 raise Overtaken(elsewhere=True)
             self._shared.add(target)
-        one = Replacement(target, self._seen.get(target), sure, self._preferences)
+        asks = not sure and (path in self._targets or target in self._seen)  # else another name was chosen for it
+        one = Replacement(target, self._seen.get(target), asks, self._preferences)
         stays = before
         try:
             with one.stack, unfinished(target):
                 one.compare()
                 yield one
                 if one.written is not None:
-                    self._seen[target] = one.written
+                    self._targets[path], self._seen[target] = target, one.written
             stays = {target}
         finally:
             with self._lock:

@@ -48,6 +48,28 @@ def test_what_changed_after_the_first_look_is_not_replaced(tmp_path):
     files.release()
 
 
+def test_a_link_that_leads_to_another_file_by_now_is_asked_about(tmp_path):
+    link, files = tmp_path / "link.ora", OnDisk(Preferences())
+    (tmp_path / "a.ora").write_bytes(b"a")
+    (tmp_path / "b.ora").write_bytes(b"b")
+    link.symlink_to("a.ora")
+    assert files.opened(link, fingerprint(link))
+    save(files, link, b"a2")
+    link.unlink()
+    link.symlink_to("b.ora")
+    with pytest.raises(Overtaken, match="another program"):
+        save(files, link, b"a3")
+    assert (tmp_path / "b.ora").read_bytes() == b"b"
+    save(files, tmp_path / "a.ora", b"a3")
+    link.unlink()
+    link.symlink_to("c.ora")
+    save(files, link, b"a4")
+    assert (tmp_path / "c.ora").read_bytes() == b"a4"
+    (tmp_path / "d.ora").write_bytes(b"d")
+    save(files, tmp_path / "d.ora", b"d2")  # another name, which the dialog asks about
+    files.release()
+
+
 def test_a_version_that_cannot_be_kept_is_told_and_keeps_nobody_from_saving(tmp_path):
     path, files = tmp_path / "a.ora", OnDisk(Preferences())
     save(files, path, b"old")
