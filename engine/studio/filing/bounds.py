@@ -13,9 +13,10 @@ from engine.keeping.versions import Kept, let_go
 
 def bound_kept(preferences: Preferences) -> None:
     """Deletes what is too much, the oldest first; the newest version of a file stays."""
-    for one in let_go(preferences, _binned()):
-        with suppress(OSError, WriteError):
-            remove_entry(one.path)
+    with suppress(OSError):  # without a state folder, nothing is kept
+        for one in let_go(preferences, _binned()):
+            with suppress(WriteError):
+                remove_entry(one.path)
 
 
 def _binned() -> list[Kept]:

@@ -41,6 +41,7 @@ class _Asked:
     def write(self, grown: Painting) -> results.Result:
         """Writes it, on a thread of its own; returns what the window is to know."""
         path = self.request.path
+        bound_kept(self.preferences)  # a disk that is nearly full has room for the painting first
         try:
             with self.files.saving(path, self.request.sure) as one:
                 documents.save(path, grown, self.recording, one.ready)

@@ -204,9 +204,24 @@ def test_the_bin_and_the_versions_have_their_bounds_together(window, tmp_path, m
     assert kept_versions(versions_folder(path)) == kept
     one.do(q.New(Rect(0, 0, 64, 64)))
     monkeypatch.setattr("engine.keeping.versions.most_bytes", lambda told: 0)
-    one.save(tmp_path / "other.ora")  # a save looks after it
+    there, real = [], documents.save
+    monkeypatch.setattr(documents, "save", lambda *told: (there.append(kept_versions(folder)), real(*told)))
+    folder = versions_folder(path)
+    one.save(path)  # makes room for itself before, and looks after what it kept
+    assert there == [kept[:1]]
     assert [folder.exists() for folder, _ in paintings] == [False, False, True]
-    assert kept_versions(versions_folder(path)) == kept[:1]
+    assert len(kept_versions(folder)) == 1
+    assert kept_versions(folder) != kept[:1]
+
+
+def test_without_a_state_folder_it_is_saved_and_told_that_no_version_is_kept(window, tmp_path):
+    (tmp_path / "state").write_text("no folder")
+    one, path = window(), tmp_path / "lake.ora"
+    assert one.save(path) == [results.Saved(path)]
+    one.add("more")
+    (saved,) = one.save(path)
+    assert saved.told.startswith("lake.ora is saved; its earlier version could not be kept (")
+    assert names(path)[-1] == "more"
 
 
 def test_a_save_of_a_painting_that_is_gone_asks_nothing(window, tmp_path, gate):
