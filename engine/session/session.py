@@ -164,6 +164,7 @@ class Session(Owned):
         """
         by = number - self.steps.count
         self._history, self.leapt = history, True
+        found = replace(found, active=self.steps.active_at(number))
         return self._arrive(found, c.Undo(-by) if by < 0 else c.Redo(by))
 
     def _arrive(self, found: Painting, command: c.Undo | c.Redo) -> Painting:

@@ -87,6 +87,12 @@ class Steps(Owned):
         """Returns the steps that can be done again, the next one first."""
         return tuple(state.step for state in reversed(self._undone) if state.step is not None)
 
+    def active_at(self, number: int) -> str | None:
+        """Returns the active layer that undoing, or doing again, up to the step of a number comes to."""
+        by = number - self.count
+        state = self._done[number] if by < 0 else self._undone[-by] if by > 0 else self._now
+        return state.painting.active
+
     @property
     def root(self) -> Group:
         """Gives the layers, without paint."""

@@ -103,9 +103,20 @@ ACTS = st.one_of(
 )
 
 
-@settings(deadline=None, max_examples=12)
-@given(st.booleans(), st.lists(ACTS, max_size=8))
+@settings(deadline=None, max_examples=5)
+@given(st.booleans(), st.lists(ACTS, max_size=6))
 def test_whatever_is_jumped_and_looked_at_the_recording_gives_the_painting(held, acts):
+    check_acts(held, acts)
+
+
+@pytest.mark.nightly
+@settings(deadline=None, max_examples=150)
+@given(st.booleans(), st.lists(ACTS, max_size=10))
+def test_it_does_so_many_times_over(held, acts):
+    check_acts(held, acts)
+
+
+def check_acts(held, acts):
     asker = Asker(None if held else opened())
     if held:
         asker.ask(q.New(FRAME), *map(q.Do, COMMANDS))
@@ -157,6 +168,12 @@ def test_a_step_of_a_file_is_reached_and_looked_at(number):
     assert not asker.session.can_redo
 
 
+def test_a_jump_comes_to_the_layer_that_undoing_comes_to():
+    asker = Asker(opened())
+    asker.ask(p.ShowPast(), q.Do(c.AddLayer("Other")), p.Jump(8))
+    assert asker.session.painting.active == replay(asker.session.recording()).painting.active == "Layer 1"
+
+
 def test_looking_ends_as_soon_as_somebody_paints():
     asker = Asker()
     asker.ask(q.New(FRAME), *map(q.Do, STROKES[:4]), p.ShowPast())
@@ -170,22 +187,22 @@ def test_looking_ends_as_soon_as_somebody_paints():
 
 
 def test_the_way_to_a_step_can_be_given_up_and_tells_how_far_it_is():
-    many = tuple(stroke(n % 50, n % 40) for n in range(120))
+    many = tuple(stroke(n % 50, n % 40) for n in range(60))
     asker = Asker(opened(many))
     asker.ask(p.ShowPast())
     before = painted(asker.session)
-    asker.studio.do(p.Jump(119))
+    asker.studio.do(p.Jump(59))
     asker.studio.step()
     asker.studio.do(p.StopJump())
     asker.work()
-    assert (asker.scene.done, asker.scene.playing) == (120, None)
+    assert (asker.scene.done, asker.scene.playing) == (60, None)
     asker.studio.do(p.Jump(5))
     asker.studio.do(q.Do(STROKES[0]))  # who goes on painting does not want to be taken away
     asker.work()
-    assert asker.scene.done == 121
-    asker.ask(p.Jump(119))
+    assert asker.scene.done == 61
+    asker.ask(p.Jump(59))
     assert any(scene.playing is not None for scene in asker.sent if isinstance(scene, p.PastScene))
-    asker.ask(p.Jump(120))
+    asker.ask(p.Jump(60))
     assert np.array_equal(painted(asker.session), before)
 
 
