@@ -47,7 +47,8 @@ class Journal:
 
     def hear(self, tell: Callable[[str | None], None]) -> None:
         """Has `tell` called, on the journal's thread, with why it cannot be written, and None when it can again."""
-        self._writing.tell = tell
+        with self._writing.guard:
+            self._writing.hear(tell)
 
     # --- what is asked for --------------------------------------------------------------------------------------------
 

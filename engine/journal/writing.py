@@ -13,6 +13,7 @@ from engine.journal.volume import End, Volume
 _LOGGER = logging.getLogger("inkfall")
 SYNC_UP, SYNC_DOWN = 0.4, 0.9  # seconds after which a sync begins: after what is whole, and of a stroke in progress
 RETRY = 3.0  # seconds between two tries to write what could not be written
+_Tell = Callable[[str | None], None]
 _PARTS = frozenset({Kind.BEGIN, Kind.POINTS})  # of a stroke in progress
 
 
@@ -21,13 +22,13 @@ class Writing:
     `guard` held; `make` makes the first volume.
 
     `flush` appends what waits to be, if it has waited long enough or is told that this is the end; it returns when it
-    wants to be called again.  `tell` hears, on the thread, why nothing can be written, and None when it can again.
+    wants to be called again.
     """
 
     def __init__(self, make: Callable[[threading.Lock], Volume], flush: Callable[[bool], float | None]) -> None:
         self.guard = threading.Lock()
         self.now = make(self.guard)
-        self.tell: Callable[[str | None], None] = lambda why: None
+        self._tell: _Tell = lambda why: None
         self._flush = flush
         self._changed = threading.Condition(self.guard)
         self._closed: list[Volume] = []
@@ -36,6 +37,11 @@ class Writing:
         self._told: str | None = None
         self._thread = threading.Thread(target=self._run, name="inkfall journal", daemon=True)
         self._thread.start()
+
+    def hear(self, tell: _Tell) -> None:
+        """Has `tell` called, on the thread, with why nothing can be written, and with None when it can again."""
+        self._tell, self._told = tell, None
+        self.look_at(0.0)
 
     def append(self, kind: Kind, payload: bytes) -> None:
         """Writes a record of the present painting."""
@@ -80,7 +86,7 @@ class Writing:
                     self._retry(volume)
             if self.now.fault != self._told:
                 self._told = self.now.fault
-                self.tell(self._told)
+                self._tell(self._told)
             if closing:
                 return
 

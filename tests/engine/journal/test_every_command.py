@@ -1,0 +1,84 @@
+"""Every command of the language is journalled when it is asked for and when it is done, and comes back as it was."""
+
+import dataclasses
+import typing
+
+import numpy as np
+import pytest
+from test_answers import idle
+from test_recovering import left, painter
+
+from engine.brush.settings import Brush
+from engine.journal import entries
+from engine.journal.heads import head_of_new
+from engine.journal.journal import Journal
+from engine.journal.records import Kind, read_command, told_command
+from engine.journal.story import read_story
+from engine.journal.volume import End
+from engine.painting import commands as c
+from engine.painting import places
+from engine.studio import requests as q
+from engine.studio.filing.recovering import recovered
+
+LINE = np.array([[10.25, 20, 0.5, 1, 2, 0.1], [90, 70 + 1 / 3, 1, 0, 0, 0.2]])
+LINE.flags.writeable = False
+MORE = c.parse({"do": "undo", "newer": {"than": [1, 2, {"this": 0.1}]}}).extra
+# One of each: a command that is not here fails `test_no_command_is_missing`.
+SAMPLES = {
+    c.Stroke: c.Stroke(2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE),
+    c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
+    c.SelectLayer: c.SelectLayer("sky"),
+    c.RemoveLayer: c.RemoveLayer("cloud"),
+    c.RenameLayer: c.RenameLayer("sky", "heaven"),
+    c.DuplicateLayer: c.DuplicateLayer("sky", "sky 2"),
+    c.MoveLayer: c.MoveLayer("sky", 0),
+    c.SetLayer: c.SetLayer("sky", opacity=0.25, blend="multiply"),
+    c.Undo: c.Undo(1),
+    c.Redo: c.Redo(1),
+    c.View: c.View(1.5, (3, 4.5), (800, 600)),
+    c.DefineTexture: c.DefineTexture("grit", "rock", c.parse({"do": "undo", "period": 64}).extra),
+    c.Swap: c.Swap(0, (5, 6), "leaves", "sky", 0.5, 2),
+    places.Bookmark: places.Bookmark("shore", 3.5, (1.5, 2), (800, 600), 12.0),
+    places.RenameBookmark: places.RenameBookmark("shore", "coast"),
+    places.RemoveBookmark: places.RemoveBookmark("coast"),
+}
+UNDOABLE = (c.Swap, c.RenameLayer)  # which need more than a layer "sky" there
+
+
+def test_no_command_is_missing():
+    """The union of all commands, as the type tells them, and the table that reads them."""
+    told = set(typing.get_args(c.Command))
+    assert set(SAMPLES) == told == {record for form in c.COMMANDS.values() for record in form.records}
+
+
+@pytest.mark.parametrize("kind", SAMPLES, ids=lambda kind: kind.__name__)
+def test_it_stands_in_the_journal_as_asked_and_as_done(tmp_path, kind):
+    command = SAMPLES[kind]
+    assert read_command(told_command(command)) == command
+    journal = Journal(head_of_new(), tmp_path)
+    number = journal.ask(told_command(command))
+    journal.note(Kind.DID, told_command(command))
+    journal.close(End.STAYS)
+    (entry,) = entries.listed(tmp_path) or [None] if kind is not c.View else [None]
+    folder = next(tmp_path.iterdir()) if entry is None else entry.folder
+    story = read_story(folder)
+    assert [command] == story.commands
+    assert story.asked[number].command == command
+    for field in dataclasses.fields(command):
+        held, there = getattr(story.commands[0], field.name), getattr(command, field.name)
+        assert np.array_equal(held, there) if isinstance(there, np.ndarray) else held == there
+
+
+def test_all_are_recovered_in_order(tmp_path):
+    """Those that can be carried out here, by a studio, and from its journal."""
+    worker = painter(tmp_path)
+    worker.post(q.Do(c.AddLayer("sky")))
+    for kind in (kind for kind in SAMPLES if kind not in UNDOABLE):
+        worker.post(q.Do(dataclasses.replace(SAMPLES[kind])))
+    idle(worker)
+    left(worker)
+    (entry,) = entries.listed(tmp_path)
+    found = recovered(entry.folder)
+    assert found.missing == []
+    done = {type(command) for command in found.session.log}
+    assert done == set(SAMPLES) - set(UNDOABLE)
