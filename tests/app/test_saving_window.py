@@ -77,7 +77,6 @@ def test_nothing_that_others_saved_is_lost_and_earlier_versions_are_at_hand(prog
     second.keys("ctrl+s")  # it is open in the first
     second.box("Overwrite")
     assert np.array_equal(picture(path), saved)
-    look(second, "elsewhere")
     second.click("Overwrite")
     until(lambda: not np.array_equal(picture(path), saved))
     theirs = path.read_bytes()
@@ -85,7 +84,6 @@ def test_nothing_that_others_saved_is_lost_and_earlier_versions_are_at_hand(prog
     first.keys("ctrl+s")  # nothing was painted, but the file is another one
     first.box("Open the other")
     assert path.read_bytes() == theirs
-    look(first, "changed")
     first.click("Open the other")
     first.canvas_unlike(one_stroke)
     first.stroke((450, 200), (650, 220))
@@ -96,8 +94,7 @@ def test_nothing_that_others_saved_is_lost_and_earlier_versions_are_at_hand(prog
     first.click((22, 11))  # the menu File
     first.click("Earlier versions…")
     first.box("version 2")
-    app_shows_pictures(first)
-    look(first, "versions")
+    shows_pictures(first)
     first.click("version 2")
     first.click("Open")
     assert first.comes_to(one_stroke)
@@ -106,14 +103,6 @@ def test_nothing_that_others_saved_is_lost_and_earlier_versions_are_at_hand(prog
     first.keys("Escape")
 
 
-def app_shows_pictures(app):
+def shows_pictures(app):
     """Waits until the cards have their pictures: the paper of the paintings is light."""
     app.until(lambda screen: all((screen[app.part(f"version {n}")] > 200).mean() > 0.2 for n in (1, 2)))
-
-
-def look(app, name):
-    import os
-
-    if folder := os.environ.get("LOOK"):
-        app.settled()
-        Image.fromarray(app.screen()).save(f"{folder}/{name}.png")
