@@ -43,6 +43,10 @@ def _has_file(desk: Desk) -> bool:
     return _ready(desk) and desk.known.path is not None
 
 
+def _idle(desk: Desk) -> bool:
+    return not desk.painting
+
+
 def _layer(desk: Desk) -> bool:
     return _ready(desk) and desk.known.scene is not None and desk.known.scene.active is not None
 
@@ -259,7 +263,7 @@ ACTIONS: dict[str, Action] = {
     "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF", _asks("export"), _ready),
     "try_again": A("Try again", "File", (), "Try once more what did not work", offers.try_again, offers.can_try),
     "free_space": A("Free space", "File", (), "Tell how much room is left, and show the folder", offers.free_space),
-    "bin": A("Bin…", "File", (), "Paintings that were closed without saving, or discarded", _asks("bin"), _ready),
+    "bin": A("Bin…", "File", (), "Paintings that were closed without saving, or discarded", _asks("bin"), _idle),
     "start_engine": A(
         "Start it again",
         "File",

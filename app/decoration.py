@@ -23,7 +23,7 @@ class Decoration:
         """Brings both up to date."""
         self._point(cursor.shape(desk, panning))
         known = desk.known
-        self._name(f"{'*' if known.modified else ''}{known.path.name if known.path else 'Untitled'} - Inkfall")
+        self._name(f"{'*' if known.modified else ''}{known.title} - Inkfall")
 
     def _point(self, shape: int) -> None:
         if shape != self._cursor:

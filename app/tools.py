@@ -20,6 +20,7 @@ from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.match_state import SMALLEST
 from app.input.events import ENDS, PenEvent
+from app.trace import trace
 from engine.brush.smoothing import Smoother
 from engine.numeric.address import Rect
 from engine.studio.requests import (
@@ -81,6 +82,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     finally:
         desk.painting = False
         desk.post(Finish() if done else Abandon())
+        trace("a stroke is posted" if done else "a stroke is dropped")
     if brush.row.lays_ink:
         desk.hand.remember()
 

@@ -55,6 +55,16 @@ class Known:
         return self.scene.path if self.scene else None
 
     @property
+    def title(self) -> str:
+        """Returns what the painting is called: by its file's name, if it has one."""
+        return self.path.name if self.path else (self.scene.name if self.scene else "") or "Untitled"
+
+    @property
+    def stem(self) -> str:
+        """Returns the name that is proposed for its file, without an ending."""
+        return self.path.stem if self.path else (self.scene.name if self.scene else "") or "untitled"
+
+    @property
     def active(self) -> LayerRow | None:
         """Returns the layer or group that is painted on."""
         scene = self.scene

@@ -35,7 +35,6 @@ def _item(desk: Desk, action: Action) -> None:
 
 
 def _title(desk: Desk) -> None:
-    name = desk.known.path.name if desk.known.path else "Untitled"
-    text = f"{name}{' *' if desk.known.modified else ''}"
+    text = f"{desk.known.title}{' *' if desk.known.modified else ''}"
     imgui.same_line((desk.view.width - imgui.calc_text_size(text).x) / 2)
     imgui.text_disabled(text)

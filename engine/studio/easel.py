@@ -24,8 +24,8 @@ from engine.texture.image import ImageSource
 class Easel(Owned):
     """A session with the stroke in progress.  It belongs to the engine's thread.
 
-    `path`: the file of the painting, None for none; `saved`: the session's state that this file holds, None for none;
-    `serial`: another number, another painting.
+    `path`: the file of the painting, None for none; `name`: what one without a file is called; `saved`: the session's
+    state that this file holds, None for none; `serial`: another number, another painting.
     """
 
     def __init__(self, send: Callable[[results.Result], None]) -> None:
@@ -33,6 +33,7 @@ class Easel(Owned):
         self.session = Session()
         self.live: Live | None = None
         self.path: Path | None = None
+        self.name = ""
         self.saved: object = self.session.state
         self.serial = 0
         self.viewer = Viewer(self)
@@ -46,7 +47,7 @@ class Easel(Owned):
         """Puts another painting on the easel."""
         session.heard = self.session.heard
         self.live, self.session = None, session
-        self.path, self.saved = path, session.state
+        self.path, self.name, self.saved = path, "", session.state
         self.serial += 1
         self.viewer.forget()
         self.tell()
@@ -158,6 +159,7 @@ class Easel(Owned):
             definitions=tuple((name, texture.kind, texture.parameters) for name, texture in painting.textures.items()),
             texture_widths=tuple((name, t.source.width) for name, t in painting.textures.items() if t.source),
             serial=self.serial,
+            name=self.name,
             bookmarks=tuple(painting.bookmarks.values()),
         )
         self.send(scene)

@@ -93,6 +93,7 @@ class Scene:
     definitions: tuple[tuple[str, str, Mapping[str, Any]], ...] = ()  # and its parameters: name, kind, these
     texture_widths: tuple[tuple[str, int], ...] = ()  # pixels across the pictures of those that have one
     serial: int = 0  # another number: another painting
+    name: str = ""  # what one without a file is called
     bookmarks: tuple[Bookmark, ...] = ()  # in the order in which they were made
 
 

@@ -1,7 +1,6 @@
-"""What ends a stroke, or the program, from outside: another window in front, a signal, the death of the display."""
+"""What ends a stroke, or the program, from outside: another window in front, the death of the display."""
 
 import ctypes
-import signal
 import time
 
 import pytest
@@ -62,14 +61,3 @@ def test_a_stroke_stays_when_the_focus_goes_and_the_program_ends_well_when_the_d
     assert app.process.wait(30) == 0, app.log.read_text()
     words = app.log.read_text()
     assert "Fatal" not in words, words
-
-
-def test_a_signal_ends_the_program_well_in_the_middle_of_a_stroke(program):
-    app = program()
-    draw(app, (400, 300), (500, 350))
-    began = time.monotonic()
-    app.process.send_signal(signal.SIGHUP)
-    status = app.process.wait(30)
-    app.do("mouseup", 1)
-    assert status == 0, app.log.read_text()
-    assert time.monotonic() - began < 15

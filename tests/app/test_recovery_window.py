@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 
+FILE_MENU = (22, 12)  # on the screen
 pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
 
 
@@ -26,18 +27,21 @@ def away_from(at, canvas):
     return canvas
 
 
-def seen(app):
-    """The canvas as it is, wherever the pointer is."""
-    return app.settled()[60:740, 270:970].astype(int)
+def seen(app, at, before):
+    """The canvas when it shows something else than before, away from where the pointer is."""
+    end = time.monotonic() + 60
+    while np.array_equal(now := away_from(at, app.settled()[60:740, 270:970].astype(int)), away_from(at, before)):
+        assert time.monotonic() < end, "the canvas stays as it was"
+    return now
 
 
 def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
     app = program()
+    empty = app.canvas()
     app.stroke((400, 300), (500, 420), (600, 300))
-    app.stroke((420, 500), (700, 520))
-    app.canvas()
+    before = app.canvas_unlike(empty)
     held(app, (700, 250), (760, 300), (800, 380))
-    painted = away_from((800, 380), seen(app))
+    painted = seen(app, (800, 380), before)
     app.process.send_signal(signal.SIGHUP)
     assert app.process.wait(30) == 0, app.log.read_text()
     app.do("mouseup", 1)
@@ -46,16 +50,18 @@ def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
     assert app.box("picture of Untitled")
     app.click("Open")
     app.until_gone("Open")
-    app.wait_for("engine ready")
+    app.wait_for("painting 1 shown")
     app.until(lambda screen: np.array_equal(away_from((800, 380), screen[60:740, 270:970]), painted))
+    before = app.canvas()
     held(app, (350, 600), (500, 640), (650, 600))
-    painted = away_from((650, 600), seen(app))
+    painted = seen(app, (650, 600), before)
     app.process.send_signal(signal.SIGKILL)
     app.process.wait(30)
     app.do("mouseup", 1)
 
     app = program(ready="cards: 1")
     app.click("Open")
+    app.wait_for("painting 1 shown")
     app.until(lambda screen: np.array_equal(away_from((650, 600), screen[60:740, 270:970]), painted))
     app.keys("ctrl+z")
     app.canvas_unlike(painted)
@@ -64,8 +70,29 @@ def test_what_was_painted_is_had_back_after_a_signal_and_after_a_kill(program):
     assert app.process.wait(30) == 0, app.log.read_text()
 
     app = program(ready="cards: 0")
-    app.click("File")
+    app.click(FILE_MENU)
     app.click("Bin…")
     app.click("Delete")
     app.click("Sure?")
     app.until_gone("Sure?")
+
+
+def test_an_engine_that_dies_is_started_again_with_the_painting_as_it_was(program):
+    app = program(module="dying")
+    app.do("mousemove", 500, 400)
+    app.wheel(1)
+    empty = app.canvas()
+    app.stroke((400, 300), (500, 420), (600, 300))
+    painted = app.canvas_unlike(empty)
+    app.keys("ctrl+shift+n")
+    app.wait_for("a fault that ends the engine's thread")
+    app.box("Copy details")
+    app.box("Layer 2")  # what had killed it
+    assert app.comes_to(painted), "another picture, or another view"
+    app.stroke((420, 300), (640, 260))
+    app.canvas_unlike(painted)
+    app.keys("ctrl+z")
+    assert app.comes_to(painted)
+    words = app.log.read_text()
+    assert words.count("Traceback (most recent call last)") == 1
+    app.log.write_text("")

@@ -175,14 +175,14 @@ def opening(desk: Desk) -> SystemDialog | Browser:
 
 def saving(desk: Desk) -> SystemDialog | Browser:
     """Asks where to save the painting."""
-    stem = desk.known.path.stem if desk.known.path else "untitled"
-    return _chooser("Save as", _folder(desk) / f"{stem}.ora", SAVES, True, lambda d, path: d.post(Save(path)))
+    return _chooser(
+        "Save as", _folder(desk) / f"{desk.known.stem}.ora", SAVES, True, lambda d, path: d.post(Save(path))
+    )
 
 
 def exporting(desk: Desk) -> SystemDialog | Browser:
     """Asks where to export the picture."""
-    stem = desk.known.path.stem if desk.known.path else "untitled"
-    start, level = _folder(desk) / f"{stem}.png", desk.asked.export_level
+    start, level = _folder(desk) / f"{desk.known.stem}.png", desk.asked.export_level
     return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
 
 

@@ -121,7 +121,7 @@ class Filing(Owned):
             return
         document = Document(found.session, known=found.known)
         self._show(document, renamed_head(found.story.head, found.name), continued, found.count)
-        self._easel.saved = None
+        self._easel.saved, self._easel.name = None, found.name
         self._easel.tell()
         if found.missing:
             self._easel.send(_losses(found.name, tuple(found.missing)))
