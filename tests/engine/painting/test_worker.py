@@ -150,7 +150,7 @@ def test_a_fault_is_no_refusal_and_leaves_its_trace(worker, faults):
     worker.post(q.Finish())
     until(lambda: q.Finish() in worker.bench.did)
     notes = [r for r in worker.results() if isinstance(r, results.Note)]
-    assert notes == [results.Note("A fault in Inkfall", bad=True, fault=True)]
+    assert notes == [results.Note("A fault in Inkfall", True, True, True, ("copy_details",), "fault")]
     fault = faults.pop()
     assert fault.threadName == "inkfall engine"
     assert fault.exc_info[0] is KeyError
@@ -216,7 +216,7 @@ def test_an_engine_that_does_not_load_is_told(faults):
 
     worker = Worker(woken.set, broken)
     woken.wait(5)
-    assert worker.results() == [results.Note("The paint engine did not load", bad=True, fault=True)]
+    assert worker.results() == [results.Note("The paint engine did not load", True, True, True, ("copy_details",))]
     assert "no numba here" in str(faults.pop().exc_info[1])
     worker.close()
 
