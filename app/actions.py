@@ -183,6 +183,9 @@ def _type_place(desk: Desk) -> None:
 
 
 def _escape(desk: Desk) -> None:
+    if desk.known.opening is not None:
+        desk.stop_opening()
+        return
     desk.match.marking = None
     desk.past.asking = False
     if desk.past.looking is not None:

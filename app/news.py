@@ -55,6 +55,7 @@ HEARS: dict[type, Hear] = {
     results.Overtaken: _overtaken,
     results.Picked: _picked,
     results.Looked: flight.fly,
+    results.Whole: lambda desk, whole, now: desk.show(whole),
 }
 
 

@@ -26,8 +26,9 @@ from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
+from engine.studio.filing.opening_requests import CancelOpening, Show
 from engine.studio.requests import Open, Request, Save
-from engine.studio.results import Note
+from engine.studio.results import Note, Opening, Whole
 
 MESSAGE_SECONDS = 6.0
 
@@ -146,9 +147,22 @@ class Desk:
     def open(self, path: Path, live: bool = False, untitled: bool = False) -> None:
         """Opens a file, which the status line tells until it is there; `live`: a recording is seen as it grows;
         `untitled`: it is not saved there again."""
-        self.learn(opening=path.name)
+        self.learn(opening=Opening(path.name))
         self.message = Message()
         self.post(Open(path, live, untitled))
+
+    def stop_opening(self) -> None:
+        """Gives up what is being opened."""
+        self.learn(opening=None)
+        self.post(CancelOpening())
+
+    def show(self, whole: Whole) -> None:
+        """Lets a file that is read take the painting's place; asks before, if that was changed meanwhile."""
+        if whole.changed:
+            sure = Show(whole.file, sure=True)
+            self.asked.about_changes(lambda: self.post(sure), self.stop_opening, f"{whole.name} takes its place.")
+        else:
+            self.post(Show(whole.file))
 
     def save(self) -> None:
         """Saves where the painting came from; asks where, the first time."""

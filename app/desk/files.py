@@ -12,6 +12,8 @@ from app.desk.desk import Desk, FileWork
 from app.faults.log import LOGGER, fault_words
 from engine.files.fault import system_words
 
+HANGING = 20.0  # seconds that the end of the program waits for its files
+
 
 @dataclass(frozen=True, slots=True)
 class Done:
@@ -74,10 +76,11 @@ class Files:
         return found
 
     def close(self) -> None:
-        """Ends the thread when all that was posted is carried out."""
+        """Ends the thread when all that was posted is carried out; one that hangs, on a folder of a network that is
+        gone, is left to itself after a while."""
         self._posted.append(None)
         self._signal.release()
-        self._thread.join()
+        self._thread.join(HANGING)
 
     def _run(self) -> None:
         while True:

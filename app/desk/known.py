@@ -13,7 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
-from engine.studio.results import Growing, LayerRow, Note, Prepared, Ready, Scene, Writing
+from engine.studio.results import Growing, LayerRow, Note, Opening, Prepared, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 
@@ -23,8 +23,8 @@ class Known:
     """`ready`: whether the engine is loaded; `tables`: its rows, of textures, operations and so on; `scene`: the
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
-    does; `prepared`: how many brushes are ready; `opening`: the name of the file that is being opened.  Times are
-    seconds of time.monotonic()."""
+    does; `prepared`: how many brushes are ready; `opening`: the file that is being opened.  Times are seconds of
+    time.monotonic()."""
 
     ready: bool = False
     tables: Ready = Ready()  # noqa: RUF009  # it is frozen
@@ -37,7 +37,7 @@ class Known:
     grows: float = 0.0
     preparing: float | None = None
     prepared: Prepared = Prepared(0, 0)  # noqa: RUF009
-    opening: str = ""
+    opening: Opening | None = None
 
     @property
     def frame(self) -> Rect:
@@ -89,13 +89,8 @@ def known_after(known: Known, result: object, now: float) -> Known:
     return replace(known, **news) if news else known
 
 
-def _scene(known: Known, result: Scene, _now: float) -> dict[str, Any]:
-    same = result.serial == (known.scene.serial if known.scene else 0)  # 0: the painting of the start
-    return {"scene": result, "opening": known.opening if same else ""}
-
-
 def _note(known: Known, result: Note, _now: float) -> dict[str, Any]:
-    return {"opening": ""} if result.bad and known.opening else {}
+    return {"opening": None} if result.about == "engine" and known.opening else {}  # there is none that could open it
 
 
 def _growing(known: Known, result: Growing, now: float) -> dict[str, Any]:
@@ -105,7 +100,8 @@ def _growing(known: Known, result: Growing, now: float) -> dict[str, Any]:
 
 _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Ready: lambda known, r, now: {"ready": True, "tables": r},
-    results.Scene: _scene,
+    results.Scene: lambda known, r, now: {"scene": r},
+    results.Opening: lambda known, r, now: {"opening": r if r.name else None},
     results.Note: _note,
     results.Pending: lambda known, r, now: {"pending": r.tiles},
     results.Writing: lambda known, r, now: {"writing": r},

@@ -48,11 +48,13 @@ def draw(desk: Desk, right: float) -> None:
             imgui.open_popup(_LIST)
         w.named("Details")
         w.tooltip("All lines of it")
-    _buttons(desk, notice)
+    _offers(desk, notice)
+    imgui.same_line(0, 0.5 * em)
+    _close(desk, notice)
 
 
-def _buttons(desk: Desk, notice: Notice) -> None:
-    """Draws what can be done about a notice, and what closes it."""
+def _offers(desk: Desk, notice: Notice) -> None:
+    """Draws what can be done about a notice, behind what is drawn."""
     em = imgui.get_font_size()
     for offer in _possible(desk, notice):
         imgui.same_line(0, 0.5 * em)
@@ -64,7 +66,9 @@ def _buttons(desk: Desk, notice: Notice) -> None:
             desk.notices.chosen = notice
             perform(desk, action)
             desk.notices.chosen = None
-    imgui.same_line(0, 0.5 * em)
+
+
+def _close(desk: Desk, notice: Notice) -> None:
     if w.icon_button("close note", icons.CLOSE, "Close this note", size=imgui.get_text_line_height()):
         desk.notices.close(notice)
 
@@ -96,15 +100,20 @@ def _list(desk: Desk) -> None:
 
 
 def _entry(desk: Desk, notice: Notice) -> None:
-    imgui.push_text_wrap_pos(0.0)
+    """Draws a notice in the list: its line, what closes it at the right end, all else that there is to read."""
+    right = imgui.get_window_width() - imgui.get_style().window_padding.x - imgui.get_text_line_height()
+    imgui.push_text_wrap_pos(right - imgui.get_font_size())
     imgui.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), notice.text)
+    imgui.same_line(right)
+    _close(desk, notice)
     for line in notice.lines:
         imgui.bullet()
         imgui.text_unformatted(line)
         w.named(line)
     imgui.pop_text_wrap_pos()
-    imgui.dummy(ImVec2(0, 0))
-    _buttons(desk, notice)
+    if _possible(desk, notice):
+        imgui.dummy(ImVec2(0, 0))
+        _offers(desk, notice)
 
 
 def _fitted(text: str, width: float) -> str:

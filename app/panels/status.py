@@ -14,6 +14,7 @@ from app.desk.desk import Desk
 from app.panels import notice_line
 from app.panels.controls import widgets as w
 from app.tools import TOOLS
+from engine.studio.results import Opening
 
 _LEVEL = "The level of detail shown and painted on; each level is twice as fine.  Click to type or copy a place"
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
@@ -44,16 +45,17 @@ def draw(desk: Desk, pointer_name: str) -> None:
 
 def _left(desk: Desk, right: float) -> None:
     """Draws what is told, up to `right`: what has just happened, then what went wrong, else what can be done here."""
+    if desk.known.opening is not None:
+        _opening(desk, desk.known.opening)
     held = desk.notices.seen and imgui.is_window_hovered()  # somebody may be about to press one of its buttons
     desk.notices.seen = False
     if _says(desk) and not (held and desk.notices.rows):
         _message(desk)
-    elif desk.known.opening:
-        imgui.text_unformatted(f"Opening {desk.known.opening}")
-        w.named(f"Opening {desk.known.opening}")
     elif desk.notices.rows:
         desk.notices.seen = True
         notice_line.draw(desk, right)
+    elif desk.known.opening is not None:
+        imgui.dummy(ImVec2(0, 0))
     elif desk.examples.swapping:
         name = desk.examples.entry.title if desk.examples.entry else ""
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
@@ -65,6 +67,22 @@ def _left(desk: Desk, right: float) -> None:
         imgui.text_disabled("Loading the paint engine…")
     else:
         imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
+
+
+def _opening(desk: Desk, opening: Opening) -> None:
+    """Draws how far a file is opened, and what gives that up, which stays where it is."""
+    left, em = imgui.get_cursor_pos_x(), imgui.get_font_size()
+    text = f"Opening {opening.name}"
+    imgui.text_unformatted(f"{text}  {opening.part * 100:.0f} %" if opening.part else text)
+    w.named(text)
+    w.tooltip("You can go on painting meanwhile")
+    imgui.same_line(left + imgui.calc_text_size(f"{text}  100 %").x + 0.7 * em)
+    pressed = imgui.small_button("Stop")
+    w.named("Stop")
+    w.tooltip("Do not open it; the painting stays  (Escape)")
+    if pressed:
+        desk.stop_opening()
+    imgui.same_line(0, 2 * em)
 
 
 def _says(desk: Desk) -> bool:

@@ -135,9 +135,11 @@ def _regrouped(bands: Iterator[np.ndarray], y: int) -> Iterator[np.ndarray]:
 # ---- a picture ----
 
 
-def open_image(path: str | os.PathLike[str], limits: Limits = LIMITS, cancelled: Stop = None) -> Opened:
+def open_image(
+    path: str | os.PathLike[str], limits: Limits = LIMITS, progress: Progress = None, cancelled: Stop = None
+) -> Opened:
     """Returns a PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
-    streamed = _png_rows(path, limits, cancelled)
+    streamed = _png_rows(path, limits, progress, cancelled)
     if streamed is None:
         pixels, meta = read_image(path, limits=limits)
         size = (pixels.shape[1], pixels.shape[0])
@@ -150,7 +152,7 @@ def open_image(path: str | os.PathLike[str], limits: Limits = LIMITS, cancelled:
 
 
 def _png_rows(
-    path: str | os.PathLike[str], limits: Limits, cancelled: Stop
+    path: str | os.PathLike[str], limits: Limits, progress: Progress, cancelled: Stop
 ) -> tuple[Pyramid, tuple[int, int], tuple[str, ...]] | None:
     """Returns the pyramid of a PNG, read strip by strip, its size and notes; None if it is none, or cannot be
     opened."""
@@ -163,9 +165,20 @@ def _png_rows(
             file.seek(0)
             reader = PngReader(file, os.fspath(path), limits)
             header = reader.header
-            return pasted(reader.strips(), 0, 0, cancelled), (header.width, header.height), header.notes
+            bands = _counted(reader.strips(), header.height, progress)
+            return pasted(bands, 0, 0, cancelled), (header.width, header.height), header.notes
     except OSError:
         return None
+
+
+def _counted(bands: Iterator[np.ndarray], height: int, progress: Progress) -> Iterator[np.ndarray]:
+    """Yields the same rows, and tells how far down they reach."""
+    row = 0
+    for band in bands:
+        row += len(band)
+        if progress is not None:
+            progress(row / height)
+        yield band
 
 
 # ---- OpenRaster of other programs ----

@@ -26,8 +26,11 @@ from engine.painting.places import BookmarkCommand
 VERSION = 2  # that is read; older ones too
 TOTAL_CAP = 2 << 30  # bytes of a recording
 COMMANDS_CAP = 4_000_000
+BLANK_CAP = 1_000_000  # blank lines
+TELL_LINES, TELL_BYTES = 4096, 1 << 20  # from one word about how far it is to the next, at most
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
+BytesRead = Callable[[int], object] | None
 _BOM = b"\xef\xbb\xbf"
 T = TypeVar("T")
 
@@ -88,12 +91,17 @@ def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:
     return found
 
 
-def read_torn(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> tuple[Recording, FileError | None]:
+def read_torn(
+    path: str | os.PathLike[str], most: int = COMMANDS_CAP, tell: BytesRead = None
+) -> tuple[Recording, FileError | None]:
     """Returns a recording up to its last whole line, and what is wrong with the next; FileError if the first line is
-    none, or the file cannot be read."""
+    none, or the file cannot be read.
+
+    `tell` hears now and then how many bytes are read; what it raises ends the reading.
+    """
     try:
         with open(path, "rb") as file:
-            return torn_from(file, os.fspath(path), Path(path).parent, most)
+            return torn_from(file, os.fspath(path), Path(path).parent, most, tell)
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
 
@@ -107,7 +115,7 @@ def read_from(file: BinaryIO, name: str, folder: Path | None = None) -> Recordin
 
 
 def torn_from(
-    file: BinaryIO, name: str, folder: Path | None = None, most: int = COMMANDS_CAP
+    file: BinaryIO, name: str, folder: Path | None = None, most: int = COMMANDS_CAP, tell: BytesRead = None
 ) -> tuple[Recording, FileError | None]:
     """As `read_torn`, from an open binary file."""
     header: Header | None = None
@@ -115,7 +123,7 @@ def torn_from(
     places: list[int] = []
     fault: FileError | None = None
     try:
-        for number, line in _lines(file, name):
+        for number, line in _lines(file, name, tell):
             if header is None:
                 header = _told(parse_header, line, name, number)
             elif len(commands) == COMMANDS_CAP:
@@ -141,8 +149,8 @@ def _told(parsed: Callable[[object], T], line: bytes, name: str, number: int) ->
         raise FileError(name, f"line {number}: {error}") from None
 
 
-def _lines(file: BinaryIO, name: str) -> Iterator[tuple[int, bytes]]:
-    total = number = 0
+def _lines(file: BinaryIO, name: str, tell: BytesRead) -> Iterator[tuple[int, bytes]]:
+    total = number = blank = told = 0
     while line := file.readline(BYTES_CAP + 1):
         number += 1
         total += len(line)
@@ -152,8 +160,15 @@ def _lines(file: BinaryIO, name: str) -> Iterator[tuple[int, bytes]]:
             raise FileError(name, f"line {number}: found more than {TOTAL_CAP >> 30} GiB, expected a smaller file")
         if number == 1:
             line = line.removeprefix(_BOM)
+        if tell is not None and (number % TELL_LINES == 0 or total - told > TELL_BYTES):
+            told = total
+            tell(told)
         if line.strip():
             yield number, line
+            continue
+        blank += 1
+        if blank > BLANK_CAP:
+            raise FileError(name, f"line {number}: found more than {BLANK_CAP} blank lines, expected fewer")
 
 
 def parse_header(value: Any) -> Header:

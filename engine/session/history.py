@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from engine.canvas import growth as growths
 from engine.canvas import layers
@@ -32,17 +33,30 @@ class Undoable:
     gained: int
 
 
+class HeldSteps(NamedTuple):
+    """The steps done, the oldest first, and those undone, the last to be done again first; for another thread."""
+
+    done: tuple[Undoable, ...] = ()
+    undone: tuple[Undoable, ...] = ()
+
+
 class History(Owned):
     """The steps done and the steps undone.  It belongs to the thread that made it.
 
-    `bytes_cap`: None for no limit; `keep`: steps never forgotten.
+    `bytes_cap`: None for no limit; `keep`: steps never forgotten; `steps`: those that are there already.
     """
 
-    def __init__(self, bytes_cap: int | None = None, keep: int = 1) -> None:
-        self._done: deque[Undoable] = deque()
-        self._undone: list[Undoable] = []
+    def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
+        self._done: deque[Undoable] = deque(steps.done)
+        self._undone: list[Undoable] = list(steps.undone)
         self._bytes_cap, self._keep = bytes_cap, keep
-        self.held = 0  # bytes
+        held = (*(step.lost for step in steps.done), *(step.gained for step in steps.undone))
+        self.held = sum(held) + STEP_OVERHEAD * len(held)  # bytes
+
+    @property
+    def steps(self) -> HeldSteps:
+        """Gives all steps, as values."""
+        return HeldSteps(tuple(self._done), tuple(self._undone))
 
     @property
     def undo_count(self) -> int:

@@ -43,11 +43,11 @@ class Easel(Owned):
         """Tells whether the painting is another one than its file holds."""
         return self.session.state is not self.saved
 
-    def show(self, session: Session, path: Path | None) -> None:
-        """Puts another painting on the easel."""
+    def show(self, session: Session, path: Path | None, modified: bool = False) -> None:
+        """Puts another painting on the easel; `modified`: it is another one than its file holds."""
         session.heard = self.session.heard
         self.live, self.session = None, session
-        self.path, self.name, self.saved = path, "", session.state
+        self.path, self.name, self.saved = path, "", None if modified else session.state
         self.serial += 1
         self.viewer.forget()
         self.tell()

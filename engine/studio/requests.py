@@ -14,6 +14,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 
@@ -37,8 +38,9 @@ class New:
 
 @dataclass(frozen=True, slots=True)
 class Open:
-    """A painting, a picture or a recording from a file; `live`: the recording is seen as it grows; `untitled`: it is
-    not saved there again."""
+    """A painting, a picture or a recording from a file, instead of what is being opened; `live`: the recording is seen
+    as it grows; `untitled`: it is not saved there again.  It is read beside the painting; the answer to
+    `results.Whole` is `Show`."""
 
     path: Path
     live: bool = False
@@ -354,6 +356,7 @@ LabRequest = LabSet | LabBegin | LabPoints | LabEnd | LabStep | LabRest | LabUse
 Request = (
     New
     | Open
+    | OpeningRequest
     | Recover
     | Save
     | Export

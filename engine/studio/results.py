@@ -122,6 +122,24 @@ class Stopped:
 
 
 @dataclass(frozen=True, slots=True)
+class Opening:
+    """How far the file `name` is read, the part done, 0..1; without a name: none is being opened any more."""
+
+    name: str = ""
+    part: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """The file number `file` is read, and takes the painting's place with the next `Show`; `changed`: not yet, because
+    the painting was changed meanwhile."""
+
+    file: int
+    name: str
+    changed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Saved:
     """A file was written; `told`: what there is to say of that, "" if nothing."""
 
@@ -320,6 +338,8 @@ Result = (
     | Scene
     | Note
     | Stopped
+    | Opening
+    | Whole
     | Saved
     | Overtaken
     | Picture

@@ -64,6 +64,9 @@ class Bench(Protocol):
 
 
 _LOGGER = logging.getLogger("inkfall")
+_NOT_LOADED = Note(
+    "The paint engine did not load", True, fault=True, stays=True, offers=("copy_details",), about="engine"
+)
 PASSING = 0.2  # seconds of work on tiles after which they let a swatch pass
 _PATIENCE, LONGER = 0.05, 1.0  # seconds that open work waits for its turn, at most; and that a swatch does
 _Maker = Callable[[Callable[[Result], None], Callable[[Request], None]], Bench]  # of `send` and `post`
@@ -234,9 +237,7 @@ class Worker:
             bench = self._make(self._send, self.post)
         except Exception as error:
             _LOGGER.error("the paint engine did not load", exc_info=error)
-            self._send(
-                Note("The paint engine did not load", bad=True, fault=True, stays=True, offers=("copy_details",))
-            )
+            self._send(_NOT_LOADED)
             return
         try:
             self._work(bench)

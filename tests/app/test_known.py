@@ -10,7 +10,7 @@ from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session.apply import apply
 from engine.studio.outline import rows
-from engine.studio.results import GotReady, Growing, Note, Pending, Ready, Scene, Writing
+from engine.studio.results import GotReady, Growing, Note, Opening, Pending, Ready, Scene, Writing
 
 SCENE = Scene(Rect(0, 0, 64, 48), (), None, False, False, modified=True, path=None)
 PLACE = ((0, Rect(0, 0, 8, 8)),)
@@ -38,12 +38,13 @@ def test_what_tells_nothing_of_it_leaves_the_same_record():
 
 
 def test_what_is_being_opened_is_known_until_it_is_there_or_cannot_be():
-    begun = known_after(Known(opening="a.png"), SCENE, 1.0)  # the empty painting of the start
-    assert begun.opening == "a.png"
-    assert known_after(begun, Note("Wrote b.png"), 1.0).opening == "a.png"
-    assert known_after(begun, replace(SCENE, serial=1), 1.0).opening == ""
-    assert known_after(begun, Note("a.png: found nothing", bad=True), 1.0).opening == ""
-    assert known_after(Known(opening="a.png"), replace(SCENE, serial=1), 1.0).opening == ""
+    begun = known_after(Known(opening=Opening("a.png")), SCENE, 1.0)  # the empty painting of the start
+    assert begun.opening == Opening("a.png")
+    assert known_after(begun, Opening("a.png", 0.5), 1.0).opening == Opening("a.png", 0.5)
+    assert known_after(begun, replace(SCENE, serial=1), 1.0).opening == Opening("a.png")  # a new one meanwhile
+    assert known_after(begun, Note("b.png: cannot be written", bad=True, about="export"), 1.0).opening is not None
+    assert known_after(begun, Opening(), 1.0).opening is None
+    assert known_after(begun, Note("The paint engine did not load", bad=True, about="engine"), 1.0).opening is None
 
 
 def test_the_engine_is_ready_with_its_tables():

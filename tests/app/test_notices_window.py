@@ -26,7 +26,6 @@ def foreign(path):
 def opens(app, path):
     app.keys("ctrl+o")
     app.box("name", "Open")
-    app.settled()
     app.keys("ctrl+a")
     app.type(str(path))
     app.keys("Return")
@@ -40,7 +39,6 @@ def test_what_goes_wrong_stays_until_it_is_dealt_with(program, tmp_path):
     painted = app.canvas()
     app.keys("ctrl+s")
     app.box("name", "Save as")
-    app.settled()
     app.keys("ctrl+a")
     app.type(str(tmp_path / "usb" / "a.ora"))
     app.keys("Return")

@@ -1,6 +1,7 @@
 """Presets that bring textures along: read with care, defined once, under a free name where theirs is taken."""
 
 import json
+from collections import deque
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -20,6 +21,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
 from engine.studio.swatches import painted
+from opens import opens
 
 FUR = {
     "name": "fur",
@@ -54,8 +56,8 @@ class Desk(SimpleNamespace):
 
     def __init__(self):
         super().__init__(hand=Hand(), known=Known(), pointer=SimpleNamespace(pen=False))
-        self.sent = []
-        self.studio = Studio(self._take, self.sent.append)
+        self.sent, self.posted = [], deque()
+        self.studio = Studio(self._take, self.posted.append)
 
     def _take(self, result):
         self.sent.append(result)
@@ -161,7 +163,7 @@ def test_a_definition_is_recognised_after_saving(tmp_path):
     desk.post(q.Save(tmp_path / "a.ora"))
     desk.studio.close()
     other = Desk()
-    other.post(q.Open(tmp_path / "a.ora"))
+    opens(other.studio, other.posted, tmp_path / "a.ora")
     palette.take(other, preset(tmp_path, FUR, PAPER))
     other.paint()
     assert other.asked == []

@@ -46,7 +46,7 @@ class Dialogs:
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
-        if desk.asked.dialog and self._open is None:
+        if desk.asked.dialog and self._open is None and not desk.painting:
             self._open = DIALOGS[desk.asked.taken()](desk)
             imgui.open_popup("###dialog")
         dialog = self._open
@@ -60,6 +60,7 @@ class Dialogs:
             given_up = imgui.is_key_pressed(imgui.Key.escape)
             if given_up:
                 desk.asked.give_up()
+                desk.asked.go_back()
             if given_up or not dialog.draw(desk):
                 imgui.close_current_popup()
                 self._open = None
@@ -149,12 +150,14 @@ class Unsaved:
         then, going = desk.asked.then, False
         changed = desk.known.modified or desk.behind()
         if then is not None and not changed:  # nothing was, or it is saved by now
-            then()
+            desk.asked.go_on()
             return False
         name, writing = desk.known.path.name if desk.known.path else "This painting", desk.known.writing
         grown = f", growing {writing.grown * 100:.0f} %" if writing.grown < 1.0 else ""
         told = f"is still being saved{grown}." if writing.saving else "has changes that are not saved."
         imgui.text_unformatted(f"{name} {told}")
+        if desk.asked.why:
+            imgui.text_unformatted(desk.asked.why)
         imgui.spacing()
         em = imgui.get_font_size()
         if writing.saving:
@@ -166,10 +169,12 @@ class Unsaved:
         imgui.same_line()
         if w.text_button("Don’t save", "Go on; the changes are lost", width=em * 7):
             going = True
-            if then is not None:
-                then()
+            desk.asked.go_on()
         imgui.same_line()
-        return not (w.text_button("Cancel", "Go back to the painting", width=em * 7) or going)
+        back = w.text_button("Cancel", "Go back to the painting", width=em * 7)
+        if back:
+            desk.asked.go_back()
+        return not (back or going)
 
 
 class Keys:

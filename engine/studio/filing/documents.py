@@ -2,63 +2,93 @@
 
 from __future__ import annotations
 
+import os
+import stat
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
+from typing import Protocol
 
 from engine.archive import export, saving
 from engine.archive.imports import open_image
-from engine.archive.plot_files import Mark
+from engine.canvas.evaluate import TileCache
+from engine.files.fault import FileError
+from engine.journal.heads import FileStamp
 from engine.keeping.fingerprint import Fingerprint, fingerprint
-from engine.painting.recording import Recording, read_torn
+from engine.painting import commands as c
+from engine.painting.recording import Header, Recording, read_torn
 from engine.painting.value import Painting
 from engine.session import replay
 from engine.session.damaged import open_or_salvage
-from engine.session.session import Session
+from engine.session.session import cache_budget
+from engine.studio import faults
 from engine.studio import requests as q
-from engine.studio.filing.playing import Playing
+from engine.studio.filing.document import Document, held_by
+
+READING = 0.2  # the part of opening a recording that reading it takes
+MOST_NOTES = 100  # that a list of what is missing has
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
-    """A session with what the file held.
+class Progress(Protocol):
+    """Who is told how far an opening is."""
 
-    `path`: where to save it, None for what is no painting of ours; `known`: whether the session's log leads from
-    nothing to the painting; `script`: a recording still to be played; `notes`: what was lost or replaced;
-    `marks`: of what is to be grown again; `seen`: what the file was before it was read.
-    """
+    @property
+    def cancelled(self) -> bool:
+        """Tells whether nobody wants the file any more."""
+        ...
 
-    session: Session
-    path: Path | None = None
-    known: bool = True
-    script: Playing | None = None
-    notes: tuple[str, ...] = ()
-    marks: tuple[Mark, ...] = ()
-    seen: Fingerprint | None = None
+    def tell(self, part: float) -> None:
+        """Tells the part that is done, 0..1; raises Cancelled if nobody wants the rest."""
+        ...
 
 
-def opened(path: Path, live: bool = False, untitled: bool = False) -> Document:
+class _Nobody:
+    """Is told nothing, and waits to the end."""
+
+    cancelled = False
+
+    def tell(self, part: float) -> None:
+        """Hears how far it is."""
+
+
+def opened(path: Path, live: bool = False, untitled: bool = False, progress: Progress | None = None) -> Document:
     """Returns what a file holds: a recording, a painting of ours or of another program, or a picture; an `untitled` one
     is not saved there again.
 
-    Of a damaged file, what can be had.  FileError if that is nothing.
+    `live`: a recording is not played, but is to be.  Of a damaged file, what can be had.  FileError if that is nothing,
+    Cancelled if nobody wants it any more.
     """
+    progress = progress or _Nobody()
+    size = _size(path)
     ending = path.suffix.lower()
     if ending == ".jsonl":
-        recording, torn = read_torn(path)
+        reading = 1.0 if live else READING
+        recording, torn = read_torn(path, tell=lambda done: progress.tell(reading * done / max(1, size)))
         notes = () if torn is None else (f"{torn.message}: what comes before is played, the rest is missing",)
-        return Document(replay.opened(recording), script=Playing(recording, live), notes=notes)
-    seen = _seen(path) if ending == ".ora" else None
-    found = open_or_salvage(path) if ending == ".ora" else open_image(path)
+        document = _begun(recording) if live else _played(recording, progress)
+        return replace(document, name=path.name, notes=(*notes, *document.notes))
+    stamp, seen = FileStamp.of(path), _seen(path) if ending == ".ora" else None
+
+    def stop() -> bool:
+        return progress.cancelled
+
+    if ending == ".ora":
+        found = open_or_salvage(path, progress.tell, stop)
+    else:
+        found = open_image(path, progress=progress.tell, cancelled=stop)
     told = found.recording
-    session = Session(
+    return Document(
         found.painting,
-        log=told.commands if told else (),
-        folder=told.folder if told else path.parent,
-        extra=told.header.extra if told else None,
+        path.name,
+        path if found.native and not untitled else None,
+        told.commands if told else None,
+        told.folder if told else path.parent,
+        told.header if told else Header(),
+        notes=found.notes,
+        marks=found.marks,
+        seen=seen,
+        stamp=stamp,
     )
-    own = path if found.native and not untitled else None
-    return Document(session, own, told is not None, None, found.notes, found.marks, seen)
 
 
 def _seen(path: Path) -> Fingerprint | None:
@@ -66,6 +96,45 @@ def _seen(path: Path) -> Fingerprint | None:
         return fingerprint(path)
     except OSError:
         return None  # nor can it be opened, which says more
+
+
+def _size(path: Path) -> int:
+    """Returns a file's size, bytes; FileError if it is no file: of a pipe, nobody knows when it ends."""
+    try:
+        about = os.stat(path)
+    except FileNotFoundError:
+        raise FileError(path, "no such file") from None
+    except (OSError, ValueError) as error:
+        raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
+    if stat.S_ISDIR(about.st_mode):
+        raise FileError(path, "a folder, expected a file")
+    if not stat.S_ISREG(about.st_mode):
+        raise FileError(path, "not a regular file")
+    return about.st_size
+
+
+def _begun(recording: Recording) -> Document:
+    """Returns the painting that a recording begins with, nothing done yet."""
+    header = recording.header
+    return Document(Painting(header.frame, header.seed), folder=recording.folder, header=header, live=recording)
+
+
+def _played(recording: Recording, progress: Progress) -> Document:
+    """Returns the painting that a recording leads to.  What cannot be done is left out, and told in the notes."""
+    session = replay.opened(recording, TileCache(cache_budget() // 4))
+    count, view, notes = len(recording.commands), None, list[str]()
+    for i, command in enumerate(recording.commands):
+        progress.tell(READING + (1.0 - READING) * i / count)
+        try:
+            session.do(command)
+        except Exception as error:  # the painting is a value: whatever failed left it as it was
+            notes.append(recording.fault(i, faults.told(error, "while a recording was played").text).message)
+        if isinstance(command, c.View):
+            view = command
+    more = len(notes) - MOST_NOTES
+    told = (*notes[:MOST_NOTES], *([f"and {more} more like these"] if more > 0 else ()))
+    held, header = held_by(session), recording.header
+    return replace(held, header=header, played=True, unsaved=bool(session.log), notes=told, view=view)
 
 
 def save(

@@ -5,25 +5,28 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping
-from pathlib import Path
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
 from engine.files.fault import FileError
 from engine.journal.entries import lock_entry
-from engine.journal.heads import FileStamp, head_of_file, head_of_new, renamed_head
+from engine.journal.heads import head_of_file, head_of_new, renamed_head
 from engine.journal.volume import Continued, continued_entry
 from engine.keeping.preferences import Preferences
 from engine.keeping.unfinished import unfinished
+from engine.painting.recording import Header
 from engine.painting.value import Painting
-from engine.session.session import Session
 from engine.studio import faults, results
 from engine.studio import requests as q
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
-from engine.studio.filing.documents import Document
-from engine.studio.filing.playing import PIECE, Playing
+from engine.studio.filing.document import Document, held_by
+from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole, Show
+from engine.studio.filing.openings import Openings
+from engine.studio.filing.playing import PIECE, Playing, looked
 from engine.studio.filing.recovering import recovered
 from engine.studio.filing.saves import Saves
 from engine.studio.filing.writers import Post, Writers
@@ -35,7 +38,8 @@ Turned = Callable[[Mapping[str, object], Continued | None, int], None]
 class Filing(Owned):
     """The files of the painting on the easel.  It belongs to the engine's thread.
 
-    `due`: when a recording that plays goes on, by the monotonic clock, None when none plays.
+    `due`: when a recording that plays goes on, by the monotonic clock, None when none plays; `openings`: what is being
+    opened.
     """
 
     def __init__(self, easel: Easel, post: Post, preferences: Preferences) -> None:
@@ -46,6 +50,7 @@ class Filing(Owned):
         self._writers = Writers(easel.send, post)
         self.saves = Saves(easel, self._writers, preferences)
         self.turned: Turned = lambda head, continued, count: None
+        self.openings = Openings(easel, post, self.replace)
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
@@ -53,11 +58,47 @@ class Filing(Owned):
             q.Export: self._export,
             **self.saves.handlers,
             **self._writers.handlers,
+            FileRead: self.openings.read,
+            FileWhole: self.openings.whole,
+            Show: self.openings.show,
+            CancelOpening: lambda request: self.openings.cancel(),
         }
 
     def close(self) -> None:
-        """Waits for files that are being written."""
+        """Waits for files that are being written; for one that is being read, nobody does."""
+        self.openings.cancel()
         self.saves.close()
+
+    def replace(
+        self,
+        document: Document,
+        head: Mapping[str, object] | None = None,
+        continued: Continued | None = None,
+        count: int = 0,
+    ) -> None:
+        """Puts another painting on the easel, and tells what its file lost.
+
+        The one place where that happens: for a new painting, for what was opened, once it is whole, for what comes
+        from elsewhere.  Until then the painting before is there and can be painted on; from here on it is gone, but
+        for files that are still being written of it.  The journal hears first: what the painting began with, `head`
+        where that is not what the document says, the entry that goes on and how many commands it has; of a recording
+        that was played, all its commands.  The saves hear last.
+        """
+        easel, live = self._easel, document.live
+        self.turned(head or _head(document), continued, count)
+        if document.played:
+            for command in document.log or ():
+                easel.session.heard(command, None)
+        self._script, self._marks = None if live is None else Playing(live), document.marks
+        self.due = None if live is None else 0.0
+        easel.show(document.session(), document.path, modified=document.unsaved)
+        self.saves.show(document)
+        if document.view is not None:
+            easel.send(looked(document.view))
+        if document.notes:
+            easel.send(_losses(document))
+        elif live is not None:
+            easel.send(results.Note(f"Playing {document.name}"))
 
     def comes_between(self, request: q.Request) -> bool:
         """Lets a request wait for the stroke of a recording that plays; False if it is to be passed over."""
@@ -89,24 +130,16 @@ class Filing(Owned):
             self._easel.send(results.Note("The recording has ended"))
 
     def _new(self, request: q.New) -> None:
-        session = Session(Painting(frame=request.frame, seed=request.seed))
-        self._show(Document(session), head_of_new(session.recording().header))
+        self.openings.cancel()
+        header = Header(request.frame, request.seed)
+        self.replace(Document(Painting(frame=request.frame, seed=request.seed), header=header))
 
     def _open(self, request: q.Open) -> None:
-        stamp = FileStamp.of(request.path)
-        try:
-            found = documents.opened(request.path, request.live, request.untitled)
-        except Exception as error:
-            self._easel.send(faults.told(error, "while a file was opened", "open", request.path))
-            return
-        self._show(found, _head(request.path, stamp, found))
-        if found.script is not None and not found.notes:
-            self._easel.send(results.Note(f"Playing {request.path.name}"))
-        elif found.notes:
-            self._easel.send(_losses(request.path.name, found.notes))
+        self.openings.start(request.path, partial(documents.opened, request.path, request.live, request.untitled))
 
     def _recover(self, request: q.Recover) -> None:
         """Opens an entry, whose journal goes on with it: as a painting without a file, and not saved."""
+        self.openings.cancel()
         lock: int | None = None
         try:
             lock = lock_entry(request.folder)
@@ -119,25 +152,11 @@ class Filing(Owned):
             told = FileError(request.folder, "is open in another window") if taken else error
             self._easel.send(faults.told(told, "while a painting was recovered", "open", request.folder))
             return
-        document = Document(found.session, known=found.known)
-        self._show(document, renamed_head(found.story.head, found.name), continued, found.count)
-        self._easel.saved, self._easel.name = None, found.name
+        held = held_by(found.session, found.known)
+        document = replace(held, name=found.name, unsaved=True, notes=tuple(found.missing))
+        self.replace(document, renamed_head(found.story.head, found.name), continued, found.count)
+        self._easel.name = found.name
         self._easel.tell()
-        if found.missing:
-            self._easel.send(_losses(found.name, tuple(found.missing)))
-
-    def _show(
-        self,
-        document: Document,
-        head: Mapping[str, object],
-        continued: Continued | None = None,
-        count: int = 0,
-    ) -> None:
-        self.turned(head, continued, count)
-        self._script, self._marks = document.script, document.marks
-        self.due = None if document.script is None else 0.0
-        self._easel.show(document.session, document.path)
-        self.saves.show(document)
 
     def _export(self, request: q.Export) -> None:
         def write(grown: Painting) -> results.Result:
@@ -152,16 +171,18 @@ class Filing(Owned):
             self._easel.send(told)
 
 
-def _losses(name: str, lines: tuple[str, ...]) -> results.Note:
-    """Returns what is told of a file that does not give all that it held: one line of it, or how many there are."""
-    if len(lines) == 1:
-        return results.Note(f"{name}: {lines[0]}", bad=True, stays=True, about="painting")
-    text = f"{name}: {len(lines)} things are not as they were"
-    return results.Note(text, bad=True, stays=True, about="painting", lines=lines)
+def _losses(document: Document) -> results.Note:
+    """Returns what is told of a file that does not give all that it held: the one line, or how many there are."""
+    lines = document.notes
+    text = f"{document.name}: {lines[0] if len(lines) == 1 else f'{len(lines)} things are not as they were'}"
+    told = lines if len(lines) > 1 else ()
+    return results.Note(text, bad=True, stays=True, about="painting", lines=told)
 
 
-def _head(path: Path, stamp: FileStamp | None, found: Document) -> Mapping[str, object]:
-    """Returns what the journal says a painting began with that was opened: its file, or nothing and what plays."""
-    if found.script is not None or stamp is None:
-        return head_of_new(found.session.recording().header, path.name, found.session.folder)
-    return head_of_file(stamp, found.path is not None, found.session.recording().header)
+def _head(document: Document) -> Mapping[str, object]:
+    """Returns what the journal says a painting began with: the file that was opened, or nothing."""
+    header = document.header
+    if document.stamp is None:
+        return head_of_new(header, document.name, document.folder)
+    told = Header(document.painting.frame, document.painting.seed, header.extra)
+    return head_of_file(document.stamp, document.path is not None, told)

@@ -1,4 +1,4 @@
-"""A recording that plays on the easel: live, at the pace of a hand, or as fast as it can be carried out."""
+"""A recording that plays on the easel, live: at the pace of a hand."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ class Stage(Protocol):
 class Playing(Owned):
     """A recording that is being played.  It belongs to the engine's thread.
 
-    Live, strokes grow as the pen drew them and views move the screen.
+    Strokes grow as the pen drew them and views move the screen.
     """
 
-    def __init__(self, recording: Recording, live: bool) -> None:
+    def __init__(self, recording: Recording) -> None:
         self._commands: Iterator[c.Command] = iter(recording.commands)
         points = sum(len(command.points) for command in recording.commands if isinstance(command, c.Stroke))
-        self._pace = min(SLOWEST, LIVE_SECONDS / max(1, points)) if live else 0.0
+        self._pace = min(SLOWEST, LIVE_SECONDS / max(1, points))
         self._clock = 0.0  # when, by the pace, the next point is due
         self._rest: np.ndarray | None = None
         self._level: float | None = None
@@ -91,7 +91,7 @@ class Playing(Owned):
         if isinstance(command, c.View):
             stage.carry_out(command)
             self._look(stage, command)
-        elif isinstance(command, c.Stroke) and self._pace and len(command.points) < POINTS_CAP:
+        elif isinstance(command, c.Stroke) and len(command.points) < POINTS_CAP:
             stage.begin(command)
             self._rest = command.points
         else:
@@ -101,8 +101,8 @@ class Playing(Owned):
     def _look(self, stage: Stage, view: c.View) -> None:
         """Has the screen fly there; the next command waits for it."""
         levels = 0.0 if self._level is None else abs(view.level - self._level)
-        seconds = FLIGHT + A_LEVEL * levels if self._pace else 0.0
-        stage.send(results.Looked(view.level, view.origin, view.size, seconds))
+        seconds = FLIGHT + A_LEVEL * levels
+        stage.send(looked(view, seconds))
         self._clock = time.monotonic() + seconds
         self._level = view.level
 
@@ -116,3 +116,8 @@ class Playing(Owned):
         stage.extend(points)
         if self._rest is None:
             stage.finish()
+
+
+def looked(view: c.View, seconds: float = 0.0) -> results.Looked:
+    """Returns what has the screen go where a view looks, in some seconds."""
+    return results.Looked(view.level, view.origin, view.size, seconds)

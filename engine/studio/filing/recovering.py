@@ -199,9 +199,7 @@ class _Base:
         if self._file is None:
             return None
         found = documents.opened(self._file)
-        before = found.session.recording()
-        session = self._session(found.session.painting, before.commands, before.header, 0)
-        session.base = found.session.base
+        session = self._session(found.painting, found.log or (), found.header, 0)
         return _Start(session, found.known, 0)
 
     def continued(self, painting: Painting, index: int) -> _Start:

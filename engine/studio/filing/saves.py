@@ -16,7 +16,7 @@ from engine.studio import results
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.bounds import bound_kept
-from engine.studio.filing.documents import Document
+from engine.studio.filing.document import Document
 from engine.studio.filing.writers import Writers
 
 ELSEWHERE = "{} is open in another window: each saves over what the other has saved"

@@ -13,6 +13,7 @@ from engine.brush.settings import Brush
 from engine.kernel_cache import NotCompiled, refusing
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole
 from engine.studio.preparing.job_queue import Job, job_of
 from engine.studio.preparing.processes import Preparing
 from engine.studio.preparing.waiting_line import THUMBNAIL, WaitingLine
@@ -48,7 +49,7 @@ class Waiting:
             case q.GetReady() if self._preparing.busy:
                 self._examples = job_of(q.Swatch("", Brush(mode="example", example="a"), THUMBNAIL))
                 self._preparing.want((self._examples,), soon=True)
-            case q.FileGrown() | q.Written():
+            case q.FileGrown() | q.Written() | FileRead() | FileWhole() | CancelOpening():
                 self._studio.do(request)
             case _:
                 self._line.do(request)

@@ -20,6 +20,7 @@ from engine.studio import results
 from engine.studio.filing.recovering import recovered
 from engine.studio.journalled.posts import Posts
 from engine.studio.worker import Worker
+from opens import opens_in
 
 
 def painter(folder):
@@ -77,7 +78,8 @@ def test_an_opened_file_is_what_it_was_though_it_was_replaced(tmp_path):
     one.close(60)
     assert entries.listed(folder) == ()  # saved, so nothing is left
     two = painter(folder)
-    two.post(q.Open(file))
+    idle(two)
+    opens_in(two, file)
     draw(two, 40, 2)
     saved(two, file)  # the file that was opened is gone
     draw(two, 40, 3)

@@ -18,6 +18,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.sight import tile_rect
 from engine.studio.studio import Studio
+from opens import opens
 
 
 class Window:
@@ -292,7 +293,7 @@ def test_saving_and_opening_give_the_same_picture(tmp_path):
     assert any(isinstance(r, results.Saved) for r in window.other)
     assert not window.scene().modified
     other = Window()
-    other.studio.do(q.Open(tmp_path / "p.ora"))
+    opens(other.studio, other.posted, tmp_path / "p.ora")
     assert other.scene().path == tmp_path / "p.ora"
     assert not other.scene().modified
     for level in LEVELS:
@@ -314,7 +315,7 @@ def test_a_recording_plays_to_the_same_painting_live_or_not(tmp_path):
     pictures = []
     for live in (False, True):
         window = Window()
-        window.studio.do(q.Open(tmp_path / "r.jsonl", live))
+        opens(window.studio, window.posted, tmp_path / "r.jsonl", live)
         while window.studio.due is not None:
             window.studio.play()
         assert any(isinstance(r, results.Looked) for r in window.other)
@@ -335,7 +336,7 @@ def half_played(tmp_path, monkeypatch):
     monkeypatch.setattr("engine.studio.filing.playing.PIECE", 1e-6)  # one point at a time
     (tmp_path / "long.jsonl").write_text(LONG)
     window = Window()
-    window.studio.do(q.Open(tmp_path / "long.jsonl", True))
+    opens(window.studio, window.posted, tmp_path / "long.jsonl", True)
     window.studio.play()
     assert window.studio.easel.live is not None
     return window

@@ -19,6 +19,7 @@ from engine.session.replay import replay
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.worker import Worker
+from opens import opens
 
 __all__ = ["meadow"]
 
@@ -229,7 +230,7 @@ def test_a_recording_plays_stroke_by_stroke(window, meadow):
     write(Recording(Header(FRAME, 7), tuple(window.studio.easel.session.log)), path)
     wanted = pixels(replay(read(path)).painting)
     studio = window.studio
-    studio.do(q.Open(path, live=True))
+    opens(studio, window.posted, path, live=True)
     window.look(*TILES)
     while studio.due is not None:
         studio.play()

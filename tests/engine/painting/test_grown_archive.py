@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 import zipfile
+from collections import deque
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,12 +49,12 @@ from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
 from engine.painting.grown import settled
 from engine.session.session import Session
-from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
 from engine.texture.example import SYNTHESIS
 from engine.texture.example import region as regions
 from engine.texture.example.tiles import NONE
+from opens import Watch, opens
 
 __all__ = ["folder", "members", "saved", "session"]
 
@@ -173,9 +174,9 @@ def test_plots_that_grow_otherwise_are_noticed(members, saved, tmp_path):
 def test_the_window_grows_what_is_opened(session, members, tmp_path, lying):
     path = tmp_path / "a.ora"
     path.write_bytes(forged(members) if lying else rewritten(members))
-    sent = []
-    studio = Studio(sent.append, sent.append)
-    studio.do(q.Open(path))
+    sent, posted = [], deque()
+    studio = Studio(sent.append, posted.append)
+    opens(studio, posted, path)
     while studio.pending:
         studio.step()
     studio.close()
@@ -271,7 +272,7 @@ def test_a_picture_below_stays_what_it_was(folder, tmp_path):
     Image.fromarray(np.full((60, 80, 4), 200, np.uint8)).save(tmp_path / "in.png")
     from engine.studio.filing.documents import opened as document
 
-    own = document(tmp_path / "in.png").session
+    own = document(tmp_path / "in.png", False, False, Watch())
     own = Session(own.painting, TileCache(16 << 20), folder=folder)
     own.do(c.parse(DEFINED[0]))
     bare = next(layers.layers(own.painting.root))

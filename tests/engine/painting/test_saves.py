@@ -4,6 +4,7 @@ import os
 import stat
 import threading
 import time
+from collections import deque
 
 import pytest
 
@@ -19,18 +20,22 @@ from engine.studio import results
 from engine.studio.filing import documents
 from engine.studio.filing.bounds import bound_kept
 from engine.studio.studio import Studio
+from opens import opens
 
 
 class Window:
     """A studio, and what it tells."""
 
     def __init__(self):
-        self.told, self._posted = [], []
+        self.told, self._posted = [], deque()
         self.studio = Studio(self.told.append, self._posted.append)
 
     def do(self, *requests):
         for request in requests:
             self.studio.do(request)
+
+    def open(self, path, untitled=False):
+        opens(self.studio, self._posted, path, untitled=untitled)
 
     def add(self, name):
         self.do(q.Do(c.AddLayer(name)))
@@ -50,7 +55,7 @@ class Window:
 
     def deliver(self):
         while self._posted:
-            self.studio.do(self._posted.pop(0))
+            self.studio.do(self._posted.popleft())
 
     def save(self, path, sure=False):
         self.do(q.Save(path, sure))
@@ -132,7 +137,7 @@ def test_a_file_that_another_program_changed_is_asked_about(window, tmp_path):
     one, path = window(), tmp_path / "lake.ora"
     one.add("mine")
     assert one.save(path) == [results.Saved(path)]
-    one.do(q.Open(path))
+    one.open(path)
     theirs = somebody_saves(window(), path)
     one.add("more")
     one.do(q.Save(path), q.Save(path))  # it is asked about once
@@ -141,7 +146,7 @@ def test_a_file_that_another_program_changed_is_asked_about(window, tmp_path):
     assert one.studio.easel.modified
     assert one.save(path, sure=True) == [results.Saved(path)]
     assert kept_versions(versions_folder(path))[0].read_bytes() == theirs
-    one.do(q.Open(kept_versions(versions_folder(path))[0].rename(tmp_path / "x.ora"), untitled=True))
+    one.open(kept_versions(versions_folder(path))[0].rename(tmp_path / "x.ora"), untitled=True)
     assert one.of(results.Scene)[-1].path is None
 
 
@@ -151,13 +156,13 @@ def test_a_file_that_was_moved_or_deleted_is_written_again_and_that_is_told(wind
     one.save(tmp_path / "link.ora")
     path.chmod(0o640)
     one.add("more")
-    one.do(q.Open(tmp_path / "link.ora"))
+    one.open(tmp_path / "link.ora")
     path.rename(tmp_path / "moved.ora")
     (saved,) = one.save(tmp_path / "link.ora")
     assert saved.told == "link.ora had been moved or deleted: it is there again"
     assert (tmp_path / "link.ora").is_symlink()
     path.chmod(0o640)
-    one.do(q.Open(tmp_path / "link.ora"))
+    one.open(tmp_path / "link.ora")
     one.add("again")
     assert one.save(tmp_path / "link.ora") == [results.Saved(tmp_path / "link.ora")]
     assert stat.S_IMODE(os.stat(path).st_mode) == 0o640
@@ -167,7 +172,7 @@ def test_a_file_that_was_moved_or_deleted_is_written_again_and_that_is_told(wind
 def test_a_file_that_is_open_in_another_window_is_told_at_opening_and_asked_about_at_saving(window, tmp_path):
     first, second, path = window(), window(), tmp_path / "lake.ora"
     first.save(path)
-    second.do(q.Open(path))
+    second.open(path)
     (note,) = second.written()
     assert note.stays
     assert note.text == "lake.ora is open in another window: each saves over what the other has saved"
@@ -180,7 +185,7 @@ def test_a_file_that_is_open_in_another_window_is_told_at_opening_and_asked_abou
     assert first.save(path) == [results.Overtaken(path)]
     first.do(q.New(Rect(0, 0, 8, 8)))
     third = window()
-    third.do(q.Open(path))
+    third.open(path)
     assert third.written() == []  # the first has let go of it
     second.close()
 

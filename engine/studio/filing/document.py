@@ -1,0 +1,72 @@
+"""What a file held that was opened, as values that go from one thread to another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from engine.archive.plot_files import Mark
+from engine.journal.heads import FileStamp
+from engine.keeping.fingerprint import Fingerprint
+from engine.painting import commands as c
+from engine.painting.recording import Header, Recording
+from engine.painting.value import Painting
+from engine.session.history import HeldSteps, History
+from engine.session.session import HISTORY_BYTES, Session
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Document:
+    """What a file held: values alone, so any thread may make it.
+
+    `name`: the file's; `path`: where to save it, None for what is no painting of ours; `log`: the commands that led to
+    the painting, None if they are not known; `folder`: what paths in it are relative to; `header`: of their recording;
+    `base`: what the log begins with, if that is not nothing; `steps`: that can be undone, `leapt`: and beyond them;
+    `played`: the commands are news to the journal; `unsaved`: the painting is in no file yet; `live`: a recording still
+    to be played, stroke by stroke; `notes`: what was lost or replaced; `marks`: of what is to be grown again; `view`:
+    where a recording looked last; `seen`, `stamp`: what the file was before it was read, None for a painting that
+    begins with nothing.
+    """
+
+    painting: Painting
+    name: str = ""
+    path: Path | None = None
+    log: tuple[c.Command, ...] | None = ()
+    folder: Path | None = None
+    header: Header = field(default_factory=Header)
+    base: Painting | None = None
+    steps: HeldSteps = field(default_factory=HeldSteps)
+    leapt: bool = False
+    played: bool = False
+    unsaved: bool = False
+    live: Recording | None = None
+    notes: tuple[str, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    view: c.View | None = None
+    seen: Fingerprint | None = None
+    stamp: FileStamp | None = None
+
+    @property
+    def known(self) -> bool:
+        """Tells whether the log leads from nothing to the painting."""
+        return self.log is not None
+
+    def session(self) -> Session:
+        """Returns a session with the painting, for the thread that calls this."""
+        history = History(HISTORY_BYTES, steps=self.steps)
+        made = Session(self.painting, log=self.log or (), folder=self.folder, history=history, extra=self.header.extra)
+        made.base, made.leapt = self.base or made.base, self.leapt
+        return made
+
+
+def held_by(session: Session, known: bool = True) -> Document:
+    """Returns what a session holds; `known`: its log leads from its base to the painting."""
+    return Document(
+        session.painting,
+        log=tuple(session.log) if known else None,
+        folder=session.folder,
+        header=session.recording().header,
+        base=session.base,
+        steps=session.history.steps,
+        leapt=session.leapt,
+    )
