@@ -14,6 +14,7 @@ import re
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, TypeVar
 
 import numpy as np
@@ -68,6 +69,12 @@ def _runs(tiles: Sequence[T], most: int, count: int) -> Iterator[Sequence[T]]:
         yield tiles[start:]
 
 
+def _blocks(tiles: Sequence[Coded]) -> Iterator[Sequence[Coded]]:
+    """Yields the tiles in runs of a block's size, each of one level: a block that is damaged costs no coarser one."""
+    for _, found in groupby(tiles, key=lambda tile: tile[0].level):
+        yield from _runs(list(found), BLOCK, TILES)
+
+
 def pack(tiles: Sequence[Coded]) -> bytes:
     """Returns the pack of some tiles: the same tiles in the same order give the same bytes."""
     inks: dict[Instance, int] = {}
@@ -81,7 +88,7 @@ def pack(tiles: Sequence[Coded]) -> bytes:
         line = [key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, bits, indices(record.inks)]
         more = [] if implied is None else [indices(implied.inks), list(implied.terms), implied.crc]
         lines.append([*line, *more])
-    for run in _runs(tiles, BLOCK, TILES):
+    for run in _blocks(tiles):
         plain = tilecode.encoded([record.data for _, record, _ in run])
         bodies.append(isal_zlib.compress(plain, _LEVEL))
         blocks.append([len(run), len(plain), len(bodies[-1])])

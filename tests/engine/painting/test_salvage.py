@@ -4,8 +4,8 @@ What can be had is told here, from where the damage lies, by a reader of its own
 
 1. all paint, bit for bit, with frame, layers and textures, if either the recording is whole, with the pictures that it
    needs and a manifest to find them by, or all packs and pictures are, with a manifest;
-2. else, with a manifest: each layer whose packs are whole, bit for bit; of the others all levels coarser than the
-   missing tiles, bit for bit, and within the frame the picture of the layer, to 1/255, if it is whole;
+2. else, with a manifest: each layer whose packs are whole, bit for bit; of the others all levels coarser than those
+   of damaged blocks, bit for bit, and within the frame the picture of the layer, to 1/255, if it is whole;
 3. else all commands before the first that cannot be read or done;
 4. else the layers' pictures, or that of all layers together.
 """
@@ -221,12 +221,21 @@ def packs_of(file, name):
     return list(found(file.manifest["layers"]))
 
 
-def levels_of(file, member):
-    """The levels of the tiles in a pack, as its head told them."""
-    own = file.members[member]
-    start = file.data.index(b"inkfall\x02", own.start) + 12
-    (length,) = struct.unpack_from("<I", file.data, start - 4)
-    return [tile[0] for tile in json.loads(file.data[start : start + length])["tiles"]]
+def coarsest_lost(file, member, damaged):
+    """The coarsest level of the tiles in the damaged blocks of a pack; of all, if its head is damaged."""
+    start = file.data.index(b"inkfall\x02", file.members[member].start)
+    (length,) = struct.unpack_from("<I", file.data, start + 8)
+    at = start + 12 + length
+    head = json.loads(file.data[start + 12 : at])
+    levels = [tile[0] for tile in head["tiles"]]
+    if damaged[start:at] != file.data[start:at]:
+        return min(levels)
+    lost = []
+    for count, _, stored in head["blocks"]:
+        own, levels = levels[:count], levels[count:]
+        lost += own if damaged[at : at + stored] != file.data[at : at + stored] else []
+        at += stored
+    return min(lost, default=99)  # the header of the member alone: nothing is lost
 
 
 def lost_of(file, damaged, folder):
@@ -255,7 +264,7 @@ def lost_of_layers(file, damaged, painting):
     pictures = all(file.whole(n, damaged) for n in file.members if n.startswith("inkfall/pictures/"))
     for layer in layers.layers(file.painting.root):
         torn = [member for member in packs_of(file, layer.name) if not file.whole(member, damaged)]
-        missing = min((level for member in torn for level in levels_of(file, member)), default=99)
+        missing = min((coarsest_lost(file, member, damaged) for member in torn), default=99)
         if not pictures and layer.name == "inside":
             missing = -99
         before, after = residuals(layer.pyramid), residuals(layers.find(painting.root, layer.name).pyramid)
