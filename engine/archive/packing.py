@@ -4,7 +4,8 @@ A pack is little-endian: 8 bytes of magic, the length of the head (uint32), the 
 JSON object: `inks`, the keys of all instances in the pack; `tiles`, one list each of
 [level, x, y, x0, y0, x1, y1, bits, [indices of inks]], addresses in hexadecimal of any length, and where ink implies
 the tile's colour (engine/archive/implied.py) three entries more, [indices of those inks], [terms], CRC-32; `blocks`,
-one list each of [number of tiles, plain bytes, stored bytes].  A block is a zlib stream of a run of tiles
+one list each of [number of tiles, plain bytes, stored bytes]; and `crc`, the CRC-32 of all that comes before, closed by
+a bracket.  A block is a zlib stream of a run of tiles
 (engine/archive/tilecode.py).
 """
 
@@ -46,6 +47,7 @@ T = TypeVar("T", bound=tuple[Any, ...])
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 _LEVEL = 1
 InkOf = Callable[[Any], Instance]  # makes an instance of a key
+_CRC = b',"crc":'
 _ADDRESS = re.compile("-?[0-9a-f]+")
 
 
@@ -92,8 +94,20 @@ def pack(tiles: Sequence[Coded]) -> bytes:
         plain = tilecode.encoded([record.data for _, record, _ in run])
         bodies.append(isal_zlib.compress(plain, _LEVEL))
         blocks.append([len(run), len(plain), len(bodies[-1])])
-    head = dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode()
+    head = _with_crc(dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode())
     return b"".join([_MAGIC, struct.pack("<I", len(head)), head, *bodies])
+
+
+def _with_crc(head: bytes) -> bytes:
+    """Returns a head that ends with its own CRC-32: of a damaged pack, one can tell whether it is the head."""
+    return head[:-1] + b"%s%d}" % (_CRC, isal_zlib.crc32(head))
+
+
+def _is_proven(data: bytes) -> bool | None:
+    """Tells whether the head of a pack is whole; None where it does not say."""
+    (length,) = struct.unpack_from("<I", data, 8)
+    head, found, told = data[12 : 12 + length].rpartition(_CRC)
+    return told == b"%d}" % isal_zlib.crc32(head + b"}") if found else None
 
 
 # ---- reading ----
@@ -145,24 +159,29 @@ class _TileHead:
 
 def unpack_torn(data: bytes, ink_of: InkOf, announced: tuple[int, int]) -> tuple[list[Coded], list[TileKey]]:
     """Returns the tiles in whole blocks of a damaged pack, and the places of the others; nothing if its head is
-    damaged, or must be, since no block is."""
+    damaged, or may be, since no block is and it does not prove to be whole."""
     tiles: list[Coded] = []
     gone: list[TileKey] = []
     try:
         head = _announced(_head(data, ink_of), announced)
+        proven = _is_proven(data)
         for block, run in _by_block(head):
             found = _whole_block(data, block, run, head.form)
             tiles += found or []
             gone += [] if found is not None else [tile.key for tile in run]
     except (FieldError, PackFault, ValueError):
         return [], []
-    return (tiles, gone) if gone else ([], [])
+    return (tiles, gone) if proven or (gone and proven is None) else ([], [])
 
 
 def _whole_block(data: bytes, block: _Block, run: Sequence[_TileHead], form: _Format) -> list[Coded] | None:
+    stored = memoryview(data)[block.start : block.stop]
+    stream = isal_zlib.decompressobj()
     try:
-        return list(_block(memoryview(data)[block.start : block.stop], block.plain, run, form))
-    except PackFault:
+        size = len(stream.decompress(stored, block.plain + 1))
+        # Only a stream that ends where it should has had its checksum compared.
+        return list(_block(stored, block.plain, run, form)) if size == block.plain and stream.eof else None
+    except (PackFault, isal_zlib.error):
         return None
 
 

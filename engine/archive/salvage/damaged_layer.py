@@ -8,7 +8,7 @@ as they are, so that levels coarser than what is missing are as they were, and f
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from engine.numeric.colour import from_rgba8, from_rgba16, to_rgba8
 from engine.numeric.grid import Q, snapped
 from engine.numeric.pyramid import reduce
 
+_WHOLE = Rect(0, 0, TILE, TILE)
+ROUNDING = np.float32(1.02 / 255)  # of premultiplied values that have gone through straight ones of 8 bits
 ROWS_AT_ONCE = 256  # of a picture that is made smaller
 
 
@@ -64,15 +66,14 @@ class Shown:
         planes = [snapped(reduce(self.planes(self.level - finer, band))) for band in bands]
         return whole.zoomed(-1), np.concatenate(planes, axis=1)
 
-    def differs(self, layer: Layer, rect: Rect) -> bool:
-        """Tells whether a layer shows something else over `rect` of the picture's level, to the bit of 8."""
-        seen = layer_planes(layer, self.level, rect)
-        pixels = self.pixels[rect.slices(self.rect)]
-        if seen is None:
-            return bool(pixels[..., 3].any())
-        if pixels.dtype == np.uint16:
-            pixels = to_rgba8(self.planes(self.level, rect))
-        return bool((pixels != to_rgba8(np.ascontiguousarray(seen))).any())
+    def is_same(self, seen: np.ndarray | None, rect: Rect) -> np.ndarray:
+        """Tells where what a layer shows over `rect` of the picture's level, float32 (4, h, w), None for nothing, is
+        what the picture does, as far as 8 bits tell: bool (h, w)."""
+        wanted = self.planes(self.level, rect)
+        seen = np.zeros_like(wanted) if seen is None else np.ascontiguousarray(seen)
+        there = to_rgba8(wanted)
+        near: np.ndarray = np.abs(wanted - seen).max(axis=0) <= ROUNDING
+        return (there == to_rgba8(seen)).all(axis=-1) & (near | (there[..., 3] > 0))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -97,7 +98,9 @@ def rebuilt(ground: Pyramid, rest: Rest, growth: Growth = (), shown: Shown | Non
     layer = Layer(1, "layer", pyramid=pyramid)
     for key in shown.rect.tiles(shown.level):
         part = key.rect.intersect(shown.rect)
-        if not meets(growth, shown.level, part) and shown.differs(layer, part):
+        if meets(growth, shown.level, part):
+            continue
+        if not shown.is_same(layer_planes(layer, shown.level, part), part).all():
             pyramid = _showing(pyramid, key, shown)
     return _with(pyramid, [tile for tile in rest.tiles if tile[0].level > shown.level])
 
@@ -112,25 +115,36 @@ def _with(pyramid: Pyramid, tiles: Sequence[Coded]) -> Pyramid:
 
 
 def _showing(pyramid: Pyramid, key: TileKey, shown: Shown) -> Pyramid:
-    """With a residual by which a tile shows the picture, where that lies."""
+    """With a residual by which a tile shows the picture, where that lies; at the picture's own level only pixels that
+    are others in 8 bits are changed."""
     part = key.rect.intersect(shown.rect.zoomed(key.level - shown.level))
     if part.empty:
         return pyramid
-    place = part.slices(key.rect)
-    seen = evaluate(pyramid, key.level, part).rgba
-    wanted = shown.planes(key.level, part)
-    lacking = wanted - seen
-    if key.level == shown.level:  # what is the same in 8 bits is whole
-        same = (to_rgba8(wanted) == to_rgba8(np.ascontiguousarray(seen))).all(axis=-1)
-        lacking[:, same] = 0
+    rows, columns = part.slices(key.rect)
+    wanted, old = shown.planes(key.level, part), _residual(pyramid, key)
+    # Alpha is clamped where it is seen: without a residual of its own it is what the parents give.
+    new = old.data.copy()
+    new[3, rows, columns] = 0
+    bare = evaluate(_with_record(pyramid, key, replace(old, data=new)), key.level, part).rgba
+    new[:4, rows, columns] += np.rint((wanted - bare) / np.float32(Q)).astype(np.int32)
+    if key.level == shown.level:
+        same = shown.is_same(evaluate(pyramid, key.level, part).rgba, part)
+        new[:4, rows, columns] = np.where(same, old.data[:4, rows, columns], new[:4, rows, columns])
+    new.flags.writeable = False
+    return _with_record(pyramid, key, replace(old, data=new))
+
+
+def _residual(pyramid: Pyramid, key: TileKey) -> Record:
+    """Returns the record of a tile, over all of it."""
     stored = pyramid.levels.get(key.level)
     old = None if stored is None else stored.get((key.x, key.y))
     data = np.zeros((4 if old is None else len(old.data), TILE, TILE), np.int32)
     if old is not None:
-        data[:, *old.rect.slices(Rect(0, 0, TILE, TILE))] = old.data
-    data[:4, *place] += np.rint(lacking / np.float32(Q)).astype(np.int32)
-    data.flags.writeable = False
-    record = Record(Rect(0, 0, TILE, TILE), data, () if old is None else old.inks, pyramid.depth)
+        data[:, *old.rect.slices(_WHOLE)] = old.data
+    return Record(_WHOLE, data, () if old is None else old.inks, pyramid.depth)
+
+
+def _with_record(pyramid: Pyramid, key: TileKey, record: Record) -> Pyramid:
     return with_tiles(pyramid, {key.level: {(key.x, key.y): record}})
 
 

@@ -5,7 +5,7 @@ What can be had is told here, from where the damage lies, by a reader of its own
 1. all paint, bit for bit, with frame, layers and textures, if either the recording is whole, with the pictures that it
    needs and a manifest to find them by, or all packs and pictures are, with a manifest;
 2. else, with a manifest: each layer whose packs are whole, bit for bit; of the others all levels coarser than those
-   of damaged blocks, bit for bit, and within the frame the picture of the layer, to 1/255, if it is whole;
+   of damaged blocks, bit for bit, and within the frame the picture of the layer, to 2/255, if it is whole;
 3. else all commands before the first that cannot be read or done;
 4. else the layers' pictures, or that of all layers together.
 """
@@ -274,14 +274,16 @@ def lost_of_layers(file, damaged, painting):
         png = f"data/L{layer.id}.png"
         if missing < 99 and file.whole(png, damaged) and file.whole("stack.xml", damaged):
             one, other = (picture(layers.find(p.root, layer.name)) for p in (file.painting, painting))
-            if np.abs(one - other).max() > 1:
+            if np.abs(one - other).max() > 2:
                 yield f"the picture of {layer.name}"
 
 
 def picture(layer):
     """The part in the frame, premultiplied, in units of 1/255."""
     planes = layer_planes(layer, 0, FRAME)
-    return np.zeros((4, FRAME.height, FRAME.width)) if planes is None else 255.0 * planes
+    if planes is None:
+        return np.zeros((4, FRAME.height, FRAME.width))
+    return 255.0 * np.minimum(np.maximum(planes, 0), planes[3:])
 
 
 def commands_whole(file, damaged, count):
