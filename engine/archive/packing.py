@@ -181,7 +181,7 @@ def _whole_block(data: bytes, block: _Block, run: Sequence[_TileHead], form: _Fo
         size = len(stream.decompress(stored, block.plain + 1))
         # Only a stream that ends where it should has had its checksum compared.
         return list(_block(stored, block.plain, run, form)) if size == block.plain and stream.eof else None
-    except (PackFault, isal_zlib.error):
+    except (PackFault, isal_zlib.error):  # type: ignore[misc]  # its stub lacks the base class
         return None
 
 

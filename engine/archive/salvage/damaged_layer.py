@@ -73,7 +73,8 @@ class Shown:
         seen = np.zeros_like(wanted) if seen is None else np.ascontiguousarray(seen)
         there = to_rgba8(wanted)
         near: np.ndarray = np.abs(wanted - seen).max(axis=0) <= ROUNDING
-        return (there == to_rgba8(seen)).all(axis=-1) & (near | (there[..., 3] > 0))
+        same: np.ndarray = (there == to_rgba8(seen)).all(axis=-1) & (near | (there[..., 3] > 0))
+        return same
 
 
 @dataclass(frozen=True, eq=False, slots=True)

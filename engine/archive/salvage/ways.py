@@ -138,7 +138,8 @@ class _Parts:
         told: tuple[str, ...] = ()
         if self._unseen:
             root, told = _with_seen(remains, root, manifest.frame)
-        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, self._textures())
+        textures = self._textures()
+        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks)
         notes = (IN_PART, *self._notes, *told, *steps_missing(remains))
         return Opened(painting, notes, False, None, remains.pictures, tuple(self._marks))
 
