@@ -65,10 +65,11 @@ def paintings_folder() -> Path:
     return platformdirs.user_state_path("inkfall") / "paintings"
 
 
-def listed(folder: Path | None = None) -> tuple[Entry, ...]:
-    """Returns all entries that hold anything, those to be recovered before the bin, the newest first.  It never
-    fails."""
-    found = [entry for place in _places(folder or paintings_folder()) if (entry := _entry(place)) is not None]
+def listed(folder: Path | None = None, with_bin: bool = True) -> tuple[Entry, ...]:
+    """Returns all entries that hold anything, those to be recovered before the bin, the newest first; or only those to
+    be recovered, which takes no longer however much is in the bin.  It never fails."""
+    places = [place for place in _places(folder or paintings_folder()) if with_bin or not _is_closed(place)]
+    found = [entry for place in places if (entry := _entry(place)) is not None]
     found.sort(key=lambda entry: (entry.in_bin, -entry.when, entry.ident))
     return tuple(_numbered(entry, number) for number, entry in enumerate(found, 1))
 
@@ -220,9 +221,13 @@ def _entry(folder: Path) -> Entry | None:
         is_alive(folder),
         seen.faults,
         folder,
-        about.get("state") == "closed",
+        _is_closed(folder),
         picture if picture.is_file() else None,
     )
+
+
+def _is_closed(folder: Path) -> bool:
+    return read_about(folder).get("state") == "closed"
 
 
 def _numbered(entry: Entry, number: int) -> Entry:

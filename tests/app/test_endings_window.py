@@ -6,6 +6,8 @@ import time
 import pytest
 from xserver import need, started_server
 
+from engine.journal.entries import listed
+
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 POINTER_ROOT = 1
 
@@ -45,7 +47,7 @@ def test_a_stroke_stays_when_the_focus_goes_and_the_program_ends_well_when_the_d
     empty = app.canvas()
     draw(app, (400, 300), (500, 350), (600, 300))
     take_focus(display)
-    time.sleep(0.3)
+    app.wait_for("a stroke is posted")
     app.do("mousemove", 700, 600, "mouseup", 1)
     painted = app.canvas_unlike(empty)
     assert (painted[440:] == empty[440:]).all(), "the stroke went on after the focus was lost"
@@ -61,3 +63,5 @@ def test_a_stroke_stays_when_the_focus_goes_and_the_program_ends_well_when_the_d
     assert app.process.wait(30) == 0, app.log.read_text()
     words = app.log.read_text()
     assert "Fatal" not in words, words
+    (kept,) = listed(app.folder / "state" / "inkfall" / "paintings")
+    assert (kept.strokes, kept.alive, kept.in_bin, kept.faults) == (2, False, False, ())

@@ -9,8 +9,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from app.desk.asked import Asked
 from app.desk.recovery import recovery_state as state
+from app.desk.recovery import recovery_work
 from app.faults import crashes
+from engine.journal import entries
 
 ROOT = Path(__file__).parents[2]
 NOON = time.mktime((2026, 3, 2, 12, 0, 0, 0, 0, -1))
@@ -91,6 +94,43 @@ def test_a_crash_with_faults_after_it_was_before_them(crashed):
 def test_no_log_no_crash(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     assert crashes.crashes() == ()
+
+
+class Desk:
+    """What the offer needs of the desk."""
+
+    def __init__(self):
+        self.recovery, self.asked, self.posted = state.RecoveryState(), Asked(), []
+        self.work = self.posted.append
+
+
+def scene(serial, path):
+    return SimpleNamespace(serial=serial, path=path)
+
+
+def test_what_was_not_saved_of_a_file_is_offered_when_it_is_opened(tmp_path, monkeypatch):
+    desk = Desk()
+    monkeypatch.chdir(tmp_path)
+    recovery_work.offer(desk, scene(0, None))
+    recovery_work.offer(desk, scene(1, Path("lake.ora")))
+    recovery_work.offer(desk, scene(1, Path("lake.ora")))
+    assert desk.posted == [recovery_work.FindCards(tmp_path / "lake.ora")]
+    desk.asked.show(recovery_work.CARDS)
+    recovery_work.offer(desk, scene(2, tmp_path / "sea.ora"))
+    assert len(desk.posted) == 1, "all are listed anyway"
+
+
+def test_only_cards_of_the_file_that_is_opened_are_shown(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    kept = [
+        SimpleNamespace(ident=name, when=1.0, alive=False, path=tmp_path / f"{name}.ora") for name in ("lake", "sea")
+    ]
+    monkeypatch.setattr(entries, "listed", lambda with_bin: tuple(kept))
+    for path, names in ((tmp_path / "sea.ora", ["sea"]), (None, ["lake", "sea"]), (tmp_path / "hill.ora", [])):
+        desk, work = Desk(), recovery_work.FindCards(path)
+        work.arrive(desk, work.carry_out())
+        assert [card.ident for card in desk.recovery.cards] == names
+        assert desk.asked.dialog == (recovery_work.CARDS if names else "")
 
 
 def run_crashes():

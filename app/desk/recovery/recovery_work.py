@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -30,11 +31,11 @@ class FindCards(FileWork):
         """Examines each entry by itself; returns those that can be had back, and which of their programs crashed."""
         from engine.journal.entries import listed  # here: the window is up before the engine is loaded
 
-        entries = listed()
+        entries = listed(with_bin=False)
         return newest_first(entries, self._wanted), crashed_among(entries, crashes())
 
     def _wanted(self, entry: Entry) -> bool:
-        return not entry.in_bin and self.path in (None, entry.path)
+        return self.path in (None, entry.path)
 
     def arrive(self, desk: Desk, found: _Found) -> None:
         """Shows the cards, if there are any."""
@@ -82,7 +83,7 @@ def offer(desk: Desk, scene: Scene) -> None:
         return
     state.serial = scene.serial
     if scene.path is not None and CARDS not in (desk.asked.dialog, desk.asked.shown):
-        desk.work(FindCards(path=scene.path))
+        desk.work(FindCards(Path(os.path.abspath(scene.path))))
 
 
 def recover(desk: Desk, entry: Entry) -> None:

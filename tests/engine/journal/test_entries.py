@@ -65,6 +65,7 @@ def test_what_is_discarded_goes_to_the_bin_and_from_there_for_good(tmp_path):
     entries.discard(entries.listed(tmp_path)[0])
     (entry,) = entries.listed(tmp_path)
     assert entry.in_bin
+    assert entries.listed(tmp_path, with_bin=False) == ()
     entries.discard(entry)
     assert not entries.listed(tmp_path)
     assert not entry.folder.exists()
