@@ -7,6 +7,7 @@ while its log is played anew, as long as the list is shown.
 from __future__ import annotations
 
 import time
+from bisect import bisect_left
 
 import numpy as np
 
@@ -41,7 +42,7 @@ class PastList(Owned):
         self._open: list[LoggedStep] = []  # steps without a picture, the newest last
         self._logged = 0  # commands in the log that were looked at
         self._tour: Rebuilding | None = None
-        self._toured = False
+        self._broken = False  # whether the log cannot be played
 
     @property
     def pending(self) -> int:
@@ -93,8 +94,21 @@ class PastList(Owned):
                     self._send(step)
             elif self._trail.held(step.number) is not None:
                 self._open.append(step)
-            elif self._tour is None and not self._toured:
-                self._tour, self._toured = self._trail.rebuilding(len(self._trail.steps)), True
+        self._set_out()
+
+    def _set_out(self) -> None:
+        """Begins to play anew what leads to pictures that are wanted and not at hand."""
+        if self._tour is not None or self._broken:
+            return
+        lacking = [
+            step
+            for step in self._trail.steps
+            if step.index in self._shown.pictures
+            and step not in self._pictures
+            and self._trail.held(step.number) is None
+        ]
+        if lacking:
+            self._tour = self._trail.tour(lacking[0], lacking[-1])
 
     def _picture(self, step: LoggedStep) -> None:
         """Makes the picture of a step that is at hand."""
@@ -109,14 +123,17 @@ class PastList(Owned):
         at = tour.at
         if tour.done:
             self._tour = None
+            self._set_out()
             return
         try:
             tour.play()
         except Exception:
-            self._tour = None
+            self._tour, self._broken = None, True
             raise
-        step = next((step for step in self._trail.steps if step.index == at), None)
-        if step is not None and step not in self._pictures:
+        steps = self._trail.steps
+        place = bisect_left(steps, at, key=lambda step: step.index)
+        step = steps[place] if place < len(steps) else None
+        if step is not None and step.index == at and step not in self._pictures:
             self._keep(step, step_pictures.made(step, tour.session.painting, tour.session.cache))
 
     def _keep(self, step: LoggedStep, pixels: np.ndarray) -> None:

@@ -15,11 +15,12 @@ from engine.painting.recording import undo_reach
 from engine.painting.value import Painting
 from engine.session.apply import STEPS
 from engine.session.history import History, difference
-from engine.session.session import HISTORY_BYTES, SMALLEST_CACHE, Session
+from engine.session.session import HISTORY_BYTES, SMALLEST_CACHE, Session, cache_budget
 
 STEPS_APART, SECONDS_APART = 200, 3.0
 PLAYED_AT_ONCE = 0.02  # seconds of playing at a time
-_STATE_BYTES = 512 << 20  # bytes that the states hold which their neighbours do not
+_UNDO_BYTES = HISTORY_BYTES // 4  # of what is undone and done again from there
+_STATE_BYTES = 512 << 20  # that states hold which those before do not, where memory is small: else an eighth of it
 
 
 class KeptStates:
@@ -28,7 +29,7 @@ class KeptStates:
     def __init__(self, base: Painting) -> None:
         self._states: dict[int, Painting] = {0: base}
         self._alone: dict[int, int] = {0: 0}  # bytes that each holds and the one before does not
-        self.held = 0
+        self.held, self._most = 0, max(cache_budget() // 2, _STATE_BYTES)
 
     def keep(self, count: int, painting: Painting) -> None:
         """Keeps the painting after the first `count` commands."""
@@ -38,12 +39,13 @@ class KeptStates:
         gained = difference(self._states[before].root, painting.root)[1]
         self._states[count], self._alone[count] = painting, gained
         self.held += gained
-        if self.held > _STATE_BYTES:
+        if self.held > self._most:
             self._thin_out()
 
-    def nearest(self, log: Sequence[c.Command], count: int) -> tuple[int, Painting]:
-        """Returns the latest state from which the first `count` commands can be played on, and how many led to it."""
-        for n in sorted((n for n in self._states if n <= count), reverse=True):
+    def nearest(self, log: Sequence[c.Command], count: int, least: int | None = None) -> tuple[int, Painting]:
+        """Returns the latest state from which the first `count` commands can be played on, and how many led to it: at
+        most `least`, if that is given."""
+        for n in sorted((n for n in self._states if n <= (count if least is None else least)), reverse=True):
             if _stays_above(log[n:count]):
                 return n, self._states[n]
         return 0, self._states[0]
@@ -74,20 +76,21 @@ def _stays_above(commands: Sequence[c.Command]) -> bool:
 
 
 class Rebuilding:
-    """Plays the first `count` commands of a session's log, piece by piece.  FileError or Refusal where one cannot be
-    done."""
+    """Plays the first `count` commands of a session's log, piece by piece, those from `first` on among what it plays.
+    FileError or Refusal where one cannot be done.
 
-    def __init__(self, of: Session, states: KeptStates, count: int) -> None:
+    `held`: bytes of what the new session's undo may hold.
+    """
+
+    def __init__(
+        self, of: Session, states: KeptStates, count: int, first: int | None = None, held: int = _UNDO_BYTES
+    ) -> None:
         self._log, self._states, self._of, self._count = of.log, states, of, count
-        self.at, painting = self._states.nearest(self._log, count)
+        self.at, painting = self._states.nearest(self._log, count, first)
         self._begun = self.at
         reach = undo_reach(self._log[self.at : count], STEPS)
-        self.session = Session(
-            painting,
-            TileCache(SMALLEST_CACHE),
-            folder=of.folder,
-            history=History(HISTORY_BYTES, max(reach, 1)),
-        )
+        history = History(held, max(reach, 1))
+        self.session = Session(painting, TileCache(SMALLEST_CACHE), folder=of.folder, history=history)
         self._steps, self._since = 0, time.monotonic()
 
     @property

@@ -70,3 +70,7 @@ class Trail(Owned):
     def rebuilding(self, number: int) -> Rebuilding:
         """Returns what plays the painting anew up to the step of a number."""
         return Rebuilding(self.session, self.states, self._steps[number - 1].index + 1 if number else 0)
+
+    def tour(self, first: LoggedStep, last: LoggedStep) -> Rebuilding:
+        """Returns what plays some steps anew, to be looked at one after the other."""
+        return Rebuilding(self.session, self.states, last.index + 1, first.index, held=0)

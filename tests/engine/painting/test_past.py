@@ -223,6 +223,19 @@ def test_every_step_has_a_picture_of_where_it_was_painted():
     assert asker.scene.steps[-1].picture == asker.last(results.Picture).ident
 
 
+def test_pictures_are_made_of_the_steps_in_sight_alone_and_again_when_it_is_opened_again():
+    asker = Asker(opened())
+    asker.ask(p.ShowPast())
+    steps = asker.scene.steps
+    asker.studio.do(p.ShowPast(True, (steps[2].index, steps[5].index)))
+    asker.studio.step()
+    asker.ask(p.ShowPast(False))  # before they are made
+    asker.ask(p.ShowPast(True, (steps[2].index,)))
+    asker.ask(p.ShowPast(True, (steps[4].index, steps[9].index)))
+    shown = [result.ident for result in asker.sent if isinstance(result, results.Picture)]
+    assert sorted(set(shown)) == sorted({steps[n].picture for n in (2, 4, 9)})
+
+
 def test_a_picture_is_made_in_a_few_milliseconds():
     session = Session(cache=TileCache(64 << 20))
     for n in range(30):
