@@ -1,7 +1,7 @@
 """A painter without a window, in a process of its own, that is killed while it paints.
 
-`python headless.py FOLDER SEED [FILE]` paints until it is killed, and tells on standard output what it has posted:
-"up N" after the pen was lifted N times, "ask N" after N commands.
+`python headless.py FOLDER SEED [FILE [loaded]]` paints, once the engine is loaded or at once, until it is killed, and
+tells on standard output what it has posted: "up N" after the pen was lifted N times, "ask N" after N commands.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from engine.journal.journal import Journal
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio.journalled.posts import Posts
+from engine.studio.results import Ready
 from engine.studio.worker import Worker
 
 
@@ -38,8 +39,10 @@ def strokes(seed: int):
         yield brush, points, more
 
 
-def main(folder: str, seed: str, saved: str = "") -> None:
+def main(folder: str, seed: str, saved: str = "", when: str = "at once") -> None:
     worker = Worker(lambda: None, posts=Posts(Journal(head_of_new(), Path(folder))))
+    while when == "loaded" and not any(isinstance(result, Ready) for result in worker.results()):
+        time.sleep(0.05)
     asked = 0
     for n, (brush, points, more) in enumerate(strokes(int(seed)), 1):
         worker.post(q.Begin(0, (0, 0), brush))
@@ -55,6 +58,9 @@ def main(folder: str, seed: str, saved: str = "") -> None:
         if saved and n % 5 == 0:
             worker.post(q.Save(Path(saved)))
         worker.results()
+        while when == "loaded" and worker.behind:  # the engine keeps up, or it would be the journal alone
+            worker.results()
+            time.sleep(0.001)
 
 
 if __name__ == "__main__":
