@@ -12,6 +12,7 @@ import glfw
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
+from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
 from app.tools import TOOLS
 
@@ -32,7 +33,8 @@ def shape(desk: Desk, panning: bool) -> int:
 def draw_frame(desk: Desk) -> None:
     """Draws the frame's edge, so that it shows under paint that goes beyond it."""
     r, view = desk.known.frame, desk.view
-    corners = [view.pixel_to_screen(0, x, y) for x, y in ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))]
+    places = ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))
+    corners = [view.to_screen(place_of_pixel(0, x, y)) for x, y in places]  # exact at any depth
     painter = imgui.get_background_draw_list()
     far = 4.0 * (view.width + view.height)
     a, b, c, d = (ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in corners)

@@ -6,6 +6,7 @@ import math
 
 from app.canvas.view import SUBPIXEL, Place
 from app.desk.desk import Desk
+from engine.numeric.scaling import scaled
 from engine.studio.results import Looked
 
 
@@ -21,9 +22,7 @@ def fly(desk: Desk, looked: Looked, _now: float) -> None:
 
 def middle(origin: float, size: float, fraction: float) -> int:
     """Returns the middle of a span of pixels of a level and a fraction, in 2^-16 pixels of the whole level; exact
-    for integers of any size at a whole level."""
+    for integers of any size."""
     whole = int(origin // 1)
-    rest = round((origin - whole + size / 2) * 2.0 ** (SUBPIXEL - fraction))
-    scale = round(2.0 ** (64 - fraction))  # pixels of the finer level are smaller
-    middle: int = ((whole * scale) >> (64 - SUBPIXEL)) + rest
-    return middle
+    rest: int = round((origin - whole + size / 2) * 2.0 ** (SUBPIXEL - fraction))
+    return scaled(whole, SUBPIXEL - fraction) + rest  # pixels of the finer level are smaller

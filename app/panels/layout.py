@@ -15,7 +15,7 @@ from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
 from app.panels.layers.layers_panel import LayersPanel
 from app.panels.panel import Painting
-from app.panels.places import place_field
+from app.panels.places.place_field import PlaceField
 from app.panels.strip import StripPanel
 
 LEFT, RIGHT = 248.0, 286.0  # widths in points
@@ -35,7 +35,7 @@ class Layout:
     def __init__(self, guard: FaultGuard) -> None:
         self._guard = guard
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
-        self.dialogs, self.strip = Dialogs(), StripPanel()
+        self.dialogs, self.strip, self.place_field = Dialogs(), StripPanel(), PlaceField()
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup, self._strip = False, ""
 
@@ -89,7 +89,7 @@ class Layout:
         with self._guard.spare_drawing("drawing a dialog"):
             self.dialogs.draw(desk)
         with self._guard.spare_drawing("drawing the field for a place"):
-            place_field.draw(desk)
+            self.place_field.draw(desk)
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = imgui.is_popup_open("", any_popup)
         trace.tell_places()

@@ -1,5 +1,7 @@
 """Views that a recording asks for: exact at any depth, and reached by flying."""
 
+import math
+
 import pytest
 
 from app.canvas.glide import Glide
@@ -39,6 +41,7 @@ def test_the_middle_of_a_recorded_view_is_exact_at_depth():
     origin = (1 << 90) + 7
     assert middle(origin, 100, 0.0) == (origin << SUBPIXEL) + (50 << SUBPIXEL)
     assert middle(10.5, 4, 0.0) == round(12.5 * (1 << SUBPIXEL))
+    assert abs(middle(origin, 0, 0.5) - math.isqrt(((origin << SUBPIXEL) ** 2) >> 1)) <= 1
     assert middle(1024, 0, 0.5) == pytest.approx(1024 / 2**0.5 * (1 << SUBPIXEL), abs=2)
 
 

@@ -169,6 +169,24 @@ def test_a_place_counts_when_one_stayed_there():
     assert not trail.can_go_forward
 
 
+def test_where_one_came_from_by_a_jump_is_not_counted_again(desk):
+    """Standing long at both ends, there is still a way forward after a step back."""
+    start, now = going.here(desk), 0.0
+    mark = c.Bookmark("a", 9.0, (3 << 12, 5), (700, 700))
+    for act in (lambda: going.go_to_bookmark(desk, mark), lambda: going.step(desk, -1)):
+        for _ in range(3):
+            going.watch(desk, now)
+            now += 2 * STAYED
+        act()
+        landed(desk)
+    for _ in range(3):
+        going.watch(desk, now)
+        now += 2 * STAYED
+    assert exact(going.here(desk).place) == exact(start.place)
+    assert desk.places.trail.can_go_forward
+    assert len(desk.places.trail.places) == 2
+
+
 def test_small_moves_make_no_new_place_and_new_ways_end_the_old():
     trail = Trail()
     for x in (0, 20, 40, 5000):

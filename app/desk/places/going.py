@@ -33,9 +33,7 @@ def watch(desk: Desk, now: float) -> None:
 
 def go(desk: Desk, there: Standpoint) -> None:
     """Flies there; both ends can be gone back to."""
-    side = min(free_size(desk))
-    desk.places.trail.keep(here(desk), side)
-    desk.places.trail.keep(there, side)
+    desk.places.trail.leap(here(desk), there, min(free_size(desk)))
     _fly(desk, there)
 
 

@@ -50,6 +50,12 @@ class Trail:
         self.places = [*self.places[: self.at + 1], here][-_LONGEST:]
         self.at = len(self.places) - 1
 
+    def leap(self, here: Standpoint, there: Standpoint, side: float) -> None:
+        """Counts both ends of a jump."""
+        self.keep(here, side)
+        self.keep(there, side)
+        self._seen = None
+
     def step(self, here: Standpoint, by: int, side: float) -> Standpoint | None:
         """Goes back (`by` -1) or forward (1): the place there; None if there is none."""
         if not (self.places and here.near(self.places[self.at], side)):
@@ -62,4 +68,5 @@ class Trail:
         if not 0 <= self.at + by < len(self.places):
             return None
         self.at += by
+        self._seen = None  # it is counted: after this jump it must not be once more
         return self.places[self.at]

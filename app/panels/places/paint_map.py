@@ -56,7 +56,7 @@ class PaintMapView:
             painter.add_image(shown, ImVec2(*chart.left_top), ImVec2(*chart.right_bottom))
         painter.push_clip_rect(corner, end, True)
         _outline(painter, chart, desk.known.frame)
-        marked = [(spot, chart.at(spot)) for spot in chart.found.spots if spot.level > chart.found.level + _PLAIN]
+        marked = [(spot, chart.at(spot)) for spot in chart.found.spots if _needs_mark(chart, spot)]
         under = _under(marked, (mouse.x, mouse.y), _NEAR * desk.scale) if hovered else None
         for spot, at in marked:
             lit = spot is under or spot.level == self._scale.lit
@@ -72,6 +72,12 @@ class PaintMapView:
             going.go_to_spot(desk, under)
         elif clicked:
             _go(desk, chart, (mouse.x, mouse.y))
+
+
+def _needs_mark(chart: Chart, spot: Spot) -> bool:
+    """Tells whether paint is too deep, or too far away, to be seen in the map's picture."""
+    found = chart.found
+    return spot.level > found.level + _PLAIN or not spot.rect.meets(found.area.zoomed(spot.level - found.level))
 
 
 def _empty(room: ImVec2, text: str) -> None:

@@ -100,33 +100,46 @@ class PlacesPanel(Panel):
             painter.add_image_rounded(shown, at, to, ImVec2(0, 0), ImVec2(1, 1), theme.packed((1.0,) * 3), rounding)
         if hovered:
             painter.add_rect(corner, end, theme.packed(theme.ACCENT), rounding, thickness=1.5 * desk.scale)
-        below = imgui.get_cursor_screen_pos()
-        mouse = imgui.get_io().mouse_pos
-        if hovered or (corner.x <= mouse.x < end.x and corner.y <= mouse.y < end.y and imgui.is_window_hovered()):
-            side = imgui.get_frame_height()
-            imgui.set_cursor_screen_pos(ImVec2(end.x - side - 3, corner.y + 3))
-            painter.add_rect_filled(
-                ImVec2(end.x - side - 3, corner.y + 3),
-                ImVec2(end.x - 3, corner.y + 3 + side),
-                theme.packed(theme.PANEL, 0.8),
-                rounding,
-            )
-            if w.icon_button("remove", icons.DELETE, f"Remove “{mark.name}”", size=side):
-                desk.post(Do(RemoveBookmark(mark.name)))
-                pressed = False
-            imgui.set_cursor_screen_pos(below)
+        editing = self._editing == mark.name
+        if self._tools(desk, mark, corner, end):
+            pressed = False
         if pressed:
             going.go_to_bookmark(desk, mark)
-        if self._editing == mark.name:
+        if editing:
             self._name_field(desk, mark, size[0])
         else:
             self._name(desk, mark, size[0])
+
+    def _tools(self, desk: Desk, mark: Bookmark, corner: ImVec2, end: ImVec2) -> bool:
+        """Draws what can be done with a bookmark over its picture, while the pointer is there; tells whether it is
+        done now."""
+        mouse, below = imgui.get_io().mouse_pos, imgui.get_cursor_screen_pos()
+        here = imgui.is_window_hovered(imgui.HoveredFlags_.allow_when_blocked_by_active_item)
+        if not (here and corner.x <= mouse.x < end.x and corner.y <= mouse.y < end.y):
+            return False
+        side, edge = imgui.get_frame_height(), 3 * desk.scale
+        at = ImVec2(end.x - 2 * side - edge, corner.y + edge)
+        ground, rounding = theme.packed(theme.PANEL, 0.85), imgui.get_style().frame_rounding
+        imgui.get_window_draw_list().add_rect_filled(at, ImVec2(end.x - edge, at.y + side), ground, rounding)
+        imgui.set_cursor_screen_pos(at)
+        rename = w.icon_button("rename", icons.PENCIL, f"Rename “{mark.name}”", size=side)
+        if rename:
+            self._edit(mark)
+        imgui.set_cursor_screen_pos(ImVec2(at.x + side, at.y))
+        remove = w.icon_button("remove bookmark", icons.DELETE, f"Remove “{mark.name}”", size=side)
+        if remove:
+            desk.post(Do(RemoveBookmark(mark.name)))
+        imgui.set_cursor_screen_pos(below)
+        return rename or remove
+
+    def _edit(self, mark: Bookmark) -> None:
+        self._editing, self._text, self._focus = mark.name, mark.name, True
 
     def _name(self, desk: Desk, mark: Bookmark, wide: float) -> None:
         flags = imgui.SelectableFlags_.allow_double_click
         chosen = imgui.selectable(f"{_short(mark.name, wide)}###name", False, flags, ImVec2(wide, 0))[0]
         if chosen and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-            self._editing, self._text, self._focus = mark.name, mark.name, True
+            self._edit(mark)
         w.named(mark.name)
         w.tooltip(f"“{mark.name}”: double-click to rename")
 
@@ -137,7 +150,8 @@ class PlacesPanel(Panel):
             imgui.set_keyboard_focus_here()
             self._focus = False
         done, self._text = imgui.input_text("##rename", self._text, _FLAGS)
-        w.named("rename bookmark")
+        if imgui.is_item_active():  # what is typed goes there
+            w.named("rename bookmark")
         imgui.pop_style_var()
         if imgui.is_item_deactivated():
             name = self._text.strip()
