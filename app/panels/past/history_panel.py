@@ -11,7 +11,8 @@ from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from app.panels.past.film_strip import FilmStrip
 from app.panels.past.here_list import HereList
-from engine.studio.past.past_records import Here, PastScene, ShowPast
+from engine.studio.past.past_records import AskHere, Here, PastScene, ShowPast
+from engine.studio.results import Scene
 
 _LISTS = (
     ("steps", "Steps", "Every step, strokes of one brush together"),
@@ -27,7 +28,8 @@ class HistoryPanel(Panel):
     def __init__(self) -> None:
         self._film, self._here = FilmStrip(), HereList()
         self._asked: tuple[int, ...] | None = None  # pictures; None: the engine tells nothing
-        self.hears = {PastScene: self._heard, Here: self._found}
+        self._serial = 0  # of the painting whose past it shows
+        self.hears = {PastScene: self._heard, Here: self._found, Scene: self._painting}
 
     def hint(self, desk: Desk) -> str:
         """Says what is looked at."""
@@ -58,7 +60,9 @@ class HistoryPanel(Panel):
     def _way(self, desk: Desk, part: float) -> None:
         """Draws how far the painting is played anew, and what gives it up."""
         wide = _WAYS_WIDE * imgui.get_font_size() - imgui.get_frame_height() - imgui.get_style().item_spacing.x
+        imgui.push_style_color(imgui.Col_.plot_histogram, theme.vec(theme.ACCENT_SOFT))
         imgui.progress_bar(part, ImVec2(wide, 0), f"{part:.0%}")
+        imgui.pop_style_color()
         w.tooltip("The painting is played anew up to that step")
         imgui.same_line()
         if w.icon_button("stop", icons.CLOSE, "Stay where you are"):
@@ -99,8 +103,15 @@ class HistoryPanel(Panel):
             desk.past.look(desk.post, None)
         desk.past.asking = False
 
+    def _painting(self, desk: Desk, scene: Scene, _now: float) -> None:
+        """Forgets the strokes of a place of another painting."""
+        if scene.serial != self._serial:
+            self._serial, desk.past.here, desk.past.opened = scene.serial, None, None
+
     def _heard(self, desk: Desk, scene: PastScene, _now: float) -> None:
-        desk.past.scene = scene
+        before, desk.past.scene = desk.past.scene, scene
+        if desk.past.here is not None and (before.done, before.steps) != (scene.done, scene.steps):
+            desk.post(AskHere(*desk.past.here.place))  # others may show there now
 
     def _found(self, desk: Desk, here: Here, _now: float) -> None:
         desk.past.here = here
