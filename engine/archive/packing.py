@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 import struct
+import zlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
@@ -39,6 +40,7 @@ TILES = 256  # in a pack
 BYTES = 32 << 20  # of all tiles of a pack, about
 BLOCK = 1 << 22  # of all tiles of a block, about
 HEAD_CAP = 24 << 20  # bytes of the head
+FEW_BYTES = 1 << 14
 BLOCK_CAP = 256 << 20  # what a block may claim: one tile of a thousand inks fits
 LEVEL_CAP = LEVEL_LIMIT + 256  # a stroke changes some levels coarser than its own
 DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
@@ -92,10 +94,15 @@ def pack(tiles: Sequence[Coded]) -> bytes:
         lines.append([*line, *more])
     for run in _blocks(tiles):
         plain = tilecode.encoded([record.data for _, record, _ in run])
-        bodies.append(isal_zlib.compress(plain, _LEVEL))
+        bodies.append(_deflated(plain))
         blocks.append([len(run), len(plain), len(bodies[-1])])
     head = _with_crc(dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode())
     return b"".join([_MAGIC, struct.pack("<I", len(head)), head, *bodies])
+
+
+def _deflated(plain: bytes) -> bytes:
+    """Returns a zlib stream: the same bytes give the same stream, which of few bytes isal's does not."""
+    return zlib.compress(plain, _LEVEL) if len(plain) < FEW_BYTES else isal_zlib.compress(plain, _LEVEL)
 
 
 def _with_crc(head: bytes) -> bytes:
