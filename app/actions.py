@@ -14,6 +14,7 @@ from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
 from app.desk.places import going
 from engine.painting import commands as c
+from engine.studio.filing.film_requests import StopFilm
 from engine.studio.requests import Do
 
 Check = Callable[[Desk], bool]
@@ -45,6 +46,18 @@ def _has_file(desk: Desk) -> bool:
 
 def _idle(desk: Desk) -> bool:
     return not desk.painting
+
+
+def _filming(desk: Desk) -> bool:
+    return desk.known.filming is not None
+
+
+def _can_film(desk: Desk) -> bool:
+    return _ready(desk) and not _filming(desk)
+
+
+def _stop_film(desk: Desk) -> None:
+    desk.post(StopFilm())
 
 
 def _layer(desk: Desk) -> bool:
@@ -275,6 +288,8 @@ ACTIONS: dict[str, Action] = {
         lambda desk: desk.start_engine(),
         _stopped,
     ),
+    "film": A("Film…", "File", ("Ctrl+Shift+E",), "Film how it was made, or a flight", _asks("film"), _can_film),
+    "stop_film": A("Stop film", "File", (), "Stop making the film; no file is written", _stop_film, _filming),
     "quit": A("Quit", "File", ("Ctrl+Q",), "Close the window", close),
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _posts(c.Undo), _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _posts(c.Redo), _can_redo),

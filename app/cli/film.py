@@ -48,6 +48,7 @@ def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
     from engine.film.formats import FORMATS, is_series, writable, write_film
     from engine.film.shooting import Film, Shooting
+    from engine.studio.filing.filming import making_of
 
     replays = options.replay or options.flight is None
     if not replays and (options.brush or options.undone or options.clock != "strokes"):
@@ -56,9 +57,8 @@ def run(options: argparse.Namespace) -> int:
         checked_output(options.out, tuple(FORMATS))
     source = _source(options.source, replays)
     places, size = _places(options, source)
-    film = Film(
-        places, size, options.fps, options.seconds, source.recording, options.clock, options.undone, options.brush
-    )
+    making = None if source.recording is None else making_of(source.recording)
+    film = Film(places, size, options.fps, options.seconds, making, options.clock, options.undone, options.brush)
     shooting, note = writable(options.out, Shooting(film, source.painting))
     if note:
         print(f"inkfall: {options.out}: {note}", file=sys.stderr)

@@ -3,11 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from app.canvas.view import View
+from app.desk.known import Known
+from engine.painting.places import Bookmark
+from engine.studio.filing.film_requests import FilmWish
 from engine.studio.results import Overtaken
 
 Then = Callable[[], None]
+FILM_SIZES = ((1280, 720), (1920, 1080), (1080, 1080), (1080, 1920))
+
+
+@dataclass(slots=True)
+class FilmState:
+    """`kind`: "replay", "flight" or "both"; `marks`: it flies through the bookmarks, else to what is in view; `close`:
+    a replay shows what is in view, else the frame; `size`: a row of FILM_SIZES, None for the frame's own; `seconds`: 0
+    for as long as it takes; `at`: the part, 0..1, of which a picture is shown; `wished`: what all that means."""
+
+    kind: str = "replay"
+    marks: bool = False
+    close: bool = False
+    size: tuple[int, int] | None = FILM_SIZES[0]
+    seconds: int = 0
+    fps: int = 30
+    by_clock: bool = False
+    undone: bool = False
+    brush: bool = True
+    at: float = 1.0
+    wished: FilmWish | None = None
 
 
 @dataclass(slots=True)
@@ -16,7 +40,7 @@ class Asked:
     unsaved changes are dealt with, `otherwise` if they are not to be, `why`: what would take the painting's place;
     `after_save`: goes on once the painting is saved; `overtaken`: the save that is asked about; `quit`: the window is
     to go; `export_level`: how deep the exported picture goes; `texture`: a name under which one is being made, which
-    joins the ink when the painting has it."""
+    joins the ink when the painting has it; `film`: what is chosen of the film that is asked for."""
 
     dialog: str = ""
     shown: str = ""
@@ -28,6 +52,7 @@ class Asked:
     quit: bool = False
     export_level: int = 0
     texture: str = ""
+    film: FilmState = field(default_factory=FilmState)
 
     def show(self, dialog: str) -> None:
         """Opens a dialog by its name."""
@@ -75,3 +100,33 @@ class Asked:
         then, self.after_save, self.otherwise = self.after_save, None, None
         if then is not None:
             then()
+
+
+def place_of(view: View, area: tuple[float, float], middle: tuple[float, float]) -> Bookmark:
+    """Returns the rectangle of a level that an area of the screen (width, height) shows about its middle there."""
+    level = view.shown_level
+    scale = view.scale(level)
+    width, height = (max(1, round(side / scale)) for side in area)
+    x, y = view.to_canvas(*middle).pixel(level)
+    return Bookmark("", level, (x - width // 2, y - height // 2), (width, height))
+
+
+def film_wish(film: FilmState, known: Known, here: Bookmark) -> FilmWish:
+    """Returns the film as the engine is asked for it."""
+    frame = known.frame
+    size = film.size or fitted_frame(frame.width, frame.height)
+    whole = Bookmark("", 0, (frame.x0, frame.y0), (frame.width, frame.height))
+    marks = tuple(known.scene.bookmarks) if known.scene is not None else ()
+    places: tuple[Bookmark, ...] = (here if film.close else whole,)
+    if film.kind != "replay":
+        places = (whole, *marks) if film.marks and marks else (whole, here)
+    replay = film.kind != "flight"
+    clock = "pen" if film.by_clock else "strokes"
+    seconds = float(film.seconds) if film.seconds else None
+    return FilmWish(size, places, film.fps, seconds, replay, clock, replay and film.undone, replay and film.brush)
+
+
+def fitted_frame(width: int, height: int) -> tuple[int, int]:
+    """Returns the frame's size, or what of its shape is within 1920 x 1080; even, as films want it."""
+    scale = max(width / 1920, height / 1080, 1.0)
+    return max(2, int(width / scale) // 2 * 2), max(2, int(height / scale) // 2 * 2)

@@ -13,7 +13,17 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
-from engine.studio.results import Growing, LayerRow, Note, Opening, Prepared, Ready, Scene, Writing
+from engine.studio.results import (
+    FilmLength,
+    Growing,
+    LayerRow,
+    Note,
+    Opening,
+    Prepared,
+    Ready,
+    Scene,
+    Writing,
+)
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 
@@ -23,7 +33,8 @@ class Known:
     """`ready`: whether the engine is loaded; `tables`: its rows, of textures, operations and so on; `scene`: the
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
-    does; `prepared`: how many brushes are ready; `opening`: the file that is being opened.  Times are seconds of
+    does; `prepared`: how many brushes are ready; `opening`: the file that is being opened; `filming`: the part done of
+    a film that is being made, `film_length`: of the one that is asked about.  Times are seconds of
     time.monotonic()."""
 
     ready: bool = False
@@ -38,6 +49,8 @@ class Known:
     preparing: float | None = None
     prepared: Prepared = Prepared(0, 0)  # noqa: RUF009
     opening: Opening | None = None
+    filming: float | None = None
+    film_length: FilmLength = FilmLength()  # noqa: RUF009
 
     @property
     def frame(self) -> Rect:
@@ -108,4 +121,6 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.GotReady: lambda known, r, now: {"preparing": None},
     results.Prepared: lambda known, r, now: {"prepared": r},
     results.Growing: _growing,
+    results.Filming: lambda known, r, now: {"filming": r.part},
+    results.FilmLength: lambda known, r, now: {"film_length": r},
 }

@@ -61,6 +61,8 @@ def _left(desk: Desk, right: float) -> None:
         imgui.text_unformatted(f"Click on a painted texture: it becomes “{name}”  (Esc: not now)")
     elif desk.past.asking:
         imgui.text_unformatted("Click a place: the strokes that show there are listed  (Esc: not now)")
+    elif desk.known.filming is not None:
+        _offer(desk, f"Filming, {desk.known.filming * 100:.0f} %", "stop_film")
     elif desk.places.lost and not desk.painting:
         _offer(desk, "No paint in sight", "nearest")
     elif not desk.known.ready:

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from engine.painting import commands as c
 from engine.painting.places import NO_BOOKMARKS, BookmarkCommand, Bookmarks, bookmarks_after
-from engine.session.apply import STEPS
 
 CLOCKS = ("strokes", "pen")
 _INVISIBLE = (c.AddLayer, c.RenameLayer)  # steps that change no pixel
@@ -23,15 +22,17 @@ class Beat(NamedTuple):
     seen: bool
 
 
-def beats(commands: Sequence[c.Command], clock: str = "strokes", undone: bool = False) -> tuple[Beat, ...]:
-    """Returns when each command is carried out, from 0 on.
+def beats(
+    commands: Sequence[c.Command], steps: frozenset[type], clock: str = "strokes", undone: bool = False
+) -> tuple[Beat, ...]:
+    """Returns when each command is carried out, from 0 on.  `steps`: those that undo takes back.
 
     `clock`: "strokes", each takes as long as the others, or "pen", as long as it took, by the `time` of commands and of
     points.  `undone`: what was taken back is seen, and how that goes.
     """
     now, ended = 0.0, None
     out: list[Beat] = []
-    for command, seen in zip(commands, _seen(commands, undone), strict=True):
+    for command, seen in zip(commands, _seen(commands, steps, undone), strict=True):
         length = 0.0
         if seen and clock == "pen":
             length, time = _taken(command), _time(command)
@@ -44,17 +45,16 @@ def beats(commands: Sequence[c.Command], clock: str = "strokes", undone: bool = 
     return tuple(out)
 
 
-def _seen(commands: Sequence[c.Command], undone: bool) -> list[bool]:
+def _seen(commands: Sequence[c.Command], steps: frozenset[type], undone: bool) -> list[bool]:
     """Tells of each command whether it is to be seen: what changes pixels, and stays unless `undone`."""
-    steps = [type(command) in STEPS for command in commands]
-    seen = [step and not isinstance(command, _INVISIBLE) for step, command in zip(steps, commands, strict=True)]
+    seen = [type(command) in steps and not isinstance(command, _INVISIBLE) for command in commands]
     if undone:
         travels = (isinstance(command, c.Undo | c.Redo) for command in commands)
         return [is_seen or travel for is_seen, travel in zip(seen, travels, strict=True)]
     done: list[int] = []
     taken_back: list[int] = []
     for i, command in enumerate(commands):
-        if steps[i]:
+        if type(command) in steps:
             done.append(i)
             taken_back.clear()
         elif isinstance(command, c.Undo | c.Redo):

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from engine.brush.dynamics import evaluate
+from engine.brush.settings import Brush
 from engine.canvas import growth as growths
 from engine.canvas.evaluate import TileCache
 from engine.files.fault import FileError
@@ -15,7 +18,6 @@ from engine.painting import commands as c
 from engine.painting.grown import settled, threads
 from engine.painting.recording import Recording
 from engine.painting.value import Painting, Refusal
-from engine.session.replay import opened
 from engine.strokes.example_stroke import Live
 
 CACHE = 256 << 20  # bytes of evaluated tiles
@@ -32,13 +34,47 @@ class Tip:
     radius: float
 
 
+class Remaker(Protocol):
+    """What carries commands out: a session."""
+
+    painting: Painting
+
+    def do(self, command: c.Command) -> Painting:
+        """Carries out a command."""
+        ...
+
+    def begin(
+        self, level: int, origin: tuple[int, int], brush: Brush, layer: str | None = None, seed: int | None = None
+    ) -> Live:
+        """Begins a stroke."""
+        ...
+
+    def finish(self, live: Live) -> Painting:
+        """Ends it."""
+        ...
+
+    def amend(self, painting: Painting) -> None:
+        """Takes the same painting, further refined."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Making:
+    """How a painting was made: its recording, the commands that undo takes back, and what begins to make it anew, with
+    a cache for tiles."""
+
+    recording: Recording
+    steps: frozenset[type]
+    begin: Callable[[TileCache], Remaker]
+
+
 class Replaying:
     """A recording that is carried out once more.  `painting`: as it is seen now; `tip`: where the brush is, None when
     it is lifted.  FileError names the line of a command that cannot be done."""
 
-    def __init__(self, recording: Recording, beats: tuple[Beat, ...]) -> None:
-        self._recording, self._beats = recording, beats
-        self._session = opened(recording, TileCache(CACHE), history_bytes=0)
+    def __init__(self, making: Making, beats: tuple[Beat, ...]) -> None:
+        self._recording, self._beats = making.recording, beats
+        self._session = making.begin(TileCache(CACHE))
         self._next = 0
         self._live: Live | None = None
         self._laid = 0  # points of the stroke in progress

@@ -12,12 +12,11 @@ import numpy as np
 
 from engine.film import tip_mark
 from engine.film.aim import Aim
-from engine.film.beats import beats
+from engine.film.beats import Beat, beats
 from engine.film.course import flight, legs_through, length
-from engine.film.replaying import Replaying
+from engine.film.replaying import Making, Replaying
 from engine.film.sheets import Sheets, plan
 from engine.numeric.convolution import Part, write_scaled
-from engine.painting.recording import Recording
 from engine.painting.rendering import folded_layers
 from engine.painting.value import Painting
 
@@ -33,7 +32,7 @@ _BAND = 64  # rows of a frame that a thread makes at once
 class Film:
     """What is to be seen, in pictures of `size` (width, height), `fps` a second.
 
-    `places`: the views that it flies through, at least one; `recording`: the painting is made again, by `clock` (one of
+    `places`: the views that it flies through, at least one; `making`: the painting is made again, by `clock` (one of
     `beats.CLOCKS`), with what was `undone` and the `brush` or without; None: it is seen as it is; `seconds`: None for
     as long as it takes.
     """
@@ -42,7 +41,7 @@ class Film:
     size: tuple[int, int]
     fps: float = FPS
     seconds: float | None = None
-    recording: Recording | None = None
+    making: Making | None = None
     clock: str = "strokes"
     undone: bool = False
     brush: bool = False
@@ -54,7 +53,7 @@ class Shooting:
     def __init__(self, film: Film, painting: Painting | None = None) -> None:
         """`painting`: as it is in the end, grown to its end; not needed where it is made again."""
         self._film, self._painting = film, painting
-        self._beats = () if film.recording is None else beats(film.recording.commands, film.clock, film.undone)
+        self._beats = _beats_of(film)
         legs = legs_through(film.places, film.size[0])
         levels, strokes = length(legs), sum(beat.seen for beat in self._beats)
         natural = max(levels * _LEVEL_SECONDS + 1.0, strokes * _BEAT_SECONDS)
@@ -71,6 +70,10 @@ class Shooting:
         """Gives what is to be seen."""
         return self._film
 
+    def at(self, part: float) -> Aim:
+        """Returns where it looks after a part of it, 0..1."""
+        return self._flight.at(part * self.seconds)
+
     def aims(self) -> list[Aim]:
         """Returns where each frame looks; the last one where the flight ends, unless it loops."""
         steps = self.count if self._flight.loops else max(self.count - 1, 1)
@@ -83,18 +86,18 @@ class Shooting:
             count = (os.cpu_count() or 1) if threads is None else threads
             pool = stack.enter_context(ThreadPoolExecutor(count, "inkfall film"))
             aims = self.aims()
-            if self._film.recording is None:
+            if self._film.making is None:
                 assert self._painting is not None
                 painting = replace(self._painting, root=folded_layers(self._painting.root))
                 ahead = stack.enter_context(ThreadPoolExecutor(1, "inkfall film ahead"))
                 sheets = Sheets(plan(aims, self._film.size), pool, ahead)
                 yield from _flown(sheets, painting, self._film.size, self.count, pool)
             else:
-                yield from self._made_again(self._film.recording, aims, pool)
+                yield from self._made_again(self._film.making, aims, pool)
 
-    def _made_again(self, recording: Recording, aims: list[Aim], pool: Executor) -> Iterator[np.ndarray]:
+    def _made_again(self, making: Making, aims: list[Aim], pool: Executor) -> Iterator[np.ndarray]:
         size = self._film.size
-        replaying, sheets = Replaying(recording, self._beats), Sheets(plan(aims, size), pool)
+        replaying, sheets = Replaying(making, self._beats), Sheets(plan(aims, size), pool)
         total = max((beat.begin + beat.length for beat in self._beats), default=0.0)
         rest = min(_REST[0], self.seconds / _REST[1])
         picture = _Picture(size, pool)
@@ -107,6 +110,11 @@ class Shooting:
             frame = picture.of(sheets.parts(i, replaying.painting), (aim, replaying.painting))
             tip = replaying.tip if self._film.brush else None
             yield frame if tip is None else tip_mark.with_tip(frame, aim, tip)
+
+
+def _beats_of(film: Film) -> tuple[Beat, ...]:
+    made = film.making
+    return () if made is None else beats(made.recording.commands, made.steps, film.clock, film.undone)
 
 
 class _Picture:

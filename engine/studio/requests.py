@@ -14,6 +14,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.studio.filing.film_requests import FilmGrew, MakeFilm, PreviewFilm, StopFilm
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
@@ -360,6 +361,10 @@ Request = (
     | Recover
     | Save
     | Export
+    | MakeFilm
+    | PreviewFilm
+    | StopFilm
+    | FilmGrew
     | Do
     | Begin
     | Points

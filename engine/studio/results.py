@@ -310,6 +310,22 @@ class Writing:
 
 
 @dataclass(frozen=True, slots=True)
+class Filming:
+    """How far the film is that is being made: the part done, 0..1; None: none is."""
+
+    part: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FilmLength:
+    """How long the film would be that was asked about, in seconds and in frames; or why it cannot be made."""
+
+    seconds: float = 0.0
+    frames: int = 0
+    fault: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class GotReady:
     """What was asked for by GetReady is done."""
 
@@ -355,6 +371,8 @@ Result = (
     | Found
     | MatchScene
     | GotReady
+    | Filming
+    | FilmLength
     | Prepared
     | Growing
     | PastScene

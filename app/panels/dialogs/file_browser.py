@@ -20,11 +20,13 @@ from app.desk.folders import ReadFolder
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
+from engine.studio.filing.film_requests import MakeFilm
 from engine.studio.requests import Export, Save
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 SAVES = (".ora",)
+FILMS = (".mp4", ".webm", ".webp", ".avif", ".gif", ".png")
 EXPORTS = (".png", ".tif")
 Then = Callable[[Desk, Path], None]
 
@@ -184,6 +186,14 @@ def exporting(desk: Desk) -> SystemDialog | Browser:
     """Asks where to export the picture."""
     start, level = _folder(desk) / f"{desk.known.stem}.png", desk.asked.export_level
     return _chooser("Export picture", start, EXPORTS, True, lambda d, path: d.post(Export(path, level)))
+
+
+def filming(desk: Desk) -> SystemDialog | Browser:
+    """Asks where to write a film."""
+    stem = desk.known.path.stem if desk.known.path else "untitled"
+    start, wish = _folder(desk) / f"{stem}.mp4", desk.asked.film.wished
+    assert wish is not None
+    return _chooser("Film", start, FILMS, True, lambda d, path: d.post(MakeFilm(path, wish)))
 
 
 def choosing_spectrum(desk: Desk) -> SystemDialog | Browser:

@@ -24,6 +24,7 @@ from engine.studio import requests as q
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
 from engine.studio.filing.document import Document, held_by
+from engine.studio.filing.filming import Filming
 from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole, Show
 from engine.studio.filing.openings import Openings
 from engine.studio.filing.playing import PIECE, Playing, looked
@@ -51,12 +52,14 @@ class Filing(Owned):
         self.saves = Saves(easel, self._writers, preferences)
         self.turned: Turned = lambda head, continued, count: None
         self.openings = Openings(easel, post, self.replace)
+        self._filming = Filming(easel, self._writers, post, self.saves.making)
         self.handlers: dict[type, Callable[[Any], None]] = {
             q.New: self._new,
             q.Open: self._open,
             q.Recover: self._recover,
             q.Export: self._export,
             **self.saves.handlers,
+            **self._filming.handlers,
             **self._writers.handlers,
             FileRead: self.openings.read,
             FileWhole: self.openings.whole,
@@ -65,8 +68,9 @@ class Filing(Owned):
         }
 
     def close(self) -> None:
-        """Waits for files that are being written; for one that is being read, nobody does."""
+        """Waits for files that are being written; for one that is being read, nobody does; a film is given up."""
         self.openings.cancel()
+        self._filming.close()
         self.saves.close()
 
     def replace(

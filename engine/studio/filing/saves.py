@@ -89,12 +89,16 @@ class Saves(Owned):
             self._writers.close()
         self._files.release()
 
+    def making(self) -> Recording | None:
+        """Returns how the painting was made, if that is known."""
+        return self._easel.session.recording() if self._known else None
+
     def _save(self, request: q.Save) -> None:
         """Saves the painting as it is now; painting goes on meanwhile."""
         easel = self._easel
         if easel.live is not None:
             easel.finish()
-        recording = easel.session.recording() if self._known else None
+        recording = self.making()
         asked = _Asked(
             request,
             easel.session.painting,

@@ -17,7 +17,9 @@ from engine.film.shooting import Film, Shooting, frame_of
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
 from engine.painting.recording import Header, Recording
+from engine.session.apply import STEPS
 from engine.session.replay import replay
+from engine.studio.filing.filming import making_of
 
 SIZE = 160, 90
 FRAME = Rect(0, 0, 160, 90)
@@ -127,16 +129,22 @@ REPLAYED = [
 
 def test_beats_by_strokes_and_by_the_pen():
     commands = recorded(REPLAYED).commands
-    assert [(b.begin, b.length) for b in beats(commands) if b.seen] == [(0, 1), (1, 1), (2, 1)]
-    assert [(b.begin, b.length) for b in beats(commands, undone=True) if b.seen] == [(n, 1) for n in range(5)]
+    assert [(b.begin, b.length) for b in beats(commands, STEPS) if b.seen] == [(0, 1), (1, 1), (2, 1)]
+    assert [(b.begin, b.length) for b in beats(commands, STEPS, undone=True) if b.seen] == [(n, 1) for n in range(5)]
     # 2 s, a second that nobody told, 3 s, two seconds until the next began, and one for a stroke that tells no time.
-    assert [(b.begin, b.length) for b in beats(commands, "pen") if b.seen] == [(0, 2), (3, 3), (8, 1)]
+    assert [(b.begin, b.length) for b in beats(commands, STEPS, "pen") if b.seen] == [(0, 2), (3, 3), (8, 1)]
 
 
 def test_what_was_undone_and_done_again_is_seen():
     again = [*REPLAYED[:4], {"do": "redo"}]
-    assert [beat.seen for beat in beats(recorded(again).commands)] == [False, True, True, False, False]
-    assert [beat.seen for beat in beats(recorded(again).commands, undone=True)] == [False, True, True, True, True]
+    assert [beat.seen for beat in beats(recorded(again).commands, STEPS)] == [False, True, True, False, False]
+    assert [beat.seen for beat in beats(recorded(again).commands, STEPS, undone=True)] == [
+        False,
+        True,
+        True,
+        True,
+        True,
+    ]
 
 
 def of(painting):
@@ -146,7 +154,7 @@ def of(painting):
 @pytest.mark.parametrize("undone", [False, True])
 def test_a_replay_shows_the_painting_as_it_was(undone):
     recording = recorded(REPLAYED)
-    film = Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 8.0, recording, undone=undone)
+    film = Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 8.0, making_of(recording), undone=undone)
     shooting = Shooting(film)
     frames = list(shooting.frames(2))
     assert len(frames) == 80
@@ -167,7 +175,7 @@ def test_a_painting_in_the_making_is_brought_up_to_date_where_it_changed():
     """Every frame of a flight over it is what it would be from pictures made anew."""
     recording = recorded([*PAINTED, *REPLAYED[1:]])
     times, aims = np.linspace(0.0, 7.0, 15), [aim_at(0, FRAME, SIZE).at(0, 0.1 * i) for i in range(15)]
-    replaying = Replaying(recording, beats(recording.commands))
+    replaying = Replaying(making_of(recording), beats(recording.commands, STEPS))
     with ThreadPoolExecutor(2) as pool:
         sheets = Sheets(plan(aims, SIZE), pool)
         for i, time in enumerate(times):
@@ -180,7 +188,7 @@ def test_a_painting_in_the_making_is_brought_up_to_date_where_it_changed():
 
 def test_the_brush_is_seen_where_it_touches():
     recording = recorded([stroke([[40, 45], [120, 45]], 12, brush={"colour": "#ffffff"})])
-    film = Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 2.0, recording)
+    film = Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 2.0, making_of(recording))
     plain, marked = shot(film), shot(replace(film, brush=True))
     assert len(plain) == len(marked)
     found = [np.argwhere((a != b).any(axis=2)) for a, b in zip(plain, marked, strict=True)]

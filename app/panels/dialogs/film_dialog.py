@@ -1,0 +1,137 @@
+"""The window that asks for a film: how it was made, a flight, or both; a picture of it, and how long it is."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.desk.asked import FILM_SIZES, film_wish, fitted_frame, place_of
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from engine.studio.filing.film_requests import FilmWish, PreviewFilm
+
+_WIDE, _TALL = 25.0, 14.0  # ems: the room for the picture
+_KINDS = (
+    ("replay", "How it was made", "The painting is made again, stroke by stroke"),
+    ("flight", "Flight", "Fly through the painting as it is"),
+    ("both", "Both", "Fly through it while it is being made"),
+)
+_FPS = tuple((str(n), str(n), f"{n} frames a second") for n in (24, 30, 60))
+_MOST_SECONDS = 600
+
+
+class FilmDialog:
+    """Asks for a film; then where it goes."""
+
+    title = "Film"
+
+    def __init__(self) -> None:
+        self._asked: tuple[FilmWish, float] | None = None
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window; False when it is done."""
+        em, film = imgui.get_font_size(), desk.asked.film
+        self._preview(desk, em)
+        picked = w.segments("kind", film.kind, _KINDS, em * _WIDE)
+        film.kind = picked or film.kind
+        self._where(desk, em)
+        self._size(desk, em)
+        self._pace(desk, em)
+        replays = film.kind != "flight"
+        imgui.begin_disabled(not replays)
+        _, film.brush = w.tick("Brush", film.brush, "Show a ring where the brush is")
+        imgui.same_line()
+        _, film.undone = w.tick("What was undone", film.undone, "Show what was taken back, and how it is")
+        imgui.same_line()
+        _, film.by_clock = w.tick("By the clock", film.by_clock, "As fast as it was painted; else all strokes alike")
+        imgui.end_disabled()
+        length = desk.known.film_length
+        fault = length.fault if replays else ""
+        told = fault or f"{length.seconds:.3g} s, {length.frames:,} frames"
+        imgui.push_text_wrap_pos(em * (_WIDE + 1))
+        imgui.text_colored(theme.vec(theme.WARN if fault else theme.QUIET), told)
+        imgui.pop_text_wrap_pos()
+        imgui.spacing()
+        chosen = w.default_button("Choose file…", "Choose where to write it", enabled=not fault, width=em * 8)
+        if chosen:
+            desk.asked.show("film to")
+        imgui.same_line()
+        return not (w.text_button("Cancel", "Go back", width=em * 7) or chosen)
+
+    def _preview(self, desk: Desk, em: float) -> None:
+        """Draws a picture of the film, and what chooses of which part."""
+        film = desk.asked.film
+        x0, y0, x1, y1 = desk.free_area()
+        here = place_of(desk.view, (x1 - x0, y1 - y0), desk.middle())
+        wish = film.wished = film_wish(film, desk.known, here)
+        if (wish, film.at) != self._asked:
+            self._asked = wish, film.at
+            desk.post(PreviewFilm(wish, film.at))
+        scale = min(_WIDE * em / wish.size[0], _TALL * em / wish.size[1])
+        width, height = wish.size[0] * scale, wish.size[1] * scale
+        left, top = imgui.get_cursor_pos_x(), imgui.get_cursor_pos_y()
+        imgui.set_cursor_pos(ImVec2(left + (_WIDE * em - width) / 2, top + (_TALL * em - height) / 2))
+        hint = "What the film shows there, with all that is painted now"
+        w.picture(desk.pictures.get("film"), (width, height), hint, name="film picture")
+        imgui.set_cursor_pos(ImVec2(left, top + _TALL * em + imgui.get_style().item_spacing.y))
+        imgui.dummy(ImVec2(0, 0))
+        imgui.begin_disabled(len(wish.places) < 2)
+        imgui.set_next_item_width(_WIDE * em)
+        clamped = imgui.SliderFlags_.always_clamp
+        changed, part = imgui.slider_float("##moment", film.at * 100, 0.0, 100.0, "%.0f %%", clamped)
+        w.named("moment")
+        w.tooltip("How far into the film this picture is")
+        film.at = part / 100 if changed else film.at
+        imgui.end_disabled()
+
+    def _where(self, desk: Desk, em: float) -> None:
+        """Draws what is seen, or where it flies."""
+        film = desk.asked.film
+        _label("Shows" if film.kind == "replay" else "Flies", em)
+        if film.kind == "replay":
+            rows = (("frame", "the whole frame"), ("view", "what is in view now"))
+            picked = w.choice("where", "view" if film.close else "frame", rows, "What the film shows", em * 14)
+            film.close = film.close if picked is None else picked == "view"
+            return
+        scene = desk.known.scene
+        rows = (("view", "from the frame to what is in view now"), ("marks", "from the frame through the bookmarks"))
+        some = scene is not None and len(scene.bookmarks) > 0
+        current = "marks" if film.marks and some else "view"
+        picked = w.choice("where", current, rows if some else rows[:1], "Where the film looks", em * 18)
+        film.marks = film.marks if picked is None else picked == "marks"
+
+    def _size(self, desk: Desk, em: float) -> None:
+        film, frame = desk.asked.film, desk.known.frame
+        own = fitted_frame(frame.width, frame.height)
+        rows = [("", f"{own[0]} × {own[1]}, as the frame")]
+        rows += [(f"{width}x{height}", f"{width} × {height}") for width, height in FILM_SIZES]
+        current = "" if film.size is None else f"{film.size[0]}x{film.size[1]}"
+        _label("Size", em)
+        picked = w.choice("size", current, rows, "Width and height of the film, in pixels", em * 14)
+        if picked is not None:
+            film.size = next((size for size in FILM_SIZES if f"{size[0]}x{size[1]}" == picked), None)
+
+    def _pace(self, desk: Desk, em: float) -> None:
+        film = desk.asked.film
+        _label("Takes", em)
+        imgui.set_next_item_width(em * 11)
+        text = "as long as needed" if film.seconds == 0 else "%d s"
+        _, film.seconds = imgui.slider_int(
+            "##seconds",
+            film.seconds,
+            0,
+            _MOST_SECONDS,
+            text,
+            imgui.SliderFlags_.always_clamp | imgui.SliderFlags_.logarithmic,
+        )
+        w.named("seconds")
+        w.tooltip("How long the film is; at the left end, as long as it needs")
+        imgui.same_line()
+        film.fps = int(w.segments("fps", str(film.fps), _FPS, em * 7) or film.fps)
+
+
+def _label(text: str, em: float) -> None:
+    left = imgui.get_cursor_pos_x()
+    imgui.align_text_to_frame_padding()
+    imgui.text_unformatted(text)
+    imgui.same_line(left + 3.6 * em)
