@@ -57,13 +57,14 @@ class Filming(Owned):
         if self._given_up is not None:
             raise Refusal(BUSY)
         film = self._film(request.wish)
-        given_up = self._given_up = threading.Event()
+        given_up, tell = threading.Event(), _telling(self._post)
+        self._given_up = given_up
 
         def write(painting: Painting) -> results.Result:
             cores = max(1, (os.cpu_count() or 1) - 1)  # one is left to who paints
             try:
                 shooting, note = writable(request.path, Shooting(film, painting))
-                write_film(request.path, shooting, _telling(self._post), given_up.is_set, cores)
+                write_film(request.path, shooting, tell, given_up.is_set, cores)
             except Cancelled:
                 return results.Note("The film was stopped; no file is written")
             except Exception as error:
