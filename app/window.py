@@ -145,7 +145,7 @@ class Window:
             exposed, self._callbacks.exposed = self._callbacks.exposed, False
             moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)
-        return moving
+        return moving or len(imgui.get_current_context().input_events_queue) > 0  # it takes one key a frame
 
     def _resize(self) -> None:
         width, height = glfw.get_framebuffer_size(self.handle)
