@@ -80,7 +80,7 @@ print(json.dumps([sorted(known() - before), told, count]))
 
 
 def test_nothing_is_compiled_by_the_first_stroke(tmp_path):
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(ROOT / "tests")))}
     words = [sys.executable, "-c", PROGRAM, str(Path(__file__).parent), str(tmp_path)]
     done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=280, check=False)
     assert done.returncode == 0, done.stderr

@@ -216,7 +216,9 @@ def test_an_engine_that_does_not_load_is_told(faults):
 
     worker = Worker(woken.set, broken)
     woken.wait(5)
-    assert worker.results() == [results.Note("The paint engine did not load", True, True, True, ("copy_details",), "engine")]
+    assert worker.results() == [
+        results.Note("The paint engine did not load", True, True, True, ("copy_details",), "engine")
+    ]
     assert "no numba here" in str(faults.pop().exc_info[1])
     worker.close()
 
