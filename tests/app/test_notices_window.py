@@ -31,8 +31,7 @@ def opens(app, path):
 
 
 def test_what_goes_wrong_stays_until_it_is_dealt_with(program, tmp_path):
-    foreign(tmp_path / "foreign.ora")
-    (tmp_path / "none.ora").write_bytes(b"no painting at all")
+    stick = tmp_path / "usb"
     app = program()
     empty = app.canvas()
     app.stroke((400, 300), (700, 500))
@@ -41,24 +40,26 @@ def test_what_goes_wrong_stays_until_it_is_dealt_with(program, tmp_path):
     app.box("name", "Save as")
     time.sleep(0.5)
     app.keys("ctrl+a")
-    app.type(str(tmp_path / "usb" / "a.ora"))
+    app.type(str(stick / "a.ora"))
     app.keys("Return")
     app.box("Try again", "status")
     assert app.box("Save as…", "status")
     assert app.comes_to(painted), "the canvas moved"
     app.keys("h")  # says nothing, and the line is still there
-    (tmp_path / "usb").mkdir()
+    stick.mkdir()
+    foreign(stick / "foreign.ora")
+    (stick / "none.ora").write_bytes(b"no painting at all")
     app.click("Try again")
     app.until_gone("Try again")
     end = time.monotonic() + 60.0
-    while not (tmp_path / "usb" / "a.ora").exists():
+    while not (stick / "a.ora").exists():
         assert time.monotonic() < end, "nothing was saved"
         time.sleep(0.1)
-    opens(app, tmp_path / "none.ora")
+    opens(app, stick / "none.ora")
     app.box("Try again", "status")
     assert app.box("1 note")
     assert app.comes_to(painted), "a refused file took the painting"
-    opens(app, tmp_path / "foreign.ora")
+    opens(app, stick / "foreign.ora")
     app.canvas_unlike(painted)
     app.until_gone("Try again")  # another file was opened
     app.click("Details", "status")
