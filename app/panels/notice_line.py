@@ -104,6 +104,7 @@ def _entry(desk: Desk, notice: Notice) -> None:
     right = imgui.get_window_width() - imgui.get_style().window_padding.x - imgui.get_text_line_height()
     imgui.push_text_wrap_pos(right - imgui.get_font_size())
     imgui.text_colored(theme.vec(theme.WARN if notice.bad else theme.TEXT), notice.text)
+    w.named(notice.text)
     imgui.same_line(right)
     _close(desk, notice)
     for line in notice.lines:

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from driven import Program
 
-from conftest import Program
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
 from engine.journal.entries import listed

@@ -3,8 +3,8 @@
 import time
 
 import pytest
+from driven import PATIENCE
 
-from conftest import PATIENCE
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.painting import commands as c
@@ -54,6 +54,7 @@ def test_going_from_place_to_place(program, painting):
     shows(window, home)
     window.click("spot 9")
     shows(window, "status: Level 9")
+    window.settled()  # the flight has ended
     window.keys("ctrl+b")
     shows(window, "bookmark Place 1")
     window.do("mousemove", *window.at("bookmark mill"))

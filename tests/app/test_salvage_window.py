@@ -46,7 +46,9 @@ def test_damaged_files_are_told_kept_and_opened_as_far_as_they_are_whole(program
         file.write_bytes(data)
     app = program(str(whole))
     app.wait_for("painting 1 shown")
-    assert app.box("2 files of brushes and examples are damaged; they are kept as they are", "status")
+    app.click("2 notes", "status")  # of the preferences, and of the others
+    app.box("2 files of brushes and examples are damaged; they are kept as they are")
+    app.keys("Escape")
     shown = app.canvas()
     app.keys("ctrl+o")
     app.box("name", "Open")
@@ -56,8 +58,9 @@ def test_damaged_files_are_told_kept_and_opened_as_far_as_they_are_whole(program
     app.keys("Return")
     app.wait_for("painting 2 shown")
     app.box("lake.ora: 2 things are not as they were", "status")
+    # Beside the paint, a faint veil of the coarser levels stays where tiles of the level looked at are gone.
     seen = np.abs(app.canvas() - shown)[FRAME]
-    assert seen.max() <= 2, "the picture of the layer does not stand in for its tiles"
+    assert seen.max() <= 4, "the picture of the layer does not stand in for its tiles"
     app.click("Details", "status")
     assert app.box("the file is damaged: this is a copy of what is whole of it")
     app.settled()
