@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from immutables import Map
 
 from engine.canvas.evaluate import TileCache
 from engine.files.fault import FileError
+from engine.painting import commands as c
 from engine.painting.recording import Recording, undo_reach
 from engine.session.apply import STEPS, Painting, Refusal
 from engine.session.history import History
@@ -66,3 +67,19 @@ def replay_torn(
             return session, recording.fault(i, str(error))
         tell(i + 1)
     return session, None
+
+
+def stays_within(commands: Sequence[c.Command]) -> bool:
+    """Tells whether commands take back and do again nothing but their own steps: no undo goes behind them, no redo does
+    what was undone before them."""
+    done = undone = 0
+    for command in commands:
+        if isinstance(command, c.Undo):
+            done, undone = done - command.count, undone + command.count
+        elif isinstance(command, c.Redo):
+            done, undone = done + command.count, undone - command.count
+        elif type(command) in STEPS:
+            done, undone = done + 1, 0
+        if done < 0 or undone < 0:
+            return False
+    return True

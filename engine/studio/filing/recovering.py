@@ -136,12 +136,12 @@ def _start(folder: Path, story: Story, missing: list[str]) -> _Start:
     base = _Base(folder, story)
     for checkpoint in reversed(story.checkpoints):
         tail = story.commands[checkpoint.commands :]
-        if checkpoint.commands > len(story.commands) or not _reaches(tail):
+        if checkpoint.commands > len(story.commands) or not replay.stays_within(tail):
             continue
         painting = read_checkpoint(folder, checkpoint, base.header.frame)
         if painting is not None:
             return base.continued(painting, checkpoint.commands)
-    if _reaches(story.commands):
+    if replay.stays_within(story.commands):
         found = base.opened()
         if found is not None:
             return found
@@ -153,21 +153,6 @@ def _start(folder: Path, story: Story, missing: list[str]) -> _Start:
         return _Start(session, True, 0)
     missing.append(_GONE.format(name=base.name))
     return _Start(Session(Painting(base.header.frame, base.header.seed), folder=base.folder), False, 0)
-
-
-def _reaches(commands: Sequence[c.Command]) -> bool:
-    """Tells whether no undo among the commands goes behind them, and no redo does what was undone before them."""
-    done = undone = 0
-    for command in commands:
-        if isinstance(command, c.Undo):
-            done, undone = done - command.count, undone + command.count
-        elif isinstance(command, c.Redo):
-            done, undone = done + command.count, undone - command.count
-        elif type(command) in STEPS:
-            done, undone = done + 1, 0
-        if done < 0 or undone < 0:
-            return False
-    return True
 
 
 class _Base:

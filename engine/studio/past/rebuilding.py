@@ -15,6 +15,7 @@ from engine.painting.recording import undo_reach
 from engine.painting.value import Painting
 from engine.session.apply import STEPS
 from engine.session.history import History, difference
+from engine.session.replay import stays_within
 from engine.session.session import HISTORY_BYTES, SMALLEST_CACHE, Session, cache_budget
 
 STEPS_APART, SECONDS_APART = 200, 3.0
@@ -46,7 +47,7 @@ class KeptStates:
         """Returns the latest state from which the first `count` commands can be played on, and how many led to it: at
         most `least`, if that is given."""
         for n in sorted((n for n in self._states if n <= (count if least is None else least)), reverse=True):
-            if _stays_above(log[n:count]):
+            if stays_within(log[n:count]):
                 return n, self._states[n]
         return 0, self._states[0]
 
@@ -58,21 +59,6 @@ class KeptStates:
         for before, n in pairwise(kept):
             self._alone[n] = difference(self._states[before].root, self._states[n].root)[1]
         self.held = sum(self._alone.values())
-
-
-def _stays_above(commands: Sequence[c.Command]) -> bool:
-    """Tells whether commands take back and do again nothing but their own steps."""
-    behind = ahead = 0
-    for command in commands:
-        if isinstance(command, c.Undo):
-            behind, ahead = behind - command.count, ahead + command.count
-        elif isinstance(command, c.Redo):
-            behind, ahead = behind + command.count, ahead - command.count
-        elif type(command) in STEPS:
-            behind, ahead = behind + 1, 0
-        if behind < 0 or ahead < 0:
-            return False
-    return True
 
 
 class Rebuilding:
