@@ -14,6 +14,7 @@ TRACED = bool(os.environ.get("INKFALL_TRACE"))
 
 _placed: dict[tuple[str, str], Box] = {}  # in the frame that is drawn now
 _told: dict[tuple[str, str], Box] = {}  # at the end of the frame before
+_rest = ""  # what was told of it last
 
 
 def trace(what: str) -> None:
@@ -55,6 +56,19 @@ def trace_frame(began: float, ended: float) -> None:
     if "frames" in os.environ.get("INKFALL_TRACE", ""):
         told = (began, ended - began, time.thread_time())
         print("frame:", *(f"{seconds * 1000:.1f}" for seconds in told), file=sys.stderr, flush=True)
+
+
+def trace_rest(rests: bool, at: tuple[float, float]) -> None:
+    """Tells whether all that was asked for is done and on the screen, and with it where the pointer was then, pixels
+    of the window; when that is another than before."""
+    global _rest
+    if not TRACED:
+        return
+    told = f"at rest {at[0]:g},{at[1]:g}" if rests else "at work"
+    if told != _rest:
+        _rest = told
+        sys.stderr.write(f"{told}\n")
+        sys.stderr.flush()
 
 
 def since_exec() -> float:

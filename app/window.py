@@ -36,6 +36,7 @@ from app.news import News
 from app.pace import Pace
 from app.panels.layout import Layout
 from app.router import Router
+from app.trace import trace_rest
 from app.wanted_tiles import Tiles
 from engine.studio import results
 from engine.studio.worker import Worker
@@ -173,6 +174,7 @@ class Window:
 
     def wait(self, moving: bool) -> None:
         """Sleeps until the next frame; `moving`: what the last one gave."""
+        trace_rest(not moving and self.engine.worker.settled, (self.desk.pointer.x, self.desk.pointer.y))
         with self._guard.spare("on an event of the window system"):  # what its callbacks raised
             self.pace.wait(moving, self.desk.painting, imgui.get_io().want_text_input)
 

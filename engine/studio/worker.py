@@ -12,7 +12,7 @@ import math
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -115,6 +115,7 @@ class Worker:
         self._closing = False
         self._doing = False  # a command
         self._waiting = False  # commands that the bench has taken over
+        self._open = False  # work of the bench, when it was last looked at
         self._told = -1
         self._thread = threading.Thread(target=self._run, name="inkfall engine", daemon=True)
         self._thread.start()
@@ -167,6 +168,12 @@ class Worker:
         with self._signal:
             return bool(self._posted) or self._doing or self._waiting or bool(self._results)
 
+    @property
+    def settled(self) -> bool:
+        """Tells whether all that was posted is carried out, and all that is to be seen of it was made and taken."""
+        with self._signal:
+            return self._look is None and not self._open and not self.behind
+
     def close(self, timeout: float | None = 10.0, by_choice: bool = True) -> bool:
         """Ends the thread after what was posted before is done and files are written; waits so many seconds for it,
         at most, and tells whether it has ended.  `by_choice`: the artist closed the painting as it is; else it is to be
@@ -189,6 +196,7 @@ class Worker:
         with self._signal:
             while True:
                 self._doing, self._waiting = bool(self._posted), bench.waits
+                self._open = self._look is not None or bench.pending > 0
                 if self._posted:
                     request = self._posted.popleft()
                     return lambda: bench.do(request)
@@ -204,7 +212,7 @@ class Worker:
                     return lambda: (bench.step(), None)[1]
                 if swatch_in <= 0.0:
                     self._swatched = self._worked = self._asked = now
-                    swatch = self._swatches.pop(self._foremost())
+                    swatch = self._swatches.pop(_foremost(self._swatches))
                     return lambda: bench.do(swatch)
                 if play_in <= 0.0:
                     self._worked = now
@@ -222,12 +230,6 @@ class Worker:
         open_in = turn if bench.pending else math.inf
         play_in = math.inf if bench.due is None else max(turn, bench.due - now)
         return open_in, swatch_in if self._swatches else math.inf, play_in
-
-    def _foremost(self) -> str:
-        """Returns the swatch that is painted next: of those that are wanted soon, or of all, the one that waits
-        longest."""
-        soon = (ident for ident, swatch in self._swatches.items() if swatch.soon)
-        return next(soon, None) or next(iter(self._swatches))
 
     def _run(self) -> None:
         before, self._before = self._before, None
@@ -266,6 +268,12 @@ class Worker:
         if pending != self._told and (pending == 0 or pending % 8 == 0):
             self._told = pending
             self._send(Pending(pending))
+
+
+def _foremost(swatches: Mapping[str, Swatch]) -> str:
+    """Returns the swatch that is painted next: of those that are wanted soon, or of all, the one that waits longest."""
+    soon = (ident for ident, swatch in swatches.items() if swatch.soon)
+    return next(soon, None) or next(iter(swatches))
 
 
 def _told(error: Exception) -> Note:

@@ -59,6 +59,15 @@ class Program:
             assert time.monotonic() < end, f"no {words!r}: {self.log.read_text()}"
             time.sleep(0.05)
 
+    def until_rest(self, at: Point) -> None:
+        """Waits until the program has taken the pointer there, and all that was asked for is done and drawn."""
+        end = time.monotonic() + PATIENCE
+        wanted = f"at rest {at[0]},{at[1]}"
+        while [line for line in self.log.read_text().splitlines() if line.startswith("at ")][-1:] != [wanted]:
+            assert self.process.poll() is None, self.log.read_text()
+            assert time.monotonic() < end, f"no {wanted!r}: {self.log.read_text()[-2000:]}"
+            time.sleep(0.05)
+
     def boxes(self) -> dict[tuple[str, str], Box]:
         """Where the controls that are in sight lie, by their windows' names and their own."""
         lines = self.log.read_bytes()[self._read :].rpartition(b"\n")[0]
