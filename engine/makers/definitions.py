@@ -5,7 +5,7 @@ Light on purpose: the window imports it before the engine is loaded.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -117,17 +117,21 @@ def _reachable(value: Any) -> bool:
     return "rect" not in value and all(Path(path).is_absolute() for path in paths) and _reachable(tuple(value.values()))
 
 
-def names_files(command: DefineTexture) -> bool:
-    """Tells whether a definition names pictures by their paths: what these hold may change."""
-    return _holds_path(command.arguments)
+def named_files(command: DefineTexture) -> tuple[str, ...]:
+    """Returns the paths of the pictures that a definition names: what these hold may change."""
+    return tuple(_paths(command.arguments))
 
 
-def _holds_path(value: object) -> bool:
+def _paths(value: object) -> Iterator[str]:
     if isinstance(value, tuple):
-        return any(map(_holds_path, value))
-    if not isinstance(value, Mapping):
-        return False
-    return any(_is_path(key, part) or _holds_path(part) for key, part in value.items())
+        for part in value:
+            yield from _paths(part)
+    elif isinstance(value, Mapping):
+        for key, part in value.items():
+            if _is_path(key, part):
+                yield part
+            else:
+                yield from _paths(part)
 
 
 def _is_path(key: str, value: Any) -> bool:

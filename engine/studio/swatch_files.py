@@ -51,11 +51,15 @@ def keep(request: Swatch, of: Painting, pixels: np.ndarray) -> None:
 
 
 def _path(request: Swatch, of: Painting) -> Path | None:
-    """Returns its file; None where it follows from more than its request tells, or may change all the time."""
-    if not request.kept or of.textures or any(map(definitions.names_files, request.textures)):
+    """Returns its file; None where it follows from more than its request tells, or from a picture that is gone."""
+    if not request.kept or of.textures:
+        return None
+    try:
+        files = [_age(path) for texture in request.textures for path in definitions.named_files(texture)]
+    except OSError:
         return None
     textures = definitions.to_json(request.textures)
-    told = [brush_to_json(request.brush), textures, request.size, request.kind, request.zoom, of.seed, _stamp()]
+    told = [brush_to_json(request.brush), textures, files, request.size, request.kind, request.zoom, of.seed, _stamp()]
     name = hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:32]
     return Path(os.environ["NUMBA_CACHE_DIR"]) / "swatches" / f"{name}.npy"
 
@@ -67,9 +71,14 @@ def _stamp() -> str:
     for path in sorted(_ENGINE.rglob("*.py")):
         total.update(path.read_bytes())
     for path in sorted((_ENGINE.parent / "palettes" / "examples").glob("*")):
-        status = path.stat()
-        total.update(repr((path, status.st_size, status.st_mtime_ns)).encode())
+        total.update(repr((path, _age(path))).encode())
     return total.hexdigest()
+
+
+def _age(path: str | Path) -> tuple[int, int]:
+    """Returns a file's size and when it was written: when they are as before, it is taken to hold what it held."""
+    status = os.stat(path)
+    return status.st_size, status.st_mtime_ns
 
 
 def _bounded(folder: Path) -> None:

@@ -59,15 +59,28 @@ def test_another_picture_has_another_file(folder, other):
     assert len(list(folder.iterdir())) == 2
 
 
-def test_what_may_change_is_not_kept(folder):
-    by_path = c.DefineTexture("Photo", "image", Map(path="/a/photo.png"))
+def test_what_may_change_is_not_kept(folder, tmp_path):
+    lost = c.DefineTexture("Photo", "image", Map(path=str(tmp_path / "gone.png")))
     assert swatch_files.kept(ASKED, Painting(textures=Map({"own": None}))) is None
     for request in (
         q.Swatch("it", ASKED.brush, (40, 20)),
-        q.Swatch("it", ASKED.brush, (40, 20), textures=(by_path,), kept=True),
+        q.Swatch("it", ASKED.brush, (40, 20), textures=(lost,), kept=True),
     ):
         swatch_files.keep(request, Painting(), np.zeros((20, 40, 4), np.uint8))
         assert not folder.exists()
+
+
+def test_with_pictures_it_is_kept_until_one_of_them_changes(folder, tmp_path):
+    path, other = tmp_path / "photo.png", tmp_path / "other.png"
+    path.write_bytes(b"one")
+    other.write_bytes(b"one")
+    mixed = c.DefineTexture("Mixed", "mix", Map(path=str(path), pattern=str(other)))
+    request = q.Swatch("it", ASKED.brush, (40, 20), textures=(mixed,), kept=True)
+    pixels = np.full((20, 40, 4), 7, np.uint8)
+    swatch_files.keep(request, Painting(), pixels)
+    assert np.array_equal(swatch_files.kept(request, Painting()), pixels)
+    other.write_bytes(b"two and more")
+    assert swatch_files.kept(request, Painting()) is None
 
 
 def test_there_are_never_too_many(folder, monkeypatch):
