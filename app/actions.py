@@ -1,4 +1,4 @@
-"""The table of actions: name, menu, keys, when allowed, what it does.
+"""The table of actions: name, menu, keys, when allowed, what it does; those of no menu are offers of notices.
 
 Menus, keys, tooltips and the list of keys are made from it.
 """
@@ -265,8 +265,11 @@ def _stopped(desk: Desk) -> bool:
 
 
 def close(desk: Desk) -> None:
-    """Closes the window, after asking about unsaved changes."""
-    desk.guard(desk.asked.close)
+    """Closes the window, after asking about a film that is being made and about unsaved changes."""
+    if _filming(desk):
+        desk.asked.show("filming")
+    else:
+        desk.guard(desk.asked.close)
 
 
 A = Action
@@ -277,12 +280,12 @@ ACTIONS: dict[str, Action] = {
     "save_as": A("Save as…", "File", ("Ctrl+Shift+S",), "Save under another name", _asks("save as"), _ready),
     "earlier": A("Earlier versions…", "File", (), "What the last saves replaced", _asks("earlier"), _has_file),
     "export": A("Export picture…", "File", ("Ctrl+E",), "Write the frame as PNG or TIFF", _asks("export"), _ready),
-    "try_again": A("Try again", "File", (), "Try once more what did not work", offers.try_again, offers.can_try),
-    "free_space": A("Free space", "File", (), "Tell how much room is left, and show the folder", offers.free_space),
+    "try_again": A("Try again", "", (), "Try once more what did not work", offers.try_again, offers.can_try),
+    "free_space": A("Free space", "", (), "Tell how much room is left, and show the folder", offers.free_space),
     "bin": A("Bin…", "File", (), "Paintings that were closed without saving, or discarded", _asks("bin"), _idle),
     "start_engine": A(
         "Start it again",
-        "File",
+        "",
         (),
         "Start the paint engine, with the painting as it was",
         lambda desk: desk.start_engine(),

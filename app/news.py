@@ -33,6 +33,13 @@ def _overtaken(desk: Desk, told: results.Overtaken, _now: float) -> None:
     desk.asked.about_overtaken(told)
 
 
+def _filmed(desk: Desk, told: results.Filming, _now: float) -> None:
+    if told.part is None:
+        desk.asked.filmed()
+    elif told.part == 0.0:  # another one: what is told of the one before is dealt with
+        desk.notices.settle("film")
+
+
 def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     desk.notices.shown(scene.serial)
     recovery_work.offer(desk, scene)
@@ -51,6 +58,7 @@ HEARS: dict[type, Hear] = {
     Done: _done,
     results.Note: _note,
     results.Saved: _saved,
+    results.Filming: _filmed,
     results.Scene: _scene,
     results.Overtaken: _overtaken,
     results.Picked: _picked,

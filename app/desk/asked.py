@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from app.canvas.view import View
 from app.desk.known import Known
 from engine.painting.places import Bookmark
 from engine.studio.filing.film_requests import FilmWish
@@ -38,9 +37,10 @@ class FilmState:
 class Asked:
     """`dialog`: a row of app.panels.dialogs.DIALOGS that is to be shown; `shown`: the one that is; `then`: goes on once
     unsaved changes are dealt with, `otherwise` if they are not to be, `why`: what would take the painting's place;
-    `after_save`: goes on once the painting is saved; `overtaken`: the save that is asked about; `quit`: the window is
-    to go; `export_level`: how deep the exported picture goes; `texture`: a name under which one is being made, which
-    joins the ink when the painting has it; `film`: what is chosen of the film that is asked for."""
+    `after_save`: goes on once the painting is saved, `after_film` once the film is made; `overtaken`: the save that is
+    asked about; `quit`: the window is to go; `export_level`: how deep the exported picture goes; `texture`: a name
+    under which one is being made, which joins the ink when the painting has it; `film`: what is chosen of the film
+    that is asked for."""
 
     dialog: str = ""
     shown: str = ""
@@ -48,6 +48,7 @@ class Asked:
     otherwise: Then | None = None
     why: str = ""
     after_save: Then | None = None
+    after_film: Then | None = None
     overtaken: Overtaken | None = None
     quit: bool = False
     export_level: int = 0
@@ -84,7 +85,8 @@ class Asked:
             then()
 
     def give_up(self) -> None:
-        """Lets nothing follow a save: it was given up, or went wrong."""
+        """Lets nothing follow a save or a film: it was given up, or went wrong."""
+        self.after_film = None
         if self.after_save is not None:
             self.after_save = None
             self.go_back()
@@ -95,20 +97,17 @@ class Asked:
         if otherwise is not None:
             otherwise()
 
+    def filmed(self) -> None:
+        """Goes on after a film, once."""
+        then, self.after_film = self.after_film, None
+        if then is not None:
+            then()
+
     def saved(self) -> None:
         """Goes on after a save, once."""
         then, self.after_save, self.otherwise = self.after_save, None, None
         if then is not None:
             then()
-
-
-def place_of(view: View, area: tuple[float, float], middle: tuple[float, float]) -> Bookmark:
-    """Returns the rectangle of a level that an area of the screen (width, height) shows about its middle there."""
-    level = view.shown_level
-    scale = view.scale(level)
-    width, height = (max(1, round(side / scale)) for side in area)
-    x, y = view.to_canvas(*middle).pixel(level)
-    return Bookmark("", level, (x - width // 2, y - height // 2), (width, height))
 
 
 def film_wish(film: FilmState, known: Known, here: Bookmark) -> FilmWish:

@@ -45,6 +45,10 @@ class Notices:
         """Takes away what is dealt with."""
         self.rows = tuple(row for row in self.rows if not row.about or row.about not in about)
 
+    def about(self, what: str) -> bool:
+        """Tells whether one is about something."""
+        return any(row.about == what for row in self.rows)
+
     def shown(self, serial: int) -> None:
         """Takes away what was about the painting before, if this is another one."""
         if serial != self.serial:

@@ -10,6 +10,7 @@ import errno
 import os
 import re
 import secrets
+import shutil
 import stat
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -61,6 +62,14 @@ def replacing(path: str | os.PathLike[str], verify: Callable[[Path], None] | Non
                 part.unlink()
 
 
+def part_folder(target: Path) -> Path:
+    """Makes a folder beside `target` for what will take its place and others', and returns it; OSError on failure.
+    What a killed process leaves of it is swept as `sweep` sweeps files, where the number of that process is told."""
+    part = target.parent / f"{_stem(target)}.{os.getpid()}.{secrets.token_hex(4)}.part"
+    part.mkdir(mode=0o700)
+    return part
+
+
 def sweep(target: Path, gone: int = 0) -> int:
     """Removes temporary files of `target` that a killed process left behind; gives their number.  `gone`: the number of
     a process that is known to be gone, whoever has that number now."""
@@ -74,9 +83,16 @@ def sweep(target: Path, gone: int = 0) -> int:
         found = pattern.fullmatch(name)
         if found and (int(found[1]) == gone or _abandoned(target.parent / name, int(found[1]))):
             with suppress(OSError):
-                (target.parent / name).unlink()
+                _remove(target.parent / name)
                 removed += 1
     return removed
+
+
+def _remove(part: Path) -> None:
+    if part.is_dir() and not part.is_symlink():
+        shutil.rmtree(part)
+    else:
+        part.unlink()
 
 
 def _stem(target: Path) -> str:

@@ -7,7 +7,7 @@ A place is an integer of any size in 2^-24 pixels of the level that is looked at
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from engine.numeric.address import Rect
@@ -19,26 +19,45 @@ SUBPIXEL = 24  # bits of a place below a pixel
 @dataclass(frozen=True, slots=True)
 class Aim:
     """The middle (x, y) of the picture, in 2^-24 pixels of `level`, and 2^(level + fraction) pixels of the picture for
-    each of level 0; 0 <= fraction < 1."""
+    each of level 0; 0 <= fraction < 1.
+
+    It is turned clockwise by `turn`, in radians, about its middle; before that, so much of it as `mirrored` says, 0..1,
+    has its left and right swapped.
+    """
 
     level: int
     fraction: float
     x: int
     y: int
+    turn: float = 0.0
+    mirrored: float = 0.0
+
+    @property
+    def upright(self) -> bool:
+        """Tells whether the picture is neither turned nor mirrored."""
+        return self.turn == 0.0 and self.mirrored == 0.0
+
+    def across(self, size: tuple[int, int]) -> tuple[int, int]:
+        """Returns the sides of an upright picture in which one of `size` (width, height) lies, turned."""
+        cos, sin = abs(math.cos(self.turn)), abs(math.sin(self.turn))
+        if self.upright:
+            return size
+        return math.ceil(cos * size[0] + sin * size[1]), math.ceil(sin * size[0] + cos * size[1])
 
     def at(self, level: int, fraction: float) -> Aim:
         """Returns the same middle at another zoom, rounded to 2^-24 pixels of its level."""
         whole = math.floor(fraction)
         level, fraction = level + whole, fraction - whole
-        return Aim(level, fraction, shifted(self.x, level - self.level), shifted(self.y, level - self.level))
+        x, y = shifted(self.x, level - self.level), shifted(self.y, level - self.level)
+        return replace(self, level=level, fraction=fraction, x=x, y=y)
 
     def moved(self, dx: float, dy: float) -> Aim:
-        """Returns the aim with its middle moved by pixels of the picture."""
+        """Returns the aim with its middle moved by pixels of the picture as it was, if it stood upright."""
         scale = 2.0 ** (SUBPIXEL - self.fraction)
-        return Aim(self.level, self.fraction, self.x + round(dx * scale), self.y + round(dy * scale))
+        return replace(self, x=self.x + round(dx * scale), y=self.y + round(dy * scale))
 
     def window(self, size: tuple[int, int], level: int) -> Crop:
-        """Returns where a picture of `size` (width, height) lies among the pixels of `level`, one near the aim's."""
+        """Returns where an upright picture of `size` (width, height) lies in the pixels of a level near the aim's."""
         step = 2.0 ** (level - self.level - self.fraction)
         (x, left), (y, top) = (
             _corner(shifted(middle, level - self.level), side * step / 2)
@@ -92,7 +111,8 @@ def aim_of(bookmark: Bookmark, size: tuple[int, int]) -> Aim:
     zoom = bookmark.level + min(math.log2(side / wide) for side, wide in zip(size, bookmark.size, strict=True))
     level = math.floor(zoom)
     bits = level + SUBPIXEL - exponent
-    return Aim(level, zoom - level, shifted(x, bits), shifted(y, bits))
+    x, y = shifted(x, bits), shifted(y, bits)
+    return Aim(level, zoom - level, x, y, math.radians(bookmark.angle), float(bookmark.mirrored))
 
 
 def log2(value: int) -> float:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
 from engine.film.aim import Aim
-from engine.film.leg import RHO, Heading, Leg, leg
+from engine.film.leg import OCTAVE, Heading, Leg, leg
 
 EASE = 1.0  # seconds in which a flight comes to its pace, and to rest
 EASED_PART = 3  # of the time of a short leg that is left for each of its easings, at most: one part in so many
 SHARPNESS = 4  # how much a flight slows down for a bend: by the cosine, to this power
-OCTAVE = math.log(2.0) / RHO  # the length of one level
 
 
 @dataclass(frozen=True, slots=True)

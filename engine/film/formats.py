@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.files.atomic import replacing
+from engine.files.atomic import part_folder, replacing
 from engine.files.fault import FileError, WriteError, system_words
 from engine.files.png_writer import write_png
 from engine.film.shooting import Shooting
+from engine.keeping.unfinished import unfinished
 from engine.painting.rendering import Progress, Stop, check_cancelled
 
 MOST_FRAMES = 600  # of an animated picture
@@ -94,20 +95,23 @@ def write_film(
     if `cancelled()` becomes true.
     """
     row = _format(path)
+    frames = _shot(shooting, progress, cancelled, threads)
+    with unfinished(Path(path)):
+        if row is None:
+            _write_series(Path(path), frames)
+        elif row.ffmpeg:
+            _encode(path, row, shooting, frames)
+        else:
+            _animate(path, row, shooting, frames)
 
-    def frames() -> Frames:
-        for i, frame in enumerate(shooting.frames(threads)):
-            check_cancelled(cancelled)
-            yield frame
-            if progress is not None:
-                progress((i + 1) / shooting.count)
 
-    if row is None:
-        _write_series(Path(path), frames())
-    elif row.ffmpeg:
-        _encode(path, row, shooting, frames())
-    else:
-        _animate(path, row, shooting, frames())
+def _shot(shooting: Shooting, progress: Progress, cancelled: Stop, threads: int | None) -> Frames:
+    """Yields the frames, tells how far that is, and looks before each whether they are still wanted."""
+    for i, frame in enumerate(shooting.frames(threads)):
+        check_cancelled(cancelled)
+        yield frame
+        if progress is not None:
+            progress((i + 1) / shooting.count)
 
 
 def is_series(path: str | os.PathLike[str]) -> bool:
@@ -176,13 +180,16 @@ def _write_series(path: Path, frames: Frames) -> None:
     """Writes a picture for each frame beside their places, then puts all there."""
     digits = int(_NUMBERED.findall(path.name)[0] or 0)
     try:
-        with tempfile.TemporaryDirectory(prefix=f".{path.stem[:80]}.", suffix=".part", dir=path.parent) as folder:
+        folder = part_folder(path)
+        try:
             names = []
             for i, frame in enumerate(frames):
                 names.append(_NUMBERED.sub(str(i).zfill(digits), path.name))
-                with open(Path(folder, names[-1]), "wb") as file:
+                with open(folder / names[-1], "wb") as file:
                     write_png(file, frame)
             for name in names:
-                os.replace(Path(folder, name), path.parent / name)
+                os.replace(folder / name, path.parent / name)
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
     except OSError as error:
         raise WriteError(path, f"cannot be written: {system_words(error)}") from None

@@ -10,21 +10,24 @@ of what is seen at the moment, so that no depth loses a pixel.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from engine.film.aim import Aim, log2, shifted
 
 RHO = math.sqrt(2.0)  # how much longer moving is than zooming: what the paper's subjects liked, 1.42
 _LN2 = math.log(2.0)
+OCTAVE = _LN2 / RHO  # the length of one level
+_TURNING = RHO / 2.0  # the length of a radian: of as much as the rim of the picture moves
 _LARGE = 30.0  # logarithms of what is so large that asinh(x) is ln(2 x)
 _NOTHING = 2.0**-20  # of a picture's width: a place moved by less stays where it is
 
-Heading = tuple[float, float, float]  # across, down, nearer: of length 1
+Heading = tuple[float, float, float, float]  # across, down, nearer, turning: of length 1
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """The way from `start` to `end`, for a picture `width` pixels wide, `length` long.
+    """The way from `start` to `end`, for a picture `width` pixels wide, `length` long: that of the longest of moving,
+    turning and mirroring.
 
     `first`, `last`: r at its ends; None where the place stays and only the zoom changes; `towards`: where the end lies
     from the start, of length 1.
@@ -44,10 +47,18 @@ class Leg:
             return self.start
         if distance >= self.length:
             return self.end
+        part = distance / self.length
+        turn = self.start.turn + part * _turn_between(self.start, self.end)
+        share = min(max((distance - self.length / 2.0) / min(OCTAVE, self.length) + 0.5, 0.0), 1.0)
+        mirrored = self.start.mirrored + share * (self.end.mirrored - self.start.mirrored)
+        return replace(self._place(part), turn=turn, mirrored=mirrored)
+
+    def _place(self, part: float) -> Aim:
+        """Returns the place and zoom after so much of the length, 0..1."""
         if self.first is None or self.last is None:
-            levels = distance / self.length * levels_between(self.start, self.end)
+            levels = part * levels_between(self.start, self.end)
             return self.end.at(self.start.level, self.start.fraction + levels)
-        r = self.first + RHO * distance
+        r = self.first + part * (self.last - self.first)
         if r < 0.0:
             aim = _nearer(self.start, _ln_cosh(r) - _ln_cosh(self.first))
             return self._moved(aim, _part(r, self.first))
@@ -61,10 +72,14 @@ class Leg:
     def heading(self, at_end: bool) -> Heading:
         """Tells which way it goes at one of its ends."""
         r = self.last if at_end else self.first
-        if r is None:
-            return 0.0, 0.0, math.copysign(1.0, levels_between(self.start, self.end))
-        across = 1.0 / math.cosh(min(abs(r), 300.0))
-        return across * self.towards[0], across * self.towards[1], math.tanh(r)
+        turning = _TURNING * _turn_between(self.start, self.end)
+        if r is None or self.first is None or self.last is None:
+            across, nearer = 0.0, levels_between(self.start, self.end) * OCTAVE
+        else:
+            moving = (self.last - self.first) / RHO
+            across, nearer = moving / math.cosh(min(abs(r), 300.0)), moving * math.tanh(r)
+        whole = math.hypot(across, nearer, turning) or 1.0
+        return across * self.towards[0] / whole, across * self.towards[1] / whole, nearer / whole, turning / whole
 
 
 def leg(start: Aim, end: Aim, width: int) -> Leg:
@@ -75,15 +90,16 @@ def leg(start: Aim, end: Aim, width: int) -> Leg:
     x, y = float(shifted(dx, -bits)), float(shifted(dy, -bits))
     far = math.hypot(x, y)
     levels = levels_between(start, end)
+    least = max(_TURNING * abs(_turn_between(start, end)), OCTAVE * abs(end.mirrored - start.mirrored))
     # Logarithms of what is seen at both ends, and of the way, in 2^-24 pixels of `level`.
     seen = [(level - aim.level - aim.fraction + 24.0 + log2(width)) * _LN2 for aim in (start, end)]
     way = math.log(far) + bits * _LN2 if far else -math.inf
     if way < min(seen) + math.log(_NOTHING):
-        return Leg(start, end, width, abs(levels) * _LN2 / RHO, None, None, (0.0, 0.0))
+        return Leg(start, end, width, max(abs(levels) * OCTAVE, least), None, None, (0.0, 0.0))
     way += 2.0 * math.log(RHO)
     first = _asinh(seen[0] - way, 2.0 * seen[1] - seen[0] - way, way - seen[0])
     last = -_asinh(seen[1] - way, 2.0 * seen[0] - seen[1] - way, way - seen[1])
-    return Leg(start, end, width, (last - first) / RHO, first, last, (x / far, y / far))
+    return Leg(start, end, width, max((last - first) / RHO, least), first, last, (x / far, y / far))
 
 
 def _places(start: Aim, end: Aim) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -93,6 +109,11 @@ def _places(start: Aim, end: Aim) -> tuple[tuple[int, int], tuple[int, int]]:
 def levels_between(start: Aim, end: Aim) -> float:
     """Returns the levels of zoom from one view to another."""
     return (end.level - start.level) + (end.fraction - start.fraction)
+
+
+def _turn_between(start: Aim, end: Aim) -> float:
+    """Returns by how many radians clockwise the picture turns, the shorter way."""
+    return math.remainder(end.turn - start.turn, math.tau)
 
 
 def _nearer(aim: Aim, ratio: float) -> Aim:

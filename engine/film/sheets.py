@@ -6,6 +6,7 @@ level share a sheet, as long as that does not become much larger than twice the 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
@@ -16,6 +17,7 @@ import numpy as np
 from engine.canvas.composite import composite
 from engine.film.aim import Aim, Crop
 from engine.numeric.address import Rect
+from engine.numeric.askew import Askew
 from engine.numeric.convolution import Part, faded, margin, taps
 from engine.painting.difference import areas
 from engine.painting.rendering import piece_reader
@@ -25,10 +27,12 @@ FADE = 0.5  # of a level: over so much the coarser picture gives way to the fine
 LARGER = 1.5  # times twice the frame's sides that a sheet may cover
 UNDER = np.float32(1.0)  # under all layers
 _PIECE = 1024, 256  # pixels across and down that are evaluated at once
+Parts = tuple[Part, ...] | tuple[Askew, ...]  # what a frame is the sum of
 
 
 class Glance(NamedTuple):
-    """What a frame takes from one level: where it lies there, which sheet has that, and how much it counts."""
+    """What a frame takes from one level: where it lies there, which sheet has that, and how much it counts; of the
+    aim's upright picture, which is larger where that is turned."""
 
     window: Crop
     sheet: int
@@ -47,23 +51,26 @@ class Sheet:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """`sheets`, in the order in which they are first looked at; `frames`: of each its glances, one or two."""
+    """`sheets`, in the order in which they are first looked at; `frames`: of each its glances, one or two, and `aims`
+    what it looks at."""
 
     sheets: tuple[Sheet, ...]
     frames: tuple[tuple[Glance, ...], ...]
+    aims: tuple[Aim, ...]
 
 
 def plan(aims: Sequence[Aim], size: tuple[int, int]) -> Plan:
     """Decides what frames of `size` (width, height) look at, by their aims."""
     still = all((aim.level, aim.fraction) == (aims[0].level, aims[0].fraction) for aim in aims)
-    most = LARGER * (2 * size[0] + 2 * margin(2.0)) * (2 * size[1] + 2 * margin(2.0))
+    widest, tallest = (max(sides) for sides in zip(*(aim.across(size) for aim in aims), strict=True))
+    most = LARGER * (2 * widest + 2 * margin(2.0)) * (2 * tallest + 2 * margin(2.0))
     sheets: list[Sheet] = []
     current: dict[int, int] = {}  # the sheet of each level that is looked at
     frames = []
     for i, aim in enumerate(aims):
         glances = []
         for level, share in _levels(aim, still):
-            window = aim.window(size, level)
+            window = aim.window(aim.across(size), level)
             need = window.rect.grown(margin(window.step))
             known = current.get(level)
             both = need if known is None else sheets[known].rect.union(need)
@@ -74,7 +81,7 @@ def plan(aims: Sequence[Aim], size: tuple[int, int]) -> Plan:
                 sheets[known] = replace(sheets[known], rect=both, last=i)
             glances.append(Glance(window, known, share))
         frames.append(tuple(glances))
-    return Plan(tuple(sheets), tuple(frames))
+    return Plan(tuple(sheets), tuple(frames), tuple(aims))
 
 
 def _levels(aim: Aim, still: bool) -> list[tuple[int, float]]:
@@ -99,12 +106,17 @@ class Sheets:
         self._planes: dict[int, tuple[Painting, np.ndarray]] = {}
         self._coming: dict[int, Future[np.ndarray]] = {}
 
-    def parts(self, frame: int, painting: Painting) -> tuple[Part, ...]:
+    def parts(self, frame: int, painting: Painting) -> Parts:
         """Returns what a frame is the sum of; frames are asked for in their order."""
         for gone in [n for n in self._planes if self._plan.sheets[n].last < frame]:
             del self._planes[gone]
         glances = self._plan.frames[frame]
-        parts = tuple(self._part(glance, painting) for glance in glances)
+        aim = self._plan.aims[frame]
+        parts: Parts
+        if aim.upright:
+            parts = tuple(self._part(glance, painting) for glance in glances)
+        else:
+            parts = tuple(part for glance in glances for part in self._askew(glance, aim, painting))
         self._look_ahead(max(glance.sheet for glance in glances) + 1, painting)
         return parts
 
@@ -115,6 +127,17 @@ class Sheets:
         columns = taps(window.x - rect.x0 + window.left, window.step, width)
         part = Part(self._brought(glance.sheet, painting), rows, columns)
         return part if glance.share == 1.0 else faded(part, glance.share)
+
+    def _askew(self, glance: Glance, aim: Aim, painting: Painting) -> Iterator[Askew]:
+        """Yields a level as it is seen turned, or mirrored, or both ways."""
+        window, rect = glance.window, self._plan.sheets[glance.sheet].rect
+        planes = self._brought(glance.sheet, painting)
+        x = window.x - rect.x0 + window.left + window.size[0] * window.step / 2
+        y = window.y - rect.y0 + window.top + window.size[1] * window.step / 2
+        cos, sin = window.step * math.cos(aim.turn), window.step * math.sin(aim.turn)
+        for flip, share in ((1.0, 1.0 - aim.mirrored), (-1.0, aim.mirrored)):
+            if share > 0.0:
+                yield Askew(planes, x, y, (flip * cos, -sin, flip * sin, cos), share * glance.share)
 
     def _brought(self, number: int, painting: Painting) -> np.ndarray:
         """Returns a sheet's planes, uint8 (3, h, w), as they are now."""

@@ -15,7 +15,8 @@ from engine.film.aim import Aim
 from engine.film.beats import Beat, beats
 from engine.film.course import flight, legs_through, length
 from engine.film.replaying import Making, Replaying
-from engine.film.sheets import Sheets, plan
+from engine.film.sheets import Parts, Sheets, plan
+from engine.numeric.askew import Askew, write_askew
 from engine.numeric.convolution import Part, write_scaled
 from engine.painting.rendering import folded_layers
 from engine.painting.value import Painting
@@ -125,7 +126,7 @@ class _Picture:
         self._of: tuple[Aim, Painting] | None = None
         self._last: np.ndarray | None = None
 
-    def of(self, parts: tuple[Part, ...], what: tuple[Aim, Painting]) -> np.ndarray:
+    def of(self, parts: Parts, what: tuple[Aim, Painting]) -> np.ndarray:
         if self._last is None or self._of is None or self._of[0] != what[0] or self._of[1] is not what[1]:
             self._last, self._of = frame_of(parts, self._size, self._pool), what
         return self._last
@@ -138,12 +139,18 @@ def _flown(
         yield frame_of(sheets.parts(i, painting), size, pool)
 
 
-def frame_of(parts: tuple[Part, ...], size: tuple[int, int], pool: Executor) -> np.ndarray:
+def frame_of(parts: Parts, size: tuple[int, int], pool: Executor) -> np.ndarray:
     """Returns the sum of some parts as a frame: uint8 (height, width, 3), read-only."""
     out = np.empty((size[1], size[0], 3), np.uint8)
+    askew = tuple(part for part in parts if isinstance(part, Askew))
+    straight = tuple(part for part in parts if isinstance(part, Part))
 
     def draw(first: int) -> None:
-        write_scaled(parts, first, out[first : first + _BAND])
+        rows = out[first : first + _BAND]
+        if askew:
+            write_askew(askew, first, size[1], rows)
+        else:
+            write_scaled(straight, first, rows)
 
     for _ in pool.map(draw, range(0, size[1], _BAND)):
         pass

@@ -23,6 +23,9 @@ def with_tip(frame: np.ndarray, aim: Aim, tip: Tip) -> np.ndarray:
     zoom = aim.level + aim.fraction - tip.level
     if x is None or y is None or zoom > _FAR:
         return frame
+    x = -x if aim.mirrored > 0.5 else x
+    cos, sin = math.cos(aim.turn), math.sin(aim.turn)
+    x, y = cos * x - sin * y, sin * x + cos * y
     radius = max(tip.radius * 2.0 ** max(zoom, -float(_FAR)), _SMALLEST)
     x, y, reach = x + width / 2, y + height / 2, radius + 2 * _LINE + 1
     top, bottom = max(math.floor(y - reach), 0), min(math.ceil(y + reach), height)

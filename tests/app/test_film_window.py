@@ -69,4 +69,17 @@ def test_a_film_of_the_painting(program, tmp_path):
     films_to(window, tmp_path / "long.gif")
     window.click("Stop film")
     window.until_gone("Stop film")
+
+    # Closing the window asks about a film that is being made.
+    window.keys("ctrl+shift+e")
+    films_to(window, tmp_path / "long.gif")
+    window.box("Stop film")
+    window.keys("ctrl+q")
+    window.box("Wait")
+    window.keys("Escape")
+    window.until_gone("Wait")
+    window.keys("ctrl+q")
+    window.click("Give it up")
+    window.click("Don’t save")
+    assert window.process.wait(60) == 0
     assert sorted(path.name for path in tmp_path.iterdir() if path.suffix in (".gif", ".part")) == ["flight.gif"]

@@ -48,6 +48,19 @@ def test_a_refusal_that_is_no_matter_of_files_is_told_for_some_seconds(screen):
     assert screen.desk.message.text == "a.png: no picture"
 
 
+def test_the_window_that_is_closed_waits_for_a_film_unless_that_fails(screen):
+    screen.hear(results.Filming(0.5))
+    perform(screen.desk, ACTIONS["quit"])
+    assert (screen.desk.asked.quit, screen.desk.asked.taken()) == (False, "filming")
+    screen.desk.asked.after_film = screen.desk.asked.close
+    screen.hear(faults.told(FileError("a.mp4", "no room"), "", "film"), results.Filming())
+    assert not screen.desk.asked.quit  # what went wrong is to be seen
+    assert screen.hear(results.Filming(0.0)) == []  # another film: that is dealt with
+    screen.desk.asked.after_film = screen.desk.asked.close
+    screen.hear(results.Note("Wrote a.mp4", about="film"), results.Filming())
+    assert screen.desk.asked.quit
+
+
 @pytest.mark.parametrize("about", sorted(faults.OFFERS))
 def test_what_stays_offers_what_can_be_done(screen, about):
     assert set(faults.OFFERS[about] + faults.NO_ROOM + faults.LOGGED) <= set(ACTIONS)

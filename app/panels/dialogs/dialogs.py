@@ -13,7 +13,7 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
 from app.panels.dialogs.earlier_versions import EarlierVersions
-from app.panels.dialogs.film_dialog import FilmDialog
+from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
@@ -245,6 +245,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "export to": file_browser.exporting,
     "film": lambda desk: FilmDialog(),
     "film to": file_browser.filming,
+    "filming": lambda desk: FilmBeingMade(),
     "texture picture": file_browser.choosing_texture,
     "lab picture": file_browser.choosing_spectrum,
     "match picture 0": file_browser.choosing_example(0),

@@ -1,14 +1,16 @@
-"""The window that asks for a film: how it was made, a flight, or both; a picture of it, and how long it is."""
+"""The windows about films: how it was made, a flight, or both, with a picture of it and how long it is; and what is to
+become of the one that is being made."""
 
 from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.desk.asked import FILM_SIZES, film_wish, fitted_frame, place_of
+from app.desk.asked import FILM_SIZES, film_wish, fitted_frame
 from app.desk.desk import Desk
+from app.desk.places import going
 from app.panels.controls import widgets as w
-from engine.studio.filing.film_requests import FilmWish, PreviewFilm
+from engine.studio.filing.film_requests import FilmWish, PreviewFilm, StopFilm
 
 _WIDE, _TALL = 25.0, 14.0  # ems: the room for the picture
 _KINDS = (
@@ -61,8 +63,7 @@ class FilmDialog:
     def _preview(self, desk: Desk, em: float) -> None:
         """Draws a picture of the film, and what chooses of which part."""
         film = desk.asked.film
-        x0, y0, x1, y1 = desk.free_area()
-        here = place_of(desk.view, (x1 - x0, y1 - y0), desk.middle())
+        here = going.here(desk).bookmark("", going.free_size(desk))
         wish = film.wished = film_wish(film, desk.known, here)
         if (wish, film.at) != self._asked:
             self._asked = wish, film.at
@@ -128,6 +129,34 @@ class FilmDialog:
         w.tooltip("How long the film is; at the left end, as long as it needs")
         imgui.same_line()
         film.fps = int(w.segments("fps", str(film.fps), _FPS, em * 7) or film.fps)
+
+
+class FilmBeingMade:
+    """Asks what is to become of the film that is being made before the window goes."""
+
+    title = "A film is being made"
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window; False when it is answered, or the film is made, or could not be."""
+        part = desk.known.filming
+        if part is None:
+            if not desk.notices.about("film"):
+                desk.guard(desk.asked.close)
+            return False
+        em = imgui.get_font_size()
+        imgui.text_unformatted(f"So far {part * 100:.0f} % of it is made.")
+        imgui.text_disabled("You can go on painting until it is.")
+        imgui.spacing()
+        if w.default_button("Wait", "Close the window as soon as the film is made", width=em * 7):
+            desk.asked.after_film = lambda: desk.guard(desk.asked.close)
+            return False
+        imgui.same_line()
+        if w.text_button("Give it up", "Close the window now; no film is written", width=em * 7):
+            desk.post(StopFilm())
+            desk.guard(desk.asked.close)
+            return False
+        imgui.same_line()
+        return not w.text_button("Cancel", "Go back to the painting; the film goes on", width=em * 7)
 
 
 def _label(text: str, em: float) -> None:

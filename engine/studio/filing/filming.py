@@ -66,20 +66,20 @@ class Filming(Owned):
                 shooting, note = writable(request.path, Shooting(film, painting))
                 write_film(request.path, shooting, tell, given_up.is_set, cores)
             except Cancelled:
-                return results.Note("The film was stopped; no file is written")
+                return results.Note("The film was stopped; no file is written", about="film")
             except Exception as error:
                 return faults.told(error, "while a film was made", "film", request.path)
             told = f"Wrote {request.path.name}"
-            return results.Note(f"{told}; {note}" if note else told)
+            return results.Note(f"{told}; {note}" if note else told, about="film")
 
         self._easel.send(results.Filming(0.0))
         self._writers.start(write, self._easel.session.painting, self._ended)
 
     def _ended(self, told: results.Result | None) -> None:
         self._given_up = None
-        self._easel.send(results.Filming())
         if told is not None:
             self._easel.send(told)
+        self._easel.send(results.Filming())
 
     def _film(self, wish: FilmWish) -> Film:
         """Returns a film as the studio makes it.  Refusal if it is to be made again and nobody knows how."""

@@ -9,7 +9,7 @@ import pytest
 
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
-from engine.film.aim import Aim, aim_at
+from engine.film.aim import Aim, aim_at, aim_of
 from engine.film.beats import beats
 from engine.film.replaying import Replaying
 from engine.film.sheets import Sheets, plan
@@ -99,6 +99,57 @@ def lanczos(start, step, count, length):
     return weights / weights.sum(axis=1, keepdims=True)
 
 
+def resampled_askew(painting, aim, finer=1):
+    """A perfect picture of a place that is seen turned, or mirrored: float64 (h, w, 3)."""
+    window = aim.window(aim.across(SIZE), aim.level + finer)
+    rect = window.rect.grown(3 * int(window.step + 1))
+    pixels = seen(painting, window.level, rect)
+    right, down = np.meshgrid(np.arange(SIZE[0]) + 0.5 - SIZE[0] / 2, np.arange(SIZE[1]) + 0.5 - SIZE[1] / 2)
+    cos, sin = window.step * np.cos(aim.turn), window.step * np.sin(aim.turn)
+    flip = -1.0 if aim.mirrored else 1.0
+    middle = [
+        edge + far + count * window.step / 2
+        for edge, far, count in zip(
+            (window.x - rect.x0, window.y - rect.y0), (window.left, window.top), window.size, strict=True
+        )
+    ]
+    x = middle[0] + flip * (cos * right + sin * down) - 0.5
+    y = middle[1] - sin * right + cos * down - 0.5
+    reach = 3 * int(np.ceil(window.step))
+    out, whole = 0.0, 0.0
+    for j in range(-reach, reach + 1):
+        for i in range(-reach, reach + 1):
+            column, row = np.rint(x).astype(int) + i, np.rint(y).astype(int) + j
+            weights = 1.0
+            for far in ((column - x) / window.step, (row - y) / window.step):
+                weights = weights * np.sinc(far) * np.sinc(far / 3) * (np.abs(far) < 3)
+            out, whole = out + weights * pixels[:, row, column], whole + weights
+    return np.clip(out / whole, 0, 1).transpose(1, 2, 0)
+
+
+def test_what_is_turned_and_mirrored_is_seen_so(painting):
+    """As bookmarks tell it: the rectangle upright on the picture, the canvas turned clockwise about its middle."""
+    place = Rect.at(400, 200, *SIZE)
+    upright = shot(Film((aim_at(3, place, SIZE),), SIZE, 1.0, 1.0), painting)[0]
+
+    def marked(**more):
+        mark = parse({"do": "bookmark", "name": "a", "level": 3, "origin": [400, 200], "size": list(SIZE), **more})
+        return aim_of(mark, SIZE)
+
+    def still(aim):
+        return shot(Film((aim,), SIZE, 1.0, 1.0), painting)[0]
+
+    assert np.array_equal(still(marked()), upright)
+    assert np.array_equal(still(marked(mirror=True)), upright[:, ::-1])
+    assert np.array_equal(still(marked(angle=180)), upright[::-1, ::-1])
+    square = Rect.at(400 + 35, 200, 90, 90)
+    turned = shot(Film((replace(aim_at(3, square, (90, 90)), turn=np.pi / 2),), (90, 90), 1.0, 1.0), painting)[0]
+    assert np.array_equal(turned, np.rot90(upright[:, 35:125], -1))
+    for aim in (marked(angle=33), marked(angle=-75, mirror=True), marked(angle=10).at(3, 0.3)):
+        off = still(aim) - 255.0 * resampled_askew(painting, aim)
+        assert np.abs(off).mean() < 2.5, aim
+
+
 def changes(frames):
     return np.array([np.abs(b.astype(float) - a).mean() for a, b in pairwise(frames)])
 
@@ -115,6 +166,28 @@ def test_a_slow_flight_does_not_shimmer(painting, sideways):
     perfect = changes([np.rint(255 * resampled(painting, aim)) for aim in aims])
     assert (ours < 1.5 * perfect).all(), (ours / perfect).max()
     assert ours.mean() > 0.6 * perfect.mean()  # nor is it merely blurred
+
+
+def test_a_flight_turns_without_a_jump_and_without_a_shimmer(painting):
+    start = aim_at(3, Rect.at(400, 200, *SIZE), SIZE)
+    end = replace(start.at(3, 0.6), turn=np.radians(50.0))
+    aims = Shooting(Film((start, end), SIZE, 20.0, 4.0)).aims()
+    assert np.allclose([aim.turn / end.turn for aim in aims], [(aim.level - 3 + aim.fraction) / 0.6 for aim in aims])
+    aims = [start, *aims[30:35]]
+    with ThreadPoolExecutor(2) as pool:
+        sheets = Sheets(plan(aims, SIZE), pool)
+        ours = changes([frame_of(sheets.parts(i, painting), SIZE, pool) for i in range(len(aims))][1:])
+    perfect = changes([np.rint(255 * resampled_askew(painting, aim)) for aim in aims[1:]])
+    assert (ours < 1.5 * perfect).all(), (ours / perfect).max()
+    assert ours.mean() > 0.6 * perfect.mean()
+
+
+def test_a_flight_to_a_mirrored_place_fades_over(painting):
+    start = aim_at(3, Rect.at(400, 200, *SIZE), SIZE)
+    frames = shot(Film((start, replace(start, mirrored=1.0)), SIZE, 20.0, 3.0), painting)
+    assert np.array_equal(frames[-1], frames[0][:, ::-1])
+    whole = np.abs(frames[-1].astype(float) - frames[0]).mean()
+    assert changes(frames).max() < 0.12 * whole
 
 
 REPLAYED = [

@@ -57,6 +57,21 @@ def test_a_killed_save_leaves_nothing_and_one_that_goes_on_is_left_alone(folder)
     assert names(state_folder("writing")) == []
 
 
+def test_what_a_killed_film_of_numbered_pictures_left_is_gone(folder):
+    code = "import sys, time\nfrom pathlib import Path\nfrom engine.files.atomic import part_folder\n"
+    code += "from engine.keeping.unfinished import unfinished\npath = Path(sys.argv[1])\nwith unfinished(path):\n"
+    code += "    (part_folder(path) / 'lake-1.png').write_bytes(b'1')\n    print('1', flush=True)\n    time.sleep(60)"
+    with subprocess.Popen(
+        [sys.executable, "-c", code, folder / "lake-%d.png"], stdout=subprocess.PIPE, cwd=ROOT
+    ) as child:
+        child.stdout.readline()
+        assert sweep_unfinished() == 0
+        assert len(names(folder)) == 1
+        child.kill()
+    assert sweep_unfinished() == 1
+    assert names(folder) == []
+
+
 def test_it_is_swept_too_where_another_process_has_the_number_now(folder):
     part = folder / f".lake.ora.{os.getppid()}.0123abcd.part"
     part.write_bytes(b"half")
