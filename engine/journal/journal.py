@@ -17,7 +17,7 @@ from engine.journal.records import ASKED, NUMBER, Kind, told_points
 from engine.journal.volume import Continued, End, Volume
 from engine.journal.writing import SYNC_DOWN, Writing
 
-BATCH = 0.05  # seconds that points wait for more of them
+BATCH = 0.04  # seconds that points wait for more of them; none is older than 50 ms when it is written
 
 
 class Journal:

@@ -1,6 +1,8 @@
 """A painting that was not closed is opened again, goes on in its entry, and can be opened again after that."""
 
 import json
+import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +16,9 @@ from engine.brush.settings import Brush
 from engine.journal import entries
 from engine.journal.heads import head_of_new
 from engine.journal.journal import Journal
+from engine.journal.records import Touch, told_brush, told_touch
+from engine.journal.story import read_story
+from engine.journal.volume import End
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
@@ -135,3 +140,21 @@ def test_points_are_given_back_as_they_were_told(tmp_path):
     (asked,) = recovered(entry.folder).story.asked.values()
     assert np.array_equal(np.concatenate(asked.points), told)
     assert asked.touch.origin == (1 << 90, -5)
+
+
+def test_points_wait_no_longer_than_fifty_milliseconds_though_the_journals_thread_is_late(tmp_path, monkeypatch):
+    """Whoever tells of more writes those that would be too old by the time that the next come."""
+    journal = Journal(head_of_new(), tmp_path)
+    number = journal.begin(told_touch(Touch(0, (0, 0), Brush()), told_brush(Brush())))
+    while not journal.settled:
+        time.sleep(0.01)
+    now, between = [time.monotonic() + 1e6], 0.008  # seconds; the thread waits for this clock
+    monkeypatch.setattr("engine.journal.journal.time", SimpleNamespace(monotonic=lambda: now[0], time=time.time))
+    posted = []
+    for row in pen(np.random.default_rng(1), 40):
+        now[0] += between
+        posted.append(now[0])
+        journal.points(number, row[None])
+        there = sum(map(len, read_story(journal.entry.folder).asked[number].points))
+        assert there == len(posted) or now[0] + between - posted[there] <= 0.05
+    journal.close(End.STAYS)
