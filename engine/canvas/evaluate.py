@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -20,33 +21,52 @@ from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
 
+_NEAR = 1  # levels from the one that is looked at: farther ones are left behind
+_BEHIND = 128 << 20  # bytes
+_TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
 
 
 class TileCache:
-    """Evaluated tiles, the least recently used evicted first; bounded by bytes.  Safe for several threads."""
+    """Evaluated tiles, bounded by bytes.  Safe for several threads.
+
+    Those of levels that were left behind are evicted first, of one level the least recently used; and however much room
+    there is, all that were left behind together take an eighth of it, and at most `_BEHIND`.
+    """
 
     def __init__(self, budget: int) -> None:
         self.budget = budget
         self._held = 0
-        self._tiles: OrderedDict[tuple[int, TileKey], tuple[Change | None, Planes | None]] = OrderedDict()
+        self.evicted = 0  # bytes, in all
+        self._levels: dict[int, _LevelTiles] = {}
+        self._level: int | None = None  # that is looked at
+        self._uses = 0
         self._lock = threading.Lock()
+
+    def look_at(self, level: int) -> None:
+        """Tells which level is seen from now on."""
+        if level != self._level:
+            with self._lock:
+                self._level = level
+                self._evict()
 
     def get(self, pyramid: Pyramid, key: TileKey) -> tuple[bool, Planes | None]:
         """(known, value) of a tile; a value of None is an empty tile."""
         place = (pyramid.uid, key)
         with self._lock:
-            entry = self._tiles.get(place)
-            if entry is None:
+            there = self._levels.get(key.level)
+            kept = there.tiles.get(place) if there is not None else None
+            if there is None or kept is None:
                 return False, None
-            since, value = entry
-            if since is not pyramid.last:
+            if kept.since is not pyramid.last:
                 rect = key.rect
-                if any(c.reach(key.level).meets(rect) for c in changes_between(since, pyramid.last)):
+                if any(c.reach(key.level).meets(rect) for c in changes_between(kept.since, pyramid.last)):
                     return False, None
-                self._tiles[place] = (pyramid.last, value)
-            self._tiles.move_to_end(place)
-            return True, value
+                kept.since = pyramid.last
+            there.tiles.move_to_end(place)
+            self._uses += 1
+            kept.used = self._uses
+            return True, kept.value
 
     def keep(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
         """Keep a copy of a tile's value; None is an empty tile."""
@@ -58,29 +78,87 @@ class TileCache:
             value = without_empty_inks(value)
         place = (pyramid.uid, key)
         with self._lock:
-            old = self._tiles.pop(place, None)
-            if old is not None:
-                self._held -= _held_bytes(old[1])
-            self._tiles[place] = (pyramid.last, value)
-            self._held += _held_bytes(value)
-            while self._held > self.budget and self._tiles:
-                _, (_, evicted) = self._tiles.popitem(last=False)
-                self._held -= _held_bytes(evicted)
+            there = self._levels.setdefault(key.level, _LevelTiles())
+            old = there.tiles.pop(place, None)
+            self._count(there, -old.nbytes if old is not None else 0)
+            self._uses += 1
+            kept = there.tiles[place] = _Kept(pyramid.last, value, self._uses)
+            self._count(there, kept.nbytes)
+            self._evict()
 
     def clear(self) -> None:
         """Forgets all tiles."""
         with self._lock:
-            self._tiles.clear()
+            self._levels.clear()
             self._held = 0
+
+    def shrink(self, to: int) -> None:
+        """Evicts tiles until at most so many bytes are held."""
+        with self._lock:
+            while self._held > to and self._levels:
+                self._evict_from(self._farthest(self._levels))
 
     @property
     def held(self) -> int:
         """Returns bytes held now."""
         return self._held
 
+    def _count(self, there: _LevelTiles, more: int) -> None:
+        there.held += more
+        self._held += more
 
-def _held_bytes(value: Planes | None) -> int:
-    return 300 + (value.data.nbytes if value is not None else 0)
+    def _evict(self) -> None:
+        while self._held > self.budget and self._levels:
+            self._evict_from(self._farthest(self._levels))
+        if self._level is not None:
+            behind = [level for level in self._levels if abs(level - self._level) > _NEAR]
+            while behind and sum(self._levels[level].held for level in behind) > min(self.budget // 8, _BEHIND):
+                level = self._farthest(behind)
+                self._evict_from(level)
+                if level not in self._levels:
+                    behind.remove(level)
+
+    def _farthest(self, levels: Iterable[int]) -> int:
+        """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""
+        seen = self._level
+
+        def rank(level: int) -> tuple[int, int]:
+            return 0 if seen is None else -abs(level - seen), self._levels[level].oldest
+
+        return min(levels, key=rank)
+
+    def _evict_from(self, level: int) -> None:
+        there = self._levels[level]
+        _, kept = there.tiles.popitem(last=False)
+        self._count(there, -kept.nbytes)
+        self.evicted += kept.nbytes
+        if not there.tiles:
+            del self._levels[level]
+
+
+class _Kept:
+    """A tile's value as it was after the commit `since`; `used` orders tiles by when they were last asked for."""
+
+    __slots__ = ("nbytes", "since", "used", "value")
+
+    def __init__(self, since: Change | None, value: Planes | None, used: int) -> None:
+        self.since, self.value, self.used = since, value, used
+        self.nbytes = _TILE_OVERHEAD + (value.data.nbytes if value is not None else 0)
+
+
+class _LevelTiles:
+    """The tiles of one level, the least recently used first, and the bytes that they hold."""
+
+    __slots__ = ("held", "tiles")
+
+    def __init__(self) -> None:
+        self.tiles: OrderedDict[tuple[int, TileKey], _Kept] = OrderedDict()
+        self.held = 0
+
+    @property
+    def oldest(self) -> int:
+        """Tells when the least recently used tile was used."""
+        return next(iter(self.tiles.values())).used
 
 
 def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:

@@ -21,11 +21,13 @@ LARGEST_FILE = 1 << 20  # bytes
 @dataclass(frozen=True, slots=True)
 class Preferences:
     """`versions`: how many earlier versions of each saved file are kept; `gigabytes`, `part_of_free`: those of all
-    files and the bin take at most so many together, and at most this part of the free disk."""
+    files and the bin take at most so many together, and at most this part of the free disk; `megabytes` of memory that
+    paintings may take, 0 for what fits the machine."""
 
     versions: int = 3
     gigabytes: float = 5.0
     part_of_free: float = 0.1
+    megabytes: int = 0
 
 
 class Row(NamedTuple):
@@ -41,6 +43,7 @@ SETTINGS = {
     ("kept", "versions"): Row(1, 100, True, lambda told, number: replace(told, versions=int(number))),
     ("kept", "gigabytes"): Row(0.0, 1e6, False, lambda told, number: replace(told, gigabytes=number)),
     ("kept", "part_of_free"): Row(0.0, 1.0, False, lambda told, number: replace(told, part_of_free=number)),
+    ("memory", "megabytes"): Row(0, 1e6, True, lambda told, number: replace(told, megabytes=int(number))),
 }
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from engine.canvas import growth as growths
+from engine.canvas.growth import Growth
 from engine.canvas.layers import Group, Layer
-from engine.canvas.store import changed_rects
+from engine.canvas.store import Change, changes_between
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
 
@@ -18,19 +19,34 @@ Areas = Callable[[int], "list[Rect] | None"]
 def areas(old: Painting, new: Painting) -> Areas:
     """Tells where two paintings differ, by level; None for anywhere."""
     pairs = _pairs(old.root, new.root)
+    # Not the layers themselves: who asks for areas later does not want to hold the old painting until then.
+    found = None if pairs is None else [_Changed.of(a, b) for a, b in pairs]
 
     @cache  # it is asked for every tile on the screen
     def where(level: int) -> list[Rect] | None:
-        if pairs is None:
+        if found is None:
             return None
-        return [rect for a, b in pairs for rect in _changed(a, b, level)]
+        return [rect for changed in found for rect in changed.rects(level)]
 
     return where
 
 
-def _changed(old: Layer, new: Layer, level: int) -> list[Rect]:
-    found = changed_rects(old.pyramid, new.pyramid, level)
-    return found + growths.changed_rects(old.growth, new.growth, level) if old.growth is not new.growth else found
+class _Changed(NamedTuple):
+    """What two states of a layer do not share: commits, and what was painted with examples."""
+
+    commits: tuple[Change, ...]
+    old: Growth
+    new: Growth
+
+    @classmethod
+    def of(cls, old: Layer, new: Layer) -> _Changed:
+        """Compares two states of one line of history."""
+        return cls(tuple(changes_between(old.pyramid.last, new.pyramid.last)), old.growth, new.growth)
+
+    def rects(self, level: int) -> list[Rect]:
+        """Returns the rectangles of a level in which the states may differ."""
+        found = [change.reach(level) for change in self.commits]
+        return found + growths.changed_rects(self.old, self.new, level) if self.old is not self.new else found
 
 
 def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:

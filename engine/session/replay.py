@@ -8,25 +8,28 @@ from immutables import Map
 
 from engine.canvas.evaluate import TileCache
 from engine.files.fault import FileError
+from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Recording, undo_reach
 from engine.session.apply import STEPS, Painting, Refusal
 from engine.session.history import History
-from engine.session.session import HISTORY_BYTES, Session
+from engine.session.session import Session
 from engine.texture.image import ImageSource
 
 NO_PICTURES: Map[str, ImageSource] = Map()
 
 
 def opened(
-    recording: Recording, cache: TileCache | None = None, seed: int | None = None, history_bytes: int = HISTORY_BYTES
+    recording: Recording, cache: TileCache | None = None, seed: int | None = None, history_bytes: int | None = None
 ) -> Session:
     """Returns a session as the recording's header describes it, nothing done yet.
 
-    However few `history_bytes` are, undo remembers as many steps as the recording takes back.
+    However few `history_bytes` are (None: the share of the budget), undo remembers as many steps as the recording takes
+    back.
     """
     header = recording.header
     painting = Painting(header.frame, header.seed if seed is None else seed)
+    history_bytes = memory.history_share() if history_bytes is None else history_bytes
     history = History(history_bytes, undo_reach(recording.commands, STEPS))
     return Session(painting, cache, folder=recording.folder, history=history, extra=header.extra)
 

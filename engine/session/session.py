@@ -6,7 +6,6 @@ number of steps that were there to undo.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -18,18 +17,18 @@ from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
 from engine.checks.owned import Owned
+from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording
 from engine.painting.textures import Around, recorded
 from engine.painting.value import Painting
 from engine.session.apply import STEPS, apply
 from engine.session.history import History
+from engine.session.room import Room
 from engine.session.steps import Steps
 from engine.strokes.example_stroke import Live, kind_of
 from engine.texture.image import ImageSource
 
-HISTORY_BYTES = 1 << 30
-SMALLEST_CACHE = 64 << 20
 Heard = Callable[[c.Command, Live | None], None]
 
 
@@ -40,7 +39,8 @@ class Session(Owned):
     `log`: commands that led to `painting`, if they are known; `folder`: what paths in commands are relative to;
     `pictures`: those that definitions may name by their sha besides the painting's, wherever their files are now;
     `extra`: members of the recording's header that this version does not know; `base`: what the
-    log begins with; `leapt`: whether there are steps beyond what the history holds that can be reached;
+    log begins with; `leapt`: whether there are steps beyond what the history holds that can be reached; `room` looks
+    after the memory that it takes;
     `heard` is told each command as it is recorded, with the stroke if it grew as one.
     """
 
@@ -55,16 +55,17 @@ class Session(Owned):
     ) -> None:
         self.painting = painting if painting is not None else Painting()
         self.state: object = object()
-        self.cache = cache if cache is not None else TileCache(cache_budget())
+        self.cache = cache if cache is not None else TileCache(memory.cache_share())
         self.folder = folder
         self.pictures: Mapping[str, ImageSource] = Map()
         self.log: list[c.Command] = list(log)
-        self._history = history if history is not None else History(HISTORY_BYTES)
+        self._history = history if history is not None else History(memory.history_share())
         self._extra = extra if extra is not None else Map()
         self.base = Painting(self.painting.frame, self.painting.seed) if self.log else self.painting
         self.leapt = False
         self._steps: Steps | None = None
         self.heard: Heard = lambda command, live: None
+        self.room = Room(self.cache)
 
     @property
     def can_undo(self) -> bool:
@@ -138,6 +139,7 @@ class Session(Owned):
         if after is not self.painting:
             self.painting, self.state = after, object()
         self.heard(command, live)
+        self.room.keep_within()
         return after
 
     def amend(self, painting: Painting) -> None:
@@ -178,12 +180,3 @@ class Session(Owned):
         self.log.append(command)
         self.heard(command, None)
         return self.painting
-
-
-def cache_budget() -> int:
-    """Returns bytes for evaluated tiles: a quarter of the machine's memory."""
-    try:
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (ValueError, OSError, AttributeError):
-        memory = 4 << 30
-    return max(memory // 4, SMALLEST_CACHE)

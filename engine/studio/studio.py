@@ -97,6 +97,7 @@ class Studio(Owned):
             _of(Examiner(easel)),
             _of(Atlas(easel)),
             _of(past),
+            Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
         )
         self._handlers: q.Handlers = {
             q.Do: lambda r: travels.carry_out(timed(r.command, r.time)),
@@ -126,6 +127,8 @@ class Studio(Owned):
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
         self.easel.viewer.sight.look(request)
+        if request.tiles:
+            self.easel.session.cache.look_at(request.tiles[0][0])
 
     @property
     def pending(self) -> int:
@@ -137,6 +140,7 @@ class Studio(Owned):
         row = next((row for row in self._rows if row.pending()), None)
         if row is not None:
             row.step()
+            self.easel.session.room.keep_within()
         return row is not None
 
     @property

@@ -7,12 +7,13 @@ from pathlib import Path
 
 from engine.archive.plot_files import Mark
 from engine.journal.heads import FileStamp
+from engine.keeping import memory
 from engine.keeping.fingerprint import Fingerprint
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording
 from engine.painting.value import Painting
 from engine.session.history import HeldSteps, History
-from engine.session.session import HISTORY_BYTES, Session
+from engine.session.session import Session
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +54,7 @@ class Document:
 
     def session(self) -> Session:
         """Returns a session with the painting, for the thread that calls this."""
-        history = History(HISTORY_BYTES, steps=self.steps)
+        history = History(memory.history_share(), steps=self.steps)
         made = Session(self.painting, log=self.log or (), folder=self.folder, history=history, extra=self.header.extra)
         made.base, made.leapt = self.base or made.base, self.leapt
         return made

@@ -14,13 +14,13 @@ from engine.archive.imports import open_image
 from engine.canvas.evaluate import TileCache
 from engine.files.fault import FileError
 from engine.journal.heads import FileStamp
+from engine.keeping import memory
 from engine.keeping.fingerprint import Fingerprint, fingerprint
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_torn
 from engine.painting.value import Painting
 from engine.session import replay
 from engine.session.damaged import open_or_salvage
-from engine.session.session import cache_budget
 from engine.studio import faults
 from engine.studio import requests as q
 from engine.studio.filing.document import Document, held_by
@@ -121,7 +121,7 @@ def _begun(recording: Recording) -> Document:
 
 def _played(recording: Recording, progress: Progress) -> Document:
     """Returns the painting that a recording leads to.  What cannot be done is left out, and told in the notes."""
-    session = replay.opened(recording, TileCache(cache_budget() // 4))
+    session = replay.opened(recording, TileCache(memory.cache_share() // 4))
     count, view, notes = len(recording.commands), None, list[str]()
     for i, command in enumerate(recording.commands):
         progress.tell(READING + (1.0 - READING) * i / count)

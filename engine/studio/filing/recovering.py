@@ -20,6 +20,7 @@ from engine.journal.heads import header_of
 from engine.journal.kept import kept_file, kept_sources, stamp_of
 from engine.journal.records import NUMBER, Kind, told_command
 from engine.journal.story import COMMAND, Story, Unanswered, read_story
+from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_from, undo_reach
 from engine.painting.times import members
@@ -27,7 +28,7 @@ from engine.painting.value import Painting, Refusal
 from engine.session import replay
 from engine.session.apply import STEPS
 from engine.session.history import History
-from engine.session.session import HISTORY_BYTES, Session
+from engine.session.session import Session
 from engine.studio.filing import documents
 
 _CAUSES = (Refusal, FileError, FieldError)
@@ -193,7 +194,7 @@ class _Base:
         return _Start(self._session(painting, log, self.header, index), self.log is not None, index)
 
     def _session(self, painting: Painting, log: Sequence[c.Command], header: Header, index: int) -> Session:
-        history = History(HISTORY_BYTES, undo_reach(self._commands[index:], STEPS))
+        history = History(memory.history_share(), undo_reach(self._commands[index:], STEPS))
         return Session(painting, log=log, folder=self.folder, history=history, extra=header.extra)
 
 

@@ -10,18 +10,18 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from engine.canvas.evaluate import TileCache
+from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import undo_reach
 from engine.painting.value import Painting
 from engine.session.apply import STEPS
 from engine.session.history import History, difference
 from engine.session.replay import stays_within
-from engine.session.session import HISTORY_BYTES, SMALLEST_CACHE, Session, cache_budget
+from engine.session.session import Session
 
 STEPS_APART, SECONDS_APART = 200, 3.0
 PLAYED_AT_ONCE = 0.02  # seconds of playing at a time
-_UNDO_BYTES = HISTORY_BYTES // 4  # of what is undone and done again from there
-_STATE_BYTES = 512 << 20  # that states hold which those before do not, where memory is small: else an eighth of it
+_CACHE_BYTES = 64 << 20  # of tiles evaluated while commands are played anew, at most
 
 
 class KeptStates:
@@ -30,7 +30,7 @@ class KeptStates:
     def __init__(self, base: Painting) -> None:
         self._states: dict[int, Painting] = {0: base}
         self._alone: dict[int, int] = {0: 0}  # bytes that each holds and the one before does not
-        self.held, self._most = 0, max(cache_budget() // 2, _STATE_BYTES)
+        self.held, self._most = 0, memory.states_share()
 
     def keep(self, count: int, painting: Painting) -> None:
         """Keeps the painting after the first `count` commands."""
@@ -65,18 +65,19 @@ class Rebuilding:
     """Plays the first `count` commands of a session's log, piece by piece, those from `first` on among what it plays.
     FileError or Refusal where one cannot be done.
 
-    `held`: bytes of what the new session's undo may hold.
+    `held`: bytes of what the new session's undo may hold; None for a quarter of what a session's may.
     """
 
     def __init__(
-        self, of: Session, states: KeptStates, count: int, first: int | None = None, held: int = _UNDO_BYTES
+        self, of: Session, states: KeptStates, count: int, first: int | None = None, held: int | None = None
     ) -> None:
         self._log, self._states, self._of, self._count = of.log, states, of, count
         self.at, painting = self._states.nearest(self._log, count, first)
         self._begun = self.at
         reach = undo_reach(self._log[self.at : count], STEPS)
-        history = History(held, max(reach, 1))
-        self.session = Session(painting, TileCache(SMALLEST_CACHE), folder=of.folder, history=history)
+        history = History(memory.history_share() // 4 if held is None else held, max(reach, 1))
+        cache = TileCache(min(_CACHE_BYTES, memory.cache_share()))
+        self.session = Session(painting, cache, folder=of.folder, history=history)
         self._steps, self._since = 0, time.monotonic()
 
     @property

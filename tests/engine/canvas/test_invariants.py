@@ -15,7 +15,7 @@ from engine.canvas.evaluate import TileCache, evaluate, shown
 from engine.canvas.fold import fold
 from engine.canvas.kernels import attenuate
 from engine.canvas.store import Pyramid
-from engine.numeric.address import Rect
+from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import reduce
 
 INKS = (Grain(0, 1), Grain(1, 2))
@@ -36,19 +36,46 @@ def around(pyramid, level, half=12, cache=None):
     return spread_planes(evaluate(pyramid, level, Rect(-h, -h, h, h), cache), INKS)
 
 
-def test_a_thousand_visits_with_evictions_change_nothing_and_store_nothing():
+@pytest.mark.parametrize(("megabytes", "looking"), [(8, False), (2, True)])
+def test_a_thousand_visits_with_evictions_change_nothing_and_store_nothing(megabytes, looking):
     pyramid = painted(1)
     wanted = {k: around(pyramid, k) for k in range(-3, 6)}
-    rng, cache = np.random.default_rng(2), TileCache(8 << 20)
+    rng, cache = np.random.default_rng(2), TileCache(megabytes << 20)
     before = [record for _, record in pyramid.all_records()]
     for n in range(1000):
         k = int(rng.integers(-4, 6))
+        if looking:
+            cache.look_at(k)
+        assert cache.held <= cache.budget
         reach = 14 << max(k, 0)
         evaluate(pyramid, k, Rect.at(*(int(v) for v in rng.integers(-reach, reach, 2)), 9, 7), cache)
         if n % 100 == 0:
             cache.clear()
     assert all((around(pyramid, k, cache=cache) == v).all() for k, v in wanted.items())
     assert [record for _, record in pyramid.all_records()] == before
+
+
+def test_levels_left_behind_are_evicted_first():
+    pyramid, cache = painted(1), TileCache(256 << 20)
+
+    def known():
+        return [sum(cache.get(pyramid, TileKey(k, x, y))[0] for x in (-1, 0) for y in (-1, 0)) for k in range(6)]
+
+    for level in range(6):
+        cache.look_at(level)
+        evaluate(pyramid, level, Rect(-128, -128, 128, 128), cache)
+    assert known() == [4] * 6
+    cache.budget = 10 << 20
+    cache.look_at(4)
+    *behind, third, fourth, fifth = known()
+    assert (third, fourth, fifth) == (4, 4, 4)
+    assert sum(behind) < 12
+    assert behind == sorted(behind)
+    cache.shrink(cache.held * 2 // 3)
+    assert known()[4] == 4
+    assert sum(known()[:4]) < 4
+    cache.shrink(0)
+    assert cache.held == 0
 
 
 @pytest.mark.parametrize("level", [0, 2, 4])

@@ -1,12 +1,12 @@
 """Preferences: what is understood is taken over, the rest is told, and nothing keeps the program from starting."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.keeping.preferences import LARGEST_FILE, SETTINGS, Preferences, read_preferences
 
-WHOLE = b"[kept]\nversions = 5\ngigabytes = 2\npart_of_free = 0.25\n"
+WHOLE = b"[kept]\nversions = 5\ngigabytes = 2\npart_of_free = 0.25\n[memory]\nmegabytes = 900\n"
 
 
 @pytest.fixture
@@ -19,13 +19,13 @@ def read(tmp_path):
 
 
 def test_every_row_is_read(read):
-    assert read(WHOLE) == (Preferences(5, 2, 0.25), ())
+    assert read(WHOLE) == (Preferences(5, 2, 0.25, 900), ())
     assert len(SETTINGS) == len(Preferences.__dataclass_fields__)
 
 
 def test_none_are_the_usual_ones(read, tmp_path):
     assert read(b"") == read_preferences(tmp_path / "missing") == (Preferences(), ())
-    assert Preferences() == Preferences(3, 5.0, 0.1)
+    assert Preferences() == Preferences(3, 5.0, 0.1, 0)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +37,8 @@ def test_none_are_the_usual_ones(read, tmp_path):
         (b"[kept]\ngigabytes = nan", "expected a number from 0 to 1e+06"),
         (b"[kept]\ngigabytes = '5'", "expected a number"),
         (b"[kept]\nversion = 2", "found 'version', expected one of versions, gigabytes, part_of_free"),
-        (b"[keeps]\nversions = 2", "found 'keeps', expected a table, one of kept"),
+        (b"[keeps]\nversions = 2", "found 'keeps', expected a table, one of kept, memory"),
+        (b"[memory]\nmegabytes = 1.5", "[memory] megabytes: found '1.5', expected a whole number from 0"),
         (b"kept = 3", "found 'kept', expected a table"),
         (b"[kept", "expected ']'"),
         (b"\xff", "utf-8"),
@@ -62,6 +63,7 @@ def test_a_folder_in_its_place(tmp_path):
     assert read_preferences(tmp_path)[0] == Preferences()
 
 
+@settings(deadline=None)
 @given(st.integers(0, len(WHOLE) - 1), st.integers(0, 255), st.booleans())
 def test_cut_or_flipped_anywhere_it_is_read_without_an_error(tmp_path_factory, place, byte, cut):
     path = tmp_path_factory.getbasetemp() / "flipped.toml"
@@ -69,4 +71,4 @@ def test_cut_or_flipped_anywhere_it_is_read_without_an_error(tmp_path_factory, p
     found, faults = read_preferences(path)
     for (_, key), row in SETTINGS.items():
         assert row.low <= getattr(found, key) <= row.high
-    assert found == Preferences(5, 2, 0.25) or faults or found != Preferences() or cut
+    assert found == Preferences(5, 2, 0.25, 900) or faults or found != Preferences() or cut

@@ -1,0 +1,62 @@
+"""The budget of memory: what it is when who says so, and free pages that go back to the system."""
+
+import subprocess
+import sys
+
+import pytest
+
+from engine.keeping import memory
+from engine.keeping.preferences import preferences_file
+
+
+@pytest.fixture
+def preferring(tmp_path, monkeypatch):
+    """Writes preferences, which this test alone reads."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+
+    def prefer(megabytes):
+        preferences_file().parent.mkdir(parents=True, exist_ok=True)
+        preferences_file().write_text(f"[memory]\nmegabytes = {megabytes}\n")
+
+    return prefer
+
+
+def test_the_variable_counts_before_the_preferences_and_these_before_the_machine(preferring):
+    fitting, fault = memory.told_budget(None)
+    assert 0 < fitting <= 4096 << 20
+    assert fault == ""
+    preferring(0)
+    assert memory.told_budget(None) == (fitting, "")
+    preferring(900)
+    assert memory.told_budget(None) == (900 << 20, "")
+    assert memory.told_budget("512") == (512 << 20, "")
+    assert memory.told_budget("1") == (64 << 20, "")
+
+
+@pytest.mark.parametrize("word", ["", "much", "-1", "1.5", "9" * 30, "\n"])
+def test_what_is_wrong_is_told_and_changes_nothing(preferring, word):
+    preferring(900)
+    found, fault = memory.told_budget(word)
+    assert found == 900 << 20
+    assert fault.startswith("INKFALL_MEMORY: found ")
+    assert "\n" not in fault
+
+
+def test_all_shares_together_leave_room_for_the_painting_itself():
+    shares = memory.cache_share(), memory.history_share(), memory.states_share()
+    assert sum(shares) <= memory.budget() * 3 // 4
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only glibc keeps pages and gives them back")
+def test_free_pages_go_back_to_the_system():
+    program = """
+import numpy as np
+from engine.keeping import memory
+held = [np.ones(60_000, np.uint8) for _ in range(4000)]  # on the heap
+held = held[::200]
+before = memory.resident()
+memory.give_back()
+print(before - memory.resident())
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert int(done.stdout) > 150 << 20
