@@ -11,17 +11,11 @@ PREPARING = re.compile(r"Preparing brushes, (\d+) of (\d+)$")
 
 
 @pytest.fixture
-def fresh_at(program, tmp_path, monkeypatch):
-    """Starts a program whose cache of kernels is empty, and hands it over when it has told something."""
+def fresh(program, tmp_path, monkeypatch):
+    """A program whose cache of kernels is empty, and whose engine is loaded."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    return lambda told: program(ready=told)
-
-
-@pytest.fixture
-def fresh(fresh_at):
-    """A program whose cache of kernels is empty, and whose engine is loaded."""
-    return fresh_at("engine ready")
+    return program()
 
 
 def prepared(program, seconds=90.0):
@@ -55,8 +49,8 @@ def test_a_stroke_is_seen_long_before_all_brushes_are_ready(fresh):
     assert np.abs(seen.astype(int) - unpainted).max() > 60
 
 
-def test_strokes_made_before_the_engine_is_loaded_are_painted(fresh_at):
-    app = fresh_at("first frame")
+def test_strokes_made_before_the_engine_is_loaded_are_painted(program):
+    app = program(ready="first frame")
     app.do("mousemove", *FROM, "mousedown", 1, "mousemove", *TO, "mouseup", 1)
     app.do("mousemove", 500, 500, "mousedown", 1, "mousemove", 620, 530, "mouseup", 1)
     loaded = "engine ready" in app.log.read_text()
