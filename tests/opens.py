@@ -33,7 +33,17 @@ def opens(studio, posted, path, live=False, untitled=False):
 
 def opens_in(worker, path):
     """Opens a file in a worker, whose results are drained meanwhile, in place of a painting that is not changed."""
-    worker.post(q.Open(path))
+    shows(worker, q.Open(path))
+
+
+def recovers_in(worker, folder):
+    """Opens an entry in a worker, likewise."""
+    shows(worker, q.Recover(folder))
+
+
+def shows(worker, request):
+    """Asks a worker for another painting, and shows it when it is whole."""
+    worker.post(request)
     end = time.monotonic() + PATIENCE
     while not (found := [result for result in worker.results() if isinstance(result, results.Whole)]):
         assert time.monotonic() < end, "the file is not opened"

@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-OF_A_PAINTING = "save", "open", "painting", "grown", "elsewhere"  # what notices are about that end with the painting
+OF_A_PAINTING = (
+    "save",
+    "open",
+    "recover",
+    "painting",
+    "grown",
+    "elsewhere",
+)  # what notices are about that end with the painting
 
 
 @dataclass(frozen=True, slots=True)

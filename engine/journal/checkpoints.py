@@ -41,12 +41,15 @@ def write_checkpoint(
     return {"generation": generation, "size": size, "crc": crc}
 
 
-def read_checkpoint(folder: Path, found: Checkpoint, frame: Rect) -> Painting | None:
-    """Returns the painting of a checkpoint, with its frame; None if its file is another one by now, or damaged."""
+def read_checkpoint(
+    folder: Path, found: Checkpoint, frame: Rect, progress: Callable[[float], None] | None = None
+) -> Painting | None:
+    """Returns the painting of a checkpoint, with its frame; None if its file is another one by now, or damaged.
+    `progress` hears of the part that is read; what it raises ends that."""
     place = checkpoint_file(folder, found.generation)
     with suppress(OSError, FileError, MemoryError):
         if _sums(place) == (found.size, found.crc):
-            opened = open_painting(place)
+            opened = open_painting(place, progress)
             if opened.native:
                 return replace(opened.painting, frame=frame)
     return None

@@ -6,7 +6,7 @@ Whatever is torn, damaged or not understood ends the story there; what came befo
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -28,6 +28,7 @@ JOURNAL = "journal-"
 _NAMED = re.compile(JOURNAL + "[0-9]{1,9}")
 STROKE, COMMAND = b"s", b"c"  # how DONE goes on: of a stroke's own points, or with a command
 _MARK = records.LENGTH.size
+_OFTEN = 256  # frames from one check to the next
 _NO_POINTS = np.empty((0, 6))
 
 
@@ -161,11 +162,14 @@ class _Reader:
         self.story.base = records.read_object(payload)
 
 
-def read_story(folder: Path) -> Story:
-    """Returns what the journal in an entry's folder tells, as far as it is whole.  It never fails."""
+def read_story(folder: Path, check: Callable[[], object] = lambda: None) -> Story:
+    """Returns what the journal in an entry's folder tells, as far as it is whole.  It never fails, but for what `check`
+    raises, which is called now and then."""
     reader = _Reader()
     story = reader.story
     for frame in _frames(folder, story):
+        if not frame.sequence % _OFTEN:
+            check()
         try:
             reader.take[Kind(frame.kind)](frame.payload)
         except Exception as error:  # its check sum is right: another version wrote it

@@ -50,9 +50,12 @@ class Open:
 
 @dataclass(frozen=True, slots=True)
 class Recover:
-    """A painting that was not closed, from its entry's folder: as an untitled one, not saved."""
+    """A painting that was not closed, from its entry's folder: as an untitled one, not saved.  It is read as a file is,
+    whose `name` the window tells meanwhile; or `at_once`: all that is asked for after it waits, and is of it."""
 
     folder: Path
+    name: str = ""
+    at_once: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,7 +55,7 @@ class EngineThread:
         self._desk.learn(ready=False)
         self._taken(self.worker, True)
         if folder is not None:
-            self._post(Recover(folder))
+            self._post(Recover(folder, at_once=True))  # what is painted from now on is painted on it
 
 
 def _note(text: str, offer: str) -> Note:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.desk.desk import Desk, FileWork
+from app.desk.desk import Desk, FileWork, Message
 from app.desk.recovery.recovery_state import crashed_among, newest_first
 from app.faults.crashes import crashes
 from app.trace import trace
 from engine.studio.requests import Recover
-from engine.studio.results import Scene
+from engine.studio.results import Opening, Scene
 
 if TYPE_CHECKING:
     from engine.journal.entries import Entry
@@ -87,9 +87,15 @@ def offer(desk: Desk, scene: Scene) -> None:
 
 
 def recover(desk: Desk, entry: Entry) -> None:
-    """Has a painting back, as an untitled one; the one that is open is asked about first, unless the engine still
-    loads: then there is hardly any, and what there is goes into the bin."""
+    """Has a painting back, as an untitled one, which the status line tells until it is there; the one that is open is
+    asked about first, unless the engine still loads: then there is hardly any, and what there is goes into the bin."""
+
+    def begin() -> None:
+        desk.learn(opening=Opening(entry.name))
+        desk.message = Message()
+        desk.post(Recover(entry.folder, entry.name))
+
     if desk.known.ready:
-        desk.guard(lambda: desk.post(Recover(entry.folder)))
+        desk.guard(begin)
     else:
-        desk.post(Recover(entry.folder))
+        begin()

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from engine.archive.plot_files import Mark
 from engine.journal.heads import FileStamp
+from engine.journal.volume import Continued
 from engine.keeping import memory
 from engine.keeping.fingerprint import Fingerprint
 from engine.painting import commands as c
@@ -14,6 +17,16 @@ from engine.painting.recording import Header, Recording
 from engine.painting.value import Painting
 from engine.session.history import HeldSteps, History
 from engine.session.session import Session
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reopened:
+    """The entry that a recovered painting goes on in: what it begins with now, where its journal goes on, and how many
+    commands it has."""
+
+    head: Mapping[str, object]
+    continued: Continued
+    count: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,7 +39,7 @@ class Document:
     `played`: the commands are news to the journal; `unsaved`: the painting is in no file yet; `live`: a recording still
     to be played, stroke by stroke; `notes`: what was lost or replaced; `marks`: of what is to be grown again; `view`:
     where a recording looked last; `seen`, `stamp`: what the file was before it was read, None for a painting that
-    begins with nothing.
+    begins with nothing; `reopened`: the entry of a recovered one, which is held until it is shown or dropped.
     """
 
     painting: Painting
@@ -46,11 +59,17 @@ class Document:
     view: c.View | None = None
     seen: Fingerprint | None = None
     stamp: FileStamp | None = None
+    reopened: Reopened | None = None
 
     @property
     def known(self) -> bool:
         """Tells whether the log leads from nothing to the painting."""
         return self.log is not None
+
+    def drop(self) -> None:
+        """Gives back what is held for it: nobody wants it any more."""
+        if self.reopened is not None and self.reopened.continued.lock is not None:
+            os.close(self.reopened.continued.lock)
 
     def session(self) -> Session:
         """Returns a session with the painting, for the thread that calls this."""

@@ -51,6 +51,9 @@ class _Nobody:
         """Hears how far it is."""
 
 
+NOBODY: Progress = _Nobody()
+
+
 def opened(path: Path, live: bool = False, untitled: bool = False, progress: Progress | None = None) -> Document:
     """Returns what a file holds: a recording, a painting of ours or of another program, or a picture; an `untitled` one
     is not saved there again.
@@ -58,7 +61,7 @@ def opened(path: Path, live: bool = False, untitled: bool = False, progress: Pro
     `live`: a recording is not played, but is to be.  Of a damaged file, what can be had.  FileError if that is nothing,
     Cancelled if nobody wants it any more.
     """
-    progress = progress or _Nobody()
+    progress = progress or NOBODY
     size = _size(path)
     ending = path.suffix.lower()
     if ending == ".jsonl":

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from engine.archive.plot_files import OTHERWISE, Mark, otherwise
 from engine.checks.owned import Owned
-from engine.files.fault import FileError
-from engine.journal.entries import lock_entry
-from engine.journal.heads import head_of_file, head_of_new, renamed_head
-from engine.journal.volume import Continued, continued_entry
+from engine.journal.heads import head_of_file, head_of_new
+from engine.journal.volume import Continued
 from engine.keeping.preferences import Preferences
 from engine.keeping.unfinished import unfinished
 from engine.painting.recording import Header
@@ -23,12 +19,12 @@ from engine.studio import faults, results
 from engine.studio import requests as q
 from engine.studio.easel import Easel
 from engine.studio.filing import documents
-from engine.studio.filing.document import Document, held_by
+from engine.studio.filing.document import Document
 from engine.studio.filing.filming import Filming
 from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole, Show
-from engine.studio.filing.openings import Openings
+from engine.studio.filing.openings import Openings, Wanted
 from engine.studio.filing.playing import PIECE, Playing, looked
-from engine.studio.filing.recovering import recovered
+from engine.studio.filing.recovering import reopened
 from engine.studio.filing.saves import Saves
 from engine.studio.filing.writers import Post, Writers
 
@@ -73,29 +69,28 @@ class Filing(Owned):
         self._filming.close()
         self.saves.close()
 
-    def replace(
-        self,
-        document: Document,
-        head: Mapping[str, object] | None = None,
-        continued: Continued | None = None,
-        count: int = 0,
-    ) -> None:
+    def replace(self, document: Document) -> None:
         """Puts another painting on the easel, and tells what its file lost.
 
         The one place where that happens: for a new painting, for what was opened, once it is whole, for what comes
         from elsewhere.  Until then the painting before is there and can be painted on; from here on it is gone, but
-        for files that are still being written of it.  The journal hears first: what the painting began with, `head`
-        where that is not what the document says, the entry that goes on and how many commands it has; of a recording
-        that was played, all its commands.  The saves hear last.
+        for files that are still being written of it.  The journal hears first: what the painting began with, and the
+        entry that goes on; of a recording that was played, all its commands.  The saves hear last.
         """
-        easel, live = self._easel, document.live
-        self.turned(head or _head(document), continued, count)
+        easel, live, again = self._easel, document.live, document.reopened
+        if again is None:
+            self.turned(_head(document), None, 0)
+        else:
+            self.turned(again.head, again.continued, again.count)
         if document.played:
             for command in document.log or ():
                 easel.session.heard(command, None)
         self._script, self._marks = None if live is None else Playing(live), document.marks
         self.due = None if live is None else 0.0
         easel.show(document.session(), document.path, modified=document.unsaved)
+        if again is not None:
+            easel.name = document.name
+            easel.tell()
         self.saves.show(document)
         if document.view is not None:
             easel.send(looked(document.view))
@@ -139,28 +134,21 @@ class Filing(Owned):
         self.replace(Document(Painting(frame=request.frame, seed=request.seed), header=header))
 
     def _open(self, request: q.Open) -> None:
-        self.openings.start(request.path, partial(documents.opened, request.path, request.live, request.untitled))
+        read = partial(documents.opened, request.path, request.live, request.untitled)
+        self.openings.start(Wanted(request.path.name, read, request.path))
 
     def _recover(self, request: q.Recover) -> None:
         """Opens an entry, whose journal goes on with it: as a painting without a file, and not saved."""
-        self.openings.cancel()
-        lock: int | None = None
-        try:
-            lock = lock_entry(request.folder)
-            found = recovered(request.folder)
-            continued = continued_entry(request.folder, lock, found.story, found.settled)
-        except Exception as error:
-            if lock is not None:
-                os.close(lock)
-            taken = isinstance(error, BlockingIOError)
-            told = FileError(request.folder, "is open in another window") if taken else error
-            self._easel.send(faults.told(told, "while a painting was recovered", "open", request.folder))
+        if not request.at_once:
+            self.openings.start(Wanted(request.name or request.folder.name, partial(reopened, request.folder)))
             return
-        held = held_by(found.session, found.known)
-        document = replace(held, name=found.name, unsaved=True, notes=tuple(found.missing))
-        self.replace(document, renamed_head(found.story.head, found.name), continued, found.count)
-        self._easel.name = found.name
-        self._easel.tell()
+        self.openings.cancel()
+        try:
+            document = reopened(request.folder, documents.NOBODY)
+        except Exception as error:
+            self._easel.send(faults.told(error, "while a painting was recovered", "recover"))
+        else:
+            self.replace(document)
 
     def _export(self, request: q.Export) -> None:
         def write(grown: Painting) -> results.Result:

@@ -58,6 +58,17 @@ class Watch:
 Reader = Callable[[Watch], Document]
 
 
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What is to be opened: how it is called, and what reads it.  `read` makes a document out of values alone, and
+    looks at the watch that it is given now and then; whatever it raises is told.  `path`: its own, where it can be
+    asked for again by that."""
+
+    name: str
+    read: Reader
+    path: Path | None = None
+
+
 @dataclass(eq=False, slots=True)
 class _File:
     """The file on its way.  `state`: of the session when it was asked for; `document`: what it held, once it is
@@ -84,15 +95,14 @@ class Openings(Owned):
         self._file: _File | None = None
         self._count = 0
 
-    def start(self, path: Path, read: Reader) -> None:
-        """Has a file read on a thread of its own, instead of the one that is being read now.  `read` makes a document
-        out of values alone, and looks at the watch that it is given now and then; whatever it raises is told."""
+    def start(self, wanted: Wanted) -> None:
+        """Has a file read on a thread of its own, instead of the one that is being read now."""
         self._drop()
         self._count += 1
-        file = _File(self._count, path.name, Watch(self._count, self._post), self._easel.session.state)
+        file = _File(self._count, wanted.name, Watch(self._count, self._post), self._easel.session.state)
         self._file = file
-        self._easel.send(results.Opening(path.name))
-        words = (file.number, path, read, file.watch, self._post)
+        self._easel.send(results.Opening(wanted.name))
+        words = (file.number, wanted, file.watch, self._post)
         threading.Thread(target=_run, args=words, name="inkfall opening", daemon=True).start()
 
     def cancel(self) -> None:
@@ -104,6 +114,8 @@ class Openings(Owned):
     def _drop(self) -> None:
         if self._file is not None:
             self._file.watch.cancel()
+            if self._file.document is not None:
+                self._file.document.drop()
             self._file = None
 
     def _mine(self, number: int) -> _File | None:
@@ -119,6 +131,8 @@ class Openings(Owned):
         """Keeps what the file held until the window answers; or tells why it is refused."""
         file = self._mine(request.file)
         if file is None:
+            if request.document is not None:
+                request.document.drop()
             return
         if request.fault is not None:
             self._easel.send(request.fault)
@@ -142,12 +156,13 @@ class Openings(Owned):
         easel.send(results.Opening())
 
 
-def _run(number: int, path: Path, read: Reader, watch: Watch, post: Post) -> None:
+def _run(number: int, wanted: Wanted, watch: Watch, post: Post) -> None:
     """Reads a file, on a thread of its own."""
     try:
-        document = read(watch)
+        document = wanted.read(watch)
     except Exception as error:
         if not watch.cancelled:
-            post(FileWhole(number, fault=faults.told(error, "while a file was opened", "open", path)))
+            about = "recover" if wanted.path is None else "open"
+            post(FileWhole(number, fault=faults.told(error, "while a file was opened", about, wanted.path)))
     else:
         post(FileWhole(number, document))

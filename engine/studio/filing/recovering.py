@@ -6,8 +6,9 @@ What was asked for and has no answer is carried out last, a stroke without its e
 from __future__ import annotations
 
 import io
+import os
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from engine.archive.manifest import RECORDING
@@ -16,10 +17,12 @@ from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.zip_reader import ZipArchive
 from engine.journal.checkpoints import read_checkpoint
-from engine.journal.heads import header_of
+from engine.journal.entries import lock_entry
+from engine.journal.heads import header_of, renamed_head
 from engine.journal.kept import kept_file, kept_sources, stamp_of
 from engine.journal.records import NUMBER, Kind, told_command
 from engine.journal.story import COMMAND, Story, Unanswered, read_story
+from engine.journal.volume import continued_entry
 from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_from, undo_reach
@@ -30,6 +33,7 @@ from engine.session.apply import STEPS
 from engine.session.history import History
 from engine.session.session import Session
 from engine.studio.filing import documents
+from engine.studio.filing.document import Document, Reopened, held_by
 
 _CAUSES = (Refusal, FileError, FieldError)
 _GONE = "the file that was opened, {name}: it is gone, or another one by now"
@@ -60,20 +64,31 @@ class _Start:
     index: int
 
 
+@dataclass(frozen=True, slots=True)
+class _Begins:
+    """Who is told how far the file or the checkpoint is that a recovery begins with: it is the first half."""
+
+    hears: Tell
+    cancelled = False
+
+    def tell(self, part: float) -> None:
+        self.hears(0.5 * part)
+
+
 def recovered(folder: Path, tell: Tell = lambda part: None) -> Recovered:
-    """Returns the painting of an entry, as far as its journal is whole; `tell` hears of the part that is done.
-    FileError if there is nothing to begin with."""
-    story = read_story(folder)
+    """Returns the painting of an entry, as far as its journal is whole; `tell` hears of the part that is done, and what
+    it raises ends that.  FileError if there is nothing to begin with."""
+    story = read_story(folder, lambda: tell(0.0))
     if not story.head:
         raise FileError(folder, "found no journal that can be read")
     missing = list(story.faults)
-    start = _start(folder, story, missing)
+    start = _start(folder, story, missing, _Begins(tell))
     name = story.head.get("name")
     found = Recovered(start.session, start.known, _called(name if isinstance(name, str) else ""), story, missing)
     tail, failed = story.commands[start.index :], list[str]()
     for number, command in enumerate(tail):
         _do(found.session, folder, command, failed)
-        tell((number + 1) / len(tail))
+        tell(0.5 + 0.5 * (number + 1) / len(tail))
     if failed:
         missing.append(f"{len(failed)} of {len(tail)} commands could not be carried out, the first: {failed[0]}")
     found.count = len(story.commands)
@@ -81,6 +96,25 @@ def recovered(folder: Path, tell: Tell = lambda part: None) -> Recovered:
         _answer(found, folder, asked)
     found.session.pictures = {}
     return found
+
+
+def reopened(folder: Path, progress: documents.Progress) -> Document:
+    """Returns the painting of an entry that is taken again, and whose journal goes on with it.  FileError if another
+    program has it, or there is nothing to begin with; Cancelled if nobody wants it any more."""
+    lock: int | None = None
+    try:
+        lock = lock_entry(folder)
+        found = recovered(folder, progress.tell)
+        continued = continued_entry(folder, lock, found.story, found.settled)
+    except BaseException as error:
+        if lock is not None:
+            os.close(lock)
+        if isinstance(error, BlockingIOError):
+            raise FileError(folder, "is open in another window") from None
+        raise
+    again = Reopened(renamed_head(found.story.head, found.name), continued, found.count)
+    held = held_by(found.session, found.known)
+    return replace(held, name=found.name, unsaved=True, notes=tuple(found.missing), reopened=again)
 
 
 def _called(name: str) -> str:
@@ -132,18 +166,18 @@ def _answer(found: Recovered, folder: Path, asked: Unanswered) -> None:
 # --- where to begin --------------------------------------------------------------------------------------------------
 
 
-def _start(folder: Path, story: Story, missing: list[str]) -> _Start:
+def _start(folder: Path, story: Story, missing: list[str], begins: _Begins) -> _Start:
     """Returns the latest state that there is from which all undo and redo since can be done."""
     base = _Base(folder, story)
     for checkpoint in reversed(story.checkpoints):
         tail = story.commands[checkpoint.commands :]
         if checkpoint.commands > len(story.commands) or not replay.stays_within(tail):
             continue
-        painting = read_checkpoint(folder, checkpoint, base.header.frame)
+        painting = read_checkpoint(folder, checkpoint, base.header.frame, begins.tell)
         if painting is not None:
             return base.continued(painting, checkpoint.commands)
     if replay.stays_within(story.commands):
-        found = base.opened()
+        found = base.opened(begins)
         if found is not None:
             return found
     elif base.log is not None:  # it was leapt back behind the opening
@@ -177,14 +211,14 @@ class _Base:
         self.folder, self.name = stamp.path.parent, stamp.path.name
         self.log = None if self._file is None or self._file.suffix.lower() != ".ora" else _commands(self._file)
 
-    def opened(self) -> _Start | None:
+    def opened(self, begins: _Begins) -> _Start | None:
         """Returns it as it was when nothing was done yet; None if it is gone."""
         if self._file is None and self.log is not None:
             session = replay.opened(Recording(self.header, tuple(self._commands), folder=self.folder))
             return _Start(session, True, 0)
         if self._file is None:
             return None
-        found = documents.opened(self._file)
+        found = documents.opened(self._file, progress=begins)
         session = self._session(found.painting, found.log or (), found.header, 0)
         return _Start(session, found.known, 0)
 

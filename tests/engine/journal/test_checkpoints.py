@@ -17,6 +17,7 @@ from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.filing.recovering import recovered
+from opens import recovers_in
 
 
 @pytest.fixture
@@ -85,7 +86,8 @@ def test_a_recovery_begins_at_the_newest_that_is_whole(tmp_path, monkeypatch):
 def test_an_undo_behind_the_newest_begins_before_it(tmp_path):
     entry = paint(tmp_path, 3)
     worker = painter(tmp_path)
-    worker.post(q.Recover(entry.folder))
+    idle(worker)
+    recovers_in(worker, entry.folder)
     draw(worker, 30, 9)
     idle(worker)
     worker.post(q.Do(c.Undo(1)))

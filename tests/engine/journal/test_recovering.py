@@ -1,6 +1,7 @@
 """A painting that was not closed is opened again, goes on in its entry, and can be opened again after that."""
 
 import json
+import threading
 import time
 from types import SimpleNamespace
 
@@ -22,10 +23,12 @@ from engine.journal.volume import End
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.filing import recovering
+from engine.studio.filing.opening_requests import CancelOpening, Show
 from engine.studio.filing.recovering import recovered
 from engine.studio.journalled.posts import Posts
 from engine.studio.worker import Worker
-from opens import opens_in
+from opens import opens_in, recovers_in
 
 
 def painter(folder):
@@ -39,12 +42,17 @@ def left(worker):
     worker.close(60, by_choice=False)
 
 
+def first(worker, kind):
+    """The first result of this kind that comes; the others are dropped."""
+    while not (found := [result for result in worker.results() if isinstance(result, kind)]):
+        time.sleep(0.01)
+    return found[0]
+
+
 def saved(worker, path):
     """Saves, and waits until that is done."""
     worker.post(q.Save(path))
-    found = []
-    while not any(isinstance(result, results.Saved) for result in found):
-        found += idle(worker)
+    first(worker, results.Saved)
 
 
 def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
@@ -58,7 +66,7 @@ def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
     assert [len(command.points) for command in first.session.log] == [40, 40]
     two = painter(folder)
     idle(two)
-    two.post(q.Recover(entry.folder))
+    recovers_in(two, entry.folder)
     draw(two, 30, 3)
     scenes = [result for result in idle(two) if isinstance(result, results.Scene)]
     assert scenes[-1].modified
@@ -73,6 +81,89 @@ def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
     assert again.missing == []
     assert [type(command) for command in again.session.log] == [c.Stroke, c.Stroke, c.Stroke, c.Undo, c.AddLayer]
     assert np.array_equal(pixels(again.session.painting), pixels(first.session.painting))
+
+
+def recovered_alone(tmp_path, monkeypatch, count=6):
+    """An entry of so many strokes, and what lets its recovery go on after the first of them, on its thread."""
+    one = painter(tmp_path)
+    for n in range(count):
+        draw(one, 20, n)
+    left(one)
+    (entry,) = entries.listed(tmp_path)
+    begun, goes_on = threading.Event(), threading.Event()
+    carried_out = recovering._do
+
+    def held(*told):
+        carried_out(*told)
+        begun.set()
+        assert goes_on.wait(60)
+
+    monkeypatch.setattr(recovering, "_do", held)
+    return entry, begun, goes_on
+
+
+def test_painting_goes_on_while_another_is_recovered_and_is_asked_about(tmp_path, monkeypatch):
+    entry, begun, goes_on = recovered_alone(tmp_path / "p", monkeypatch)
+    two = painter(tmp_path / "other")
+    two.post(q.Recover(entry.folder, "lake"))
+    assert begun.wait(60)
+    draw(two, 30, 9)
+    scenes = [result for result in idle(two) if isinstance(result, results.Scene)]
+    assert scenes[-1].can_undo  # it is on the painting that is there
+    goes_on.set()
+    whole = first(two, results.Whole)
+    assert whole.name == "lake"
+    two.post(Show(whole.file))
+    asked = [result for result in idle(two) if isinstance(result, results.Whole)]
+    assert asked[0].changed
+    two.post(Show(whole.file, sure=True))
+    scenes = [result for result in idle(two) if isinstance(result, results.Scene)]
+    assert scenes[-1].name == "untitled, recovered"
+    draw(two, 30, 10)
+    left(two)
+    assert [len(command.points) for command in recovered(entry.folder).session.log] == [20] * 6 + [30]
+    (other,) = entries.listed(tmp_path / "other")
+    assert (other.strokes, other.in_bin) == (1, True)
+
+
+def test_a_recovery_that_is_given_up_leaves_its_entry_to_others(tmp_path, monkeypatch):
+    entry, begun, goes_on = recovered_alone(tmp_path / "p", monkeypatch)
+    two = painter(tmp_path / "other")
+    for shown in (False, True):  # given up as it is read, and when it is whole
+        begun.clear()
+        two.post(q.Recover(entry.folder))
+        assert begun.wait(60)
+        assert entries.is_alive(entry.folder)
+        if shown:
+            goes_on.set()
+            first(two, results.Whole)
+        two.post(CancelOpening())
+        idle(two)
+        goes_on.set()
+        end = time.monotonic() + 60
+        while entries.is_alive(entry.folder):
+            assert time.monotonic() < end
+        goes_on.clear()
+    left(two)
+    assert entries.listed(tmp_path / "p") == (entry,)
+
+
+def test_what_another_program_has_is_refused_and_what_is_asked_for_at_once_comes_first(tmp_path):
+    one = painter(tmp_path / "p")
+    draw(one, 20, 1)
+    idle(one)
+    (entry,) = entries.listed(tmp_path / "p")
+    two = painter(tmp_path / "other")
+    idle(two)
+    two.post(q.Recover(entry.folder))
+    note = first(two, results.Note)
+    assert (note.text.endswith("is open in another window"), note.stays) == (True, True)
+    left(one)
+    idle(two)
+    two.post(q.Recover(entry.folder, at_once=True))
+    draw(two, 30, 2)
+    left(two)
+    assert [len(command.points) for command in recovered(entry.folder).session.log] == [20, 30]
 
 
 def test_an_opened_file_is_what_it_was_though_it_was_replaced(tmp_path):

@@ -3,7 +3,6 @@
 import os
 import threading
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +20,7 @@ from engine.studio import results
 from engine.studio.filing.document import Document
 from engine.studio.filing.documents import opened
 from engine.studio.filing.opening_requests import CancelOpening, FileWhole, Show
+from engine.studio.filing.openings import Wanted
 from opens import Watch, opens, read
 
 HEADER = '{"inkfall": 1, "frame": [0, 0, 200, 200], "seed": 3}\n'
@@ -42,7 +42,7 @@ class Slow:
 
     def __init__(self, window):
         self.window, self.gate, self.ended = window, threading.Event(), threading.Event()
-        window.studio.filing.openings.start(Path("slow.ora"), self._read)
+        window.studio.filing.openings.start(Wanted("slow.ora", self._read))
 
     def _read(self, watch):
         try:
