@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 import hashlib
 import zlib
 from collections.abc import Iterable, Mapping
@@ -78,14 +79,21 @@ def keep_file(folder: Path, stamp: FileStamp) -> str:
 
 
 def kept_file(folder: Path, stamp: FileStamp, sha: object) -> Path | None:
-    """Returns where the bytes of a file that was opened are: kept under its `sha`, or where it was if it is as it was;
-    None if they are nowhere."""
-    if isinstance(sha, str):
-        place = folder / _FOLDER / (sha + stamp.path.suffix)
-        with suppress(OSError):
-            if _sha(place) == sha:
-                return place
-    return stamp.path if FileStamp.of(stamp.path) == stamp else None
+    """Returns where the bytes of a file that was opened are: kept under its `sha`, or where it was if it is as it was,
+    or kept though the journal could not tell of it; None if they are nowhere."""
+    if isinstance(sha, str) and _is_kept(place := folder / _FOLDER / (sha + stamp.path.suffix), stamp):
+        return place
+    if FileStamp.of(stamp.path) == stamp:
+        return stamp.path
+    places = (folder / _FOLDER).glob(f"*{glob.escape(stamp.path.suffix)}")
+    return next((place for place in places if _is_kept(place, stamp)), None)
+
+
+def _is_kept(place: Path, stamp: FileStamp) -> bool:
+    """Tells whether a file is what its name says, and as long as the one that was opened."""
+    with suppress(OSError):
+        return place.stat().st_size == stamp.size and place.name == _sha(place) + stamp.path.suffix
+    return False
 
 
 def stamp_of(base: Mapping[str, object]) -> FileStamp:

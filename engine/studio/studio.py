@@ -80,6 +80,7 @@ class Studio(Owned):
         self._answers = None if posts is None else Answers(easel, posts)
         if self._answers is not None:
             self.filing.turned, self.filing.saves.mark = self._answers.turn, self._answers.mark
+            self.filing.saves.replaces = self._answers.replaces
         viewer, trail = easel.viewer, Trail(easel)
         travels = Travels(trail)
         past = PastList(trail, travels)

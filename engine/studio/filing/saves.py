@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from engine.checks.owned import Owned
@@ -27,7 +28,7 @@ LOST = "{} is saved; its earlier version could not be kept ({})"
 @dataclass(frozen=True, eq=False, slots=True)
 class _Asked:
     """A save that was asked for: references to the painting as it was then.  `state`: that of the session; `serial`: of
-    the easel; `mark`: hears of it when it is saved."""
+    the easel; `mark`: hears of it when it is saved; `replaces`: waits until what is there is not needed any more."""
 
     request: q.Save
     painting: Painting
@@ -36,6 +37,7 @@ class _Asked:
     serial: int
     files: OnDisk
     mark: Callable[[Path], None]
+    replaces: Callable[[], None]
     preferences: Preferences
 
     def write(self, grown: Painting) -> results.Result:
@@ -44,11 +46,15 @@ class _Asked:
         bound_kept(self.preferences)  # a disk that is nearly full has room for the painting first
         try:
             with self.files.saving(path, self.request.sure) as one:
-                documents.save(path, grown, self.recording, one.ready)
+                documents.save(path, grown, self.recording, partial(self._ready, one))
             bound_kept(self.preferences)
         except Overtaken as reason:
             return results.Overtaken(path, reason.elsewhere)
         return results.Saved(path, _told(path, one))
+
+    def _ready(self, one: Replacement, part: Path) -> None:
+        self.replaces()
+        one.ready(part)
 
 
 def _told(path: Path, one: Replacement) -> str:
@@ -68,6 +74,7 @@ class Saves(Owned):
         self._running = self._closing = False
         self._waiting: dict[Path, _Asked] = {}
         self.mark: Callable[[], Callable[[Path], None]] = lambda: lambda path: None  # what hears that it is saved
+        self.replaces: Callable[[Path], Callable[[], None]] = lambda path: lambda: None  # what waits before that
         self.handlers: dict[type, Callable[[q.Save], None]] = {q.Save: self._save}
 
     def show(self, document: Document) -> None:
@@ -107,6 +114,7 @@ class Saves(Owned):
             easel.serial,
             self._files,
             self.mark(),
+            self.replaces(request.path),
             self._preferences,
         )
         self._waiting.pop(request.path, None)  # it is older

@@ -88,6 +88,11 @@ class Answers(Owned):
         self._beside.leave(self._easel.session.painting)
         self._beside.close()
 
+    def replaces(self, path: Path) -> Callable[[], None]:
+        """A file is going to be written; returns what waits, on any thread, until the journal can do without the one
+        that is there."""
+        return self._beside.replaces(path)
+
     def mark(self) -> Callable[[Path], None]:
         """Returns what tells that the painting as it is now has been written to a file."""
         count, entry = self._count, self._journal.entry

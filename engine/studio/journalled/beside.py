@@ -44,6 +44,8 @@ LIMIT = 1.5  # seconds of carrying out after which a checkpoint is written
 PATIENCE = 3.0  # times that long one waits until what is painted with examples has grown by itself
 PAUSE_FACTOR = 3.0  # times as long as a checkpoint took until the next is begun, at least
 PICTURE_PAUSE = 5.0  # seconds between two small pictures, at least
+FOLDER_PATIENCE = 10.0  # seconds that what lies beside a journal waits for its folder, at most
+_POLL = 0.01  # seconds
 _NICE = 10
 
 
@@ -58,6 +60,7 @@ class Beside(Owned):
         self._pool = ThreadPoolExecutor(1, "inkfall beside", initializer=_yield)
         self._closing, self._urgent = threading.Event(), threading.Event()
         self._stamp: FileStamp | None = None  # of the file that was opened, before it is kept
+        self._keeping: tuple[Path, Future[None]] | None = None  # that file, and what ends when it is kept
         self._writing: Future[float] | None = None  # gives how long it took
         self._generation = int(time.time())  # none that an entry had before
         self._next, self._pictured = 0.0, 0.0  # when a checkpoint may be begun, and a picture was
@@ -67,9 +70,19 @@ class Beside(Owned):
     def changed(self) -> None:
         """A command was carried out."""
         self._seen = False
-        if self._stamp is not None:
-            stamp, self._stamp = self._stamp, None
-            self.do(partial(_keep_file, self._journal, self._entry, stamp, self._urgent))
+        self._keep_opened()
+
+    def replaces(self, path: Path) -> Callable[[], None]:
+        """A file is going to be written: has what was opened kept; returns what waits for that on any thread, if this
+        is the file that was opened."""
+        self._keep_opened()
+        keeping = self._keeping
+
+        def wait() -> None:
+            if keeping is not None and os.path.realpath(keeping[0]) == os.path.realpath(path):
+                keeping[1].exception()
+
+        return wait
 
     def keep(self, texture: Texture) -> None:
         """A texture was defined: its pictures are kept."""
@@ -102,20 +115,29 @@ class Beside(Owned):
     def turn(self, head: Mapping[str, object]) -> None:
         """Another painting is there, which began with `head`."""
         self._entry, self._stamp, self.spent, self._seen = self._journal.entry, None, 0.0, True
+        self._keeping = None
         base = head.get("base")
         if isinstance(base, Mapping) and "file" in base:
             with suppress(FieldError):
                 self._stamp = stamp_of(base)
 
-    def do(self, job: Callable[[], None]) -> None:
-        """Has a job done on the thread, after those that wait."""
-        with suppress(RuntimeError):  # it is closed
-            self._pool.submit(_tried, job)
+    def do(self, job: Callable[[], None]) -> Future[None] | None:
+        """Has a job done on the thread, after those that wait; returns what ends with it, None if it is closed."""
+        with suppress(RuntimeError):
+            return self._pool.submit(_tried, job)
+        return None
 
     def close(self) -> None:
         """Does what waits; a checkpoint that is being written is given up."""
         self._closing.set()
         self._pool.shutdown()
+
+    def _keep_opened(self) -> None:
+        """Has the file kept that was opened, once."""
+        if self._stamp is not None:
+            stamp, self._stamp = self._stamp, None
+            ended = self.do(partial(_keep_file, self._journal, self._entry, stamp, self._urgent))
+            self._keeping = None if ended is None else (stamp.path, ended)
 
     def _picture(self, painting: Painting) -> None:
         self._seen = True
@@ -161,10 +183,11 @@ def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> float:
 
 def _keep_file(journal: Journal, entry: Volume, stamp: FileStamp, urgent: threading.Event) -> None:
     """Keeps the file that was opened; where it is another one already, only the painting itself is left."""
-    if entry.folder is None:
+    folder = _folder(entry)
+    if folder is None:
         return
     try:
-        sha = keep_file(entry.folder, stamp)
+        sha = keep_file(folder, stamp)
     except FileError:
         urgent.set()
         raise
@@ -172,8 +195,17 @@ def _keep_file(journal: Journal, entry: Volume, stamp: FileStamp, urgent: thread
 
 
 def _in_folder(entry: Volume, job: Callable[[Path], None]) -> None:
-    if entry.folder is not None and entry.end is not End.DELETED:
-        job(entry.folder)
+    folder = _folder(entry)
+    if folder is not None and entry.end is not End.DELETED:
+        job(folder)
+
+
+def _folder(entry: Volume) -> Path | None:
+    """Returns an entry's folder, which the journal's thread is about to make; None where it cannot, or is late."""
+    end = time.monotonic() + FOLDER_PATIENCE
+    while entry.folder is None and entry.fault is None and entry.end is None and time.monotonic() < end:
+        time.sleep(_POLL)
+    return entry.folder
 
 
 def _yield() -> None:

@@ -1,6 +1,7 @@
 """A painting that was not closed is opened again, goes on in its entry, and can be opened again after that."""
 
 import json
+import shutil
 import threading
 import time
 from types import SimpleNamespace
@@ -15,17 +16,19 @@ from app.__main__ import main
 from engine.archive.opening import open_painting
 from engine.brush.settings import Brush
 from engine.journal import entries
-from engine.journal.heads import head_of_new
+from engine.journal.heads import FileStamp, head_of_new
 from engine.journal.journal import Journal
+from engine.journal.kept import keep_file, kept_file
 from engine.journal.records import Touch, told_brush, told_touch
 from engine.journal.story import read_story
-from engine.journal.volume import End
+from engine.journal.volume import End, Volume
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing import recovering
 from engine.studio.filing.opening_requests import CancelOpening, Show
 from engine.studio.filing.recovering import recovered
+from engine.studio.journalled import beside
 from engine.studio.journalled.posts import Posts
 from engine.studio.worker import Worker
 from opens import opens_in, recovers_in
@@ -187,6 +190,52 @@ def test_an_opened_file_is_what_it_was_though_it_was_replaced(tmp_path):
     assert [len(command.points) for command in found.session.log] == [40, 40, 40]
     assert found.missing == []
     assert found.known
+
+
+@pytest.mark.parametrize("first", ["a stroke", "a save"])
+def test_a_save_replaces_what_was_opened_only_when_that_is_kept(tmp_path, monkeypatch, first):
+    """However long that takes: killed as soon as it is saved, the strokes since are still on what was opened."""
+    folder, file, keep = tmp_path / "p", tmp_path / "lake.ora", beside.keep_file
+    one = painter(folder)
+    draw(one, 40, 1)
+    saved(one, file)
+    one.close(60)
+
+    def kept_late(folder, stamp):
+        end = time.monotonic() + 1.0
+        while FileStamp.of(file) == stamp and time.monotonic() < end:
+            time.sleep(0.01)
+        return keep(folder, stamp)
+
+    monkeypatch.setattr(beside, "keep_file", kept_late)
+    make = Volume.make
+    monkeypatch.setattr(Volume, "make", lambda self: time.sleep(0.3) or make(self))  # its folder is late, too
+    two = painter(folder)
+    idle(two)
+    opens_in(two, file)
+    if first == "a save":
+        saved(two, file)
+    draw(two, 40, 2)
+    saved(two, file)
+    draw(two, 40, 3)
+    idle(two)
+    shutil.copytree(two._posts.journal.entry.folder, tmp_path / "then")
+    two.close(60)
+    found = recovered(tmp_path / "then")
+    assert (found.missing, found.known) == ([], True)
+    assert [len(command.points) for command in found.session.log] == [40, 40, 40]
+
+
+def test_what_was_kept_is_found_though_the_journal_does_not_tell(tmp_path):
+    """A power cut may leave the bytes, and take the record of them."""
+    file = tmp_path / "lake.ora"
+    file.write_bytes(b"as it was")
+    stamp = FileStamp.of(file)
+    sha = keep_file(tmp_path, stamp)
+    (tmp_path / "kept" / f"{'0' * 64}.ora").write_bytes(b"as it wax")  # half written, or damaged
+    file.write_bytes(b"as it is now")
+    assert kept_file(tmp_path, stamp, None).name == f"{sha}.ora"
+    assert kept_file(tmp_path, stamp, None).read_bytes() == b"as it was"
 
 
 @pytest.fixture
