@@ -108,3 +108,5 @@ def _trace(before: Known, after: Known) -> None:
         trace("all brushes ready")
     if (before.growing is None) != (after.growing is None):
         trace("all has grown" if after.growing is None else "something grows")
+    if after.writing != before.writing:
+        trace(f"{after.writing.files} files are being written{', its own too' * after.writing.saving}")

@@ -20,7 +20,7 @@ from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.match_state import SMALLEST
 from app.input.events import ENDS, PenEvent
-from app.trace import trace
+from app.trace import trace, trace_points
 from engine.brush.smoothing import Smoother
 from engine.numeric.address import Rect
 from engine.studio.requests import (
@@ -116,6 +116,7 @@ def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
 def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | RegionPoints] = Points) -> None:
     if len(points):
         points.flags.writeable = False
+        trace_points(len(points))
         desk.post(form(points))
 
 

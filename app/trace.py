@@ -58,6 +58,12 @@ def trace_frame(began: float, ended: float) -> None:
         print("frame:", *(f"{seconds * 1000:.1f}" for seconds in told), file=sys.stderr, flush=True)
 
 
+def trace_points(count: int) -> None:
+    """Tells that so many points of a stroke are posted, and when, by the monotonic clock."""
+    if TRACED:
+        print("points", count, time.monotonic(), file=sys.stderr, flush=True)
+
+
 def trace_rest(rests: bool, at: tuple[float, float]) -> None:
     """Tells whether all that was asked for is done and on the screen, and with it where the pointer was then, pixels
     of the window; when that is another than before."""
