@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -39,6 +40,30 @@ class ReadFolder(FileWork):
     def fail(self, desk: Desk, fault: str) -> None:
         """Hands on why there is none."""
         self.listed(self.folder, (), fault)
+
+
+A_FOLDER, A_FILE, NO_FILE = "folder", "file", ""  # what a path leads to
+Seen = Callable[[Path, str], None]  # a path, and what it leads to
+
+
+@dataclass(frozen=True, slots=True)
+class LookAt(FileWork):
+    """Finds what a path leads to; `seen` hears it."""
+
+    path: Path
+    seen: Seen
+
+    def carry_out(self) -> str:
+        """Returns A_FOLDER, A_FILE for all else that is there, or NO_FILE; OSError where it cannot be looked at."""
+        try:
+            status = self.path.stat()
+        except (FileNotFoundError, NotADirectoryError):
+            return NO_FILE
+        return A_FOLDER if stat.S_ISDIR(status.st_mode) else A_FILE
+
+    def arrive(self, desk: Desk, found: str) -> None:
+        """Hands it on."""
+        self.seen(self.path, found)
 
 
 def _row(entry: os.DirEntry[str]) -> FileRow:

@@ -38,6 +38,7 @@ from engine.texture.planes import Planes
 STACK = "stack.xml"
 NOTES = 20
 PIXELS = 1 << 24  # of a band of rows that is laid down at once
+_LAID_ROWS = 512  # rows of a picture that are laid down at once, at most
 # Names that programs give to modes of ours.
 ALIASES = {"svg:add": "plus", "krita:pass": "src-over"}
 
@@ -141,9 +142,11 @@ def open_image(
     """Returns a PNG, JPEG or TIFF as a painting of its size with one layer.  FileError if it cannot be read."""
     streamed = _png_rows(path, limits, progress, cancelled)
     if streamed is None:
-        pixels, meta = read_image(path, limits=limits)
+        pixels, meta = read_image(path, limits=limits, cancelled=cancelled)
+        check_cancelled(cancelled)
         size = (pixels.shape[1], pixels.shape[0])
-        pyramid, notes = pasted(iter([pixels]), 0, 0, cancelled), meta.notes
+        strips = (pixels[top : top + _LAID_ROWS] for top in range(0, size[1], _LAID_ROWS))
+        pyramid, notes = pasted(_counted(strips, size[1], progress), 0, 0, cancelled), meta.notes
     else:
         pyramid, size, notes = streamed
     layer = Layer(1, clean_name(PurePath(path).stem, "Picture"), pyramid=pyramid)

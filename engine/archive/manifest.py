@@ -5,7 +5,7 @@ All numbers in our members are little-endian, pixel values whole multiples of 2^
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -37,6 +37,7 @@ WITHOUT_EXAMPLES = 2  # what a painting is written as that has none, so that old
 MANIFEST = "inkfall/manifest.json"
 MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
 RECORDING = "inkfall/recording.jsonl"
+_MOST_NOTES = 20  # lines about bookmarks
 _CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
 
 
@@ -62,7 +63,8 @@ class PictureEntry:
 @dataclass(frozen=True)
 class Manifest:
     """The parsed manifest.  `root` has layers without paint; `packs`: where their paint is, by the layer's id;
-    `plots`: what was painted there with `examples`; `members`: (size, SHA-256) of all members but the manifest."""
+    `plots`: what was painted there with `examples`; `members`: (size, SHA-256) of all members but the manifest;
+    `notes`: what of it could not be read and is left out, a line each."""
 
     frame: Rect
     seed: int
@@ -80,6 +82,7 @@ class Manifest:
     texture: int = TEXTURES  # the revision of textures' pixels by which colour was left out
     synthesis: int = SYNTHESIS  # and of what examples grow into
     bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
+    notes: tuple[str, ...] = ()
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -211,7 +214,7 @@ def parse_manifest(value: Any) -> Manifest:
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
-        _bookmarks(_list(members, "bookmarks") if "bookmarks" in members else []),
+        *_bookmarks(members.take("bookmarks", [])),
     )
 
 
@@ -291,14 +294,21 @@ def _picture(sha: str, value: Any) -> PictureEntry:
     return PictureEntry(members.text("name"), sha, (width, height), _packs(members))
 
 
-def _bookmarks(value: Sequence[object]) -> Bookmarks:
-    bookmarks = NO_BOOKMARKS
-    for i, told in enumerate(value):
-        command = read_bookmark(Fields(told, f"bookmarks[{i}]"))
-        if not isinstance(command, Bookmark) or command.name in bookmarks:
-            raise FieldError(f"bookmarks[{i}]", "no place or a name that is taken", "a place with a name of its own")
-        bookmarks = bookmarks_after(bookmarks, command)
-    return bookmarks
+def _bookmarks(value: object) -> tuple[Bookmarks, tuple[str, ...]]:
+    """Returns the bookmarks that can be read, and a line for each that cannot: no paint depends on them."""
+    bookmarks, notes = NO_BOOKMARKS, list[str]()
+    for i, told in enumerate(value if isinstance(value, list) else [value]):
+        try:
+            command = read_bookmark(Fields(told, f"bookmarks[{i}]"))
+            if not isinstance(command, Bookmark) or command.name in bookmarks:
+                raise FieldError(
+                    f"bookmarks[{i}]", "no place or a name that is taken", "a place with a name of its own"
+                )
+            bookmarks = bookmarks_after(bookmarks, command)
+        except FieldError as error:
+            notes.append(f"a bookmark is left out: {error}")
+    most = notes if len(notes) <= _MOST_NOTES else [*notes[:_MOST_NOTES], f"{len(notes) - _MOST_NOTES} more"]
+    return bookmarks, tuple(most)
 
 
 def _member(value: Any, where: str) -> tuple[int, str]:

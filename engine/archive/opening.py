@@ -139,7 +139,8 @@ class _Opening:
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks)
-        recording, notes = self._recording()
+        recording, lost = self._recording()
+        notes = (*manifest.notes, *lost)
         if other:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"
             notes = (*notes, OTHER.format(count=other, why=why))

@@ -8,11 +8,11 @@ import threading
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from engine.files.fault import FileError, shown
+from engine.files.fault import Cancelled, FileError, shown
 from engine.files.limits import LIMITS, Limits
 from engine.files.png_reader import FOREIGN_PROFILE, PngReader
 from engine.files.png_writer import SIGNATURE
@@ -28,7 +28,12 @@ UPRIGHT: dict[int, Callable[[np.ndarray], np.ndarray]] = {
     7: lambda a: a[::-1, ::-1].swapaxes(0, 1),
     8: lambda a: a.swapaxes(0, 1)[::-1],
 }
+_READ_AT_ONCE = 1 << 16  # bytes that are read at once
 _warnings = threading.Lock()  # the list of warning filters belongs to the whole process
+
+
+if TYPE_CHECKING:
+    from _typeshed import WriteableBuffer as Buffer
 
 
 @dataclass(frozen=True)
@@ -39,13 +44,47 @@ class Meta:
     notes: tuple[str, ...] = ()  # what was not kept, in words
 
 
+class _Wanted(io.RawIOBase):
+    """A file that is read until nobody wants it any more: then reading it raises Cancelled, whoever reads."""
+
+    def __init__(self, file: BinaryIO, cancelled: Callable[[], bool]) -> None:
+        self._file, self._cancelled = file, cancelled
+
+    def readable(self) -> bool:
+        return True
+
+    def seekable(self) -> bool:
+        return True
+
+    def fileno(self) -> int:
+        return self._file.fileno()
+
+    def seek(self, offset: int, whence: int = os.SEEK_SET) -> int:
+        return self._file.seek(offset, whence)
+
+    def tell(self) -> int:
+        return self._file.tell()
+
+    def readinto(self, room: Buffer) -> int:
+        if self._cancelled():
+            raise Cancelled
+        view = memoryview(room)
+        data = self._file.read(len(view))
+        view[: len(data)] = data
+        return len(data)
+
+
 def read_image(
-    source: str | os.PathLike[str] | bytes, name: str | None = None, limits: Limits = LIMITS
+    source: str | os.PathLike[str] | bytes,
+    name: str | None = None,
+    limits: Limits = LIMITS,
+    cancelled: Callable[[], bool] | None = None,
 ) -> tuple[np.ndarray, Meta]:
     """Returns a picture as uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied, upright; and what is
     known of it.
 
-    `name` stands in messages for a source that is bytes.  FileError, one line, on any fault.
+    `name` stands in messages for a source that is bytes.  FileError, one line, on any fault; Cancelled if `cancelled()`
+    becomes true, which is asked between pieces of the file.
     """
     if isinstance(source, bytes):
         return _read(io.BytesIO(source), name or "picture", limits)
@@ -54,7 +93,8 @@ def read_image(
         if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
             raise FileError(name or path, "not a regular file")  # and no pipe is waited for
         with open(path, "rb") as file:
-            return _read(file, name or path, limits)
+            watched = file if cancelled is None else io.BufferedReader(_Wanted(file, cancelled), _READ_AT_ONCE)
+            return _read(watched, name or path, limits)
     except (OSError, ValueError) as error:
         raise FileError(name or path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
 
@@ -111,7 +151,7 @@ def _by_pillow(file: BinaryIO, name: str, form: str, limits: Limits) -> tuple[np
                 if upright.mode.startswith("I;16"):
                     return _grey16(np.asarray(upright)), Meta(form.lower())
                 pixels = np.array(upright.convert("RGBA"))
-    except (FileError, MemoryError):
+    except (FileError, MemoryError, Cancelled):
         raise
     except Exception as error:  # a decoder of hostile bytes may raise anything
         raise FileError(name, f"damaged {form}: {error or type(error).__name__}") from error

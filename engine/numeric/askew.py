@@ -12,10 +12,7 @@ import numpy as np
 from engine.numeric.kernel import Array, Int, Real, inlined, inner_uncounted, uncounted
 from engine.numeric.resample import cubic
 
-_PHASES = 512  # places between two pixels for which the filter is known
-_BYTE = np.float32(255.0)
-_ROUND = np.float32(0.5)
-_LEAST = np.float32(0.0)
+_BETWEEN = 512  # places between two pixels for which the filter is known
 
 Axes = tuple[float, float, float, float]
 
@@ -49,7 +46,7 @@ def _filters(step: float) -> np.ndarray:
     """Returns what each tap counts, float32 (phases, taps), by how far behind the filter's beginning the first one
     lies: 1 in all.  There are four taps or eight."""
     wide = max(1.0, step)
-    phases = np.arange(_PHASES + 1) / _PHASES
+    phases = np.arange(_BETWEEN + 1) / _BETWEEN
     weights = cubic(np.abs(phases[:, None] + np.arange(4 * math.ceil(wide)) - 2.0 * wide) / wide)
     weights /= weights.sum(axis=1, keepdims=True)
     return weights.astype(np.float32)
@@ -87,8 +84,8 @@ def _add(planes: Array, down: Array, start: tuple[Real, Real], axes: Axes, acros
             along = start[0] + x * axes[0] + y * axes[2]
             below = start[1] + x * axes[1] + y * axes[3]
             left, top = math.ceil(along), math.ceil(below)
-            columns = across[int((left - along) * _PHASES + 0.5)]
-            rows = down[int((top - below) * _PHASES + 0.5)]
+            columns = across[int((left - along) * _BETWEEN + 0.5)]
+            rows = down[int((top - below) * _BETWEEN + 0.5)]
             left, top = min(max(left, 0), width - taps), min(max(top, 0), height - taps)
             _add_pixel(planes, rows, columns, top, left, sums[y, x])
 
@@ -99,4 +96,6 @@ def _write(sums: Array, out: Array) -> None:
     for y in range(out.shape[0]):
         for x in range(out.shape[1]):
             for channel in range(3):
-                out[y, x, channel] = np.uint8(min(max(sums[y, x, channel] + _ROUND, _LEAST), _BYTE))
+                out[y, x, channel] = np.uint8(
+                    min(max(sums[y, x, channel] + np.float32(0.5), np.float32(0.0)), np.float32(255.0))
+                )

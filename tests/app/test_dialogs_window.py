@@ -80,3 +80,22 @@ def test_a_name_typed_at_once_is_the_files(program):
     app.type("a.png")
     app.keys("Return")
     app.wait_for("painting 1 shown")
+
+    # Each file that is there is asked about before it is replaced.
+    there = [app.folder / name for name in ("one.ora", "two.ora")]
+    for path in there:
+        path.write_bytes(b"old")
+    app.keys("ctrl+shift+s")
+    for path in there:
+        app.click(path.name, "Save as")
+        app.click("Save", "Save as")
+        app.box("Replace")
+        assert path.read_bytes() == b"old"
+    app.click("Replace")
+    app.until_gone("Replace")
+    app.until_gone("Cancel")
+    end = time.monotonic() + 60
+    while there[1].read_bytes() == b"old":
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    assert there[0].read_bytes() == b"old"

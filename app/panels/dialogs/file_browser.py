@@ -16,7 +16,7 @@ from app import icons, theme
 from app.desk import pictured
 from app.desk.desk import Desk
 from app.desk.examples import example_work
-from app.desk.folders import ReadFolder
+from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
@@ -67,11 +67,13 @@ class Browser:
 
     def __init__(self, title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> None:
         self.title, self._endings, self._saving, self._then = title, endings, saving, then
-        self._folder = start if start.is_dir() else start.parent
-        self._name = "" if start.is_dir() else start.name
+        self._folder, self._name = (start.parent, start.name) if saving else (start, "")
         self._rows: tuple[FileRow, ...] = ()
         self._wanted: Path | None = self._folder  # a folder that is to be listed
-        self._fault, self._focus, self._sure = "", True, False
+        self._fault, self._focus = "", True
+        self._sure: Path | None = None  # a file that is replaced if it is chosen again
+        self._chosen: Path | None = None  # what is being looked at, before it is handed on
+        self._leads: str | None = None  # to what it does, as soon as that is known
 
     def _go(self, folder: Path) -> None:
         """Lists a folder as soon as it is read."""
@@ -79,7 +81,7 @@ class Browser:
 
     def _listed(self, folder: Path, rows: tuple[FileRow, ...], fault: str) -> None:
         """Hears what is in a folder."""
-        self._fault, self._sure = fault, False
+        self._fault, self._sure = fault, None
         if not fault:
             self._folder, self._rows = folder.absolute(), rows
 
@@ -88,6 +90,8 @@ class Browser:
         if self._wanted is not None:
             desk.work(ReadFolder(self._wanted, self._endings, self._listed))
             self._wanted = None
+        if self._chosen is not None and self._leads is not None and not self._decided(desk, self._chosen, self._leads):
+            return False
         em = imgui.get_font_size()
         self._path_row(em)
         imgui.push_style_color(imgui.Col_.child_bg, theme.vec(theme.FIELD))
@@ -107,10 +111,11 @@ class Browser:
 
     def _buttons(self, desk: Desk, em: float, picked: bool) -> bool:
         """Draws them; False when the dialog is done."""
-        word = "Replace" if self._sure else "Save" if self._saving else "Open"
+        sure = self._sure is not None and self._sure == self._ended(self._folder / self._name)
+        word = "Replace" if sure else "Save" if self._saving else "Open"
         hint = f"{word} this file"
         if w.default_button(f"{word}###go", hint, enabled=bool(self._name), width=em * 6) or picked:
-            return self._choose(desk)
+            self._choose(desk, self._folder / self._name)
         imgui.same_line()
         if w.text_button("Cancel", "Go back", width=em * 6):
             desk.asked.give_up()
@@ -139,26 +144,39 @@ class Browser:
             self._go(self._folder / row.name)
             return False
         again, self._name = row.name == self._name, row.name
-        self._sure = self._sure and again
         return again and imgui.is_mouse_double_clicked(0)
 
-    def _choose(self, desk: Desk) -> bool:
-        """Hands the path on; False when the dialog is done."""
-        path = self._folder / self._name
-        if path.is_dir():
-            self._go(path)
+    def _ended(self, path: Path) -> Path:
+        """Returns a path; where a file is saved, with one of its endings."""
+        ends = not self._saving or path.suffix.lower() in self._endings
+        return path if ends else path.parent / (path.name + self._endings[0])
+
+    def _choose(self, desk: Desk, path: Path) -> None:
+        """Has a path looked at, beside the window: what is typed may be a folder, and its disk may not answer."""
+        self._chosen, self._leads, self._fault = path, None, ""
+        desk.work(LookAt(path, self._seen))
+
+    def _seen(self, path: Path, leads: str) -> None:
+        """Hears to what a path leads."""
+        if path == self._chosen:
+            self._leads = leads
+
+    def _decided(self, desk: Desk, chosen: Path, leads: str) -> bool:
+        """Opens a folder, tells what is wrong, or hands the path on: then False, the dialog is done."""
+        self._leads, path = None, self._ended(chosen)
+        if leads == A_FOLDER:
+            self._go(chosen)
             self._name = ""
-            return True
-        if self._saving and path.suffix.lower() not in self._endings:
-            path = path.with_name(path.name + self._endings[0])
-        if self._saving and path.exists() and not self._sure:
-            self._sure, self._fault = True, f"{path.name} exists: press again to replace it"
-            return True
-        if not self._saving and not path.is_file():
+        elif path != chosen:
+            self._choose(desk, path)
+        elif self._saving and leads == A_FILE and self._sure != path:
+            self._sure, self._fault = path, f"{path.name} exists: press again to replace it"
+        elif not self._saving and leads != A_FILE:
             self._fault = f"{path.name}: there is no such file"
-            return True
-        self._then(desk, path)
-        return False
+        else:
+            self._then(desk, path)
+            return False
+        return True
 
 
 def _chooser(title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> SystemDialog | Browser:

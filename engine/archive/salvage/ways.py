@@ -140,7 +140,7 @@ class _Parts:
             root, told = _with_seen(remains, root, manifest.frame)
         textures = self._textures()
         painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks)
-        notes = (IN_PART, *self._notes, *told, *steps_missing(remains))
+        notes = (IN_PART, *self._notes, *told, *manifest.notes, *steps_missing(remains))
         return Opened(painting, notes, False, None, remains.pictures, tuple(self._marks))
 
     def _layer(self, layer: Layer) -> tuple[Pyramid, Growth]:

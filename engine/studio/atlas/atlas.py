@@ -17,7 +17,7 @@ from engine.numeric.colour import to_premul8
 from engine.painting.places import Bookmark
 from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.atlas.depths import Finest, finest_tiles, nearest_tiles, spots, tiles_bounds
+from engine.studio.atlas.depths import Finest, finest_tiles, nearest_tiles, spots, tiles_within
 from engine.studio.atlas.miniature import miniature
 from engine.studio.easel import Easel
 
@@ -122,7 +122,8 @@ class Atlas(Owned):
             return
         finest = yield from self._finest_tiles()
         x, y = (sight.x0 + sight.x1) // 2, (sight.y0 + sight.y1) // 2
-        for own, tile in nearest_tiles(finest, level, sight):
+        nearest = yield from nearest_tiles(finest, level, sight)
+        for own, tile in nearest:
             rect = Rect.at(tile[0] * TILE, tile[1] * TILE, TILE, TILE)
             painted = np.argwhere(self._seen(own, rect)[3] >= _SEEN)
             if len(painted):
@@ -146,29 +147,25 @@ class Atlas(Owned):
         """Yields the map; its picture was sent before."""
         finest = yield from self._finest_tiles()
         frame = self._easel.session.painting.frame
-        level, area = _mapped_area(frame, finest, size)
+        level, area = yield from _mapped_area(frame, finest, size)
         yield None
         pixels = results.frozen(to_premul8(self._seen(level, area)))
         self._easel.send(results.Picture("map", pixels))
         yield None
-        yield results.PaintMap(level, area, spots(finest, level, _CELL))
+        found = yield from spots(finest, level, _CELL)
+        yield results.PaintMap(level, area, found)
 
 
-def _mapped_area(frame: Rect, finest: Finest, size: tuple[int, int]) -> tuple[int, Rect]:
+def _mapped_area(frame: Rect, finest: Finest, size: tuple[int, int]) -> Generator[None, None, tuple[int, Rect]]:
     """Returns the level and the pixels of it that a map of `size` pixels shows: the frame and the paint around it, as
-    far as that is not too far away."""
+    far as that is not too far away; pauses on the way."""
     most = Rect(
         frame.x0 - _WIDER * frame.width,
         frame.y0 - _WIDER * frame.height,
         frame.x1 + _WIDER * frame.width,
         frame.y1 + _WIDER * frame.height,
     )
-    near: Finest = {}
-    for own, tiles in finest.items():
-        inner = most.zoomed(own)
-        kept = {tile for tile in tiles if Rect.at(tile[0] * TILE, tile[1] * TILE, TILE, TILE).meets(inner)}
-        if kept:
-            near[own] = kept
-    whole = frame.union(tiles_bounds(near, 0).intersect(most)) if near else frame
+    near = yield from tiles_within(finest, most)
+    whole = frame if near.empty else frame.union(near.intersect(most))
     level = math.ceil(math.log2(min(size[0] / whole.width, size[1] / whole.height)))
     return level, whole.zoomed(level)

@@ -8,7 +8,9 @@ from __future__ import annotations
 import heapq
 import math
 from collections import defaultdict
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
+from itertools import islice
+from typing import TypeVar
 
 from engine.canvas.layers import Group, Layer
 from engine.numeric.address import TILE, Rect, TileKey
@@ -20,6 +22,10 @@ _BLOCK = 12  # tiles along a block of paint that one goes to: about a screen
 _MOST = 300  # spots on a map
 _ASKED = 600  # tiles whose pixels are looked at
 _CANDIDATES = 6  # of each level, the tiles nearest to a place
+_TILES_AT_ONCE = 4096  # tiles that are gone through without a pause: some milliseconds
+_NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1))
+_Block = tuple[int, int, int]  # its level, and where it lies; or a square of the map, by the level of what is in it
+_T = TypeVar("_T")
 
 
 def finest_tiles(root: Group, painted: Callable[[int, Rect], bool]) -> Generator[None, None, Finest]:
@@ -30,34 +36,54 @@ def finest_tiles(root: Group, painted: Callable[[int, Rect], bool]) -> Generator
     stored: dict[int, set[Place]] = defaultdict(set)
     for layer in _visible(root):
         for level, records in layer.pyramid.levels.items():
-            stored[level].update(records.keys())
-            yield
+            for piece in _pieces(records.keys()):
+                stored[level].update(piece)
+                yield
         for plot in layer.growth:
             stored[plot.level].update((column >> 1, row >> 1) for row, column in plot.region.masks[0])
     found: Finest = {}
     covered: set[Place] = set()  # by what is finer
     below, asked = 0, 0
     for level in sorted(stored, reverse=True):
-        covered, below = {(x >> below - level, y >> below - level) for x, y in covered}, level
-        open_tiles = stored[level] - covered
-        for tile in _beside(covered, open_tiles):
+        finer, bits = covered, below - level
+        covered, below = set(), level
+        for piece in _pieces(finer):
+            covered.update((x >> bits, y >> bits) for x, y in piece)
+            yield
+        open_tiles: set[Place] = set()
+        for piece in _pieces(stored[level]):
+            open_tiles.update(tile for tile in piece if tile not in covered)
+            yield
+        beside = yield from _beside(covered, open_tiles)
+        for tile in heapq.nsmallest(_ASKED - asked, beside):
             asked += 1
-            if asked <= _ASKED and not painted(level, TileKey(level, *tile).rect):
+            if not painted(level, TileKey(level, *tile).rect):
                 open_tiles.discard(tile)
             yield
         if open_tiles:
             found[level] = open_tiles
-        covered |= stored[level]
-        yield
+        for piece in _pieces(stored[level]):
+            covered.update(piece)
+            yield
     return found
 
 
-def _beside(covered: set[Place], tiles: set[Place]) -> list[Place]:
-    """Returns those of some tiles that touch covered ones."""
-    around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-    if len(covered) < len(tiles):
-        return sorted({(x + i, y + j) for x, y in covered for i, j in around} & tiles)
-    return sorted(tile for tile in tiles if any((tile[0] + i, tile[1] + j) in covered for i, j in around))
+def _pieces(places: Iterable[_T]) -> Iterator[list[_T]]:
+    """Yields some tiles, or blocks of them, a piece at a time."""
+    rest = iter(places)
+    while piece := list(islice(rest, _TILES_AT_ONCE)):
+        yield piece
+
+
+def _beside(covered: set[Place], tiles: set[Place]) -> Generator[None, None, set[Place]]:
+    """Returns those of some tiles that touch covered ones; pauses on the way."""
+    found: set[Place] = set()
+    few = len(covered) < len(tiles)
+    for piece in _pieces(covered if few else tiles):
+        around = (((x + i, y + j), (x, y)) for x, y in piece for i, j in _NEIGHBOURS)
+        found.update(other if few else own for other, own in around if other in (tiles if few else covered))
+        yield
+    return found
 
 
 def _visible(node: Group) -> Iterator[Layer]:
@@ -69,48 +95,77 @@ def _visible(node: Group) -> Iterator[Layer]:
                 yield from _visible(child)
 
 
-def tiles_bounds(finest: Finest, level: int) -> Rect:
-    """Returns the pixels of a level that hold all of the tiles."""
+def tiles_within(finest: Finest, area: Rect) -> Generator[None, None, Rect]:
+    """Returns the pixels of level 0 that hold all of the tiles which meet `area`, pixels of level 0, none where none
+    does; pauses on the way."""
     whole = Rect(0, 0, 0, 0)
-    for own, found in finest.items():
-        whole = whole.union(_hull(found).zoomed(level - own))
+    for own, tiles in finest.items():
+        inner = area.zoomed(own)
+        left, top, right, bottom = (edge // TILE for edge in (inner.x0, inner.y0, inner.x1 - 1, inner.y1 - 1))
+        for piece in _pieces(tiles):
+            near = {(x, y) for x, y in piece if left <= x <= right and top <= y <= bottom}
+            if near:
+                whole = whole.union(_hull(near).zoomed(-own))
+            yield
     return whole
 
 
-def _hull(found: set[Place]) -> Rect:
-    xs, ys = [x for x, _ in found], [y for _, y in found]
+def _hull(found: Iterable[Place]) -> Rect:
+    xs, ys = zip(*found, strict=True)
     return Rect(min(xs) * TILE, min(ys) * TILE, (max(xs) + 1) * TILE, (max(ys) + 1) * TILE)
 
 
-def spots(finest: Finest, level: int, cell: int) -> tuple[Spot, ...]:
-    """Returns the paint as few places, of each level at most one in each square of `cell` pixels of `level`: the block
-    of a screen's size that has most of it there.  The coarsest level first."""
-    while True:
-        found = [spot for own in sorted(finest) for spot in _spots(finest[own], own, level, cell)]
-        if len(found) <= _MOST:
-            return tuple(found)
-        cell *= 2
+def spots(finest: Finest, level: int, cell: int) -> Generator[None, None, tuple[Spot, ...]]:
+    """Returns the paint as few places, of each level at most one in each square of `cell` pixels of `level`, or of
+    twice as many, and so on: the block of a screen's size that has most of it there.  The coarsest level first.  It
+    pauses on the way."""
+    blocks: dict[_Block, list[Place]] = defaultdict(list)
+    for own, tiles in finest.items():
+        for piece in _pieces(tiles):
+            for x, y in piece:
+                blocks[own, x // _BLOCK, y // _BLOCK].append((x, y))
+            yield
+    squares: dict[_Block, tuple[int, int]] = {}  # in which the blocks' middles lie
+    for some in _pieces(blocks):
+        for block in some:
+            x, y = (_shifted((2 * side + 1) * _BLOCK * TILE >> 1, level - block[0]) // cell for side in block[1:])
+            squares[block] = x, y
+        yield
+    bits = yield from _doublings(squares)
+    best: dict[_Block, tuple[int, _Block, int]] = {}  # how many tiles the best block has, which, and how many all have
+    for some in _pieces(blocks):
+        for block in some:
+            x, y = squares[block]
+            count, key = len(blocks[block]), (block[0], x >> bits, y >> bits)
+            most, one, total = best.get(key, (0, block, 0))
+            best[key] = *max((most, one), (count, block)), total + count
+        yield
+    return tuple(Spot(key[0], _hull(blocks[one]), total) for key, (_, one, total) in sorted(best.items()))
 
 
-def _spots(found: set[Place], own: int, level: int, cell: int) -> Iterator[Spot]:
-    blocks: dict[Place, list[Place]] = defaultdict(list)
-    for x, y in found:
-        blocks[x // _BLOCK, y // _BLOCK].append((x, y))
-    cells: dict[Place, list[Place]] = defaultdict(list)
-    for block in blocks:
-        x, y = (_shifted((2 * side + 1) * _BLOCK * TILE >> 1, level - own) // cell for side in block)
-        cells[x, y].append(block)
-    for _, inside in sorted(cells.items()):
-        best = max(inside, key=lambda block: (len(blocks[block]), block))
-        yield Spot(own, _hull(set(blocks[best])), sum(len(blocks[block]) for block in inside))
+def _doublings(squares: dict[_Block, tuple[int, int]]) -> Generator[None, None, int]:
+    """Returns how often squares have to double until there are few enough; pauses on the way."""
+    low, high = 0, 0
+    for sides in _pieces(squares.values()):
+        high = max(high, *(side.bit_length() for square in sides for side in square))
+        yield
+    while low < high:
+        half, larger = (low + high) // 2, set[_Block]()
+        for some in _pieces(squares):
+            larger.update((block[0], squares[block][0] >> half, squares[block][1] >> half) for block in some)
+            yield
+            if len(larger) > _MOST:
+                break
+        low, high = (low, half) if len(larger) <= _MOST else (half + 1, high)
+    return low
 
 
 def _shifted(value: int, bits: int) -> int:
     return value << bits if bits >= 0 else value >> -bits
 
 
-def nearest_tiles(finest: Finest, level: int, sight: Rect) -> list[tuple[int, Place]]:
-    """Returns tiles near what is in sight of a level, `sight`, the nearest first: (level, tile).
+def nearest_tiles(finest: Finest, level: int, sight: Rect) -> Generator[None, None, list[tuple[int, Place]]]:
+    """Returns tiles near what is in sight of a level, `sight`, the nearest first: (level, tile); pauses on the way.
 
     It counts how far they lie in screens, and by how many levels they are finer or coarser.
     """
@@ -119,7 +174,11 @@ def nearest_tiles(finest: Finest, level: int, sight: Rect) -> list[tuple[int, Pl
     found = []
     for own, tiles in finest.items():
         at = _shifted(x, own - level), _shifted(y, own - level)
-        for away, tile in heapq.nsmallest(_CANDIDATES, ((_away(tile, at), tile) for tile in tiles)):
+        near: list[tuple[int, Place]] = []
+        for piece in _pieces(tiles):
+            near = heapq.nsmallest(_CANDIDATES, [*near, *((_away(tile, at), tile) for tile in piece)])
+            yield
+        for away, tile in near:
             screens = math.log2(away) + level - own - screen if away else -math.inf
             far = screens if screens > 60 else math.log2(1 + 2.0**screens)
             found.append((abs(own - level) + far, own, tile))

@@ -11,6 +11,7 @@ from engine.painting import commands as c
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.atlas import depths
 from engine.studio.atlas.atlas import Atlas
 from engine.studio.atlas.miniature import miniature
 from engine.studio.easel import Easel
@@ -171,3 +172,32 @@ def test_a_picture_is_turned_and_mirrored_as_the_view(picture):
     ):
         found = miniature(c.Bookmark("a", 0.0, (60, 20), (100, 100), angle, mirrored), (100, 100), picture)
         assert np.allclose(found, expected, atol=1e-4)
+
+
+def drained(work):
+    """What a generator returns, and how many pauses it made."""
+    pauses = 0
+    while True:
+        try:
+            next(work)
+            pauses += 1
+        except StopIteration as end:
+            return end.value, pauses
+
+
+def test_far_flung_paint_is_gone_through_in_pieces():
+    """However much there is: 20,000 places, each far from all others, and none holds the engine's thread."""
+    finest = {0: {(x * 7919, (x * x) % 9973) for x in range(20_000)}}
+    near, pauses = drained(depths.nearest_tiles(finest, 0, Rect.at(7919 * 128 * 5000, 0, 700, 700)))
+    assert near[0] == (0, (7919 * 5000, (5000 * 5000) % 9973))
+    assert pauses >= 4
+    found, pauses = drained(depths.spots(finest, -12, 22))
+    assert pauses >= 12
+    assert 150 <= len(found) <= 300
+    assert sum(spot.tiles for spot in found) == 20_000
+
+
+def test_paint_at_more_levels_than_a_map_has_marks_is_mapped():
+    finest = {level: {(0, 0), (-1, -1)} for level in range(400)}
+    found, _ = drained(depths.spots(finest, 0, 22))
+    assert sorted({spot.level for spot in found}) == list(range(400))

@@ -13,7 +13,6 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.checks import frozen
 from engine.checks.field_error import FieldError
-from engine.files.fault import FileError
 from engine.numeric.scaling import scaled
 from engine.painting import commands as c
 from engine.painting import recording as r
@@ -137,14 +136,16 @@ def test_a_file_without_any_says_nothing_of_them(tmp_path):
 @pytest.mark.parametrize(
     "told", [{"name": "a", "remove": True}, {"name": "a", "level": "x"}, {"level": 1}, {"name": "b"}, 7]
 )
-def test_a_file_with_wrong_ones_is_refused(tmp_path, monkeypatch, told):
+def test_a_file_with_a_wrong_one_opens_without_that_and_tells_it(tmp_path, monkeypatch, told):
     import engine.archive.manifest as manifest
 
     painting = Painting(bookmarks={"b": c.Bookmark("b"), "a": c.Bookmark("a")})
     monkeypatch.setattr(manifest, "write_bookmark", lambda mark: {"name": "b"} if mark.name == "b" else told)
     save(tmp_path / "a.ora", Snapshot(painting))
-    with pytest.raises(FileError, match=r"bookmarks\[1\]"):
-        open_painting(tmp_path / "a.ora")
+    found = open_painting(tmp_path / "a.ora")
+    assert dict(found.painting.bookmarks) == {"b": c.Bookmark("b")}
+    (note,) = found.notes
+    assert note.startswith("a bookmark is left out: bookmarks[1]")
 
 
 @given(

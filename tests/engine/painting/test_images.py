@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from engine.files.fault import FileError
+from engine.files.fault import Cancelled, FileError
 from engine.files.images import read_image
 from engine.files.limits import Limits
 from engine.files.png_writer import write_png
@@ -299,3 +299,19 @@ def test_a_strip_that_holds_far_more_than_it_may_takes_no_memory():
     assert picture.shape == (64, 64, 4)
     assert not picture[:, :, :3].any()
     assert most < 16 << 20
+
+
+@pytest.mark.parametrize("form", ["JPEG", "TIFF"])
+def test_a_picture_that_nobody_wants_any_more_is_not_read_to_its_end(tmp_path, form):
+    noise = np.random.default_rng(1).integers(0, 256, (700, 900, 3), np.uint8)
+    Image.fromarray(noise).save(tmp_path / "a", form, quality=95)
+    looks = []
+
+    def cancelled():
+        looks.append(1)
+        return len(looks) > 2
+
+    with pytest.raises(Cancelled):
+        read_image(tmp_path / "a", cancelled=cancelled)
+    assert len(looks) == 3
+    assert np.array_equal(read_image(tmp_path / "a", cancelled=lambda: False)[0], read_image(tmp_path / "a")[0])
