@@ -166,14 +166,17 @@ def change_about(folder: Path, **members: object) -> None:
 
 
 def tidy(folder: Path | None = None, today: int | None = None) -> None:
-    """Deletes entries that hold nothing, and those that were in the bin for more than DAYS_KEPT days of use.  `today`:
-    counted from 1970."""
+    """Deletes entries that hold nothing, and those that were in the bin for more than DAYS_KEPT days of use; journals
+    in the bin, which may be large and many, are not read: what went there held something.  `today`: counted from 1970.
+    """
     if fcntl is None:
         return
     places, today = list(_places(folder or paintings_folder())), int(time.time() // 86400) if today is None else today
     for place in places:
         with suppress(OSError, WriteError):
-            if not is_alive(place) and (_count_day(place, today) > DAYS_KEPT or not _worth(place)):
+            if is_alive(place):
+                continue
+            if _count_day(place, today) > DAYS_KEPT if _is_closed(place) else not _worth(place):
                 remove_entry(place)
 
 
@@ -240,10 +243,8 @@ def _worth(folder: Path) -> bool:
 
 
 def _count_day(folder: Path, today: int) -> int:
-    """Counts a day of use of an entry in the bin, or opened since; returns how many there were."""
+    """Counts a day of use of an entry in the bin; returns how many there were."""
     about = read_about(folder)
-    if about.get("state") != "closed":
-        return 0
     days = about.get("days", 0)
     days = days if type(days) is int else 0
     if about.get("day") != today:

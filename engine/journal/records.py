@@ -16,8 +16,8 @@ import numpy as np
 from engine.brush import settings
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
-from engine.files.strict_json import dumps, loads
-from engine.painting.commands import Command, Stroke, parse, to_json
+from engine.files.strict_json import Fields, dumps, loads
+from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, Command, Stroke, parse, to_json
 from engine.painting.points import POINT_COLUMNS
 
 LENGTH = struct.Struct("<I")
@@ -126,6 +126,7 @@ def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
     text = payload[end:]
     if text not in brushes:
         brushes[text] = settings.from_json(read_object(text))
-    stroke = parse({"do": "stroke", **read_object(payload[LENGTH.size : end]), "points": _ANY_POINT})
-    assert isinstance(stroke, Stroke)
-    return Touch(stroke.level, stroke.origin, brushes[text], stroke.extra.get("time"))
+    members = Fields(read_object(payload[LENGTH.size : end]), "touch")
+    level = members.integer("level", lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
+    origin = members.integers("origin", 2, limit=PLACE_LIMIT)
+    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None))

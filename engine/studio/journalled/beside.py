@@ -40,9 +40,9 @@ from engine.painting.value import Painting
 
 _LOGGER = logging.getLogger("inkfall")
 SMALL = 256  # pixels: the picture's sides at most
-LIMIT = 1.5  # seconds of carrying out after which a checkpoint is written
+LIMIT = 1.0  # seconds of carrying out after which a checkpoint is written: more comes until it is on disk
 PATIENCE = 3.0  # times that long one waits until what is painted with examples has grown by itself
-PAUSE_FACTOR = 3.0  # times as long as a checkpoint took until the next is begun, at least
+PAUSE_FACTOR = 1.0  # times as long as a checkpoint took until the next is begun, at least
 PICTURE_PAUSE = 5.0  # seconds between two small pictures, at least
 FOLDER_PATIENCE = 10.0  # seconds that what lies beside a journal waits for its folder, at most
 _POLL = 0.01  # seconds

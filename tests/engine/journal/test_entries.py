@@ -146,14 +146,17 @@ def test_a_broken_entry_hides_no_other_and_says_so(tmp_path):
     assert {entry.name for entry in entries.listed(tmp_path)} == {"whole", "Untitled"}
 
 
-def test_the_bin_is_emptied_after_days_of_use(tmp_path):
+def test_the_bin_is_emptied_after_days_of_use(tmp_path, monkeypatch):
     for name in ("first", "second", "kept"):
         journal = Journal(head_of_new(name=name), tmp_path)
         stroke(journal)
         journal.close(End.STAYS if name == "kept" else End.BIN)
+    read, glance = [], entries.glance
+    monkeypatch.setattr(entries, "glance", lambda folder: read.append(folder) or glance(folder))
     for day in range(100, 130):
         entries.tidy(tmp_path, today=day)
         entries.tidy(tmp_path, today=day)
+    assert len(set(read)) == 1, "a journal in the bin was read"
     assert len(entries.listed(tmp_path)) == 3
     entries.tidy(tmp_path, today=130)
     assert [entry.name for entry in entries.listed(tmp_path)] == ["kept"]
