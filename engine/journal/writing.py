@@ -102,7 +102,7 @@ class Writing:
             return self._closing
 
     def _tend(self, volume: Volume) -> None:
-        if volume is not self.now and (self.now.held or not self.now.open):
+        if volume is not self.now and self.now.held:
             return  # what had no answer is not yet written where it is asked now
         if not volume.open:
             volume.make()

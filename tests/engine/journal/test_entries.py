@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import threading
 import time
 
 import numpy as np
@@ -15,6 +16,7 @@ from engine.journal.journal import Journal
 from engine.journal.records import Kind, Touch, told_brush, told_command, told_touch
 from engine.journal.story import read_story
 from engine.journal.volume import End
+from engine.journal.writing import Writing
 from engine.painting import commands as c
 from engine.painting.recording import Header
 
@@ -127,6 +129,23 @@ def test_another_program_is_seen_alive_until_it_is_killed(tmp_path):
         program.stdout.close()
     (entry,) = entries.listed(tmp_path)
     assert not entry.alive
+
+
+def test_a_painting_that_was_left_just_before_the_end_is_kept_in_the_bin(tmp_path, monkeypatch):
+    gate, wait = threading.Event(), Writing._wait
+
+    def late(writing):
+        gate.wait()
+        return wait(writing)
+
+    monkeypatch.setattr(Writing, "_wait", late)
+    journal = Journal(head_of_new(name="before"), tmp_path)
+    journal.note(Kind.DID, told_command(c.AddLayer("sky")))
+    journal.turn(head_of_new(name="after"), End.BIN)
+    journal.note(Kind.DID, told_command(c.AddLayer("sea")))
+    threading.Timer(0.2, gate.set).start()  # close waits for the thread, which then does all at once
+    journal.close(End.STAYS)
+    assert {(entry.name, entry.in_bin) for entry in entries.listed(tmp_path)} == {("before", True), ("after", False)}
 
 
 def test_a_broken_entry_hides_no_other_and_says_so(tmp_path):
