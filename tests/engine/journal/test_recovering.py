@@ -47,9 +47,12 @@ def left(worker):
 
 def first(worker, kind):
     """The first result of this kind that comes; the others are dropped."""
-    while not (found := [result for result in worker.results() if isinstance(result, kind)]):
+    while True:
+        came = worker.results()
+        worker.loaded = getattr(worker, "loaded", False) or any(isinstance(one, results.Ready) for one in came)
+        if found := [one for one in came if isinstance(one, kind)]:
+            return found[0]
         time.sleep(0.01)
-    return found[0]
 
 
 def saved(worker, path):
