@@ -16,6 +16,7 @@ from engine.texture.settling import Settling
 
 SIDE = 32
 SHAPE = Shape(levels=3)
+NIGHTLY = pytest.mark.nightly
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +70,7 @@ def test_values_are_the_examples(sand, after):
     assert np.abs(np.quantile(after, parts) - np.quantile(example, parts)).max() < 0.02
 
 
-@pytest.mark.parametrize("normal", [(1, 1, 1), (2, 1, 0), (3, 2, 1)])
+@pytest.mark.parametrize("normal", [(1, 1, 1), *(pytest.param(n, marks=NIGHTLY) for n in ((2, 1, 0), (3, 2, 1)))])
 def test_planes_do_not_differ_as_a_whole(sand, after, normal):
     """A wave along any direction, by which planes across it are lighter and darker, goes."""
     _, pattern, _ = sand
