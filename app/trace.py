@@ -65,12 +65,12 @@ def trace_points(count: int) -> None:
 
 
 def trace_rest(rests: bool, at: tuple[float, float]) -> None:
-    """Tells whether all that was asked for is done and on the screen, and with it where the pointer was then, pixels
-    of the window; when that is another than before."""
+    """Tells whether all that was asked for is done and on the screen, and where the pointer was then, pixels of the
+    window; when that is another than before."""
     global _rest
     if not TRACED:
         return
-    told = f"at rest {at[0]:g},{at[1]:g}" if rests else "at work"
+    told = f"at {'rest' if rests else 'work'} {at[0]:g},{at[1]:g}"
     if told != _rest:
         _rest = told
         sys.stderr.write(f"{told}\n")

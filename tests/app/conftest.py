@@ -5,6 +5,7 @@ import ctypes
 import moderngl
 import pytest
 from driven import Program
+from forked import Server
 from xserver import lacking, need, started_server
 
 
@@ -17,12 +18,20 @@ def display():
     process.wait(10)
 
 
+@pytest.fixture(scope="session")
+def fork_server():
+    begun = Server()
+    yield begun
+    begun.close()
+
+
 @pytest.fixture
-def program(display, tmp_path):
+def program(display, tmp_path, fork_server):
+    """Starts programs; `fresh`: one that loads everything for itself, as an artist's does."""
     opened = []
 
-    def start(*words: str, on: str = display, **told: str) -> Program:
-        opened.append(Program(on, tmp_path, *words, **told))
+    def start(*words: str, on: str = display, fresh: bool = False, **told: str) -> Program:
+        opened.append(Program(on, tmp_path, *words, server=None if fresh else fork_server, **told))
         return opened[-1]
 
     yield start

@@ -9,20 +9,21 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from forked import ROOT, Forked, Server
 from PIL import ImageGrab
 
 from app.faults.file_guard import TOLD
 
 Point = tuple[int, int]
 Box = tuple[int, int, int, int]  # left, top, right, bottom, pixels of the screen
-ROOT = Path(__file__).parents[2]
 PATIENCE = 90.0  # seconds; the first start compiles kernels
 REST = (640, 790)  # on the status line: there the pointer covers nothing that is looked at
 
 
 class Program:
     """`python -m app` on a display, moved by xdotool, seen through pictures of its screen.  `module`: one beside this
-    file that starts the program in place of `app`; `ready`: what the program has told when it is handed over."""
+    file that starts the program in place of `app`; `ready`: what the program has told when it is handed over;
+    `server`: what it is forked off, and does not load for itself."""
 
     def __init__(
         self,
@@ -32,6 +33,7 @@ class Program:
         trace: str = "1",
         module: str = "app",
         ready: str = "engine ready",
+        server: Server | None = None,
     ) -> None:
         self.display, self.folder = display, folder
         environment = {
@@ -47,9 +49,14 @@ class Program:
         self._boxes: dict[tuple[str, str], Box] = {}  # by window and name, as far as the log is read
         self._read = 0
         self.log = folder / f"log-{time.monotonic_ns()}"
-        with self.log.open("w") as log:
-            command = [sys.executable, "-W", "error::RuntimeWarning", "-m", module, *words]
-            self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=log)
+        self.process: Forked | subprocess.Popen[bytes]
+        if server is not None:
+            self.log.touch()
+            self.process = server.start(module, words, folder, self.log, environment)
+        else:
+            with self.log.open("w") as log:
+                command = [sys.executable, "-W", "error::RuntimeWarning", "-m", module, *words]
+                self.process = subprocess.Popen(command, cwd=folder, env=environment, stderr=log, stdout=log)
         self.wait_for(ready)
 
     def wait_for(self, words: str) -> None:
@@ -62,11 +69,24 @@ class Program:
     def until_rest(self, at: Point) -> None:
         """Waits until the program has taken the pointer there, and all that was asked for is done and drawn."""
         end = time.monotonic() + PATIENCE
-        wanted = f"at rest {at[0]},{at[1]}"
-        while [line for line in self.log.read_text().splitlines() if line.startswith("at ")][-1:] != [wanted]:
+        while not self._told_at().startswith(f"rest {at[0]},{at[1]}\n"):
             assert self.process.poll() is None, self.log.read_text()
-            assert time.monotonic() < end, f"no {wanted!r}: {self.log.read_text()[-2000:]}"
+            assert time.monotonic() < end, f"not at rest at {at}: {self.log.read_text()[-2000:]}"
             time.sleep(0.05)
+
+    def move_to(self, at: Point) -> None:
+        """Moves the pointer, and again until the program has taken it: it hears of none before its window is there."""
+        end = time.monotonic() + PATIENCE
+        self.do("mousemove", *at)
+        while f" {at[0]},{at[1]}\n" not in self._told_at():
+            assert self.process.poll() is None, self.log.read_text()
+            assert time.monotonic() < end, f"the pointer is not at {at}: {self.log.read_text()[-2000:]}"
+            time.sleep(0.1)
+            self.do("mousemove", at[0] - 1, at[1], "mousemove", *at)
+
+    def _told_at(self) -> str:
+        """What the log tells since the program last said whether it is at rest or at work, and where the pointer is."""
+        return f"\n{self.log.read_text()}".rpartition("\nat ")[2]
 
     def boxes(self) -> dict[tuple[str, str], Box]:
         """Where the controls that are in sight lie, by their windows' names and their own."""
@@ -154,8 +174,7 @@ class Program:
 
     def canvas(self, calm: int = 4) -> np.ndarray:
         """The middle of the settled screen, with the pointer parked so that no cursor or tooltip covers it."""
-        self.park()
-        time.sleep(0.2)
+        self.move_to(REST)
         return self.settled(calm=calm)[60:740, 270:970].astype(int)
 
     def comes_to(self, picture: np.ndarray, seconds: float = 30.0) -> bool:

@@ -15,7 +15,7 @@ def fresh(program, tmp_path, monkeypatch):
     """A program whose cache of kernels is empty, and whose engine is loaded."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    return program()
+    return program(fresh=True)
 
 
 def prepared(program, seconds=90.0):
@@ -50,7 +50,7 @@ def test_a_stroke_is_seen_long_before_all_brushes_are_ready(fresh):
 
 
 def test_strokes_made_before_the_engine_is_loaded_are_painted(program):
-    app = program(ready="first frame")
+    app = program(ready="first frame", fresh=True)
     app.do("mousemove", *FROM, "mousedown", 1, "mousemove", *TO, "mouseup", 1)
     app.do("mousemove", 500, 500, "mousedown", 1, "mousemove", 620, 530, "mouseup", 1)
     loaded = "engine ready" in app.log.read_text()

@@ -17,10 +17,11 @@ def differing(a, b, by=3):
 
 
 def test_paint_zoom_undo_save_reopen(program, tmp_path):
-    app = program()
+    app = program(fresh=True)
     empty = app.canvas()
     app.keys("bracketright", "bracketright", "bracketright", "bracketright")
     app.stroke(*WAVE)
+    app.wait_for("all brushes ready")  # until then some of it may be a sketch
     painted = app.canvas_unlike(empty)
     assert differing(empty, painted) > 1500
 
@@ -105,7 +106,7 @@ def test_an_idle_window_sleeps(program):
 
 
 def test_the_first_frame_comes_before_the_engine(program):
-    app = program()
+    app = program(fresh=True)
     first = next(line for line in app.log.read_text().splitlines() if not line.startswith(("box ", "gone ")))
     assert first.startswith("first frame")
     assert first.endswith("numba False")
