@@ -164,7 +164,7 @@ def _tile_without(tile: _Tile, inks: tuple[Instance, ...], seen: _Seen) -> Coded
     if kernels.exchange(*arguments, implied.factors, np.int32(-1), data) <= 0:
         return key, record, None
     data.flags.writeable = False
-    return key, replace(record, data=data), implied
+    return key, replace(record, held=data), implied
 
 
 class _Seen:

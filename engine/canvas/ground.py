@@ -157,7 +157,7 @@ class _Later(Record):
 
     def __getattr__(self, name: str) -> np.ndarray:
         """Returns the data, while there are none."""
-        if name != "data":
+        if name != "held":
             raise AttributeError(name)
         whole, key = self.source
         at = key.rect.parents()
@@ -165,7 +165,7 @@ class _Later(Record):
         record = _record(below, below.reduced(at), key, np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32))
         assert record is not None
         assert record.rect == self.rect
-        object.__setattr__(self, "data", record.data)  # two threads may do so at a time: it is the same
+        self.exchange(record.data)  # two threads may do so at a time: it is the same
         return record.data
 
     @property

@@ -14,6 +14,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import immutables
 import numpy as np
@@ -25,24 +26,47 @@ RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
 _serials = itertools.count(1)
 
 
+class Coded(Protocol):
+    """Data of a record in fewer bytes."""
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that it takes."""
+        ...
+
+    def made(self) -> np.ndarray:
+        """Returns the data, read-only."""
+        ...
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Record:
     """The residual of one tile.
 
     `rect`: the part of the tile it covers, in pixels from the tile's corner; zero elsewhere.
-    `data`: int16 or int32 (4 + 3n, h, w) in units of 2^-16, read-only; `inks`: the n instances of its ink planes.
+    `held`: its `data`, or what they are made of; `inks`: the n instances of its ink planes.
     `depth`: how many commits the pyramid had when it was stored: later attenuations are still to be applied.
     """
 
     rect: Rect
-    data: np.ndarray
+    held: np.ndarray | Coded
     inks: tuple[Instance, ...]
     depth: int
 
     @property
+    def data(self) -> np.ndarray:
+        """Gives int16 or int32 (4 + 3n, h, w) in units of 2^-16, read-only."""
+        held = self.held
+        return held if isinstance(held, np.ndarray) else held.made()
+
+    def exchange(self, held: np.ndarray | Coded) -> None:
+        """Holds the same data in another form.  Other threads may read them meanwhile."""
+        object.__setattr__(self, "held", held)
+
+    @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that the record takes."""
-        return self.data.nbytes + RECORD_OVERHEAD
+        return self.held.nbytes + RECORD_OVERHEAD
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -2,12 +2,14 @@
 
 A step keeps two paintings, before and after, which share all tiles that it did not change.  What the one before holds
 alone counts while the step is done (undo would bring it back), what the one after holds alone while it is undone.
+Of steps far from the present it is coded: what differs from the next painting towards the present, compressed.  Their
+paintings stay what they are, values whose data are made when somebody looks at them.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -17,10 +19,14 @@ from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.store import Pyramid, Record, changed_rects
 from engine.checks.owned import Owned
+from engine.numeric.address import TileKey
 from engine.painting.value import Painting
+from engine.session.coded_records import decode, encode
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
+_AT_HAND = 16  # steps nearest to the present that are not coded while there is room
+_Only = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -40,23 +46,112 @@ class HeldSteps(NamedTuple):
     undone: tuple[Undoable, ...] = ()
 
 
+@dataclass(eq=False, slots=True)
+class _Entry:
+    """A step in a line; `held`: bytes that its far end alone takes now; `coded`: whether these are coded."""
+
+    step: Undoable
+    held: int
+    coded: bool = False
+
+
+class _Line:
+    """The steps on one side of the present, the farthest first.  Of each, the far end is the painting that it leads to
+    from the present; what that alone holds is coded from the farthest step on.
+
+    `undone`: they are those undone.
+    """
+
+    def __init__(self, undone: bool, steps: Iterable[Undoable]) -> None:
+        self._undone = undone
+        self.entries = deque(_Entry(step, self._alone(step)) for step in steps)
+        self.held = sum(entry.held for entry in self.entries)
+        self._coded = 0  # of them
+
+    def __len__(self) -> int:
+        return len(self.entries)
+
+    @property
+    def steps(self) -> tuple[Undoable, ...]:
+        """Gives the steps, as values."""
+        return tuple(entry.step for entry in self.entries)
+
+    @property
+    def plain(self) -> int:
+        """Counts the steps that could still be coded: never the nearest to the present, beside which it is made."""
+        return max(0, len(self.entries) - 1 - self._coded)
+
+    def push(self, step: Undoable) -> None:
+        """Adds the nearest step, as it is."""
+        self.entries.append(_Entry(step, self._alone(step)))
+        self.held += self.entries[-1].held
+
+    def pop(self) -> Undoable:
+        """Takes away the nearest step, as it was; IndexError if there is none."""
+        entry = self.entries.pop()
+        self.held -= entry.held
+        if entry.coded:
+            self._coded -= 1
+            for _, record, _ in _changed(*self._ends(entry.step)):
+                decode(record)
+        return entry.step
+
+    def forget(self) -> None:
+        """Forgets the farthest step."""
+        entry = self.entries.popleft()
+        self.held -= entry.held
+        self._coded -= entry.coded
+
+    def clear(self) -> None:
+        """Forgets all steps."""
+        self.entries.clear()
+        self.held = self._coded = 0
+
+    def code(self) -> None:
+        """Codes the farthest step that is not coded yet."""
+        entry = self.entries[self._coded]
+        far, near = self._ends(entry.step)
+        elsewhere = [layer.pyramid for layer in layers.layers(near)]
+        saved = 0
+        for key, record, other in _changed(far, near):
+            if not any(_holds(pyramid, key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
+                saved += encode(record, other)
+        entry.held -= saved
+        entry.coded = True
+        self.held -= saved
+        self._coded += 1
+
+    def _ends(self, step: Undoable) -> tuple[Group, Group]:
+        """Returns the layers at the far end, and at the near one."""
+        ends = step.before.root, step.after.root
+        return ends[::-1] if self._undone else ends
+
+    def _alone(self, step: Undoable) -> int:
+        return (step.gained if self._undone else step.lost) + STEP_OVERHEAD
+
+
 class History(Owned):
     """The steps done and the steps undone.  It belongs to the thread that made it.
 
-    `bytes_cap`: None for no limit; `keep`: steps never forgotten; `steps`: those that are there already.
+    `bytes_cap`: None for no limit; `keep`: steps never forgotten; `steps`: those that are there already.  Steps beyond
+    the newest are coded while nothing else is to be done (`pending`, `step`), and at once where they take a quarter of
+    the limit.  `forgotten`: steps that were done and are not there any more.
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
-        self._done: deque[Undoable] = deque(steps.done)
-        self._undone: list[Undoable] = list(steps.undone)
+        self._done, self._undone = _Line(False, steps.done), _Line(True, steps.undone)
         self._bytes_cap, self._keep = bytes_cap, keep
-        held = (*(step.lost for step in steps.done), *(step.gained for step in steps.undone))
-        self.held = sum(held) + STEP_OVERHEAD * len(held)  # bytes
+        self.forgotten = 0
+
+    @property
+    def held(self) -> int:
+        """Returns bytes that only steps hold."""
+        return self._done.held + self._undone.held
 
     @property
     def steps(self) -> HeldSteps:
         """Gives all steps, as values."""
-        return HeldSteps(tuple(self._done), tuple(self._undone))
+        return HeldSteps(self._done.steps, self._undone.steps)
 
     @property
     def undo_count(self) -> int:
@@ -70,50 +165,63 @@ class History(Owned):
 
     def push(self, before: Painting, after: Painting) -> None:
         """A step was done: nothing that was undone can be redone any more."""
-        self.held -= sum(step.gained + STEP_OVERHEAD for step in self._undone)
         self._undone.clear()
-        step = Undoable(before, after, *difference(before.root, after.root))
-        self._done.append(step)
-        self.held += step.lost + STEP_OVERHEAD
+        self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
 
     def undo(self) -> Painting:
         """Returns the painting before the last step; IndexError if there is none."""
         step = self._done.pop()
-        self._undone.append(step)
-        self.held += step.gained - step.lost
+        self._undone.push(step)
+        self._make_room()
         return step.before
 
     def redo(self) -> Painting:
         """Returns the painting after the step undone last; IndexError if there is none."""
         step = self._undone.pop()
-        self._done.append(step)
-        self.held += step.lost - step.gained
+        self._done.push(step)
+        self._make_room()
         return step.after
 
     def at(self, by: int) -> Painting | None:
         """Returns the painting so many steps on, or back if that is negative; None where that is not held, or is 0."""
         if 0 < -by <= len(self._done):
-            return self._done[by].before
-        return self._undone[-by].after if 0 < by <= len(self._undone) else None
+            return self._done.entries[by].step.before
+        return self._undone.entries[-by].step.after if 0 < by <= len(self._undone) else None
 
     def amend(self, root: Group) -> None:
         """The layers as they are now, further refined, are `root`."""
         if self._done:
-            step = self._done[-1]
-            new = Undoable(step.before, replace(step.after, root=root), *difference(step.before.root, root))
-            self._done[-1] = new
-            self.held += new.lost - step.lost
+            step = self._done.pop()
+            after = replace(step.after, root=root)
+            self._done.push(Undoable(step.before, after, *difference(step.before.root, root)))
         if self._undone:
-            step = self._undone[-1]
-            new = Undoable(replace(step.before, root=root), step.after, *difference(root, step.after.root))
-            self._undone[-1] = new
-            self.held += new.gained - step.gained
+            step = self._undone.pop()
+            before = replace(step.before, root=root)
+            self._undone.push(Undoable(before, step.after, *difference(root, step.after.root)))
+
+    @property
+    def pending(self) -> int:
+        """Counts the steps to be coded while nothing else is to be done."""
+        return sum(max(0, line.plain - _AT_HAND) for line in (self._done, self._undone))
+
+    def step(self) -> None:
+        """Codes one."""
+        max(self._done, self._undone, key=lambda line: line.plain).code()
+
+    def _make_room(self) -> None:
+        """Codes steps while all take too much."""
+        if self._bytes_cap is not None:
+            for line in (self._done, self._undone):
+                while self.held > self._bytes_cap // 4 and line.plain:
+                    line.code()
 
     def _forget(self) -> None:
         """Drops the oldest steps beyond the limit."""
+        self._make_room()
         while len(self._done) > self._keep and self._bytes_cap is not None and self.held > self._bytes_cap:
-            self.held -= self._done.popleft().lost + STEP_OVERHEAD
+            self._done.forget()
+            self.forgotten += 1
 
 
 def difference(old: Group, new: Group) -> tuple[int, int]:
@@ -132,8 +240,8 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
             lost += a.nbytes if a is not None else 0
             gained += b.nbytes if b is not None else 0
             continue
-        lost += sum(record.nbytes for record in _only(a, b))
-        gained += sum(record.nbytes for record in _only(b, a))
+        lost += sum(record.nbytes for _, record, _ in _only(a, b))
+        gained += sum(record.nbytes for _, record, _ in _only(b, a))
         gained += b.last.nbytes if b.last is not None and b.last is not a.last else 0
     return lost, gained
 
@@ -146,16 +254,33 @@ def _regrown(old: Growth, new: Growth) -> tuple[int, int]:
     return sum(n for k, n in before.items() if k not in after), sum(n for k, n in after.items() if k not in before)
 
 
-def _only(one: Pyramid, other: Pyramid) -> Iterator[Record]:
-    """Yields the records of one state that another of the same line of history does not share."""
+def _changed(far: Group, near: Group) -> Iterator[_Only]:
+    """Yields the records that one of two states of the layers has and the other has not, of layers that both have."""
+    there = {layer.id: layer.pyramid for layer in layers.layers(near)}
+    for layer in layers.layers(far):
+        other = there.get(layer.id)
+        if other is not None and other is not layer.pyramid and other.uid == layer.pyramid.uid:
+            yield from _only(layer.pyramid, other)
+
+
+def _holds(pyramid: Pyramid, key: TileKey, record: Record) -> bool:
+    stored = pyramid.levels.get(key.level)
+    return stored is not None and stored.get((key.x, key.y)) is record
+
+
+def _only(one: Pyramid, other: Pyramid) -> Iterator[_Only]:
+    """Yields the records of one state that another of the same line of history does not share, and what that has in
+    their places."""
     for level, stored in one.levels.items():
         there = other.levels.get(level)
         if there is stored:
             continue
         if one.settled != other.settled:  # folded in between: records changed wherever a stroke had waited
-            yield from (r for place, r in stored.items() if there is None or there.get(place) is not r)
-            continue
-        for rect in changed_rects(other, one, level):
-            for key, record in one.records(level, rect.grown(_AROUND)):
-                if there is None or there.get((key.x, key.y)) is not record:
-                    yield record
+            places = ((TileKey(level, *place), record) for place, record in stored.items())
+        else:
+            rects = changed_rects(other, one, level)
+            places = (found for rect in rects for found in one.records(level, rect.grown(_AROUND)))
+        for key, record in places:
+            beside = there.get((key.x, key.y)) if there is not None else None
+            if beside is not record:
+                yield key, record, beside

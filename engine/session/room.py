@@ -5,16 +5,20 @@ from __future__ import annotations
 from engine.canvas.evaluate import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import memory
+from engine.session.history import History
 
 SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than the room they take
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
 
 
 class Room(Owned):
-    """Looks after the memory of the process.  It belongs to the session's thread."""
+    """Looks after the memory of the process.  It belongs to the session's thread.
 
-    def __init__(self, cache: TileCache) -> None:
-        self._cache = cache
+    `history`: the session's, as it is now.
+    """
+
+    def __init__(self, cache: TileCache, history: History) -> None:
+        self._cache, self.history = cache, history
         self._left = 0  # bytes resident when it was looked after last
         self._evicted = 0  # bytes that the cache had evicted then
 
@@ -32,10 +36,13 @@ class Room(Owned):
 
     @property
     def pending(self) -> int:
-        """Tells by 1 that there is memory worth giving back while nothing else is to be done."""
-        return int(self._cache.evicted - self._evicted > _APART)
+        """Counts what is to be made smaller, or given back, while nothing else is to be done."""
+        return self.history.pending + int(self._cache.evicted - self._evicted > _APART)
 
     def step(self) -> None:
-        """Gives it back."""
+        """Does the next piece of it."""
+        if self.history.pending:
+            self.history.step()
+            return
         self._evicted = self._cache.evicted
         memory.give_back()

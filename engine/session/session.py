@@ -65,7 +65,7 @@ class Session(Owned):
         self.leapt = False
         self._steps: Steps | None = None
         self.heard: Heard = lambda command, live: None
-        self.room = Room(self.cache)
+        self.room = Room(self.cache, self._history)
 
     @property
     def can_undo(self) -> bool:
@@ -132,6 +132,7 @@ class Session(Owned):
     def _done(self, command: c.Command, after: Painting, live: Live | None = None) -> Painting:
         if type(command) in STEPS:
             self._history.push(self.painting, after)
+            self.leapt = self.leapt or self._history.forgotten > 0
         last = self.log[-1] if self.log else None
         if isinstance(command, c.DefineTexture) and isinstance(last, c.DefineTexture) and last.name == command.name:
             self.log.pop()  # nothing was done with that one
@@ -165,7 +166,8 @@ class Session(Owned):
         `found`: the painting after it, played anew, and `history` what led to it.  Recorded as undo or redo is.
         """
         by = number - self.steps.count
-        self._history, self.leapt = history, True
+        self._history = self.room.history = history
+        self.leapt = True
         found = replace(found, active=self.steps.active_at(number))
         return self._arrive(found, c.Undo(-by) if by < 0 else c.Redo(by))
 

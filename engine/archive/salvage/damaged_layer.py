@@ -126,13 +126,13 @@ def _showing(pyramid: Pyramid, key: TileKey, shown: Shown) -> Pyramid:
     # Alpha is clamped where it is seen: without a residual of its own it is what the parents give.
     new = old.data.copy()
     new[3, rows, columns] = 0
-    bare = evaluate(_with_record(pyramid, key, replace(old, data=new)), key.level, part).rgba
+    bare = evaluate(_with_record(pyramid, key, replace(old, held=new)), key.level, part).rgba
     new[:4, rows, columns] += np.rint((wanted - bare) / np.float32(Q)).astype(np.int32)
     if key.level == shown.level:
         same = shown.is_same(evaluate(pyramid, key.level, part).rgba, part)
         new[:4, rows, columns] = np.where(same, old.data[:4, rows, columns], new[:4, rows, columns])
     new.flags.writeable = False
-    return _with_record(pyramid, key, replace(old, data=new))
+    return _with_record(pyramid, key, replace(old, held=new))
 
 
 def _residual(pyramid: Pyramid, key: TileKey) -> Record:

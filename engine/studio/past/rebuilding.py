@@ -41,7 +41,9 @@ class KeptStates:
         self._states[count], self._alone[count] = painting, gained
         self.held += gained
         if self.held > self._most:
-            self._thin_out()
+            self._only(sorted(self._states))  # the history may have coded much of them
+        if self.held > self._most:
+            self._only([0, *sorted(self._states)[2::2]])  # every other one
 
     def nearest(self, log: Sequence[c.Command], count: int, least: int | None = None) -> tuple[int, Painting]:
         """Returns the latest state from which the first `count` commands can be played on, and how many led to it: at
@@ -51,9 +53,8 @@ class KeptStates:
                 return n, self._states[n]
         return 0, self._states[0]
 
-    def _thin_out(self) -> None:
-        """Forgets every other one; those that stay hold more alone then."""
-        kept = [0, *sorted(self._states)[2::2]]
+    def _only(self, kept: Sequence[int]) -> None:
+        """Forgets all but some, and counts anew what each of those holds alone."""
         self._states = {n: self._states[n] for n in kept}
         self._alone = {0: 0}
         for before, n in pairwise(kept):

@@ -59,7 +59,7 @@ def to_be_made(pyramid):
     missing = 0
     for _, record in pyramid.all_records():
         try:
-            object.__getattribute__(record, "data")
+            object.__getattribute__(record, "held")
         except AttributeError:
             missing += 1
     return missing

@@ -276,7 +276,10 @@ def test_kept_states_are_bounded_and_each_leads_on():
         kept[n + 1] = session.painting
     assert STEPS_APART == 200
     assert states.nearest(session.log, 33) == (33, kept[33])
-    states._thin_out()
+    states._most = states.held - 1
+    session.do(stroke(7, 7))
+    states.keep(41, session.painting)
+    session.do(c.Undo())
     assert len(states._states) == 21
     assert states.nearest(session.log, 40) == (40, kept[40])
     assert states.nearest(session.log, 33) == (32, kept[32])

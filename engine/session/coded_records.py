@@ -1,0 +1,161 @@
+"""Records of old states, made smaller: only what differs from the record that took their place, compressed.
+
+A record keeps its value and its identity; the data of a coded one are made when they are asked for.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from dataclasses import dataclass
+
+import numpy as np
+from isal import isal_zlib
+
+from engine.canvas.store import Record
+from engine.numeric.address import Rect
+from engine.texture.planes import plane_map
+from engine.texture.record import Instance
+
+_ALONE = 32  # of so many records of a tile, about one is coded by itself: so that no way to one is long
+_MADE = 32 << 20  # bytes of data kept that were asked for
+_OVERHEAD = 300  # bytes of a coded record's own objects, roughly
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CodedData:
+    """The data of a record, less what the record `other` of the same tile predicts (None: nothing).
+
+    `rect`, `inks`: the record's; `dtype`: of its data; `window`: the rows and columns of the data in which anything
+    differs, `packed`: these, low bytes before high ones, deflated.
+    """
+
+    rect: Rect
+    inks: tuple[Instance, ...]
+    dtype: np.dtype
+    other: Record | None
+    window: tuple[slice, slice]
+    packed: bytes
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that it takes."""
+        return len(self.packed) + _OVERHEAD
+
+    def made(self) -> np.ndarray:
+        """Returns the data, read-only."""
+        known = _KEPT.get(self)
+        if known is not None:
+            return known
+        way = [self]  # to the nearest record whose data are there
+        while (held := way[-1].other and way[-1].other.held) is not None and isinstance(held, CodedData):
+            if _KEPT.get(held) is not None:
+                break
+            way.append(held)
+        for coded in reversed(way):
+            data = coded._added()
+            _KEPT.keep(coded, data)
+        return data
+
+    def _added(self) -> np.ndarray:
+        out = _predicted(self.rect, self.inks, self.dtype, self.other)
+        if self.packed:
+            part = out[:, *self.window]
+            raw = np.frombuffer(isal_zlib.decompress(self.packed), np.uint8).reshape(self.dtype.itemsize, part.size)
+            part += np.ascontiguousarray(raw.T).view(self.dtype).reshape(part.shape)
+        out.flags.writeable = False
+        return out
+
+
+class _Made:
+    """Data that were made of late.  Safe for several threads."""
+
+    def __init__(self) -> None:
+        self._made: OrderedDict[CodedData, np.ndarray] = OrderedDict()
+        self._held = 0
+        self._lock = threading.Lock()
+
+    def get(self, coded: CodedData) -> np.ndarray | None:
+        """Returns the data of a coded record, if they are there."""
+        with self._lock:
+            return self._made.get(coded)
+
+    def keep(self, coded: CodedData, data: np.ndarray) -> None:
+        """Keeps data, and forgets the oldest."""
+        with self._lock:
+            self._held += data.nbytes if coded not in self._made else 0
+            self._made[coded] = data
+            while self._held > _MADE and len(self._made) > 1:
+                self._held -= self._made.popitem(last=False)[1].nbytes
+
+    def forget(self, coded: CodedData) -> None:
+        """Forgets what nobody asks for any more."""
+        with self._lock:
+            data = self._made.pop(coded, None)
+            self._held -= data.nbytes if data is not None else 0
+
+
+_KEPT = _Made()
+
+
+def encode(record: Record, other: Record | None) -> int:
+    """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
+    less than before: 0 if it is coded already."""
+    if not isinstance(record.held, np.ndarray):
+        return 0
+    if other is not None and (_alone(record.depth) or _leads_to(other, record)):
+        other = None
+    coded = _coded(record, other)
+    saved = record.held.nbytes - coded.nbytes
+    if saved <= 0:
+        return 0
+    record.exchange(coded)
+    return saved
+
+
+def decode(record: Record) -> None:
+    """Makes a record as it was."""
+    held = record.held
+    if isinstance(held, CodedData):
+        record.exchange(held.made())
+        _KEPT.forget(held)
+
+
+def _coded(record: Record, other: Record | None) -> CodedData:
+    data = record.data
+    left = data - _predicted(record.rect, record.inks, data.dtype, other)  # wraps round, and back when it is added
+    marked = left.any(axis=0)
+    rows, columns = (np.flatnonzero(marked.any(axis=axis)) for axis in (1, 0))
+    if not len(rows):
+        return CodedData(record.rect, record.inks, data.dtype, other, (slice(0, 0), slice(0, 0)), b"")
+    window = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+    raw = np.ascontiguousarray(left[:, *window]).view(np.uint8).reshape(-1, data.itemsize)
+    packed = isal_zlib.compress(np.ascontiguousarray(raw.T).data, 1)
+    return CodedData(record.rect, record.inks, data.dtype, other, window, packed)
+
+
+def _predicted(rect: Rect, inks: tuple[Instance, ...], dtype: np.dtype, other: Record | None) -> np.ndarray:
+    """Returns what another record of the tile has at the places of one: new, in its integers."""
+    out = np.zeros((4 + 3 * len(inks), rect.height, rect.width), dtype)
+    common = Rect(0, 0, 0, 0) if other is None else rect.intersect(other.rect)
+    if other is not None and not common.empty:
+        data = other.data
+        here, there = common.slices(rect), common.slices(other.rect)
+        for plane, source in enumerate(plane_map(other.inks, inks).tolist()):
+            if source >= 0:
+                out[plane, *here] = data[source, *there].astype(dtype, copy=False)
+    return out
+
+
+def _alone(depth: int) -> bool:
+    """Tells whether a record of so many commits is coded by itself: scattered, as the depths of a tile's records may
+    have any step."""
+    return (depth * 0x9E3779B1 & 0xFFFFFFFF) >> 8 < (1 << 24) // _ALONE
+
+
+def _leads_to(other: Record, record: Record) -> bool:
+    """Tells whether another record's data are made from this one's."""
+    here: Record | None = other
+    while here is not None and here is not record:
+        here = here.held.other if isinstance(here.held, CodedData) else None
+    return here is record

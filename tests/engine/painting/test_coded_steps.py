@@ -1,0 +1,165 @@
+"""Old steps, coded: every state that undo comes to is what it was, bit for bit, whoever holds it."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.canvas import layers
+from engine.canvas.evaluate import TileCache
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting.value import Painting
+from engine.session import coded_records
+from engine.session.coded_records import decode, encode
+from engine.session.history import History
+from engine.session.session import Session
+from engine.studio import requests as q
+from engine.studio.studio import Studio
+
+ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
+
+
+def stroke(n, level=0, radius=5.0, ink=()):
+    at = [float(17 * n % 90), float(29 * n % 70)]
+    brush = {"radius": radius, "opacity": 0.6, "colour": f"#{40 * n % 256:02x}6080", "ink": list(ink)}
+    points = [[v * 2.0**level for v in at], [v * 2.0**level + 12 for v in at]]
+    return c.parse({"do": "stroke", "level": level, "points": points, "brush": brush})
+
+
+def contents(painting):
+    """All that is stored of a painting, copied."""
+    return [
+        (sheet.id, key, record.rect, record.inks, record.depth, record.data.dtype, record.data.tobytes())
+        for sheet in layers.layers(painting.root)
+        for key, record in sheet.pyramid.all_records()
+    ]
+
+
+def code_all(history):
+    for line in (history._done, history._undone):
+        while line.plain:
+            line.code()
+
+
+ACTS = st.one_of(
+    st.builds(stroke, st.integers(0, 9), st.integers(-2, 2), st.sampled_from([2.0, 9.0]), st.sampled_from([(), ROCK])),
+    st.integers(1, 6).map(c.Undo),
+    st.integers(1, 6).map(c.Redo),
+    st.sampled_from([c.AddLayer("Above"), c.DuplicateLayer("Layer 1", "Copy"), c.RemoveLayer("Layer 1")]),
+    st.just(None),
+)
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.lists(ACTS, min_size=4, max_size=24))
+def test_whatever_is_done_coded_states_are_what_they_were(acts):
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    held = {}
+    for act in (stroke(0), stroke(1, ink=ROCK), *acts):
+        if act is None:
+            code_all(session.history)
+            continue
+        try:
+            session.do(act)
+        except Exception as error:  # a layer of that name is there already, or not
+            assert "layer" in str(error)  # noqa: PT017
+            continue
+        held[id(session.painting.root)] = session.painting, contents(session.painting)
+    code_all(session.history)
+    for painting, wanted in held.values():
+        assert contents(painting) == wanted
+    session.do(c.Undo(99))
+    session.do(c.Redo(99))
+    for painting, wanted in held.values():
+        assert contents(painting) == wanted
+    records = [record for s in layers.layers(session.painting.root) for _, record in s.pyramid.all_records()]
+    assert all(isinstance(record.held, np.ndarray) for record in records)
+
+
+def test_a_small_stroke_over_paint_costs_a_tenth_and_undo_comes_to_the_first_step():
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History())
+    for n in range(4):
+        session.do(stroke(n, radius=60.0))
+    before = session.history.held
+    for n in range(40):
+        session.do(stroke(n, radius=3.0))
+    plain, first = session.history.held - before, session.history.at(-44)
+    states = [session.history.at(-n) for n in (1, 20, 40)]
+    wanted = list(map(contents, states))
+    code_all(session.history)
+    coded = session.history.held - before
+    assert coded < plain / 8, (coded, plain)
+    assert list(map(contents, states)) == wanted
+    with ThreadPoolExecutor(4) as threads:  # as those that save and keep checkpoints do
+        assert list(threads.map(contents, states)) == wanted
+    held = session.history.held
+    session.do(c.Undo(44))
+    assert session.painting.root is first.root
+    code_all(session.history)
+    session.do(c.Redo(44))
+    code_all(session.history)
+    assert abs(session.history.held - held) < held / 50
+
+
+def test_steps_are_coded_at_once_where_they_take_too_much():
+    plain = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History())
+    tight = Session(plain.painting, TileCache(16 << 20), history=History(4 << 20))
+    for n in range(60):
+        plain.do(stroke(n))
+        tight.do(stroke(n))
+    assert plain.history.held > 2 * tight.history.held
+    assert tight.history.undo_count == 60
+    assert tight.history.held < 4 << 20
+
+
+def test_no_record_is_made_of_itself():
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    for n in range(3):
+        session.do(stroke(n, radius=30.0))
+    states = [step.after for step in session.history.steps.done]
+    one, two = (next(layers.layers(state.root)).pyramid.levels[0][0, 0] for state in states[:2])
+    wanted = one.data.tobytes(), two.data.tobytes()
+    assert encode(one, two) > 0
+    assert encode(one, two) == 0
+    assert encode(two, one) > 0
+    assert (one.data.tobytes(), two.data.tobytes()) == wanted
+    decode(one)
+    assert isinstance(one.held, np.ndarray)
+    assert two.data.tobytes() == wanted[1]
+
+
+def test_what_is_kept_of_data_that_were_asked_for_is_bounded(monkeypatch):
+    monkeypatch.setattr(coded_records, "_MADE", 1 << 20)
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    for n in range(12):
+        session.do(stroke(n, radius=30.0))
+    code_all(session.history)
+    for n in range(1, 12):
+        contents(session.history.at(-n))
+    assert coded_records._KEPT._held <= 1 << 20
+
+
+def test_old_steps_are_coded_beside_the_painting_and_forgotten_ones_are_played_anew():
+    studio = Studio(lambda result: None, lambda request: None)
+    studio.do(q.New(Rect.at(0, 0, 96, 96)))
+    session = studio.easel.session
+    session._history = session.room.history = History(200_000, keep=2)
+    states = [session.painting]
+    for n in range(30):
+        studio.do(q.Do(stroke(n, radius=2.0)))
+        states.append(session.painting)
+    while studio.step():
+        pass
+    assert session.history.pending == 0
+    assert session.history.forgotten > 0
+    for n in range(29, -1, -1):
+        assert session.can_undo
+        studio.do(q.Do(c.Undo()))
+        while studio.step():
+            pass
+        mine, wanted = contents(session.painting), contents(states[n])
+        assert [row[:4] + row[5:] for row in mine] == [row[:4] + row[5:] for row in wanted]
+    assert not session.can_undo
+    studio.close()
