@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from engine.files.fault import FileError, system_words
@@ -29,12 +29,13 @@ class Overtaken(Exception):
 
 
 class Replacement:
-    """A file that is to be replaced.  `missing`: it was there, and is no more; `lost`: why its old version was not
-    kept, "" if it was; `written`: what takes its place."""
+    """A file that is to be replaced.  `missing`: it was there, and is no more; `linked`: it has other names (hard
+    links), which keep what is replaced; `lost`: why its old version was not kept, "" if it was; `written`: what takes
+    its place."""
 
     def __init__(self, target: Path, seen: Fingerprint | None, asks: bool, preferences: Preferences) -> None:
         self._target, self._seen, self._asks, self._preferences = target, seen, asks, preferences
-        self.missing, self.lost = False, ""
+        self.missing, self.linked, self.lost = False, False, ""
         self.written: Fingerprint | None = None
         self.stack = ExitStack()  # of what ends after it is in its place
 
@@ -52,6 +53,8 @@ class Replacement:
         self.written = fingerprint(part)
         self.stack.enter_context(turn(self._target))
         there = self.compare()
+        with suppress(OSError):
+            self.linked = there is not None and os.stat(self._target).st_nlink > 1
         if there is None or self.written is None or there.same_bytes(self.written):
             return
         try:

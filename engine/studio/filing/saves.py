@@ -22,6 +22,7 @@ from engine.studio.filing.writers import Writers
 
 ELSEWHERE = "{} is open in another window: each saves over what the other has saved"
 MISSING = "{} had been moved or deleted: it is there again"
+LINKED = "{} is saved; the other names of the file that was there (hard links) still have what it was"
 LOST = "{} is saved; its earlier version could not be kept ({})"
 
 
@@ -60,6 +61,8 @@ class _Asked:
 def _told(path: Path, one: Replacement) -> str:
     if one.lost:
         return LOST.format(path.name, one.lost)
+    if one.linked:
+        return LINKED.format(path.name)
     return MISSING.format(path.name) if one.missing else ""
 
 

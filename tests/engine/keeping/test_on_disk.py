@@ -1,5 +1,6 @@
 """No version is replaced that nobody has seen: by two processes that save in any order, killed at any time."""
 
+import os
 import random
 import signal
 import subprocess
@@ -67,6 +68,17 @@ def test_a_link_that_leads_to_another_file_by_now_is_asked_about(tmp_path):
     assert (tmp_path / "c.ora").read_bytes() == b"a4"
     (tmp_path / "d.ora").write_bytes(b"d")
     save(files, tmp_path / "d.ora", b"d2")  # another name, which the dialog asks about
+    files.release()
+
+
+def test_other_names_of_a_file_keep_what_it_was_and_that_is_told(tmp_path):
+    path, other, files = tmp_path / "a.ora", tmp_path / "b.ora", OnDisk(Preferences())
+    assert not save(files, path, b"a1").linked
+    assert not save(files, path, b"a2").linked  # a version is kept of it
+    os.link(path, other)
+    assert save(files, path, b"a3").linked
+    assert other.read_bytes() == b"a2"
+    assert not save(files, path, b"a4").linked
     files.release()
 
 
