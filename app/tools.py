@@ -7,6 +7,7 @@ end and stay; all other gestures are closed.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Generator
 from typing import NamedTuple
 
@@ -116,8 +117,9 @@ def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
 def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | RegionPoints] = Points) -> None:
     if len(points):
         points.flags.writeable = False
-        trace_points(len(points))
+        began = time.monotonic()
         desk.post(form(points))
+        trace_points(len(points), began)
 
 
 def pan(desk: Desk, first: PenEvent) -> Gesture:

@@ -58,10 +58,10 @@ def trace_frame(began: float, ended: float) -> None:
         print("frame:", *(f"{seconds * 1000:.1f}" for seconds in told), file=sys.stderr, flush=True)
 
 
-def trace_points(count: int) -> None:
-    """Tells that so many points of a stroke are posted, and when, by the monotonic clock."""
+def trace_points(count: int, began: float) -> None:
+    """Tells that so many points of a stroke were posted, from when to when, by the monotonic clock."""
     if TRACED:
-        print("points", count, time.monotonic(), file=sys.stderr, flush=True)
+        print("points", count, began, time.monotonic(), file=sys.stderr, flush=True)
 
 
 def trace_rest(rests: bool, at: tuple[float, float]) -> None:

@@ -15,6 +15,13 @@ atexit.register(shutil.rmtree, _OWN, ignore_errors=True)
 os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/config"}
 
 
+def pytest_collection_modifyitems(items):
+    """Slow proofs have an hour each: they take minutes, more where the machine does something else, too."""
+    for item in items:
+        if item.get_closest_marker("nightly") and not item.get_closest_marker("timeout"):
+            item.add_marker(pytest.mark.timeout(3600))
+
+
 class _Kept(logging.Handler):
     def __init__(self):
         super().__init__()

@@ -2,8 +2,9 @@
 
 `python headless.py FOLDER SEED [FILES [WHEN [KIND]]]` paints, once the engine is "loaded" or "at once", until it is
 killed.  KIND: what it does besides, a row of KINDS.  It tells on standard output what it does: "up N" after the pen was
-lifted N times, "ask N" after N commands, "at N K T" before stroke N has K points, at T by the monotonic clock, "now
-WORDS" when what goes on in the background has changed, "saved" and "exported" when a file of FILES was written.
+lifted N times, "ask N" after N commands, "at N K T U" after stroke N has K points, which were posted from T to U by the
+monotonic clock, "now WORDS" when what goes on in the background has changed, "saved" and "exported" when a file of
+FILES was written.
 """
 
 from __future__ import annotations
@@ -111,8 +112,9 @@ class Painter:
         count = 0
         for part in np.array_split(points, len(points) if slow else 4):
             count += len(part)
-            print(f"at {number} {count} {time.monotonic()}", flush=True)
+            began = time.monotonic()
             self.worker.post(q.Points(part))
+            print(f"at {number} {count} {began} {time.monotonic()}", flush=True)
             time.sleep(0.008 if slow else 0.002)
             self.hear()
         self.worker.post(q.Finish())
@@ -132,7 +134,7 @@ def main(folder: str, seed: str, files: str = "", when: str = "at once", kind: s
             asked += 1
             painter.worker.post(q.Do(more))
             print(f"ask {asked}", flush=True)
-        if files and (kind == "saving" or n % 5 == 0):
+        if files and (kind == "saving" or (kind != "painting" and n % 5 == 0)):
             painter.save(Path(files))
         if kind == "exporting":
             painter.export(Path(files))

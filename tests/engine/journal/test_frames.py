@@ -4,7 +4,17 @@ import random
 import struct
 import zlib
 
+import pytest
+from headless import strokes
+
+from engine.journal import entries
 from engine.journal.frames import PREFIX_BYTES, Frame, framed, frames_in
+from engine.journal.heads import head_of_new
+from engine.journal.journal import Journal
+from engine.journal.records import told_command
+from engine.journal.story import read_story
+from engine.journal.volume import End
+from engine.painting import commands as c
 
 PROTOTYPE = struct.Struct("<2sBBIQI")
 
@@ -94,3 +104,47 @@ def prototype_count(data):
             break
         at, count = end, count + 1
     return count
+
+
+def painted(folder, size):
+    """The journal's file of an entry with about so many bytes of strokes, and all that was asked for."""
+    journal, asked = Journal(head_of_new(), folder), []
+    for brush, points, _ in strokes(4):
+        if 48 * sum(len(stroke.points) for stroke in asked) > size:
+            break
+        points.flags.writeable = False
+        asked.append(c.Stroke(0, (0, 0), points, brush))
+        journal.ask(told_command(asked[-1]))
+    journal.close(End.STAYS)
+    (entry,) = entries.listed(folder)
+    return entry.folder / "journal-1", asked
+
+
+@pytest.mark.parametrize("every", [977, pytest.param(1, marks=pytest.mark.nightly)])
+def test_cut_or_flipped_anywhere_a_journal_gives_its_longest_whole_beginning(tmp_path, every):
+    """And its entry is listed, whatever is wrong with it."""
+    path, asked = painted(tmp_path, 64 << 10)
+    data = path.read_bytes()
+    frames, good = frames_in(data)
+    assert good == len(data) > 64 << 10
+    whole = ends(frames)
+    for place in range(0, len(data), every):
+        flipped = bytearray(data)
+        flipped[place] ^= 1 << (place % 8)
+        count = max(0, sum(end <= place for end in whole) - 2)  # the head is none that was asked for
+        for bad in (data[:place], bytes(flipped)):
+            path.write_bytes(bad)
+            found = [one.command for one in read_story(path.parent).asked.values()]
+            assert found == asked[:count]
+        if place % (50 * every) == 0:
+            (entry,) = entries.listed(tmp_path) or [None]
+            assert entry is not None
+            assert entry.faults
+    path.write_bytes(data)
+    about = path.with_name(entries.ABOUT_FILE)
+    told = about.read_bytes()
+    for place in range(len(told)):
+        for bad in (told[:place], told[:place] + bytes([told[place] ^ 4]) + told[place + 1 :]):
+            about.write_bytes(bad)
+            (entry,) = entries.listed(tmp_path)
+            assert entry.strokes == len(asked)

@@ -8,7 +8,7 @@ import pytest
 import specimens
 from quality import unlikeness
 
-pytestmark = [pytest.mark.nightly, pytest.mark.timeout(300)]
+pytestmark = pytest.mark.nightly
 
 SIDE = 64
 EXAMPLES: dict[str, Callable[[], np.ndarray]] = {
