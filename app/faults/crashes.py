@@ -1,34 +1,21 @@
-"""When the interpreter crashed: what `faulthandler` left in the log, which tells no time."""
+"""Which programs the interpreter crashed in: `faulthandler` leaves the threads of each in the log."""
 
 from __future__ import annotations
 
 import re
-import time
-from datetime import datetime
 
-from app.faults.log import LOGGER, SIZE, log_file
+from app.faults.log import SIZE, log_file
 
-_TRACE = re.compile(r"^Fatal Python error: ", re.MULTILINE)
-_LINE = re.compile(r"^(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d),\d{3} ", re.MULTILINE)
-_NOTED = "the interpreter crashed at "
-_FORM = "%Y-%m-%d %H:%M:%S"
-_TIME = re.compile(re.escape(_NOTED) + r"(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d)")
+_TRACE = re.compile(r"^Fatal Python error: .*?(?=^\d{4}-\d\d-\d\d |\Z)", re.MULTILINE | re.DOTALL)
+_THREAD = re.compile(r"^(?:Current thread|Thread) 0x([0-9a-f]+) ", re.MULTILINE)
 
 
-def crashes() -> tuple[float, ...]:
-    """Returns when, seconds since 1970, as far as the log goes back; notes the last crash in it, with its time, unless
-    that has been done.  For the files' thread."""
+def crashed_threads() -> frozenset[int]:
+    """Returns the threads of all programs that crashed, by their idents, as far as the log goes back.  For the files'
+    thread."""
     try:
         with log_file().open(encoding="utf-8", errors="replace") as file:
             text = file.read(2 * SIZE)
-            changed = log_file().stat().st_mtime
     except OSError:
-        return ()
-    times = [datetime.strptime(when, _FORM).timestamp() for when in _TIME.findall(text)]
-    last = next(reversed(list(_TRACE.finditer(text))), None)
-    if last is None or _NOTED in text[last.end() :]:
-        return tuple(times)
-    later = _LINE.search(text, last.end())
-    when = changed if later is None else datetime.strptime(later[1], _FORM).timestamp()
-    LOGGER.error("%s%s; its trace stands above", _NOTED, time.strftime(_FORM, time.localtime(when)))
-    return (*times, when)
+        return frozenset()
+    return frozenset(int(ident, 16) for trace in _TRACE.findall(text) for ident in _THREAD.findall(trace))

@@ -161,7 +161,7 @@ class Volume:
         self.write_held()
         with suppress(WriteError):  # the head tells it, too
             about = {name: self._head.get(name) for name in ("name", "path", "clock")}
-            entries.change_about(self.folder, **about, state="open")
+            entries.change_about(self.folder, **about, state="open", thread=threading.main_thread().ident)
 
     def sync(self) -> None:
         """Brings what is written to disk.  What a disk refused once is written again, to another file: it may have

@@ -1,6 +1,5 @@
 """What is on the cards of paintings that can be had back."""
 
-import os
 import subprocess
 import sys
 import time
@@ -19,8 +18,8 @@ ROOT = Path(__file__).parents[2]
 NOON = time.mktime((2026, 3, 2, 12, 0, 0, 0, 0, -1))
 
 
-def entry(ident, when, alive=False):
-    return SimpleNamespace(ident=ident, when=when, alive=alive)
+def entry(ident, when, alive=False, thread=0):
+    return SimpleNamespace(ident=ident, when=when, alive=alive, thread=thread)
 
 
 @pytest.mark.parametrize(
@@ -58,42 +57,35 @@ def test_what_is_alive_in_another_program_is_not_offered_and_the_newest_comes_fi
     assert [one.ident for one in found] == ["b", "a"]
 
 
-def test_a_crash_is_told_of_the_painting_that_was_painted_on_last_before_it():
-    entries = (entry("a", 100.0), entry("b", 200.0), entry("c", 300.0), entry("d", 199.0, alive=True))
-    assert state.crashed_among(entries, (150.0, 250.0)) == {"a", "b"}
-    assert state.crashed_among(entries, (50.0,)) == set()
+def test_a_crash_is_told_of_the_painting_of_the_program_that_crashed():
+    entries = (entry("a", 100.0, thread=7), entry("b", 200.0, thread=8), entry("c", 300.0, alive=True, thread=7))
+    assert state.crashed_among(entries, frozenset({7, 9})) == {"a"}
+    assert state.crashed_among(entries, frozenset()) == set()
 
 
 @pytest.fixture
 def crashed(tmp_path, monkeypatch):
     """A program whose interpreter has crashed."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    code = "import os, signal\nfrom app.faults.log import LOGGER, open_log\nopen_log()\nLOGGER.error('before')\n"
-    code += "os.kill(os.getpid(), signal.SIGSEGV)"
-    subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, timeout=60)
-    return tmp_path / "inkfall" / "log" / "inkfall.log"
+    code = "import os, signal, threading\nfrom app.faults.log import LOGGER, open_log\nopen_log()\n"
+    code += "LOGGER.error('before')\nprint(threading.main_thread().ident, flush=True)\n"
+    code += "threading.Thread(target=os.kill, args=(os.getpid(), signal.SIGSEGV)).start()\nthreading.Event().wait()"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, timeout=60)
+    return tmp_path / "inkfall" / "log" / "inkfall.log", int(done.stdout)
 
 
-def test_when_the_interpreter_crashed_is_found_and_noted_once(crashed):
-    now = time.time()
-    os.utime(crashed, (now - 500, now - 500))
-    noted = run_crashes()
-    assert noted == pytest.approx([now - 500], abs=1.0)
-    with crashed.open("a") as file:
-        file.write("2027-01-01 00:00:00,000 ERROR MainThread: something else\n")
-    assert run_crashes() == pytest.approx(noted, abs=1.0)
-    assert crashed.read_text().count("interpreter crashed") == 1
-
-
-def test_a_crash_with_faults_after_it_was_before_them(crashed):
-    with crashed.open("a") as file:
-        file.write("2026-01-01 00:00:00,000 ERROR MainThread: something else\n")
-    assert run_crashes() == [time.mktime((2026, 1, 1, 0, 0, 0, 0, 0, -1))]
+def test_the_thread_that_a_crashed_program_began_with_is_found_in_the_log(crashed):
+    log, thread = crashed
+    assert thread in crashes.crashed_threads()
+    with log.open("a") as file:
+        file.write("2027-01-01 00:00:00,000 ERROR MainThread: something else\nThread 0x0000000000000007 (waits)\n")
+    assert thread in crashes.crashed_threads()
+    assert 7 not in crashes.crashed_threads()
 
 
 def test_no_log_no_crash(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    assert crashes.crashes() == ()
+    assert crashes.crashed_threads() == frozenset()
 
 
 class Desk:
@@ -123,7 +115,8 @@ def test_what_was_not_saved_of_a_file_is_offered_when_it_is_opened(tmp_path, mon
 def test_only_cards_of_the_file_that_is_opened_are_shown(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     kept = [
-        SimpleNamespace(ident=name, when=1.0, alive=False, path=tmp_path / f"{name}.ora") for name in ("lake", "sea")
+        SimpleNamespace(ident=name, when=1.0, alive=False, thread=0, path=tmp_path / f"{name}.ora")
+        for name in ("lake", "sea")
     ]
     monkeypatch.setattr(entries, "listed", lambda with_bin: tuple(kept))
     for path, names in ((tmp_path / "sea.ora", ["sea"]), (None, ["lake", "sea"]), (tmp_path / "hill.ora", [])):
@@ -131,12 +124,3 @@ def test_only_cards_of_the_file_that_is_opened_are_shown(tmp_path, monkeypatch):
         work.arrive(desk, work.carry_out())
         assert [card.ident for card in desk.recovery.cards] == names
         assert desk.asked.dialog == (recovery_work.CARDS if names else "")
-
-
-def run_crashes():
-    """What a program that starts finds, with its log open."""
-    code = "from app.faults.log import open_log\nopen_log()\nfrom app.faults.crashes import crashes\nprint(*crashes())"
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60, check=True
-    )
-    return [float(word) for word in done.stdout.split()]

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from engine.journal.entries import Entry
 
 _DAY = 86400  # seconds
-_NEAR = 1.0  # seconds by which the clocks of a file and of an entry differ at most
 
 
 @dataclass(slots=True)
@@ -31,14 +30,9 @@ def newest_first(entries: tuple[Entry, ...], wanted: Callable[[Entry], bool]) ->
     return tuple(sorted(found, key=lambda entry: -entry.when))
 
 
-def crashed_among(entries: tuple[Entry, ...], crashes: tuple[float, ...]) -> frozenset[str]:
-    """Returns the idents of the entries that were painted on last before each crash; times are seconds since 1970."""
-    found = set()
-    for crash in crashes:
-        before = [entry for entry in entries if not entry.alive and entry.when <= crash + _NEAR]
-        if before:
-            found.add(max(before, key=lambda entry: entry.when).ident)
-    return frozenset(found)
+def crashed_among(entries: tuple[Entry, ...], threads: frozenset[int]) -> frozenset[str]:
+    """Returns the idents of the entries whose programs began with one of these threads, which crashed."""
+    return frozenset(entry.ident for entry in entries if not entry.alive and entry.thread in threads)
 
 
 def when_text(when: float, now: float) -> str:
