@@ -27,13 +27,11 @@ from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_
 from engine.painting.recording import SIDE_LIMIT
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
-from engine.strokes.example_textures import KIND
 from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
 from engine.texture.table import TextureError
 
-FORMAT = 3  # 2: nothing of examples; 1: no tile without the colour that its ink implies, no `texture`
-WITHOUT_EXAMPLES = 2  # what a painting is written as that has none, so that older programs open all of it
+FORMAT = 4  # 3: packs of the second format; 2: nothing of examples; 1: no tile without the colour of its ink
 MANIFEST = "inkfall/manifest.json"
 MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
 RECORDING = "inkfall/recording.jsonl"
@@ -121,7 +119,7 @@ def manifest_json(
     frame = painting.frame
     examples = plot_files.entries(painting.root)
     return {
-        "inkfall": format_of(painting),
+        "inkfall": FORMAT,
         "texture": TEXTURES,
         **_CONSTANTS,
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
@@ -144,12 +142,6 @@ def manifest_json(
         },
         "members": {name: list(entry) for name, entry in members.items()},
     }
-
-
-def format_of(painting: Painting) -> int:
-    """Returns the format that tells all of a painting."""
-    grown = any(layer.growth for layer in layers.layers(painting.root))
-    return FORMAT if grown or any(t.kind == KIND for t in painting.textures.values()) else WITHOUT_EXAMPLES
 
 
 def _pack_json(pack: Pack) -> list[Any]:

@@ -22,7 +22,8 @@ from typing import Any, TypeVar
 import numpy as np
 from isal import isal_zlib
 
-from engine.archive import packs_of_format_1, tilecode
+from engine.archive import tilecode
+from engine.archive.earlier import packs_of_format_1, packs_of_format_2
 from engine.archive.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.archive.packfault import PackFault, need
 from engine.canvas.store import Record
@@ -35,13 +36,13 @@ from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
-_MAGIC = b"inkfall\x02"
+_MAGIC = b"inkfall\x03"
 TILES = 256  # in a pack
 BYTES = 32 << 20  # of all tiles of a pack, about
 BLOCK = 1 << 22  # of all tiles of a block, about
 HEAD_CAP = 24 << 20  # bytes of the head
 FEW_BYTES = 1 << 14
-BLOCK_CAP = 256 << 20  # what a block may claim: one tile of a thousand inks fits
+BLOCK_CAP = 512 << 20  # what a block may claim: one tile of a thousand inks fits
 LEVEL_CAP = LEVEL_LIMIT + 256  # a stroke changes some levels coarser than its own
 DIGITS_CAP = PLACE_LIMIT.bit_length() // 4 + 3  # of an address, with its sign
 RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
@@ -123,11 +124,11 @@ def _is_proven(data: bytes) -> bool | None:
 @dataclass(frozen=True, slots=True)
 class _Format:
     """How blocks of tiles are read: `decoded` as `tilecode.decoded`; the plain bytes of a tile (planes, h, w) of 16 or
-    32 bits as the manifest counts them; whether those of a block are just that many."""
+    32 bits as the manifest counts them; the most that it can take of a block, None where it takes just as many."""
 
     decoded: Callable[[np.ndarray, Sequence[np.ndarray]], int]
     size: Callable[[tuple[int, int, int], int], int]
-    exact: bool
+    most: Callable[[tuple[int, int, int], int], int] | None = None
 
 
 def _data_size(shape: tuple[int, int, int], bits: int) -> int:
@@ -135,8 +136,9 @@ def _data_size(shape: tuple[int, int, int], bits: int) -> int:
 
 
 _FORMATS = {
-    packs_of_format_1.MAGIC: _Format(packs_of_format_1.decoded, packs_of_format_1.encoded_size, exact=True),
-    _MAGIC: _Format(tilecode.decoded, _data_size, exact=False),
+    packs_of_format_1.MAGIC: _Format(packs_of_format_1.decoded, packs_of_format_1.encoded_size),
+    packs_of_format_2.SECOND: _Format(packs_of_format_2.rows_decoded, _data_size, packs_of_format_2.most),
+    _MAGIC: _Format(tilecode.decoded, _data_size, lambda shape, bits: tilecode.most(shape)),
 }
 
 
@@ -250,17 +252,12 @@ def _by_block(head: _Head) -> Iterator[tuple[_Block, list[_TileHead]]]:
         need(whole, "block", block)
         count, plain, stored = block
         run = head.tiles[done : done + count]
-        most = _most(run, head.form)
-        need(len(run) == count and plain <= most <= BLOCK_CAP, "block", block)
-        need(not head.form.exact or plain == most, "block", block)
+        size, most = head.form.size, head.form.most
+        bound = sum((most or size)(tile.shape, tile.bits) for tile in run)
+        need(len(run) == count and plain <= bound <= BLOCK_CAP, "block", block)
+        need(most is not None or plain == bound, "block", block)
         yield _Block(start, start + stored, plain), run
         done, start = done + count, start + stored
-
-
-def _most(run: Sequence[_TileHead], form: _Format) -> int:
-    """Plain bytes that a block of these tiles can have: where rows have widths, also one byte for each."""
-    size = sum(form.size(h.shape, h.bits) for h in run)
-    return size if form.exact else size + sum(tilecode.code_size(h.shape) for h in run)
 
 
 def _tile_head(line: Any, inks: list[Instance]) -> _TileHead:

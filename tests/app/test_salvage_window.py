@@ -24,7 +24,7 @@ def damaged(path):
     whole = path.with_name("whole.ora")
     save(whole, Snapshot(session.painting))
     data = bytearray(whole.read_bytes())
-    data[data.rindex(b"inkfall\x02") + 3000] ^= 8
+    data[data.rindex(b"inkfall\x03") + 3000] ^= 8
     path.write_bytes(data)
     return whole
 

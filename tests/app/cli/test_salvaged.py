@@ -59,7 +59,7 @@ def test_until_reads_no_further_than_it_plays(tmp_path, capsys):
 def damaged(saved, tmp_path):
     """The painting with a bit flipped in the first pack of its paint, and without its end."""
     data = bytearray(saved.read_bytes())
-    data[data.index(b"inkfall\x02") + 400] ^= 4
+    data[data.index(b"inkfall\x03") + 400] ^= 4
     path = tmp_path / "damaged.ora"
     path.write_bytes(data[:-500])
     return path

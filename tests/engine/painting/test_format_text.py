@@ -119,7 +119,7 @@ def expanded(p):
 
 def tiles_of(pack):
     """The tiles of a pack: key, corners, data, bits."""
-    assert pack[:8] == b"inkfall\x02"
+    assert pack[:8] == b"inkfall\x03"
     (length,) = struct.unpack("<I", pack[8:12])
     head, at = json.loads(pack[12 : 12 + length]), 12 + length
     told = iter(head["tiles"])
@@ -133,36 +133,58 @@ def tiles_of(pack):
 
 def decoded(raw, heads):
     shapes = [(4 + 3 * len(inks), y1 - y0, x1 - x0) for *_, x0, y0, x1, y1, _, inks in heads]
-    total = sum(planes * (1 + rows) for planes, rows, _ in shapes)
-    codes, lengths, at = raw[:total], [0] * 7, 0
-    for planes, rows, width in shapes:
-        for _ in range(planes):
-            for code in codes[at + 1 : at + 1 + rows]:
-                for stream, size in streams(code, width):
-                    lengths[stream] += size
-            at += 1 + rows
-    ends = np.cumsum([total, *lengths])
+    codes = [1 + planes * rows * -(-width // 32) for planes, rows, width in shapes]
+    squares = [-(-rows // 16) * -(-width // 16) for _, rows, width in shapes]
+    gains = [4 * (shape[0] - 1) * count for shape, count in zip(shapes, squares, strict=True)]
+    lengths, at = [0] * 7, 0
+    for (_, _, width), count in zip(shapes, codes, strict=True):
+        for k, code in enumerate(raw[at + 1 : at + count]):
+            for stream, size in streams(code, pieces(width)[k % len(pieces(width))]):
+                lengths[stream] += size
+        at += count
+    ends = np.cumsum([at + sum(gains), *lengths])
     assert ends[-1] == len(raw)
-    places, at = list(ends[:-1]), 0
-    for head, (planes, rows, width) in zip(heads, shapes, strict=True):
+    places, at, gained = list(ends[:-1]), 0, at
+    for head, shape, count, size in zip(heads, shapes, codes, gains, strict=True):
         level, x, y, *corners, bits, _inks = head
-        data = np.zeros((planes, rows, width), np.int64)
-        for plane in data:
-            kind = codes[at]
-            for row in range(rows):
-                z = numbers(raw, codes[at + 1 + row], width, places)
-                plane[row] = [-(v + 1) // 2 if v & 1 else v // 2 for v in z]
-                if kind in (1, 3):
-                    plane[row] = np.cumsum(plane[row])
-                if kind in (2, 3) and row:
-                    plane[row] += plane[row - 1]
-                plane[row] = (plane[row] + (1 << bits - 1)) % (1 << bits) - (1 << bits - 1)
-            at += 1 + rows
-        yield (level, int(x, 16), int(y, 16)), corners, data, bits
+        found = np.frombuffer(raw[gained : gained + size], np.uint8).astype(np.int64)
+        found = found.reshape(shape[0] - 1, 2, 2, -1)  # plane, byte, of alpha or the plane before, square
+        gain = ((found[:, 0] + 256 * found[:, 1]) ^ 0x8000) - 0x8000
+        data = planes_of(raw, raw[at], raw[at + 1 : at + count], places, gain, shape)
+        yield (level, int(x, 16), int(y, 16)), corners, wrapped(data, bits), bits
+        at, gained = at + count, gained + size
+
+
+def planes_of(raw, kind, codes, places, gain, shape):
+    """The planes of a tile, of which the differences are `kind`."""
+    planes, rows, width = shape
+    data, differences = np.zeros(shape, np.int64), []
+    squares = np.arange(rows)[:, None] // 16 * -(-width // 16) + np.arange(width) // 16
+    codes = iter(codes)
+    for number in range(planes):
+        z = [[v for n in pieces(width) for v in numbers(raw, next(codes), n, places)] for _ in range(rows)]
+        d = np.array([[-(v + 1) // 2 if v & 1 else v // 2 for v in row] for row in z])
+        if number:
+            first, second = gain[number - 1][:, squares]
+            d = wrapped(d + (wrapped(first * differences[0] + second * differences[-1] + 128) >> 8))
+        differences.append(d)
+        plane = [3, 0, 1, 2][number] if number < 4 else number
+        data[plane] = np.cumsum(d, axis=1) if kind in (1, 3) else d
+        data[plane] = np.cumsum(data[plane], axis=0) if kind in (2, 3) else data[plane]
+    return data
+
+
+def wrapped(values, bits=32):
+    return (values + (1 << bits - 1)) % (1 << bits) - (1 << bits - 1)
+
+
+def pieces(width):
+    """The pixels of the pieces of a row."""
+    return [min(32, width - x) for x in range(0, width, 32)]
 
 
 def streams(code, width):
-    """Which streams a row of that width lies in, and the bytes that it takes there."""
+    """Which streams a piece of that width lies in, and the bytes that it takes there."""
     if code == 1:
         return [(0, (width + 3) // 4)]
     if code == 2:
@@ -171,7 +193,7 @@ def streams(code, width):
 
 
 def numbers(raw, code, width, places):
-    """The next row's z."""
+    """The next piece's z."""
     z = [0] * width
     for number, (stream, size) in enumerate(streams(code, width)):
         part = raw[places[stream] : places[stream] + size]

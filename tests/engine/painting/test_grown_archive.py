@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from immutables import Map
 from PIL import Image
 from sown import (
     DEFINED,
@@ -38,7 +37,6 @@ from sown import (
 
 from engine.archive import plot_files as files
 from engine.archive.export import Picture, export
-from engine.archive.manifest import FORMAT, WITHOUT_EXAMPLES
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
@@ -120,21 +118,6 @@ def test_painting_goes_on_after_opening_as_it_would_have_without(session, saved)
             one.do(c.parse({**command, "layer": "Layer 1"}))
     assert_same(straight.painting, reopened.painting)
     assert len(grown(straight.painting)) == 8
-
-
-def test_a_painting_without_examples_is_one_of_the_format_before(session, folder, tmp_path):
-    other = begun(folder)
-    other.do(c.parse(stroke([[0, 0], [20, 5]])))
-    for painting, expected in (
-        (replace(other.painting, textures=Map()), WITHOUT_EXAMPLES),
-        (other.painting, FORMAT),
-        (session.painting, FORMAT),
-    ):
-        save(tmp_path / "a.ora", Snapshot(painting))
-        with zipfile.ZipFile(tmp_path / "a.ora") as file:
-            assert json.loads(file.read(MANIFEST))["inkfall"] == expected
-            assert f'inkfall:format="{expected}"'.encode() in file.read("stack.xml")
-        assert open_painting(tmp_path / "a.ora").native
 
 
 def test_another_way_of_growing_is_told(members, tmp_path):

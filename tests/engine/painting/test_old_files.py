@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from engine.archive import packs_of_format_1
+from engine.archive.earlier import packs_of_format_1
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate

@@ -224,7 +224,7 @@ def packs_of(file, name):
 
 def coarsest_lost(file, member, damaged):
     """The coarsest level of the tiles in the damaged blocks of a pack; of all, if its head is damaged."""
-    start = file.data.index(b"inkfall\x02", file.members[member].start)
+    start = file.data.index(b"inkfall\x03", file.members[member].start)
     (length,) = struct.unpack_from("<I", file.data, start + 8)
     at = start + 12 + length
     head = json.loads(file.data[start + 12 : at])

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
 # Of files: they are not read or written while the pen waits.
-ELSEWHERE = ("engine.files.png_reader", "engine.archive.tilecode", "engine.numeric.colour")
+ELSEWHERE = ("engine.files.png_reader", "engine.archive.tilecode_kernels", "engine.numeric.colour")
 PROGRAM = """
 import json, sys, time
 from pathlib import Path

@@ -1,0 +1,1 @@
+"""Packs of tiles as earlier formats have them, which are still read."""
