@@ -120,7 +120,7 @@ def painted(folder, size):
     return entry.folder / "journal-1", asked
 
 
-@pytest.mark.parametrize("every", [977, pytest.param(1, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("every", [977, pytest.param(7, marks=pytest.mark.nightly)])
 def test_cut_or_flipped_anywhere_a_journal_gives_its_longest_whole_beginning(tmp_path, every):
     """And its entry is listed, whatever is wrong with it."""
     path, asked = painted(tmp_path, 64 << 10)
