@@ -19,6 +19,13 @@ def seconds(work: Work) -> float:
     return time.perf_counter() - start
 
 
+def processor(work: Work) -> float:
+    """Seconds of the processor's time that a work takes."""
+    start = time.process_time()
+    work()
+    return time.process_time() - start
+
+
 def best(repeats: int, *works: Work) -> list[float]:
     """The shortest time of each work, in seconds; they take turns, so that all meet the same neighbours."""
     for work in works:

@@ -1,57 +1,122 @@
-"""A stroke of 1,000 points, radius 32, from pen to committed pixels at all levels, against libmypaint's speed."""
+"""A stroke of 1,000 points, 10,000 px long over 2000 x 2000, from pen to committed pixels at all levels.
+
+Against libmypaint's stroke through the same points: its plain one, for textures too, as it has none; its smudging one
+for what moves or evens paint.  CPU time, as one thread takes it; the pyramid and the step of the history included.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from bench import Figure, libmypaint
-from bench.clock import best, slowness
-from engine.brush.settings import Brush, Component
-from engine.session.apply import Painting
-from engine.strokes.paint_stroke import LiveStroke
+from bench.clock import processor, slowness
+from engine.brush.settings import Brush, Component, from_json
+from engine.canvas.evaluate import evaluate
+from engine.canvas.layers import layers
+from engine.numeric.address import Rect
+from engine.session.session import Session
 
-POINTS = 1000
-REPEATS = 15
-RADIUS, HARDNESS, SPACING = 32.0, 0.5, 0.25
+POINTS, SIDE = 1000, 2000
+REPEATS = 5
+HARDNESS, SPACING = 0.5, 0.25
+SMUDGE = 0.6  # what libmypaint takes along
 AT_ONCE = 4  # points, as a frame brings them
-LIBMYPAINT = 50_000.0  # points a second of this very stroke, one thread, without a pyramid (of another run)
+_PUBLISHED = {(4.0, False): 82e3, (32.0, False): 31e3, (128.0, False): 9.5e3, (4.0, True): 38e3, (32.0, True): 17e3}
+_INKS = {
+    "rock": (Component("rock", 0.8, "#d0c0a0"),),
+    "three inks": (
+        Component("rock", 0.5, "#d0c0a0"),
+        Component("stripes", 0.3, "#806020"),
+        Component("squares", 0.2, "#a0c0e0"),
+    ),
+}
+_MOVES: dict[str, dict[str, object]] = {
+    "smooth": {"mode": "smooth"},
+    "smear": {"mode": "raster", "op": {"name": "displace", "distance": 8.0}},
+    "raster smooth": {"mode": "raster", "op": "smooth"},
+    "erase": {"mode": "erase"},
+}
+
+
+class Case(NamedTuple):
+    """A row: its name, radius and brush, whether it goes over paint, how many times libmypaint's speed it ought to
+    have, and how much of the paint libmypaint takes along."""
+
+    name: str
+    radius: float
+    brush: Brush
+    over: bool
+    goal: float
+    smudge: float = 0.0
+
+
+def _cases() -> Iterator[Case]:
+    for radius, goals in ((4.0, (1.3, 1.0, 1.0, 0.7)), (32.0, (3.0, 2.0, 1.5, 1.0)), (128.0, (4.0, 3.0, 2.0, 1.5))):
+        brush = Brush(radius=radius, hardness=HARDNESS, spacing=SPACING, colour="#204060")
+        yield Case("one colour", radius, brush, False, goals[0])
+        yield Case("one colour", radius, brush, True, goals[1])
+        for (name, ink), goal in zip(_INKS.items(), goals[2:], strict=True):
+            inked = Brush(radius=radius, hardness=HARDNESS, spacing=SPACING, colour="#204060", ink=ink)
+            yield Case(name, radius, inked, False, goal)
+    for radius, goal in ((4.0, 1.0), (32.0, 1.5)):
+        for name, members in _MOVES.items():
+            moving = from_json({"radius": radius, "hardness": HARDNESS, "spacing": SPACING, **members})
+            yield Case(name, radius, moving, True, goal, 0.0 if name == "erase" else SMUDGE)
 
 
 def measure(small: bool = False) -> Iterator[Figure]:
-    repeats, points = (1, _curve(20)) if small else (REPEATS, _curve(POINTS))
+    repeats, points = (1, curve(20)) if small else (REPEATS, curve(POINTS))
     slow = 1.0 if libmypaint.library() else slowness()
-    for name, ink in (("stroke, one colour", ()), ("stroke, rock", (Component("rock", 0.8, "#d0c0a0"),))):
-        brush = Brush(radius=RADIUS, hardness=HARDNESS, spacing=SPACING, colour="#204060", ink=ink)
-        yield _figure(name, brush, points, repeats, slow)
+    for case in _cases():
+        yield _figure(case, points, repeats, slow)
 
 
-def _figure(name: str, brush: Brush, points: np.ndarray, repeats: int, slow: float) -> Figure:
-    own = partial(painted, brush, points)
-    if libmypaint.library():
-        told = [(float(x), float(y), float(p)) for x, y, p in points]
-        taken, theirs = best(repeats, own, lambda: libmypaint.stroke(told, RADIUS, HARDNESS, SPACING))
-        bound = f"libmypaint's {len(points) / theirs:,.0f}"
-        note = "libmypaint without a pyramid, same points and dabs, measured in the same run, one thread"
-    else:
-        [taken], theirs = best(repeats, own), len(points) / LIBMYPAINT * slow
-        bound = f"libmypaint's {len(points) / theirs:,.0f}"
+def _figure(case: Case, points: np.ndarray, repeats: int, slow: float) -> Figure:
+    session, told = painted(points) if case.over else Session(), [(float(x), float(y), float(p)) for x, y, p in points]
+    there = libmypaint.library() is not None
+    times = []
+    for i in range(repeats + 1):  # the first compiles, and touches the memory
+        session = session if case.over else Session()
+        own = processor(lambda: stroke(session, case.brush, points + np.array([1.25 * i, 0.75 * i, 0.0])))  # noqa: B023
+        theirs = libmypaint.stroke(told, case.radius, HARDNESS, SPACING, case.smudge) if there else 0.0
+        times.append((own, theirs))
+    taken, theirs = (min(column) for column in zip(*times[1:], strict=True))
+    note = "same points and dabs, without a pyramid, measured in the same run"
+    if not there:
+        theirs = len(points) / _PUBLISHED[case.radius, case.smudge > 0.0] * slow
         note = f"its figure of another run, as copying takes {slow:.2f} x as long"
-    return Figure(name, len(points) / taken, "points/s", bound, theirs / taken, 1.0, True, note)
+    name = f"{case.name}, radius {case.radius:.0f}, {'over paint' if case.over else 'empty layer'}"
+    bound = f"libmypaint's {len(points) / theirs:,.0f}"
+    return Figure(name, len(points) / taken, "points/s", bound, theirs / taken, case.goal, True, note)
 
 
-def _curve(count: int) -> np.ndarray:
-    """A curve of some 6,600 px for 1,000 points: x, y, pressure."""
+def curve(count: int) -> np.ndarray:
+    """The first points of a curve of some 10,000 px over 2000 x 2000 for 1,000 points: x, y, pressure."""
     t = np.linspace(0.0, count / POINTS, count)
-    x, y = 300 + 260 * np.sin(5 * math.tau * t), 250 + 200 * np.cos(3 * math.tau * t)
+    x, y = 1000 + 830 * np.sin(2 * math.tau * t + 0.4), 1000 + 830 * np.cos(1.5 * math.tau * t)
     return np.column_stack([x, y, 0.3 + 0.7 * t])
 
 
-def painted(brush: Brush, points: np.ndarray) -> Painting:
-    live = LiveStroke(Painting(), 0, (0, 0), brush)
+def painted(points: np.ndarray) -> Session:
+    """A session with paint of several colours wherever the points lead, and seen."""
+    session = Session()
+    top, bottom = (int(y) for y in (points[:, 1].min() - 160, points[:, 1].max() + 160))
+    left, right = points[:, 0].min() - 160, points[:, 0].max() + 160
+    for i, y in enumerate(range(top, bottom, 100)):
+        brush = Brush(radius=90.0, hardness=0.3, colour=f"#{(40 + 53 * i) % 256:02x}{(90 + 31 * i) % 256:02x}70")
+        stroke(session, brush, np.array([[left, y, 1.0], [(left + right) / 2, y + 60.0, 0.8], [right, y, 1.0]]))
+    layer = next(iter(layers(session.painting.root)))
+    evaluate(layer.pyramid, 0, Rect(int(left), top, int(right), bottom), session.cache)
+    return session
+
+
+def stroke(session: Session, brush: Brush, points: np.ndarray) -> None:
+    """Paints a stroke as the window has it painted."""
+    live = session.begin(0, (0, 0), brush)
     for part in np.array_split(points, max(1, len(points) // AT_ONCE)):
         live.add(part)
-    return live.commit()
+    session.finish(live)
