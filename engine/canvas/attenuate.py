@@ -20,7 +20,7 @@ def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     pending = [change for change in pyramid.waiting(record.depth) if change.level < key.level]
     if not pending:
         return record
-    data = record.data
+    data = first = record.data
     at = placed(key, record.rect)
     for change in reversed(pending):
         keep = attenuation(change, key.level, at)
@@ -28,7 +28,7 @@ def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
             out = np.empty(data.shape, np.int32)
             kernels.attenuate(data, keep, change.spares_alpha, out)
             data = out
-    return record if data is record.data else Record(record.rect, data, record.inks, pyramid.depth)
+    return record if data is first else Record(record.rect, data, record.inks, pyramid.depth)
 
 
 def placed(key: TileKey, inner: Rect) -> Rect:

@@ -9,6 +9,7 @@ from engine.canvas.store import Record
 from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
+from engine.texture.sparse_planes import MANY, SparsePlanes
 
 Extent = tuple[int, int, int, int, int]
 
@@ -37,6 +38,9 @@ def compact(
         planes = [*range(COLOURS), *(COLOURS + 3 * i + c for i in kept for c in range(3))]
         data, inks = data[planes], tuple(inks[i] for i in kept)
     smaller = np.int16 if bits < 1 << 15 else np.int32
+    at = Rect(rect.x0 + x0, rect.y0 + y0, rect.x0 + x1, rect.y0 + y1)
+    if len(inks) >= MANY:
+        return Record(at, SparsePlanes.of(at, data[:, y0:y1, x0:x1], inks), inks, depth)
     cropped = data[:, y0:y1, x0:x1].astype(smaller)
     cropped.flags.writeable = False
-    return Record(Rect(rect.x0 + x0, rect.y0 + y0, rect.x0 + x1, rect.y0 + y1), cropped, inks, depth)
+    return Record(at, cropped, inks, depth)

@@ -16,10 +16,11 @@ import numpy as np
 from engine.canvas import kernels
 from engine.canvas.attenuate import effective, placed
 from engine.canvas.store import Change, Pyramid, Record, changes_between
-from engine.numeric.address import Rect, TileKey
+from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
+from engine.texture.sparse_planes import SparsePlanes
 
 _NEAR = 1  # levels from the one that is looked at: farther ones are left behind
 _BEHIND = 128 << 20  # bytes
@@ -224,7 +225,9 @@ def step(
 ) -> Planes | None:
     """Returns one level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that
     adds no texture down to the level `finest`, where that is given."""
-    records = [(key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect)]
+    stored = ((key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect))
+    cut = ((key, _within(key, record, rect)) for key, record in stored)
+    records = [(key, record) for key, record in cut if record is not None]
     if parent is None and not records:
         return None
     inks = merged(() if parent is None else parent.inks, *(record.inks for _, record in records))
@@ -248,6 +251,21 @@ def step(
         _add_texture_band(out, inks, level, rect, band)
         kernels.clamp_alpha(out, first, last)
     return without_empty_inks(Planes(out, inks))
+
+
+def _within(key: TileKey, record: Record, rect: Rect) -> Record | None:
+    """Returns a record, of one of many inks only the part that lies in a rectangle: most of them do not."""
+    held = record.held
+    if not isinstance(held, SparsePlanes):
+        return record
+    x, y = key.x * TILE, key.y * TILE
+    inner = Rect(rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y).intersect(record.rect)
+    if inner.empty:
+        return None
+    inks = held.within(inner)
+    data = held.over(inner, inks, held.kind)
+    data.flags.writeable = False  # as those of other records are: so the kernel is compiled once
+    return Record(inner, data, inks, record.depth)
 
 
 def _add_record(out: np.ndarray, rect: Rect, band: Rect, at: Rect, record: Record, planes: np.ndarray) -> None:

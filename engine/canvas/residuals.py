@@ -20,6 +20,7 @@ from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
+from engine.texture.sparse_planes import MANY, SparsePlanes
 
 NewRecords = dict[TileKey, Record | None]
 
@@ -149,6 +150,8 @@ def _record(
         return _first_record(pyramid, key, part, widened(value, inks), touched, parents)
     if old is not None:
         old = effective(pyramid, key, old)
+        if isinstance(old.held, SparsePlanes):
+            return _sparse_record(pyramid, key, part, value, touched, parents, old.held)
         at, inks = part.union(placed(key, old.rect)), merged(inks, old.inks)
     value = widened(value, inks)
     predicted = _predicted(parents, part, value, key.level)
@@ -162,6 +165,23 @@ def _record(
         return _SAME
     x, y = key.x * TILE, key.y * TILE
     return compact(Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y), data, inks, pyramid.depth + 1)
+
+
+def _sparse_record(
+    pyramid: Pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, parents: Parents, held: SparsePlanes
+) -> Record | _Same | None:
+    """As `_record` where many inks lie in the tile: those that do not meet `part` stay as they are."""
+    x, y = key.x * TILE, key.y * TILE
+    inner = Rect(part.x0 - x, part.y0 - y, part.x1 - x, part.y1 - y)
+    inks = merged(value.inks, parents.after.inks, held.within(inner))
+    value, data = widened(value, inks), held.over(inner, inks, np.int32)
+    if not kernels.residual(value.data, _predicted(parents, part, value, key.level), touched, 0, 0, data):
+        return _SAME
+    new = held.replaced(inner, data, inks)
+    if new is None:
+        return None
+    kept = tuple(new.inks)
+    return Record(new.rect, new if len(kept) >= MANY else new.made(), kept, pyramid.depth + 1)
 
 
 def _first_record(

@@ -17,11 +17,12 @@ from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
-from engine.canvas.store import Pyramid, Record, changed_rects
+from engine.canvas.store import RECORD_OVERHEAD, Pyramid, Record, changed_rects
 from engine.checks.owned import Owned
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.coded_records import decode, encode
+from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
@@ -240,10 +241,17 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
             lost += a.nbytes if a is not None else 0
             gained += b.nbytes if b is not None else 0
             continue
-        lost += sum(record.nbytes for _, record, _ in _only(a, b))
-        gained += sum(record.nbytes for _, record, _ in _only(b, a))
+        lost += sum(_alone(record, beside) for _, record, beside in _only(a, b))
+        gained += sum(_alone(record, beside) for _, record, beside in _only(b, a))
         gained += b.last.nbytes if b.last is not None and b.last is not a.last else 0
     return lost, gained
+
+
+def _alone(record: Record, beside: Record | None) -> int:
+    """Returns the bytes that a record does not share with the one in its place."""
+    if beside is not None and isinstance(record.held, SparsePlanes) and isinstance(beside.held, SparsePlanes):
+        return record.held.alone(beside.held) + RECORD_OVERHEAD
+    return record.nbytes
 
 
 def _regrown(old: Growth, new: Growth) -> tuple[int, int]:

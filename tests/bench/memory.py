@@ -10,7 +10,6 @@ import math
 import subprocess
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
@@ -21,11 +20,13 @@ from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import layers
+from engine.keeping.memory import resident
 from engine.painting.commands import Stroke
 from engine.session.history import History
 from engine.session.session import Session
 
 STROKES = 1000
+PAINTED, BUDGET = 600, 512  # strokes at random; MB
 SIDE, PIXEL = 64, 8  # of MyPaint's tiles: pixels, bytes of a pixel
 CACHE = 64 << 20  # bytes of evaluated tiles that the session may keep
 BRUSH = Brush(radius=12.0, hardness=0.7, opacity=0.8, colour="#305070")
@@ -45,6 +46,21 @@ def measure(small: bool = False) -> Iterator[Figure]:
     note = f"resident memory; history, painting and {told['cache'] >> 20} MiB of evaluated tiles are known"
     bound = f"the {known >> 20} MiB it knows of"
     yield Figure("growth of the process", told["grown"] / 2**20, "MiB", bound, told["grown"] / known, 1.25, note=note)
+    if not small:
+        yield random_painting(PAINTED)
+
+
+def random_painting(count: int) -> Figure:
+    """Painting at random through the engine's side, within a small budget."""
+    command = python("-m", "bench.random_painting", str(count))
+    environment = children() | {"INKFALL_MEMORY": str(BUDGET)}
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
+    told = [json.loads(line) for line in done.stdout.splitlines()]
+    most, last = max(row["resident"] for row in told), told[-1]
+    held = ", ".join(f"{name} {last[name] >> 20}" for name in ("records", "history", "cache"))
+    note = f"the most that was resident; at the end, MiB: {held}; {last['steps']} steps can be taken back"
+    bound, name = f"a budget of {BUDGET} MB and 250", f"{count} random strokes"
+    return Figure(name, most / 2**20, "MiB", bound, most / 2**20 / (BUDGET + 250), 1.0, note=note)
 
 
 def paint(count: int) -> dict[str, int]:
@@ -87,17 +103,6 @@ def _tiles_touched(stroke: Stroke) -> int:
         else:
             count += int(covered.reshape(2, SIDE, 2, SIDE).any(axis=(1, 3)).sum())
     return count
-
-
-def resident() -> int:
-    """Bytes of the process in memory; where the system does not tell, the most there ever were."""
-    try:
-        return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
-    except OSError:
-        import resource
-
-        most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        return most if sys.platform == "darwin" else most * 1024
 
 
 if __name__ == "__main__":

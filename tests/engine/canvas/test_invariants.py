@@ -17,6 +17,7 @@ from engine.canvas.kernels import attenuate
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import reduce
+from engine.texture.sparse_planes import SparsePlanes
 
 INKS = (Grain(0, 1), Grain(1, 2))
 COUNT = 65536.0
@@ -53,6 +54,36 @@ def test_a_thousand_visits_with_evictions_change_nothing_and_store_nothing(megab
             cache.clear()
     assert all((around(pyramid, k, cache=cache) == v).all() for k, v in wanted.items())
     assert [record for _, record in pyramid.all_records()] == before
+
+
+def test_planes_of_many_inks_are_kept_apart_and_give_the_same_records(monkeypatch):
+    inks = tuple(Grain(0, n) for n in range(1, 6))
+
+    def made(many):
+        for module in ("compact", "residuals"):
+            monkeypatch.setattr(f"engine.canvas.{module}.MANY", many)
+        rng, pyramid = np.random.default_rng(4), Pyramid()
+        for n in range(18):
+            few = tuple(sorted({inks[n % 5], inks[n * 3 % 5]}, key=lambda ink: ink.key))
+            m, x, y, keep, add = random_stroke(rng, 2, 14, few)
+            pyramid = commit(pyramid, ArrayEdit(m, x, y, keep, add, few))
+            pyramid = fold(pyramid) if n % 7 == 6 else pyramid
+        return pyramid
+
+    dense, sparse = made(99), made(1)
+    apart = [record for _, record in sparse.all_records() if isinstance(record.held, SparsePlanes)]
+    assert len(apart) > 10
+    pairs = zip(dense.all_records(), sparse.all_records(), strict=True)
+    for (key, one), (other_key, other) in pairs:
+        assert (key, one.rect, one.inks, one.depth) == (other_key, other.rect, other.inks, other.depth)
+        assert one.data.dtype == other.data.dtype
+        assert np.array_equal(one.data, other.data)
+    for level in (-6, -1, 0, 2):
+        rect = Rect(-21, -13, 25, 30).zoomed(level)
+        one, other = evaluate(dense, level, rect), evaluate(sparse, level, rect)
+        assert one.inks == other.inks
+        assert np.array_equal(one.data, other.data)
+        assert np.array_equal(shown(sparse, level, rect), other.rgba)
 
 
 def test_levels_left_behind_are_evicted_first():

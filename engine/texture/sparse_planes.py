@@ -1,0 +1,143 @@
+"""Planes of many inks, each kept only as far as anything lies in it: a coarse tile may meet hundreds of instances, each
+of which fills a few of its pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.numeric.address import Rect
+from engine.texture.planes import COLOURS, sort_key
+from engine.texture.record import Instance
+
+MANY = 8  # inks from which on planes are kept so
+_SHEET_OVERHEAD = 300  # bytes of a sheet's own objects, roughly
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SparseSheet:
+    """Some planes of integers, (c, h, w) read-only, over the smallest `rect` that holds what is not zero; `most`: the
+    largest of their absolute values."""
+
+    rect: Rect
+    data: np.ndarray
+    most: int
+
+    @classmethod
+    def of(cls, data: np.ndarray, corner: tuple[int, int]) -> SparseSheet | None:
+        """Copies what is not zero of planes whose first pixel lies at `corner` (x, y); None where all is."""
+        marked = np.any(data, axis=0)
+        rows = np.flatnonzero(marked.any(axis=1))
+        if not len(rows):
+            return None
+        columns = np.flatnonzero(marked.any(axis=0))
+        y0, y1, x0, x1 = int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
+        part = data[:, y0:y1, x0:x1]
+        most = max(int(part.max()), -int(part.min()))
+        kept = part.astype(np.int16 if most < 1 << 15 else np.int32)
+        kept.flags.writeable = False
+        x, y = corner
+        return cls(Rect(x + x0, y + y0, x + x1, y + y1), kept, most)
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that it takes."""
+        return self.data.nbytes + _SHEET_OVERHEAD
+
+    def paste(self, out: np.ndarray, rect: Rect) -> None:
+        """Writes what lies in `rect` into planes (c, h, w) over it."""
+        common = self.rect.intersect(rect)
+        if not common.empty:
+            out[:, *common.slices(rect)] = self.data[:, *common.slices(self.rect)]
+
+    def replaced(self, data: np.ndarray, rect: Rect) -> SparseSheet | None:
+        """Returns it with `data` in place of what lies in `rect`."""
+        whole = self.rect.union(rect)
+        out = np.zeros((len(self.data), whole.height, whole.width), np.int32)
+        self.paste(out, whole)
+        out[:, *rect.slices(whole)] = data
+        return SparseSheet.of(out, (whole.x0, whole.y0))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SparsePlanes:
+    """Planes (4 + 3n, h, w) of integers over `rect`: of colour, None where there is none, and of each ink."""
+
+    rect: Rect
+    colours: SparseSheet | None
+    inks: dict[Instance, SparseSheet]  # in the order of their keys
+
+    @classmethod
+    def of(cls, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...]) -> SparsePlanes:
+        """Takes planes (4 + 3n, h, w) apart; `rect` is the smallest that holds what is not zero."""
+        corner = rect.x0, rect.y0
+        sheets = {ink: SparseSheet.of(data[at : at + 3], corner) for at, ink in _places(inks)}
+        return cls(rect, SparseSheet.of(data[:COLOURS], corner), {ink: s for ink, s in sheets.items() if s is not None})
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that it takes."""
+        return sum(sheet.nbytes for sheet in self._sheets)
+
+    def alone(self, other: SparsePlanes) -> int:
+        """Counts the bytes of what it does not share with another."""
+        shared = {id(sheet) for sheet in other._sheets}
+        return sum(sheet.nbytes for sheet in self._sheets if id(sheet) not in shared)
+
+    @property
+    def _sheets(self) -> list[SparseSheet]:
+        return [*self.inks.values(), *([self.colours] if self.colours is not None else [])]
+
+    @property
+    def kind(self) -> type[np.signedinteger]:
+        """Gives the smaller integer that holds all of it."""
+        return np.int16 if max(sheet.most for sheet in self._sheets) < 1 << 15 else np.int32
+
+    def made(self) -> np.ndarray:
+        """Returns the planes, int16 or int32 as they need it."""
+        out = self.over(self.rect, tuple(self.inks), self.kind)
+        out.flags.writeable = False
+        return out
+
+    def over(self, rect: Rect, inks: tuple[Instance, ...], kind: type[np.signedinteger]) -> np.ndarray:
+        """Returns what lies in a rectangle of colour and some of the inks: new."""
+        out = np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), kind)
+        if self.colours is not None:
+            self.colours.paste(out[:COLOURS], rect)
+        for at, ink in _places(inks):
+            sheet = self.inks.get(ink)
+            if sheet is not None:
+                sheet.paste(out[at : at + 3], rect)
+        return out
+
+    def within(self, rect: Rect) -> tuple[Instance, ...]:
+        """Returns the inks of which something may lie in a rectangle."""
+        return tuple(ink for ink, sheet in self.inks.items() if sheet.rect.meets(rect))
+
+    def replaced(self, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...]) -> SparsePlanes | None:
+        """Returns it with `data`, (4 + 3n, h, w), in place of colour and of some inks in `rect`; None where nothing is
+        left.  What is not replaced is shared."""
+        corner = rect.x0, rect.y0
+        sheets: dict[Instance, SparseSheet | None] = dict(self.inks)
+        for at, ink in _places(inks):
+            old, new = sheets.get(ink), data[at : at + 3]
+            sheets[ink] = SparseSheet.of(new, corner) if old is None else old.replaced(new, rect)
+        new = data[:COLOURS]
+        colours = SparseSheet.of(new, corner) if self.colours is None else self.colours.replaced(new, rect)
+        kept = {ink: sheet for ink, sheet in sheets.items() if sheet is not None}
+        whole = Rect(0, 0, 0, 0)
+        for sheet in (*kept.values(), *([colours] if colours is not None else [])):
+            whole = whole.union(sheet.rect)
+        return None if whole.empty else SparsePlanes(whole, colours, _ordered(kept))
+
+
+def _ordered(sheets: dict[Instance, SparseSheet]) -> dict[Instance, SparseSheet]:
+    """Returns the same sheets in the order in which a stack has its inks."""
+    return {ink: sheets[ink] for ink in sorted(sheets, key=lambda ink: sort_key(ink.key))}
+
+
+def _places(inks: tuple[Instance, ...]) -> Iterable[tuple[int, Instance]]:
+    """Yields the first plane of each ink, and the ink."""
+    return ((COLOURS + 3 * i, ink) for i, ink in enumerate(inks))
