@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-pytestmark = pytest.mark.window
+pytestmark = [pytest.mark.window, pytest.mark.timeout(480)]  # three films, and kernels that may be compiled for them
 RED = np.array([200, 40, 30])
 LINES = (
     '{"inkfall": 1, "frame": [0, 0, 640, 360], "seed": 7}\n'
