@@ -82,13 +82,14 @@ class StrokeMask:
         self._lent: set[TileKey] = set()  # tiles that a Coverage also holds: copied before they are written
         self._bounds = np.array([np.inf, np.inf, -np.inf, -np.inf])
         self._ceiling = 0.0
+        self._lists: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None = None
 
     @property
     def rect(self) -> Rect:
         """Returns the pixels of the level that the dabs so far may have covered."""
         if not self._tiles:
             return Rect(0, 0, 0, 0)
-        x0, y0, x1, y1 = self._bounds
+        x0, y0, x1, y1 = self._bounds.tolist()
         left, top = self._corner[0] * TILE, self._corner[1] * TILE
         return Rect(left + int(x0 // 1), top + int(y0 // 1), left - int(-x1 // 1), top - int(-y1 // 1))
 
@@ -106,9 +107,7 @@ class StrokeMask:
         if not len(discs):
             return set()
         self._ceiling = max(self._ceiling, kernels.highest(discs))
-        room = max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs)))
-        codes, which, inside = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.bool_)
-        runs = np.empty((room, 5), np.int64)
+        codes, which, inside, runs = self._lists_of(max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs))))
         touched: set[TileKey] = set()
         start = 0
         while start < len(discs):
@@ -123,6 +122,14 @@ class StrokeMask:
                     touched.add(key)
         self._laid += len(discs)
         return touched
+
+    def _lists_of(self, room: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Returns what `kernels.list_runs` writes into, for at least `room` pairs: kept, as points come a few at a
+        time."""
+        if self._lists is None or len(self._lists[0]) < room:
+            numbers = np.empty(room, np.int64), np.empty(room, np.int64)
+            self._lists = *numbers, np.empty(room, np.bool_), np.empty((room, 5), np.int64)
+        return self._lists
 
     def _make_room(self, keys: list[TileKey]) -> None:
         total = len(self._tiles) + len(keys)
