@@ -99,7 +99,8 @@ class PaintedHere:
         found: list[ShownStroke] = []
         for step, stroke in candidates:
             seeds = Seeds(painting.seed if stroke.seed is None else stroke.seed, painting.seed)
-            covered = self._covering.over(stroke, level, rect, self._textures(step.textures, painting), seeds)
+            parts = (level, rect) if stroke.level > place.level else (place.level, place.rect)  # no finer than it is
+            covered = self._covering.over(stroke, *parts, self._textures(step.textures, painting), seeds)
             if covered is None:
                 continue
             share = float((covered * left).mean()) * (alpha if step.locked else 1.0)

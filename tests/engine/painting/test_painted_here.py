@@ -88,6 +88,12 @@ def test_it_does_so_at_any_level(commands, at, level):
     check_against_painting_without(commands, level, x, y, slack=0.03)
 
 
+def test_a_hard_rim_beside_finer_strokes_is_what_it_is_alone():
+    fine = stroke((4, 4), (33, 4), radius=2, hardness=0.3, opacity=0.02, colour="#000000", mode="paint")
+    coarse = stroke((23, 2), (22.5, 2), level=-1, radius=5, hardness=0.9, opacity=0.5, colour="#ff0000", mode="paint")
+    check_against_painting_without([fine, coarse], -1, 18, 2, slack=0.001)
+
+
 LOOKS = {
     "plain": {},
     "soft": {"hardness": 0.1, "flow": 0.3},
