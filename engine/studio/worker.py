@@ -83,6 +83,8 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None], pos
     from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
 
+    if posts is not None:
+        posts.is_compiling = lambda: preparing.busy
     return Waiting(Studio(send, post, posts, begun(send)), preparing, send)
 
 

@@ -38,7 +38,7 @@ class Answers(Owned):
         self._command: int | None = None  # the one that is being carried out
         self._parted = False  # whether points of the stroke were refused
         self._count = 0  # of the commands that the journal has of this painting
-        self._beside = Beside(self._journal)
+        self._beside = Beside(self._journal, lambda: posts.is_compiling())
         easel.session.heard = self._heard
         posts.is_modified = lambda: easel.modified
 

@@ -52,13 +52,16 @@ _NICE = 10
 class Beside(Owned):
     """It belongs to the engine's thread, and gives its own nothing but values.
 
+    `is_compiling` tells whether kernels are being compiled in other processes: until they are there, nothing is begun
+    that needs any, as nobody else could load one while this thread compiled it.
     `spent`: seconds that what came after the last checkpoint took to be carried out.
     """
 
-    def __init__(self, journal: Journal) -> None:
+    def __init__(self, journal: Journal, is_compiling: Callable[[], bool] = lambda: False) -> None:
         self._journal, self._entry = journal, journal.entry
         self._pool = ThreadPoolExecutor(1, "inkfall beside", initializer=_yield)
         self._closing, self._urgent = threading.Event(), threading.Event()
+        self._is_compiling = is_compiling
         self._stamp: FileStamp | None = None  # of the file that was opened, before it is kept
         self._keeping: tuple[Path, Future[None]] | None = None  # that file, and what ends when it is kept
         self._writing: Future[float] | None = None  # gives how long it took
@@ -98,6 +101,8 @@ class Beside(Owned):
             self._urgent.clear()
         if self._writing is not None and self._writing.done():
             self._next, self._writing = now + PAUSE_FACTOR * self._writing.result(), None
+        if self._is_compiling():
+            return
         if self._writing is None and self.spent >= LIMIT and now >= self._next:
             if not waiting(painting.root) or self.spent >= PATIENCE * LIMIT:
                 self.spent, self._generation = 0.0, self._generation + 1

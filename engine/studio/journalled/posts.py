@@ -18,7 +18,8 @@ _LOGGER = logging.getLogger("inkfall")
 
 class Posts:
     """The strokes and commands that were posted, by the numbers that the journal gave them.  `tell` is called by the
-    thread that posts, the others by the engine's.  `is_modified`: whether the painting's file lacks any of it."""
+    thread that posts, the others by the engine's.  `is_modified`: whether the painting's file lacks any of it;
+    `is_compiling`: whether kernels are being compiled in processes of their own."""
 
     def __init__(self, journal: Journal) -> None:
         self.journal = journal
@@ -26,6 +27,7 @@ class Posts:
         self._open: dict[int, q.Request] = {}  # by their numbers: strokes and commands without an answer
         self._stroke = 0
         self.is_modified: Callable[[], bool] = lambda: True
+        self.is_compiling: Callable[[], bool] = lambda: False
         self._brush: tuple[object, str] = (None, "")  # the last one, and its text
 
     def tell(self, request: q.Request) -> None:

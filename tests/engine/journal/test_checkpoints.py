@@ -22,7 +22,8 @@ from opens import recovers_in
 
 @pytest.fixture
 def often(monkeypatch):
-    """A checkpoint after every command."""
+    """A checkpoint after every command, and no kernel that it would wait for."""
+    monkeypatch.setattr("engine.studio.preparing.processes.Preparing.busy", False)
     for name in ("LIMIT", "PAUSE_FACTOR", "PICTURE_PAUSE"):
         monkeypatch.setattr(f"engine.studio.journalled.beside.{name}", 0.0)
 
@@ -80,6 +81,25 @@ def test_a_recovery_begins_at_the_newest_that_is_whole(tmp_path, monkeypatch):
         found = recovered(entry.folder)
         assert len(begun) == left_over
         assert np.array_equal(pixels(found.session.painting), expected)
+
+
+@pytest.mark.usefixtures("often")
+def test_nothing_that_needs_kernels_is_begun_while_others_compile_them(tmp_path):
+    worker = painter(tmp_path)
+    idle(worker)  # the engine is loaded, and has told who compiles
+    compiling = [True]
+    worker._posts.is_compiling = lambda: compiling[0]
+    draw(worker, 30, 0)
+    idle(worker)
+    folder = worker._posts.journal.entry.folder
+    time.sleep(0.3)
+    assert not read_story(folder).checkpoints
+    assert not (folder / entries.PICTURE_FILE).exists()
+    compiling[0] = False
+    draw(worker, 30, 1)
+    idle(worker)
+    end_of_checkpoint(worker)
+    left(worker)
 
 
 @pytest.mark.usefixtures("often")

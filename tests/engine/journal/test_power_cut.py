@@ -22,6 +22,7 @@ OLD = 1.0  # seconds
 def painted(folder, monkeypatch):
     """The operations of a program that paints with checkpoints after every stroke, and when each pen-up was told."""
     recorder = Recorder(folder, monkeypatch)
+    monkeypatch.setattr("engine.studio.preparing.processes.Preparing.busy", False)
     for name in ("LIMIT", "PAUSE_FACTOR", "PICTURE_PAUSE"):
         monkeypatch.setattr(f"engine.studio.journalled.beside.{name}", 0.0)
     worker = painter(folder / "p")
