@@ -24,9 +24,12 @@ class Pointers:
         self._pen = pen_source(self._window)
 
     def events(self) -> list[PenEvent]:
-        """Returns what came since the last call."""
+        """Returns what came since the last call.
+
+        What GLFW tells comes first: where pens are heard, X tells it nothing any more but what happened before.
+        """
         found = self._pen.events() if self._pen is not None else []
-        return [*found, *self.mouse.events()]
+        return [*self.mouse.events(), *found]
 
     def at(self) -> tuple[float, float]:
         """Tells where the mouse is, framebuffer pixels: while something is dragged, no events tell."""
