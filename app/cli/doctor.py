@@ -16,6 +16,7 @@ import platformdirs
 
 from app.cli.outcome import DONE
 from app.faults.log import log_file
+from engine.keeping import memory
 
 PACKAGES = ("numpy", "numba", "Pillow", "glfw", "moderngl", "imgui-bundle")
 INPUT_DEVICES = Path("/proc/bus/input/devices")
@@ -72,6 +73,7 @@ def examination() -> dict[str, Any]:
         "python": platform.python_version(),
         "system": platform.platform(),
         "processors": os.cpu_count(),
+        "memory": memory.fault() or f"{memory.budget() // memory.MEGABYTE} MB for paintings, beside the program's",
         "packages": {name: _version(name) for name in PACKAGES},
         "display": display() or "none",
         "opengl": opengl(),

@@ -32,6 +32,11 @@ def budget() -> int:
     return told_budget(os.environ.get(VARIABLE))[0]
 
 
+def fault() -> str:
+    """Tells in a line what is wrong with the variable; "" where nothing is."""
+    return told_budget(os.environ.get(VARIABLE))[1]
+
+
 def told_budget(word: str | None) -> tuple[int, str]:
     """Returns the budget in bytes, and what is wrong with `word`, the variable's value (None: it is not set): "" where
     nothing is."""

@@ -3,6 +3,7 @@
 import json
 
 from app.__main__ import main
+from engine.keeping import memory
 
 
 def test_doctor_prepares_what_is_not_ready(tmp_path, monkeypatch, capsys):
@@ -36,3 +37,15 @@ def test_doctor(capsys, monkeypatch):
     assert isinstance(found["opengl"], str)
     assert main(["doctor"]) == 0
     assert "config" in capsys.readouterr().out
+
+
+def test_it_tells_the_budget_of_memory_or_what_is_wrong_with_it(capsys, monkeypatch):
+    told = []
+    for word in ("512", "much"):
+        memory.budget.cache_clear()
+        monkeypatch.setenv(memory.VARIABLE, word)
+        assert main(["doctor", "--json"]) == 0
+        told.append(json.loads(capsys.readouterr().out)["memory"])
+    memory.budget.cache_clear()
+    assert told[0].startswith("512 MB")
+    assert told[1] == memory.told_budget("much")[1]

@@ -7,6 +7,7 @@ import pytest
 
 from engine.keeping import memory
 from engine.keeping.preferences import preferences_file
+from engine.studio.filing.beginning import begun
 
 
 @pytest.fixture
@@ -40,6 +41,16 @@ def test_what_is_wrong_is_told_and_changes_nothing(preferring, word):
     assert found == 900 << 20
     assert fault.startswith("INKFALL_MEMORY: found ")
     assert "\n" not in fault
+
+
+def test_the_window_is_told_what_is_wrong(tmp_path, monkeypatch):
+    sent = []
+    for name in ("XDG_CONFIG_HOME", "XDG_STATE_HOME"):
+        monkeypatch.setenv(name, str(tmp_path))
+    for word in ("512", "much"):
+        monkeypatch.setenv(memory.VARIABLE, word)
+        begun(sent.append)
+    assert [(note.text, note.stays) for note in sent] == [(memory.told_budget("much")[1], True)]
 
 
 def test_all_shares_together_leave_room_for_the_painting_itself():
