@@ -67,9 +67,7 @@ def test_files_are_chosen_by_their_pictures_and_a_slow_double_click(program):
     while ("Open", "Cancel") in app.boxes():  # on a busy machine the clicks may come later than they are made
         assert time.monotonic() < end, "a slow double click chooses nothing"
         time.sleep(0.6)  # another click than the one before
-        app.do("mousedown", 1, "mouseup", 1)
-        time.sleep(0.4)
-        app.do("mousedown", 1, "mouseup", 1)
+        app.do("mousedown", 1, "mouseup", 1, "sleep", 0.4, "mousedown", 1, "mouseup", 1)
         time.sleep(0.6)
     app.wait_for("painting 1 shown")
 

@@ -47,6 +47,7 @@ def test_a_stroke_is_seen_long_before_all_brushes_are_ready(fresh):
     seen = fresh.screen()[FROM[1] - 3 : FROM[1] + 4, FROM[0] : FROM[0] + 12]  # as far as the stabiliser came
     unpainted = fresh.screen()[600, 500]
     assert np.abs(seen.astype(int) - unpainted).max() > 60
+    fresh.process.kill()  # by itself it would wait for the stroke's kernels as long as a signal lets it
 
 
 def test_strokes_made_before_the_engine_is_loaded_are_painted(program):
