@@ -1,4 +1,5 @@
-"""Write a painting, or a rectangle of it at any level, as .png, .tif or .ora; OUT's ending decides."""
+"""Write a painting, or a rectangle of it at any level; OUT's ending decides: .png, .tif or .ora; .zarr (version 3, with
+OME metadata) or .dzi (DeepZoom, with a page that shows it), which hold its coarser levels, too."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ from app.cli.progress import Progress
 if TYPE_CHECKING:
     from engine.archive.imports import Opened
 
-ENDINGS = (".png", ".tif", ".tiff", ".ora")
+MANY_FILES = (".zarr", ".dzi")
+ENDINGS = (".png", ".tif", ".tiff", ".ora", *MANY_FILES)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -25,14 +27,16 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="level, and rectangle in its pixels")
     parser.add_argument("--layer", metavar="NAME", help="only this layer or group")
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits of each channel")
+    parser.add_argument(
+        "--pyramid", action="store_true", help="a .tif with its coarser levels: BigTIFF, tiles, SubIFDs"
+    )
     salvage_option(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
-    ending = checked_output(options.out, ENDINGS)
-    if ending == ".ora" and options.depth != 8:
-        raise Refused("--depth: found 16 for an .ora, expected it for a picture")
+    ending = checked_output(options.out, ENDINGS, MANY_FILES[:1]) or ""
+    _check(options, ending)
     if os.path.exists(options.out) and os.path.samefile(options.painting, options.out):
         raise Refused(f"{options.out}: found the painting itself, expected another file to write to")
     found = opened_painting(options.painting, salvage=options.salvage)
@@ -47,12 +51,32 @@ def run(options: argparse.Namespace) -> int:
     if ending == ".ora":
         _painting(options, found)
     else:
-        from engine.archive.export import export
-
-        with Progress("writing", 100) as tell:
-            export(options.out, picture_of(found.painting, options.rect, options.layer, options.depth), tell.part)
+        _picture(options, found, ending)
     print(f"wrote {options.out}")
     return DONE
+
+
+def _check(options: argparse.Namespace, ending: str) -> None:
+    """Refuses options that do not go together, before anything is opened."""
+    if ending == ".ora" and options.depth != 8:
+        raise Refused("--depth: found 16 for an .ora, expected it for a picture")
+    if options.pyramid and ending not in (".tif", ".tiff"):
+        raise Refused(f"--pyramid: found it for {ending}, expected it for .tif (.zarr and .dzi are pyramids)")
+    if ending in MANY_FILES:
+        from engine.archive.ladder.ladder_files import folder_format
+
+        folder_format(options.out)
+
+
+def _picture(options: argparse.Namespace, found: Opened, ending: str) -> None:
+    from engine.archive.export import export
+    from engine.archive.ladder.ladder_files import SIDE, write_folder, write_tiff_ladder
+
+    write = write_folder if ending in MANY_FILES else write_tiff_ladder if options.pyramid else export
+    most = SIDE if ending in MANY_FILES else None
+    picture = picture_of(found.painting, options.rect, options.layer, options.depth, most)
+    with Progress("writing", 100) as tell:
+        write(options.out, picture, tell.part)
 
 
 def _painting(options: argparse.Namespace, found: Opened) -> None:

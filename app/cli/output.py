@@ -62,8 +62,9 @@ def grown(path: str, found: Opened) -> Painting:
     return painting
 
 
-def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
-    """Returns the path's ending in lower case, if it is one of `endings` and its folder can be written to."""
+def checked_output(path: str | None, endings: Sequence[str], folders: Sequence[str] = ()) -> str | None:
+    """Returns the path's ending in lower case, if it is one of `endings` and its folder can be written to; `folders`:
+    the endings of what is a folder itself."""
     if path is None:
         return None
     ending = Path(path).suffix.lower()
@@ -73,7 +74,7 @@ def checked_output(path: str | None, endings: Sequence[str]) -> str | None:
     folder = os.path.dirname(path) or "."
     if not os.path.isdir(folder):
         raise Failed(f"{path}: there is no folder {folder}")
-    if os.path.isdir(path):
+    if os.path.isdir(path) and ending not in folders:
         raise Failed(f"{path}: cannot be written: a folder; expected a file name")
     if not os.access(folder, os.W_OK):
         raise Failed(f"{path}: cannot be written: {os.strerror(errno.EACCES)}")
@@ -87,12 +88,16 @@ def rect_of(at: Rectangle) -> tuple[int, Rect]:
     return at.level, Rect.at(at.x, at.y, at.width, at.height)
 
 
-def picture_of(painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8) -> Picture:
-    """Returns a rectangle of a painting, or its frame, as a picture to export."""
+def picture_of(
+    painting: Painting, at: Rectangle | None, layer: str | None = None, depth: int = 8, most: int | None = None
+) -> Picture:
+    """Returns a rectangle of a painting, or its frame, as a picture to export; it has at most `most` pixels each way,
+    or as many as a picture in one file may have."""
     from engine.archive.export import PICTURE_SIDE, Picture
 
     if at is None:
         return Picture(painting, layer=layer, depth=depth)
-    if max(at.width, at.height) > PICTURE_SIDE:
-        raise Refused(f"--rect: found {at.width} x {at.height} pixels, expected at most {PICTURE_SIDE} each way")
+    most = PICTURE_SIDE if most is None else most
+    if max(at.width, at.height) > most:
+        raise Refused(f"--rect: found {at.width} x {at.height} pixels, expected at most {most} each way")
     return Picture(painting, *rect_of(at), layer, depth)

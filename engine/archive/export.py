@@ -11,6 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from engine.canvas import layers
+from engine.canvas.layers import Group
 from engine.files.atomic import replacing
 from engine.files.fault import WriteError
 from engine.files.png_writer import PngWriter
@@ -38,6 +39,15 @@ class Picture:
     def area(self) -> Rect:
         """Gives the rectangle that is exported, in pixels of `level`."""
         return self.painting.frame.zoomed(self.level) if self.rect is None else self.rect
+
+
+def shown_root(picture: Picture) -> Group:
+    """Returns the layers that a picture shows, grown to the end and with nothing pending; LayerError if there is none
+    of that name."""
+    root = picture.painting.root
+    if picture.layer is not None:
+        root = layers.alone(layers.find(root, picture.layer))
+    return folded_layers(settled_root(root))
 
 
 Write = Callable[[BinaryIO, tuple[int, int], int, Iterator[np.ndarray]], None]
@@ -74,10 +84,7 @@ def export(
         raise WriteError(
             path, f"found a picture of {area.width} x {area.height}, expected 1 to {PICTURE_SIDE} each way"
         )
-    root = picture.painting.root
-    if picture.layer is not None:
-        root = layers.alone(layers.find(root, picture.layer))
-    root = folded_layers(settled_root(root))
+    root = shown_root(picture)
     to_pixels = to_rgba8 if picture.depth == 8 else to_rgba16
 
     def rows() -> Iterator[np.ndarray]:

@@ -4,7 +4,9 @@ import json
 
 import numpy as np
 import pytest
+import tifffile
 from command_line import HEADER, pixels, refused
+from zarr import open_group
 
 from app.__main__ import main
 
@@ -33,6 +35,23 @@ def test_endings_depths_and_layers(saved, tmp_path, capsys):
     assert np.array_equal(shown["a.png"], shown["b.tif"])
     assert not np.array_equal(shown["a.png"], shown["c.tiff"])
     capsys.readouterr()
+
+
+def test_pyramids(saved, tmp_path, capsys):
+    whole, tiff, zarr, deep = (tmp_path / name for name in ("a.png", "a.tif", "a.zarr", "a.dzi"))
+    place = ["--rect", "5,9,9,1500,900"]
+    for out, *words in ((whole,), (tiff, "--pyramid"), (zarr,), (zarr,), (deep,)):
+        assert main(["export", str(saved), str(out), *place, *words]) == 0
+        assert f"wrote {out}" in capsys.readouterr().out
+    with tifffile.TiffFile(tiff) as file:
+        assert [level.shape for level in file.series[0].levels] == [(900, 1500, 4), (450, 750, 4), (225, 375, 4)]
+        assert np.array_equal(file.series[0].levels[0].asarray(), pixels(whole))
+    assert np.array_equal(open_group(zarr, mode="r")["0"][:], pixels(whole).transpose(2, 0, 1))
+    assert np.array_equal(pixels(deep.with_name("a_files") / "11" / "0_0.png"), pixels(whole)[:511, :511])
+    assert "--pyramid: found it for .png" in refused(capsys, "export", saved, tmp_path / "b.png", "--pyramid")
+    (tmp_path / "mine.zarr").mkdir()
+    assert "a folder that is no Zarr" in refused(capsys, "export", saved, tmp_path / "mine.zarr", status=1)
+    assert "expected at most" in refused(capsys, "export", saved, tmp_path / "b.zarr", "--rect", f"0,0,0,{1 << 40},1")
 
 
 def test_a_rectangle_as_a_painting(saved, tmp_path, capsys):

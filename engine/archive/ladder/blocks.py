@@ -1,0 +1,76 @@
+"""The pixels of a ladder's blocks, and the loop that makes many of them on all cores."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import deque
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from engine.archive.ladder.rungs import Block, Ladder
+from engine.canvas.layers import Group
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8, to_rgba16
+from engine.painting.rendering import Stop, check_cancelled, strips
+
+AHEAD = 3  # blocks of each thread that are begun before the first of them is asked for
+
+_Made = TypeVar("_Made")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Source:
+    """Where pixels come from: layers with nothing pending, and the ladder that is made of them."""
+
+    root: Group
+    ladder: Ladder
+
+    def pixels(self, rung: int, rect: Rect, cancelled: Stop = None) -> np.ndarray:
+        """Returns straight RGBA (h, w, 4) of a rectangle of a rung, counted from its corner."""
+        place = self.ladder.rungs[rung]
+        area = Rect.at(place.rect.x0 + rect.x0, place.rect.y0 + rect.y0, rect.width, rect.height)
+        convert, kind = (to_rgba8, np.uint8) if self.ladder.depth == 8 else (to_rgba16, np.uint16)
+        out = np.empty((rect.height, rect.width, 4), kind)
+        row = 0
+        for strip in strips(self.root, place.level, area, cancelled):
+            out[row : row + strip.shape[1]] = convert(strip)
+            row += strip.shape[1]
+        return out
+
+
+def in_order(
+    blocks: Iterable[Block], work: Callable[[Block, Stop], _Made], cancelled: Stop = None
+) -> Generator[tuple[Block, _Made], None, None]:
+    """Yields every block with what `work` makes of it, in order; on all cores, a few blocks ahead.
+
+    `work` gets what tells whether to stop.  Whatever is raised, no work goes on afterwards.
+    """
+    threads = os.cpu_count() or 1
+    ended = threading.Event()
+
+    def stopped() -> bool:
+        return ended.is_set() or (cancelled is not None and cancelled())
+
+    waiting: deque[tuple[Block, Future[_Made]]] = deque()
+    with ThreadPoolExecutor(threads, "inkfall export") as pool:
+        try:
+            for block in blocks:
+                waiting.append((block, pool.submit(work, block, stopped)))
+                if len(waiting) >= AHEAD * threads:
+                    yield _first(waiting, cancelled)
+            while waiting:
+                yield _first(waiting, cancelled)
+        finally:
+            ended.set()
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _first(waiting: deque[tuple[Block, Future[_Made]]], cancelled: Stop) -> tuple[Block, _Made]:
+    check_cancelled(cancelled)
+    block, future = waiting.popleft()
+    return block, future.result()
