@@ -5,6 +5,7 @@ import atexit
 import logging
 import os
 import shutil
+import signal
 import tempfile
 
 import pytest
@@ -12,6 +13,9 @@ import pytest
 os.environ["INKFALL_CHECK_THREADS"] = "1"  # before any module of the program is loaded
 _OWN = tempfile.mkdtemp(prefix="inkfall-tests-")  # what is kept, and preferred, is not that of whoever runs the tests
 atexit.register(shutil.rmtree, _OWN, ignore_errors=True)
+for _number in (signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)):
+    if signal.getsignal(_number) is signal.SIG_IGN:  # in the background of a shell, and under nohup
+        signal.signal(_number, lambda *_: None)  # so what tests start does hear it
 os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/config"}
 
 

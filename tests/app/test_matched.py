@@ -233,7 +233,6 @@ def test_long_work_shows_a_bar_and_can_be_stopped(tmp_path):
         cwd=ROOT,
         stderr=theirs,
         stdout=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # also where the tests run in the background
     ) as run:
         os.close(theirs)
         seen = b""

@@ -10,6 +10,7 @@ import math
 import os
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import cache
 from typing import Any
 
@@ -22,12 +23,15 @@ _FLOAT, _POINTER = ctypes.c_float, ctypes.c_void_p
 @cache
 def library() -> Any:
     """The library with the types of its calls, or None.  One thread: a team of two stalls when a core is busy."""
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    for name in NAMES:
-        try:
-            return _typed(ctypes.CDLL(name))
-        except (OSError, AttributeError):
-            continue
+    before = dict(os.environ)
+    os.environ.setdefault("OMP_NUM_THREADS", "1")  # which is read as it is loaded
+    try:
+        for name in NAMES:
+            with suppress(OSError, AttributeError):
+                return _typed(ctypes.CDLL(name))
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
     return None
 
 

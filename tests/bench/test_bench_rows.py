@@ -1,6 +1,7 @@
 """The benchmarks run and tell their rows in the stored form.  Their times are nobody's test."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -34,8 +35,9 @@ def checked(row):
 
 
 def test_quick_benchmarks_run_and_tell_their_rows(capsys, tmp_path):
-    file = tmp_path / "ratios.json"
+    file, environment = tmp_path / "ratios.json", dict(os.environ)
     assert main(["bench", *QUICK, "--small", "--json", "--store", str(file)]) == 0
+    assert os.environ == environment  # what is started after it is started as before
     told = json.loads(capsys.readouterr().out)
     assert {row["bench"] for row in told["figures"]} == set(QUICK)
     for row in told["figures"]:

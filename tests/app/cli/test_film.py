@@ -124,6 +124,9 @@ def test_nothing_is_left_of_a_film_that_is_given_up(saved, tmp_path, name):
         time.sleep(0.05)
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    told = process.communicate(timeout=60)[1]
+    try:
+        told = process.communicate(timeout=60)[1]
+    finally:
+        process.kill()
     assert (process.returncode, told) == (1, "inkfall: interrupted; nothing half-written is left\n")
     assert list(tmp_path.iterdir()) == []
