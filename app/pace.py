@@ -16,6 +16,8 @@ LINGER = 0.9  # seconds that frames go on after an event: hover delays, fading
 IDLE, BLINK = 5.0, 0.3  # seconds to wait for an event when nothing moves, and where text is typed
 PACE = 1 / 125  # seconds a frame takes at least, where the screen does not tell its own pace
 STILL = 1 / 60  # and at most, where frames go on without an event: the engine wants the processor, too
+CALM = 1 / 20  # where nothing came of the last frame, either
+SOON = 0.1  # seconds after an event during which something may come even so
 # What software renderers call themselves.
 SOFTWARE = "llvmpipe", "softpipe", "swrast", "SwiftShader", "Software R", "Basic Render Driver", "GDI Generic"
 AT_HAND = 0.25  # seconds after an event during which each frame counts
@@ -48,7 +50,7 @@ class Pace:
         self.worker: Worker | None = None
         self._shared = any(name in renderer for name in SOFTWARE)
         self._last = self._moved = time.monotonic()
-        self._busy_until = 0.0
+        self._busy_until = self._calm_from = 0.0
         self._took = 0.0  # seconds, by the last frame
         self._drawn = False
         self._resting = False  # until something happens
@@ -58,13 +60,14 @@ class Pace:
     def event(self) -> None:
         """Something came from the artist or the window system."""
         self._moved = time.monotonic()
-        self._busy_until = self._moved + LINGER
+        self._busy_until, self._calm_from = self._moved + LINGER, self._moved + SOON
         if self._shared and self._growing:
             self._give(self._moved)
 
     def news(self, now: float) -> None:
         """Something came from the engine."""
         self._busy_until = max(self._busy_until, now + 0.05)
+        self._calm_from = max(self._calm_from, now + 0.05)
 
     def told(self) -> None:
         """The engine has news; called from its thread.  Where frames go on anyway, the next one takes them in."""
@@ -87,14 +90,20 @@ class Pace:
         """Sleeps until an event, at most one frame while something moves or is about to."""
         now = time.monotonic()
         if moving or self._by_turns or now < self._busy_until:
-            self.rest((PACE if moving and not self._by_turns else self._still(painting)) - (now - self._last))
+            calm = not (moving or painting or self._drawn or self._by_turns) and now >= self._calm_from
+            until = self._last + (CALM if calm else PACE if moving and not self._by_turns else self._still(painting))
+            self._doze(until - now) if calm and until > now else self.rest(until - now)
         else:
-            self._resting = True
-            if self.worker is None or not self.worker.ready:  # what comes from now on wakes
-                self._give(None)
-                glfw.wait_events_timeout(BLINK if typing else IDLE)
-            self._resting = False
+            self._doze(BLINK if typing else IDLE)
             self._last = min(self._last + IDLE, time.monotonic() - PACE)
+
+    def _doze(self, seconds: float) -> None:
+        """Sleeps so long, or until an event or news from the engine."""
+        self._resting = True
+        if self.worker is None or not self.worker.ready:  # what comes from now on wakes
+            self._give(None)
+            glfw.wait_events_timeout(seconds)
+        self._resting = False
 
     def rest(self, seconds: float) -> None:
         """Sleeps so long, or until an event; the engine's turn is no shorter than it has to be."""

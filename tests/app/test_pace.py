@@ -121,6 +121,40 @@ def test_the_engine_gets_its_turn_however_long_a_frame_takes(events, took):
         assert time.monotonic() - start >= pace.SHARE * took
 
 
+def lingering(monkeypatch, drawn=False, moving=False):
+    """A window at which an event came a while ago, after a frame; `drawn`: whether anything came of that."""
+    monkeypatch.setattr(pace, "LINGER", 1000.0)  # however slow the machine is
+    monkeypatch.setattr(pace, "CALM", 100.0)
+    monkeypatch.setattr(pace, "STILL", 10.0)
+    monkeypatch.setattr(pace, "SOON", 0.0)
+    one = paced(CARD)
+    one.event()
+    one.begin(time.monotonic())
+    one.end(drawn, moving, growing=False)
+    return one
+
+
+def test_frames_of_which_nothing_comes_grow_rare(events, monkeypatch):
+    lingering(monkeypatch).wait(False)
+    lingering(monkeypatch, drawn=True).wait(False)
+    lingering(monkeypatch).wait(False, painting=True)
+    rare, *usual = events.waited
+    assert 50 < rare <= 100
+    assert max(usual) <= 10
+    assert len(usual) == 2
+
+
+def test_news_are_not_kept_waiting_by_them(events, monkeypatch):
+    one = lingering(monkeypatch)
+    monkeypatch.setattr(events, "wait_events_timeout", lambda seconds: one.told())
+    one.wait(False)
+    assert events.woken == 1
+    one.news(time.monotonic() + 60)
+    monkeypatch.setattr(events, "wait_events_timeout", events.waited.append)
+    one.wait(False)
+    assert events.waited[0] <= 10  # more may follow
+
+
 def test_nothing_waits_where_nothing_happens(events):
     one = paced(CARD)
     frame(one, growing=False)
