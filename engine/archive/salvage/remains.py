@@ -117,15 +117,20 @@ class Remains:
         """Returns what is left of the tiles of some packs."""
         found: list[Coded] = []
         gone: list[TileKey] = []
+        unknown: list[int | None] = []  # before packs of which nothing is known: the finest level of the one before
         for pack in packs:
+            others: list[TileKey] = []
             try:
                 whole = self._unpacked(pack, self.pictures)
             except FileError:
                 whole, others = self._unpacked_torn(pack)
-                gone += others
+            if not whole and not others:
+                unknown.append(max((key.level for key, *_ in found), default=None))
             found += filter(_is_seen, whole)
-            gone += [tile[0] for tile in whole if not _is_seen(tile)]
-        return Rest(found, gone, sum(pack.tiles for pack in packs) - len(found))
+            gone += [*others, *(tile[0] for tile in whole if not _is_seen(tile))]
+        levels = [*unknown, *(key.level for key in gone)]
+        first = None if None in levels else min((level for level in levels if level is not None), default=0)
+        return Rest(found, gone, sum(pack.tiles for pack in packs) - len(found), first)
 
     def bytes_of(self, member: str) -> bytes:
         """Returns a member's bytes, those that the manifest names; else FileError."""

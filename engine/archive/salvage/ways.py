@@ -18,8 +18,9 @@ from engine.archive.imports import Opened, read_raster
 from engine.archive.manifest import MANIFEST, RECORDING, Manifest
 from engine.archive.opening import open_native
 from engine.archive.plot_files import Mark, Nursery
-from engine.archive.salvage.damaged_layer import Shown, rebuilt
+from engine.archive.salvage.damaged_layer import rebuilt
 from engine.archive.salvage.remains import Remains
+from engine.archive.salvage.seen import Shown
 from engine.archive.saving import MERGED, shown_level
 from engine.canvas import layers
 from engine.canvas.growth import Growth
@@ -159,6 +160,8 @@ class _Parts:
         lost += [] if growth_there else ["what was painted with examples is missing"]
         instead = NOTHING if shown_of is None else INSTEAD
         self._notes.append(MISSING.format(name=shown(layer.name, 30), what=", ".join(lost), instead=instead))
+        if not (ground_there and growth_there):
+            rest = replace(rest, first=None)
         return rebuilt(ground, rest, growth, shown_of), growth
 
     def _ground(self, layer: Layer) -> tuple[Pyramid, bool]:
@@ -204,7 +207,7 @@ class _Parts:
             return None
         level = shown_level(self._manifest.frame)
         at = self._manifest.frame.zoomed(level)
-        return Shown(pixels, Rect.at(at.x0 + entry.x, at.y0 + entry.y, pixels.shape[1], pixels.shape[0]), level)
+        return Shown(pixels, Rect.at(at.x0 + entry.x, at.y0 + entry.y, pixels.shape[1], pixels.shape[0]), level, at)
 
     def _textures(self) -> Map[str, Texture]:
         found: Map[str, Texture] = Map()
