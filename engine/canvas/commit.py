@@ -15,9 +15,9 @@ import numpy as np
 from engine.brush.stamp import Edit
 from engine.canvas.evaluate import TileCache, evaluate
 from engine.canvas.fold import fold
-from engine.canvas.front import Front, Surroundings, climbed, climbs, cut_front, joined, widened
-from engine.canvas.painted import Painted, lift, paint, tile_bounds
-from engine.canvas.residuals import NewRecords, Parents, store_front, store_painted
+from engine.canvas.front import Around, Patch, climbs, lift, united, widened
+from engine.canvas.painted import paint, tile_bounds
+from engine.canvas.residuals import NewRecords, store
 from engine.canvas.store import Change, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import Planes, merged
@@ -53,13 +53,13 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
         return pyramid
     keeps: Keeps | None = {} if _stored_below(pyramid, edit.level, tile_bounds(keys)) else None
     records: NewRecords = {}
-    painted: list[Painted] = []
+    painted: list[Patch] = []
     if tile_bounds(keys).area <= _AT_ONCE:
         painted = paint(pyramid, edit, keys, cache)
         changed = _noted(painted, keeps)
         if painted:
-            levels = climbs(pyramid, edit.level, tile_bounds([tile.key for tile in painted]), cache)
-            _climb_to_the_top(pyramid, _climb_from(pyramid, painted, levels, None, records), levels, records)
+            levels = climbs(pyramid, edit.level, tile_bounds([patch.key for patch in painted]), cache)
+            _climb_to_the_top(pyramid, painted, None, levels, records)
     else:
         changed = _by_slabs(pyramid, edit, keys, records, keeps, cache)
     if not records and not keeps:
@@ -71,39 +71,25 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
     return after
 
 
-def _noted(painted: Sequence[Painted], keeps: Keeps | None) -> Rect:
+def _noted(painted: Sequence[Patch], keeps: Keeps | None) -> Rect:
     """Returns the bounds of what changed; A by tile for the finer levels."""
-    changed = Rect(0, 0, 0, 0)
-    for tile in painted:
-        changed = changed.union(tile.bounds)
-        if keeps is not None:
-            keeps[tile.key.x, tile.key.y] = tile.keep
-    return changed
-
-
-def _climb_from(
-    pyramid: Pyramid,
-    painted: Sequence[Painted],
-    levels: Iterator[Surroundings],
-    inside: Rect | None,
-    records: NewRecords,
-) -> Front | None:
-    """Store the residuals of painted tiles; the front at the level above."""
-    above = next(levels)
-    front = lift(painted, above, painted[0].key.level - 1)
-    store_painted(pyramid, painted, Parents(above, front), inside, records)
-    return front
+    if keeps is not None:
+        keeps.update(((patch.key.x, patch.key.y), patch.keep) for patch in painted)
+    return united(patch.dirty for patch in painted)
 
 
 def _climb_to_the_top(
-    pyramid: Pyramid, front: Front | None, levels: Iterator[Surroundings], records: NewRecords
+    pyramid: Pyramid, patches: Sequence[Patch], here: Around | None, levels: Iterator[Around], records: NewRecords
 ) -> None:
-    """Store this level's residuals and all coarser ones', up to where nothing changes any more."""
-    while front is not None:
+    """Stores this level's residuals and all coarser ones', up to where nothing changes any more.
+
+    `here` has the level's new values; None if the patches are the edit's own.
+    """
+    while patches:
         above = next(levels)
-        parent = climbed(front, above)
-        store_front(pyramid, front, Parents(above, parent), None, records)
-        front = parent
+        lifted = lift(patches, above)
+        store(pyramid, patches, here, lifted, above, None, records)
+        patches, here = lifted, above
 
 
 def _by_slabs(
@@ -114,66 +100,63 @@ def _by_slabs(
     keeps: Keeps | None,
     cache: TileCache | None,
 ) -> Rect:
-    """Returns a large edit, square by square, so that memory does not grow with it.  Returns the bounds of what
+    """Commits a large edit, square by square, so that memory does not grow with it.  Returns the bounds of what
     changed."""
     changed, tops = Rect(0, 0, 0, 0), []
     for slab in _slabs([key.rect for key in keys]):
         near = [key for key in keys if key.rect.meets(slab.grown(_MARGIN))]
         painted = paint(pyramid, edit, near, cache)
-        if not painted:
-            continue
-        changed = changed.union(_noted(painted, keeps))
-        levels = climbs(pyramid, edit.level, tile_bounds([tile.key for tile in painted]), cache)
-        front = _climb_from(pyramid, painted, levels, slab, records)
-        top = _climb_slab(pyramid, front, levels, slab.zoomed(-1), records)
-        if top is not None:
-            tops.append(top)
-    while tops and _area(tops) > _AT_ONCE:
+        if painted:
+            changed = changed.union(_noted(painted, keeps))
+            levels = climbs(pyramid, edit.level, tile_bounds([patch.key for patch in painted]), cache)
+            tops += _climb_slab(pyramid, painted, None, levels, slab, records)
+    while united(patch.at for patch in tops).area > _AT_ONCE:
         tops = _higher(pyramid, tops, records, cache)
     if tops:
-        front = joined(pyramid, tops, cache)
-        _climb_to_the_top(pyramid, front, climbs(pyramid, front.level, front.rect, cache), records)
+        here, levels = _joined(pyramid, tops, cache)
+        _climb_to_the_top(pyramid, tops, here, levels, records)
     return changed
 
 
-def _area(fronts: Sequence[Front]) -> int:
-    """Returns pixels of the rectangle around some fronts."""
-    whole = Rect(0, 0, 0, 0)
-    for front in fronts:
-        whole = whole.union(front.rect)
-    return whole.area
+def _joined(pyramid: Pyramid, patches: Sequence[Patch], cache: TileCache | None) -> tuple[Around, Iterator[Around]]:
+    """Returns the new values around patches of one level, and the old ones at the levels above."""
+    level, rect = patches[0].key.level, united(patch.at for patch in patches)
+    here = Around(level, rect.grown(2), evaluate(pyramid, level, rect.grown(2), cache))
+    here.take(patches)
+    return here, climbs(pyramid, level, rect, cache)
 
 
-def _higher(pyramid: Pyramid, fronts: Sequence[Front], records: NewRecords, cache: TileCache | None) -> list[Front]:
-    """Fronts of one level, far apart, as those of a coarser one: square by square, as the edit itself."""
-    squares: dict[Rect, list[Front]] = {}
-    for front in fronts:
-        for slab in _slabs([front.rect]):
-            squares.setdefault(slab, []).append(front)
+def _higher(pyramid: Pyramid, patches: Sequence[Patch], records: NewRecords, cache: TileCache | None) -> list[Patch]:
+    """Patches of one level, far apart, as those of a coarser one: square by square, as the edit itself."""
+    squares: dict[Rect, list[Patch]] = {}
+    for patch in patches:
+        for slab in _slabs([patch.at]):
+            squares.setdefault(slab, []).append(patch)
     tops = []
     for slab, near in squares.items():
-        front = joined(pyramid, near, cache)
-        levels = climbs(pyramid, front.level, front.rect, cache)
-        top = _climb_slab(pyramid, front, levels, slab, records)
-        if top is not None:
-            tops.append(top)
+        here, levels = _joined(pyramid, near, cache)
+        tops += _climb_slab(pyramid, near, here, levels, slab, records)
     return tops
 
 
 def _climb_slab(
-    pyramid: Pyramid, front: Front | None, levels: Iterator[Surroundings], slab: Rect, records: NewRecords
-) -> Front | None:
-    """Returns the further levels of one square; residuals only of its own tiles.  Returns what is left for all
-    together."""
-    if front is None:
-        return None
-    for j, above in zip(range(_SLAB_LEVELS - 1), levels, strict=False):
-        parent = climbed(front, above)
-        store_front(pyramid, front, Parents(above, parent), slab.zoomed(-j), records)
-        if parent is None:
-            return None
-        front = parent
-    return cut_front(front, slab.zoomed(1 - _SLAB_LEVELS))
+    pyramid: Pyramid,
+    patches: Sequence[Patch],
+    here: Around | None,
+    levels: Iterator[Around],
+    slab: Rect,
+    records: NewRecords,
+) -> list[Patch]:
+    """Stores the residuals of one square, of its own tiles only, at some levels.  Returns the patches within it that
+    are left for all together."""
+    for j in range(_SLAB_LEVELS):
+        above = next(levels)
+        lifted = lift(patches, above)
+        store(pyramid, patches, here, lifted, above, slab.zoomed(-j), records)
+        if not lifted:
+            return []
+        patches, here = lifted, above
+    return [patch for patch in patches if patch.key.rect.meets(slab.zoomed(-_SLAB_LEVELS))]
 
 
 def _slabs(rects: Sequence[Rect]) -> Iterator[Rect]:

@@ -1,16 +1,17 @@
-"""A front: one level's rectangle before and after a change, on its way up the pyramid."""
+"""A change of one level on its way up the pyramid: patches before and after, and the level above around them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import functools
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from engine.canvas import kernels
-from engine.canvas.evaluate import TileCache, evaluate, evaluate_sparse, step
+from engine.canvas.evaluate import TileCache, evaluate_sparse, step
 from engine.canvas.store import Pyramid
-from engine.numeric.address import Rect
+from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
 
@@ -18,55 +19,64 @@ _CLIMBS = 14  # levels a change usually climbs before it is less than the grid c
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Front:
-    """`rect` is even; `old` and `new` have the same inks; `keep` is A, float32 (h, w); `changed`, uint8 (h, w), marks
-    where A != 1 or v' != v."""
+class Patch:
+    """What changed of one tile.
 
-    level: int
-    rect: Rect
-    old: Planes
+    `at`: the even rectangle that the arrays cover, within the tile; `dirty`: the one that holds all that changed.
+    `old` (None: nothing lay there) and `new` have the same inks; `keep` is A, float32 (h, w).
+    `changed`, uint8 (h, w), is not zero where A != 1 or v' != v; its bit 2 tells where v' != v, but not in the patches
+    of an edit's own level.
+    """
+
+    key: TileKey
+    at: Rect
+    dirty: Rect
+    old: Planes | None
     new: Planes
     keep: np.ndarray
     changed: np.ndarray
     spares_alpha: bool = False  # whether the change leaves alpha alone, at all levels
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Surroundings:
-    """Old values of a level around a change: `planes` over `rect`, None where nothing lies."""
+class Around:
+    """Values of a level around a change: the old ones, until `take` puts the new ones in their place.
 
-    rect: Rect
-    planes: Planes | None
+    `planes` is None where nothing lies, `blank` whether nothing did; `moved`, uint8, has bit 2 where a value changed.
+    """
 
+    def __init__(self, level: int, rect: Rect, planes: Planes | None) -> None:
+        self.level, self.rect, self.planes = level, rect, planes
+        self.blank = planes is None
+        self.moved: np.ndarray | None = None
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Below:
-    """What rule U reads of the level below, at this level's resolution: R v before and after, R A, and which pixels are
-    parents of changed ones.  Planes (4 + 3n, h, w) with `inks`, others (h, w); zero where nothing changed."""
+    def with_inks(self, inks: tuple[Instance, ...]) -> Planes:
+        """Returns the planes, which from now on are contiguous and have room for these inks."""
+        if self.planes is None:
+            size = self.rect.height, self.rect.width
+            self.planes = Planes(np.zeros((COLOURS + 3 * len(inks), *size), np.float32), inks)
+        else:
+            self.planes = widened(self.planes, merged(self.planes.inks, inks))
+        return self.planes
 
-    old: np.ndarray
-    new: np.ndarray
-    keep: np.ndarray
-    parents: np.ndarray
-    inks: tuple[Instance, ...]
+    def take(self, patches: Sequence[Patch]) -> None:
+        """Puts the new values of patches of this level in their places."""
+        whole = self.with_inks(merged(*(patch.new.inks for patch in patches)))
+        if patches and self.moved is None:
+            self.moved = np.zeros((self.rect.height, self.rect.width), np.uint8)
+        for patch in patches:
+            assert self.moved is not None
+            window = patch.at.slices(self.rect)
+            whole.data[:, *window] = widened(patch.new, whole.inks).data
+            self.moved[window] = patch.changed
 
-    @classmethod
-    def blank(cls, rect: Rect, inks: tuple[Instance, ...]) -> Below:
-        """Makes one for a rectangle where nothing lies and nothing has changed."""
-        planes, size = COLOURS + 3 * len(inks), (rect.height, rect.width)
-        old, new = np.zeros((planes, *size), np.float32), np.zeros((planes, *size), np.float32)
-        return cls(old, new, np.zeros(size, np.float32), np.zeros(size, np.uint8), inks)
-
-    def add(self, old: Planes | None, new: Planes, keep: np.ndarray, changed: np.ndarray, top: int, left: int) -> None:
-        """Reduce one even rectangle of the level below into the place whose corner is (top, left)."""
-        if old is not None:
-            kernels.halve(old.data, plane_map(old.inks, self.inks), self.old, top, left)
-        kernels.halve(new.data, plane_map(new.inks, self.inks), self.new, top, left)
-        kernels.halve(keep[None], _FIRST, self.keep[None], top, left)
-        kernels.halve_marks(changed, self.parents, top, left)
-
-
-_FIRST = np.zeros(1, np.int64)
+    def spread(self, rect: Rect, touched: np.ndarray) -> bool:
+        """Marks the children of changed pixels in `touched`, uint8 over the even `rect`; tells whether any is marked
+        now."""
+        if self.moved is None:
+            return bool(touched.any())
+        corner = rect.parents()
+        out: bool = kernels.spread(self.moved, corner.y0 - self.rect.y0, corner.x0 - self.rect.x0, touched)
+        return out
 
 
 def widened(planes: Planes, inks: tuple[Instance, ...]) -> Planes:
@@ -85,7 +95,15 @@ def halved(rect: Rect) -> Rect:
     return rect.zoomed(-1).evened()
 
 
-def climbs(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Iterator[Surroundings]:
+def united(rects: Iterable[Rect]) -> Rect:
+    """Returns the smallest rectangle that holds all of some."""
+    whole = Rect(0, 0, 0, 0)
+    for rect in rects:
+        whole = whole.union(rect)
+    return whole
+
+
+def climbs(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Iterator[Around]:
     """Yields what lies around a change of `rect` at the levels above its own, upwards: two pixels wider than it can
     reach.
 
@@ -102,58 +120,55 @@ def climbs(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) ->
         for j in range(_CLIMBS - 2, -1, -1):
             value = step(pyramid, value, rects[j + 1], level - j, rects[j])
             values.append(value)
-        yield from map(Surroundings, rects, reversed(values))
+        for j, (around, value) in enumerate(zip(rects, reversed(values), strict=True)):
+            yield Around(level - j, around, value)
         level -= _CLIMBS
 
 
-def climbed(front: Front, above: Surroundings) -> Front | None:
-    """Rule U: the front one level up, None when nothing changes there."""
-    at = halved(front.rect)
-    inks = merged(() if above.planes is None else above.planes.inks, front.old.inks)
-    below = Below.blank(at, inks)
-    top, left = (front.rect.y0 >> 1) - at.y0, (front.rect.x0 >> 1) - at.x0
-    below.add(front.old, front.new, front.keep, front.changed, top, left)
-    return lifted(front.level - 1, at, below, above, front.spares_alpha)
+def lift(patches: Sequence[Patch], above: Around) -> list[Patch]:
+    """Rule U: the patches of the level above, whose old values `above` holds; none where nothing changes there."""
+    groups: dict[tuple[int, int], list[Patch]] = {}
+    for patch in patches:
+        groups.setdefault((patch.key.x >> 1, patch.key.y >> 1), []).append(patch)
+    held = above.with_inks(merged(*(patch.new.inks for patch in patches)))
+    lifted = (_lifted(TileKey(above.level, *place), group, above.rect, held) for place, group in groups.items())
+    return [patch for patch in lifted if patch is not None]
 
 
-def lifted(level: int, rect: Rect, below: Below, above: Surroundings, spares_alpha: bool) -> Front | None:
-    """Rule U on `rect` of `level`, whose old values `above` holds; None when nothing changes."""
-    if above.planes is None:
-        before = Planes(np.zeros_like(below.old), below.inks)
-    else:
-        before = widened(above.planes.cut(*rect.slices(above.rect)), below.inks)
-    new, changed = np.empty_like(before.data), np.empty_like(below.parents)
-    if not kernels.climb(below.old, below.new, below.keep, below.parents, spares_alpha, before.data, new, changed):
+def _lifted(key: TileKey, below: Sequence[Patch], around: Rect, held: Planes) -> Patch | None:
+    """Rule U on what some patches make of one tile of the level above; `held` has its old values over `around`."""
+    at = halved(united(patch.dirty.evened() for patch in below))
+    inks, size = held.inks, (at.height, at.width)
+    means = np.zeros((2, len(held.data), *size), np.float32)  # R of the values below, before and after
+    keep, parents = np.ones(size, np.float32), np.zeros(size, np.uint8)
+    for patch in below:
+        part = patch.dirty.evened()
+        maps = _none(len(inks)), plane_map(patch.new.inks, inks)
+        sources = patch.new.data, patch.new.data
+        if patch.old is not None:
+            maps, sources = (maps[1], maps[1]), (patch.old.data, patch.new.data)
+        window = (
+            part.y0 - patch.at.y0, part.x0 - patch.at.x0, part.height >> 1, part.width >> 1,
+            (part.y0 >> 1) - at.y0, (part.x0 >> 1) - at.x0,
+        )  # fmt: skip
+        kernels.lower(sources, maps, patch.keep, patch.changed, window, means, keep, parents)
+    spares = below[0].spares_alpha
+    values, changed = np.empty_like(means), np.empty_like(parents)
+    corner = at.y0 - around.y0, at.x0 - around.x0
+    extent = kernels.climb(means, keep, parents, spares, held.data, corner, values, changed)
+    dirty = placed_extent(at, extent)
+    if dirty.empty:
         return None
-    return Front(level, rect, before, Planes(new, below.inks), below.keep, changed, spares_alpha)
+    return Patch(key, at, dirty, Planes(values[0], inks), Planes(values[1], inks), keep, changed, spares)
 
 
-def cut_front(front: Front, rect: Rect) -> Front | None:
-    """Returns the part of a front inside `rect`, whose corners are even."""
-    at = front.rect.intersect(rect)
-    if at.empty:
-        return None
-    window = at.slices(front.rect)
-    old = widened(front.old.cut(*window), front.old.inks)
-    new = widened(front.new.cut(*window), front.new.inks)
-    keep, changed = np.ascontiguousarray(front.keep[window]), np.ascontiguousarray(front.changed[window])
-    return Front(front.level, at, old, new, keep, changed, front.spares_alpha)
+@functools.cache
+def _none(inks: int) -> np.ndarray:
+    """Returns a map of planes that takes none; not to be written to."""
+    return np.full(COLOURS + 3 * inks, -1, np.int64)
 
 
-def joined(pyramid: Pyramid, fronts: Sequence[Front], cache: TileCache | None) -> Front:
-    """Fronts of one level that do not overlap, as one; unchanged in between."""
-    rect = Rect(0, 0, 0, 0)
-    for front in fronts:
-        rect = rect.union(front.rect)
-    level = fronts[0].level
-    around = evaluate(pyramid, level, rect, cache)
-    inks = merged(around.inks, *(front.old.inks for front in fronts))
-    old = widened(around, inks)
-    new = old.data.copy()
-    keep = np.ones((rect.height, rect.width), np.float32)
-    changed = np.zeros((rect.height, rect.width), np.uint8)
-    for front in fronts:
-        rows, columns = front.rect.slices(rect)
-        new[:, rows, columns] = widened(front.new, inks).data
-        keep[rows, columns], changed[rows, columns] = front.keep, front.changed
-    return Front(level, rect, old, Planes(new, inks), keep, changed, fronts[0].spares_alpha)
+def placed_extent(at: Rect, extent: tuple[int, int, int, int]) -> Rect:
+    """Returns the rectangle y0, y1, x0, x1 of an array that covers `at`, as one of its level."""
+    y0, y1, x0, x1 = extent
+    return Rect(at.x0 + x0, at.y0 + y0, at.x0 + x1, at.y0 + y1)

@@ -120,7 +120,7 @@ def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray, us
         coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
     else:
         coarse, top, left = above.read(at), 0, 0
-    extent = kernels.first_residual(value, coarse, top, left, _COLOURS, _TOUCHED, data, used)
+    extent = kernels.first_residual(value, (0, 0), coarse, (top, left), _COLOURS, _TOUCHED, data, used)
     return compact(_WHOLE, data, (), 1, (extent, used))
 
 
@@ -145,7 +145,7 @@ def _reached(below: _Picture, above: _Picture, rect: Rect) -> np.ndarray:
     """Tells where the residual within an even rectangle is not zero: bool (h, w)."""
     value, coarse = below.read(rect), above.read(rect.parents())
     data, touched = np.empty(value.shape, np.int32), np.ones(value.shape[1:], np.uint8)
-    kernels.first_residual(value, coarse, 0, 0, _COLOURS, touched, data, np.empty(4, np.int32))
+    kernels.first_residual(value, (0, 0), coarse, (0, 0), _COLOURS, touched, data, np.empty(4, np.int32))
     return np.asarray(data.any(axis=0))
 
 

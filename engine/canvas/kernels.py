@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from engine.canvas import plain as plainly
-from engine.canvas.plain import COUNT, LAG, QUARTER, UNIT
+from engine.canvas.plain import COUNT, LAG, QUARTER, UNIT, Corner, Pair, Window
 from engine.numeric.grid import snap
 from engine.numeric.kernel import Array, inlined, inner, kernel
 from engine.numeric.pyramid import blend_rows, expand_row
 from engine.numeric.stand_in import or_plain
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
+_MOVED = np.uint8(2)
 _STEEPEST = np.float32(8.0)  # the residual up to which strokes can amplify detail, again and again
 
 
@@ -90,10 +91,11 @@ def attenuate(data: np.ndarray, keep: np.ndarray, spares_alpha: bool, out: np.nd
 @kernel
 def apply_stamp(
     old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, changed: Array
-) -> bool:
+) -> tuple[int, int, int, int]:
     """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
 
-    Writes `new` (C, n, n) and `changed` (n, n) uint8, 1 where A != 1 or v' != v.  Returns whether any is.
+    Writes `new` (C, n, n) and `changed` (n, n) uint8, 1 where A != 1 or v' != v.  Returns the extent y0, y1, x0, x1
+    of what is marked, y1 = 0 where nothing is.
 
     `keep` is A (n, n), `add` is B (D, n, n); plane c takes `add[planes[c]]`, zero for -1.  `plain`: B is 0 wherever A
     is 1, so that v' need not be compared with v.
@@ -119,10 +121,12 @@ def apply_stamp(
 
 
 @inner
-def _mark(old: np.ndarray, keep: np.ndarray, plain: bool, new: np.ndarray, changed: np.ndarray) -> bool:
-    """`changed` of `apply_stamp`, and whether any is set."""
-    marks = np.empty(keep.shape[1], np.int32)
-    found = np.int32(0)
+def _mark(
+    old: np.ndarray, keep: np.ndarray, plain: bool, new: np.ndarray, changed: np.ndarray
+) -> tuple[int, int, int, int]:
+    """`changed` of `apply_stamp`, and its extent."""
+    marks, columns = np.empty(keep.shape[1], np.int32), np.zeros(keep.shape[1], np.int32)
+    rows = np.zeros(keep.shape[0], np.int32)
     for y in range(keep.shape[0]):
         a, s = keep[y], changed[y]
         for i in range(a.size):
@@ -132,10 +136,20 @@ def _mark(old: np.ndarray, keep: np.ndarray, plain: bool, new: np.ndarray, chang
                 before, after = old[c, y], new[c, y]
                 for i in range(a.size):
                     marks[i] |= np.int32(before[i] != after[i])
-        for i in range(a.size):
-            found |= marks[i]
-            s[i] = np.uint8(marks[i])
-    return found != 0  # type: ignore[no-any-return]
+        rows[y] = _noted(marks, columns, s)
+    _, y0, y1, x0, x1 = _span(rows, columns)
+    return y0, y1, x0, x1
+
+
+@inner
+def _noted(marks: np.ndarray, columns: np.ndarray, out: np.ndarray) -> np.int32:
+    """Writes a row of marks into `out`, and into `columns` what any row has; returns what any of its pixels has."""
+    found = np.int32(0)
+    for i in range(marks.size):
+        found |= marks[i]
+        columns[i] |= marks[i]
+        out[i] = np.uint8(marks[i])
+    return found
 
 
 @or_plain(plainly.halve)
@@ -157,68 +171,78 @@ def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left:
                 row[i] = snap(total * QUARTER)
 
 
-@or_plain(plainly.halve_marks)
+@or_plain(plainly.lower)
 @kernel
-def halve_marks(fine: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
-    """out[top:, left:] (uint8) = 1 where any of the 2 x 2 pixels of `fine` (2h, 2w) is marked."""
-    height, width = fine.shape[0] // 2, fine.shape[1] // 2
+def lower(
+    sources: Pair, maps: Pair, keep: Array, changed: Array, window: Window, means: Array, kept: Array, parents: Array
+) -> None:
+    """What rule U reads of a changed rectangle, at the resolution of the level above.
+
+    means[0] and means[1] (2, C, h, w) become R of the two `sources` (D, H, W), v before and after; `kept` becomes R of
+    A, and `parents` 1 where a child is marked in `changed`.  Plane c comes from `maps[0][c]` and `maps[1][c]`, zero for
+    -1.  `window`: the row and column that are read from, the height and width above, and where it is written from.
+    """
+    row, column, height, width, top, left = window
+    old, new = sources
+    for c in range(means.shape[1]):
+        _halve_window(old, maps[0][c], window, means[0, c])
+        _halve_window(new, maps[1][c], window, means[1, c])
     for y in range(height):
-        upper, lower = fine[2 * y], fine[2 * y + 1]
-        row = out[top + y][left : left + width]
+        upper, lower = changed[row + 2 * y][column:], changed[row + 2 * y + 1][column:]
+        a, b = keep[row + 2 * y][column:], keep[row + 2 * y + 1][column:]
+        p, k = parents[top + y][left : left + width], kept[top + y][left : left + width]
         for i in range(width):
-            row[i] = upper[2 * i] | upper[2 * i + 1] | lower[2 * i] | lower[2 * i + 1]
+            p[i] = np.uint8((upper[2 * i] | upper[2 * i + 1] | lower[2 * i] | lower[2 * i + 1]) != 0)
+            k[i] = snap(((a[2 * i] + a[2 * i + 1]) + (b[2 * i] + b[2 * i + 1])) * QUARTER)
 
 
-@or_plain(plainly.marked)
-@kernel
-def marked(marks: np.ndarray) -> tuple[int, int, int, int]:
-    """Returns the extent y0, y1, x0, x1 of what is set in `marks`, uint8 (h, w)."""
-    y0, y1, x0, x1 = marks.shape[0], 0, marks.shape[1], 0
-    columns = np.zeros(marks.shape[1], np.uint8)
-    for y in range(marks.shape[0]):
-        row = marks[y]
-        found = np.uint8(0)
-        for i in range(row.size):
-            columns[i] |= row[i]
-            found |= row[i]
-        if found:
-            y0, y1 = min(y0, y), y + 1
-    for x in range(columns.size):
-        if columns[x]:
-            x0, x1 = min(x0, x), x + 1
-    return y0, y1, x0, x1
+@inner
+def _halve_window(fine: np.ndarray, source: int, window: Window, out: np.ndarray) -> None:
+    row, column, height, width, top, left = window
+    for y in range(height):
+        o = out[top + y][left : left + width]
+        if source < 0:
+            o[:] = _ZERO
+            continue
+        upper, lower = fine[source, row + 2 * y][column:], fine[source, row + 2 * y + 1][column:]
+        for i in range(width):
+            o[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * QUARTER)
 
 
 @or_plain(plainly.climb)
 @kernel
 def climb(
-    below_old: Array,
-    below_new: Array,
+    means: Array,
     keep: Array,
     parents: Array,
-    spares_alpha: bool,
-    old: Array,
-    new: Array,
+    spares: bool,
+    around: Array,
+    corner: Corner,
+    values: Array,
     changed: Array,
-) -> bool:
+) -> tuple[int, int, int, int]:
     """Rule U: what a change of the level below does to this one.
 
     r = v - R v_below (zero where it is only lag);  v' = R v'_below + snap(A r) on `parents` of changed pixels, v
-    elsewhere, and everywhere for alpha if `spares_alpha`.  `below_old`, `below_new` are R of the level below before and
-    after, (C, h, w); `old` is v; `new` and `changed` are written, and `keep`, A (h, w), set to 1 off `parents`.
-    Returns whether anything changed.
+    elsewhere, and everywhere for alpha if `spares`.  `means` (2, C, h, w) is R of the level below before and
+    after; v is read of `around` (C, H, W) from `corner` on.  Written are `values` (2, C, h, w), v and v'; `changed`,
+    uint8 (h, w): 1 where A != 1, 2 more where v' != v; and `keep`, A (h, w), is set to 1 off `parents`.
+    Returns the extent y0, y1, x0, x1 of what is marked, y1 = 0 where nothing is.
     """
     width = keep.shape[1]
-    marks = np.empty(width, np.int32)
-    found = np.int32(0)
+    marks, columns = np.empty(width, np.int32), np.zeros(width, np.int32)
+    rows = np.zeros(keep.shape[0], np.int32)
     for y in range(keep.shape[0]):
         a, p, s = keep[y], parents[y], changed[y]
         for i in range(width):
             a[i] = a[i] if p[i] else _ONE
-            marks[i] = np.int32(a[i] != _ONE)
-        for c in range(old.shape[0]):
-            v, w, before, after = old[c, y], new[c, y], below_old[c, y], below_new[c, y]
-            if c == 3 and spares_alpha:
+            marks[i] = np.int32(0)
+        for c in range(values.shape[1]):
+            v, w, u = values[0, c, y], values[1, c, y], around[c, corner[0] + y][corner[1] : corner[1] + width]
+            before, after = means[0, c, y], means[1, c, y]
+            for i in range(width):
+                v[i] = u[i]
+            if c == 3 and spares:
                 for i in range(width):
                     w[i] = v[i]
                 continue
@@ -233,28 +257,16 @@ def climb(
             for i in range(width):
                 marks[i] |= np.int32(w[i] != v[i])
         for i in range(width):
-            found |= marks[i]
-            s[i] = np.uint8(marks[i])
-    return found != 0  # type: ignore[no-any-return]
-
-
-@or_plain(plainly.differs)
-@kernel
-def differs(old: np.ndarray, new: np.ndarray, out: np.ndarray) -> None:
-    """out (h, w) uint8 = 1 where any plane of `old` and `new` (C, h, w) differs."""
-    for y in range(out.shape[0]):
-        s = out[y]
-        s[:] = 0
-        for c in range(old.shape[0]):
-            a, b = old[c, y], new[c, y]
-            for i in range(s.size):
-                s[i] |= a[i] != b[i]
+            marks[i] = 2 * marks[i] + np.int32(a[i] != _ONE)
+        rows[y] = _noted(marks, columns, s)
+    _, y0, y1, x0, x1 = _span(rows, columns)
+    return y0, y1, x0, x1
 
 
 @or_plain(plainly.spread)
 @kernel
 def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
-    """out (2h, 2w) |= 1 where any of the four parents that expand reads is marked; out[0, 0] is the first child of
+    """out (2h, 2w) |= 2 where any of the four parents that expand reads has bit 2; out[0, 0] is the first child of
     parents[top + 1, left + 1].  Returns whether any entry of `out` is set."""
     n = out.shape[1] // 2
     both = np.empty(n + 2, np.uint8)
@@ -263,7 +275,7 @@ def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
         row = top + 1 + y // 2
         near, far = parents[row][left : left + n + 2], parents[row + 2 * (y & 1) - 1][left : left + n + 2]
         for i in range(n + 2):
-            both[i] = near[i] | far[i]
+            both[i] = (near[i] | far[i]) & _MOVED
         s = out[y]
         before, here, after = both[0:n], both[1 : n + 1], both[2 : n + 2]
         for i in range(n):
@@ -277,37 +289,46 @@ def spread(parents: np.ndarray, top: int, left: int, out: np.ndarray) -> bool:
 @or_plain(plainly.residual)
 @kernel
 def residual(
-    value: np.ndarray, predicted: np.ndarray, touched: np.ndarray, top: int, left: int, out: np.ndarray
-) -> bool:
-    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched: `value`, `predicted` float32
-    (C, h, w), `touched` uint8 (h, w).  Returns whether that changed `out`."""
+    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array
+) -> tuple[bool, int, int, int, int, int]:
+    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched.
+
+    `value` float32 (C, H, W) is read from `start` on; `predicted` float32 (C, h, w), `touched` uint8 (h, w).
+    Returns whether that changed `out`, and what `extent` tells of it then; `used` (C,) is written as there.
+    """
+    (row, column), (top, left) = start, corner
     width = touched.shape[1]
     changed = np.int32(0)
-    for c in range(value.shape[0]):
+    for c in range(out.shape[0]):
         for y in range(touched.shape[0]):
-            v, p, t = value[c, y], predicted[c, y], touched[y]
+            v, p, t = value[c, row + y][column : column + width], predicted[c, y], touched[y]
             o = out[c, top + y][left : left + width]
             for i in range(width):
                 new = np.int32((v[i] - p[i]) * COUNT) if t[i] else o[i]
                 changed |= new ^ o[i]
                 o[i] = new
-    return changed != 0  # type: ignore[no-any-return]
+    if changed == 0:
+        return False, 0, 0, 0, 0, 0
+    bits, y0, y1, x0, x1 = _measured(out, used)
+    return True, bits, y0, y1, x0, x1
 
 
 @or_plain(plainly.first_residual)
 @kernel
 def first_residual(
-    value: Array, coarse: Array, top: int, left: int, planes: Array, touched: Array, out: Array, used: Array
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, touched: Array, out: Array, used: Array
 ) -> tuple[int, int, int, int, int]:
     """Returns the residual of a tile that had none, and what `extent` tells of it.
 
-    `value` float32 (C, 2h, 2w); the prediction is expand of `coarse`, placed and chosen as by `expand_into`; `touched`
-    uint8 (2h, 2w); `out` int32 (C, 2h, 2w) in units of 2^-16 is written everywhere, `used` (C,) as by `extent`.
+    `value` float32 (C, H, W) is read from `start` on; the prediction is expand of `coarse`, placed from `corner` and
+    chosen as by `expand_into`; `touched` uint8 (2h, 2w); `out` int32 (C, 2h, 2w) in units of 2^-16 is written
+    everywhere, `used` (C,) as by `extent`.
     """
+    (line, column), (top, left) = start, corner
     n = touched.shape[1] // 2
     t, predicted = np.empty(n + 2, np.float32), np.zeros(2 * n, np.float32)
     columns, rows = np.zeros(2 * n, np.int32), np.zeros(touched.shape[0], np.int32)
-    for c in range(value.shape[0]):
+    for c in range(out.shape[0]):
         source, found = planes[c], np.int32(0)
         if source < 0:
             predicted[:] = _ZERO
@@ -318,7 +339,7 @@ def first_residual(
                 far = coarse[source, row + 2 * (y & 1) - 1][left : left + n + 2]
                 blend_rows(near, far, t)
                 expand_row(t, predicted)
-            v, k, o = value[c, y], touched[y], out[c, y]
+            v, k, o = value[c, line + y][column : column + 2 * n], touched[y], out[c, y]
             bits = np.int32(0)
             for i in range(2 * n):
                 new = np.int32((v[i] - predicted[i]) * COUNT)
@@ -340,6 +361,11 @@ def extent(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]
 
     `used`, int32 (C,), gets the bits of each plane.
     """
+    return _measured(data, used)
+
+
+@inlined
+def _measured(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
     columns, rows = np.zeros(data.shape[2], np.int32), np.zeros(data.shape[1], np.int32)
     for c in range(data.shape[0]):
         found = np.int32(0)

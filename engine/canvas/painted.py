@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
 from functools import cache
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from engine.brush.stamp import Edit
 from engine.canvas import kernels
 from engine.canvas.evaluate import TileCache, evaluate_sparse, without_empty_inks
-from engine.canvas.front import Below, Front, Surroundings, lifted, widened
+from engine.canvas.front import Patch, placed_extent, widened
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
@@ -26,25 +25,6 @@ def _zeros(planes: int) -> np.ndarray:
 _BLANK = Planes(_zeros(COLOURS))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Painted:
-    """One tile: `old` (None: nothing lay there), `new`, A as `keep` float32 (128, 128), `changed` uint8 (128, 128)."""
-
-    key: TileKey
-    old: Planes | None
-    new: Planes
-    keep: np.ndarray
-    changed: np.ndarray
-    spares_alpha: bool
-
-    @property
-    def bounds(self) -> Rect:
-        """Returns the smallest rectangle of the level that holds every changed pixel."""
-        y0, y1, x0, x1 = kernels.marked(self.changed)
-        x, y = self.key.x * TILE, self.key.y * TILE
-        return Rect(x + x0, y + y0, x + x1, y + y1)
-
-
 def tile_bounds(keys: Collection[TileKey]) -> Rect:
     """Returns the smallest rectangle that holds all of some tiles of one level."""
     if not keys:
@@ -53,14 +33,14 @@ def tile_bounds(keys: Collection[TileKey]) -> Rect:
     return Rect(min(xs) * TILE, min(ys) * TILE, (max(xs) + 1) * TILE, (max(ys) + 1) * TILE)
 
 
-def paint(pyramid: Pyramid, edit: Edit, keys: Sequence[TileKey], cache: TileCache | None) -> list[Painted]:
-    """(A, B) of an edit applied to some of its tiles; only those in which a pixel changes."""
+def paint(pyramid: Pyramid, edit: Edit, keys: Sequence[TileKey], cache: TileCache | None) -> list[Patch]:
+    """(A, B) of an edit applied to some of its tiles: patches of whole tiles, of those in which a pixel changes."""
     before = _tiles(pyramid, keys, cache)
     painted = (_painted(edit, key, before[key]) for key in keys)
     return [tile for tile in painted if tile is not None]
 
 
-def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
+def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Patch | None:
     stamp = edit.stamp(key, _BLANK if old is None else old)
     if stamp is None:
         return None
@@ -68,9 +48,13 @@ def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Painted | None:
     before = Planes(_zeros(COLOURS + 3 * len(inks)), inks) if old is None else widened(old, inks)
     new, changed = np.empty_like(before.data), np.empty((TILE, TILE), np.uint8)
     planes, spares = plane_map(stamp.inks, inks), edit.spares_alpha
-    if not kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, changed):
+    extent = kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, changed)
+    at = key.rect
+    dirty = placed_extent(at, extent)
+    if dirty.empty:
         return None
-    return Painted(key, None if old is None else before, Planes(new, inks), stamp.keep, changed, spares)
+    there = None if old is None else before
+    return Patch(key, at, dirty, there, Planes(new, inks), stamp.keep, changed, spares)
 
 
 def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
@@ -94,15 +78,3 @@ def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -
             cut = np.ascontiguousarray(whole.data[:, *key.rect.slices(bounds)])
             values[key] = without_empty_inks(Planes(cut, whole.inks))
     return values
-
-
-def lift(painted: Iterable[Painted], above: Surroundings, level: int) -> Front | None:
-    """Rule U from painted tiles to the level above theirs, `level`; None when nothing changes there."""
-    tiles = list(painted)
-    rect = tile_bounds([tile.key for tile in tiles]).zoomed(-1)
-    held = () if above.planes is None else above.planes.inks
-    below = Below.blank(rect, merged(held, *(tile.new.inks for tile in tiles)))
-    for tile in tiles:
-        corner = tile.key.rect.zoomed(-1)
-        below.add(tile.old, tile.new, tile.keep, tile.changed, corner.y0 - rect.y0, corner.x0 - rect.x0)
-    return lifted(level, rect, below, above, tiles[0].spares_alpha)

@@ -296,13 +296,12 @@ def test_a_thin_stroke_across_a_wide_canvas_takes_memory_for_the_stroke_alone(mo
 
     areas = []
 
-    def joined(pyramid, fronts, cache):
-        front = plain(pyramid, fronts, cache)
-        areas.append(front.rect.area)
-        return front
+    def climbs(pyramid, level, rect, cache):
+        areas.append(rect.area)
+        return plain(pyramid, level, rect, cache)
 
-    plain = module.joined
-    monkeypatch.setattr(module, "joined", joined)
+    plain = module.climbs
+    monkeypatch.setattr(module, "climbs", climbs)
     mask = StrokeMask(0, (0, 0))
     steps = np.linspace(0.0, 24_000.0, 2500)
     mask.paint(np.stack([steps, steps, *(np.full(2500, v) for v in (16.0, 1.0, 1.0, 0.8))], axis=1))

@@ -58,15 +58,17 @@ def test_plain_strokes_are_the_same_bits(request):
     called = request.getfixturevalue("nothing_compiled")
     plain = painted()
     assert {"_walk", "as_discs", "list_pairs", "_join", "lay_flat", "lay", "keep_of", "apply_stamp", "place"} <= called
-    assert {"climb", "halve", "spread", "first_residual", "residual", "extent", "expand_into", "marked"} <= called
+    assert {"climb", "lower", "spread", "first_residual", "residual", "expand_into"} <= called
     for one, other in zip(compiled, plain, strict=True):
         assert one.dtype == other.dtype
         assert np.array_equal(one, other)
 
 
-def test_marked_and_span_of_nothing():
-    for marks in (np.zeros((6, 9), np.uint8), np.eye(6, 9, 2, dtype=np.uint8)):
-        assert kernels.marked.compiled(marks) == kernels.marked.plain(marks)
+def test_extents_of_nothing():
+    for keep in (np.ones((6, 9), np.float32), 1.0 - np.eye(6, 9, 2, dtype=np.float32)):
+        old, new, changed = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), np.empty((6, 9), np.uint8)
+        arguments = old, keep, np.zeros_like(old), np.arange(4), True, False, new, changed
+        assert kernels.apply_stamp.compiled(*arguments) == kernels.apply_stamp.plain(*arguments)
     for data in (np.zeros((2, 5, 7), np.int32), np.arange(-35, 35, dtype=np.int32).reshape(2, 5, 7)):
         used = np.empty((2, 2), np.int32)
         assert kernels.extent.compiled(data, used[0]) == kernels.extent.plain(data, used[1])
