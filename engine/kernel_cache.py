@@ -148,6 +148,14 @@ def _write(path: Path, content: bytes) -> None:
 class Locator(caching.UserProvidedCacheLocator):  # type: ignore[misc]
     """Where a kernel of the engine is kept, and what its code depends on: its module and those imported there."""
 
+    def get_cache_path(self) -> str:
+        """Tells the folder: that of a kernel of the engine is the same wherever the engine lies, as nothing of its code
+        tells that."""
+        folder = Path(self._py_file).resolve().parent
+        if not folder.is_relative_to(_PACKAGE):
+            return str(super().get_cache_path())
+        return os.path.join(numba.config.CACHE_DIR, ".".join(("engine", *folder.relative_to(_PACKAGE).parts)))
+
     def ensure_cache_path(self) -> None:
         """Nothing: a folder that cannot be made is found out when a kernel is saved, and does no harm."""
 

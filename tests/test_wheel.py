@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = {"app": {".py"}, "engine": {".py"}, "shaders": {".vert", ".frag"}}
+FOLDERS = {"app": {".py"}, "engine": {".py", ".html"}, "shaders": {".vert", ".frag"}}
 SHORT = """{"inkfall": 1, "frame": [0, 0, 256, 256], "seed": 7}
 {"do": "stroke", "points": [[20, 40], [230, 200]], "brush": {"radius": 24}}
 """
@@ -83,7 +83,7 @@ def demo(installed, folder):
 
 @pytest.mark.timeout(600)
 def test_a_demo_is_painted(installed, tmp_path):
-    """With a short recording in place of the bundled one: nothing is compiled yet for this folder."""
+    """With a short recording in place of the bundled one, whose kernels may all have to be compiled."""
     recording = next(installed.parent.rglob("palettes/demo/demo.jsonl"))
     whole = recording.read_text()
     try:

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import pytest
 
 from engine import kernel_cache
@@ -159,6 +160,25 @@ def test_what_a_module_imports_of_the_engine_is_part_of_it(tmp_path, monkeypatch
     assert stamp(c="X = Y = 2\n") != first
     assert stamp(c="X = Y = 1\n") == first
     assert stamp(b="from engine.room.d import Z\n") != first
+
+
+def test_copies_of_the_engine_share_their_kernels(toy, tmp_path, monkeypatch):
+    """A checkout, another one, and what a wheel installs: what differs in them has another stamp."""
+    monkeypatch.setattr(numba.config, "CACHE_DIR", "kernels")
+
+    def kept(file: Path, package: Path) -> str:
+        monkeypatch.setattr(kernel_cache, "_PACKAGE", package)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(TOY)
+        return kernel_cache.Locator.from_function(kept, str(file)).get_cache_path()
+
+    one, other, engine = tmp_path / "one", tmp_path / "other", Path("engine")
+    first = kept(one / "engine" / "room" / "a.py", one / engine)
+    assert kept(other / "engine" / "room" / "a.py", other / engine) == first
+    assert kept(one / "engine" / "hall" / "a.py", one / engine) != first
+    assert kept(one / "palettes" / "room" / "a.py", one / engine) != kept(
+        other / "palettes" / "room" / "a.py", one / engine
+    )
 
 
 def test_a_thread_may_refuse_to_compile(toy):
