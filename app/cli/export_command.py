@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import argparse
 import os
+import tempfile
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.cli.arguments import rectangle
@@ -30,6 +32,10 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--pyramid", action="store_true", help="a .tif with its coarser levels: BigTIFF, tiles, SubIFDs"
     )
+    where = (
+        "by the workers of a Dask cluster: its scheduler's HOST:PORT or file (.json), or local; they see OUT's folder"
+    )
+    parser.add_argument("--dask", metavar="SCHEDULER", help=where)
     salvage_option(parser)
 
 
@@ -66,6 +72,12 @@ def _check(options: argparse.Namespace, ending: str) -> None:
         from engine.archive.ladder.ladder_files import folder_format
 
         folder_format(options.out)
+    if options.dask is not None:
+        if ending not in MANY_FILES:
+            raise Refused(f"--dask: found it for {ending}, expected it for {' or '.join(MANY_FILES)}")
+        from engine.archive.ladder.cluster import require
+
+        require(options.out)
 
 
 def _picture(options: argparse.Namespace, found: Opened, ending: str) -> None:
@@ -76,7 +88,24 @@ def _picture(options: argparse.Namespace, found: Opened, ending: str) -> None:
     most = SIDE if ending in MANY_FILES else None
     picture = picture_of(found.painting, options.rect, options.layer, options.depth, most)
     with Progress("writing", 100) as tell:
-        write(options.out, picture, tell.part)
+        if options.dask is None:
+            write(options.out, picture, tell.part)
+            return
+        from engine.archive.ladder.cluster import write_on_cluster
+
+        write_on_cluster(options.out, picture, _bytes_of(options, found), options.dask, tell.part)
+
+
+def _bytes_of(options: argparse.Namespace, found: Opened) -> bytes:
+    """Returns a file of the painting: the one that it came from, unless that is damaged."""
+    from engine.archive.saving import Snapshot, save
+
+    if not options.salvage:
+        return Path(options.painting).read_bytes()
+    with tempfile.TemporaryDirectory(prefix="inkfall-") as folder:
+        path = Path(folder) / "whole.ora"
+        save(path, Snapshot(found.painting))
+        return path.read_bytes()
 
 
 def _painting(options: argparse.Namespace, found: Opened) -> None:

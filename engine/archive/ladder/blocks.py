@@ -19,6 +19,7 @@ from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.rendering import Stop, check_cancelled, strips
 
 AHEAD = 3  # blocks of each thread that are begun before the first of them is asked for
+_LITTLE = 64  # pixels along a side
 
 _Made = TypeVar("_Made")
 
@@ -29,6 +30,13 @@ class Source:
 
     root: Group
     ladder: Ladder
+
+    def prepare(self) -> None:
+        """Has the kernels compiled, or loaded: by the coarsest rung, and a little of the finest."""
+        for rung in (self.ladder.rungs[-1], self.ladder.rungs[0]):
+            width, height = rung.size
+            middle = Rect.at(width // 2, height // 2, _LITTLE, _LITTLE)
+            self.pixels(rung.step, middle.intersect(Rect(0, 0, width, height)))
 
     def pixels(self, rung: int, rect: Rect, cancelled: Stop = None) -> np.ndarray:
         """Returns straight RGBA (h, w, 4) of a rectangle of a rung, counted from its corner."""

@@ -123,7 +123,7 @@ def write_folder(
         def work(block: Block, stopped: Stop) -> None:
             form.put(target, ladder, block, source.pixels(block.rung, form.reach(ladder, block), stopped))
 
-        tell = _Telling(ladder, progress)
+        tell = Telling(ladder, progress)
         with closing(in_order(ladder.blocks(), work, cancelled)) as made:
             for block, _ in made:
                 tell(block.rect.area)
@@ -135,7 +135,7 @@ def write_tiff_ladder(
     """Writes the picture as a BigTIFF of tiles with its coarser levels beside it; otherwise as `write_folder`."""
     ladder = _ladder(path, picture, TIFF_TILE, TIFF_TILE, PICTURE_SIDE)
     source = Source(shown_root(picture), ladder)
-    tell = _Telling(ladder, progress)
+    tell = Telling(ladder, progress)
 
     def work(block: Block, stopped: Stop) -> list[bytes]:
         pixels = source.pixels(block.rung, block.rect, stopped)
@@ -170,13 +170,14 @@ def _ladder(path: str | os.PathLike[str], picture: Picture, tile: int, smallest:
     return Ladder.of(PurePath(path).stem, picture.level, area, picture.depth, tile, smallest)
 
 
-class _Telling:
+class Telling:
     """Counts pixels, and tells the part of them that is done."""
 
     def __init__(self, ladder: Ladder, progress: Progress) -> None:
         self._total, self._done, self._progress = ladder.pixels, 0, progress
 
     def __call__(self, pixels: int) -> None:
+        """Counts some more."""
         self._done += pixels
         if self._progress is not None:
             self._progress(self._done / self._total)
