@@ -27,6 +27,7 @@ from engine.files.png_writer import SIGNATURE
 from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, parse_stack
 from engine.files.zip_reader import ZipArchive
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.arithmetic import NEWEST
 from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.recording import Recording
@@ -151,7 +152,7 @@ def open_image(
         pyramid, size, notes = streamed
     layer = Layer(1, clean_name(PurePath(path).stem, "Picture"), pyramid=pyramid)
     root = layers.insert(layers.EMPTY, layer)
-    return Opened(Painting(Rect(0, 0, *size), 0, root, layer.name), notes)
+    return Opened(Painting(Rect(0, 0, *size), 0, root, layer.name, arithmetic=NEWEST), notes)
 
 
 def _png_rows(
@@ -231,7 +232,7 @@ class _Import:
             raise FileError(self._archive.name, f"stack.xml: {error}") from error
         frame = Rect(0, 0, self._image.width, self._image.height)
         top = next((layer.name for layer in reversed(list(layers.layers(root)))), None)
-        return Opened(Painting(frame, 0, root, self._selected or top), self._told())
+        return Opened(Painting(frame, 0, root, self._selected or top, arithmetic=NEWEST), self._told())
 
     def _told(self) -> tuple[str, ...]:
         """Returns the notes, of which nobody reads more than some."""

@@ -22,6 +22,7 @@ from engine.canvas.store import Pyramid
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT
@@ -81,6 +82,7 @@ class Manifest:
     synthesis: int = SYNTHESIS  # and of what examples grow into
     bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
     notes: tuple[str, ...] = ()
+    arithmetic: int = LIBRARY
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -89,7 +91,7 @@ class Manifest:
             if any(sha is not None and sha not in pictures for sha in shas):
                 raise FieldError(f"textures.{name}", "no picture", "one of those in the file")
             source, mask = (None if sha is None else ImageSource(name, sha, pictures[sha].data) for sha in shas)
-            made[name] = Texture(kind, parameters, source, mask)
+            made[name] = Texture(kind, parameters, source, mask, self.arithmetic)
             plot_files.check_texture(f"textures.{name}", made[name])
             try:
                 made[name].instance({}, 0, 0)
@@ -124,6 +126,7 @@ def manifest_json(
         **_CONSTANTS,
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
+        **({"arithmetic": painting.arithmetic} if painting.arithmetic != LIBRARY else {}),
         "active": painting.active,
         "layers": [_node_json(node, packs, laid, plots) for node in painting.root.children],
         "textures": {
@@ -207,6 +210,7 @@ def parse_manifest(value: Any) -> Manifest:
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
         *_bookmarks(members.take("bookmarks", [])),
+        members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
     )
 
 

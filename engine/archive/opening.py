@@ -138,7 +138,9 @@ class _Opening:
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
-        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks)
+        painting = Painting(
+            manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks, manifest.arithmetic
+        )
         recording, lost = self._recording()
         notes = (*manifest.notes, *lost)
         if other:

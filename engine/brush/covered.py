@@ -13,6 +13,7 @@ from engine.brush.mask import Coverage
 from engine.brush.settings import Brush
 from engine.brush.stamp import Stamp
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.prediction import Predictor
 from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
@@ -37,7 +38,7 @@ class Scene:
     `source`: reads the layer that the op names, at the stroke's level; `origin`: the stroke's, in pixels of its level;
     `pressure`: the stroke's coverage laid with the pen's pressure as opacity: the strongest that went over a pixel.
     `start`: the pixel where the stroke begins; `seed`: of what is random; `memo`: what was learnt there, kept for the
-    whole stroke.
+    whole stroke; `arithmetic`: the painting's.
     """
 
     source: Read | None = None
@@ -46,6 +47,7 @@ class Scene:
     start: tuple[int, int] = (0, 0)
     seed: int = 0
     memo: dict[str, Predictor | None] = field(default_factory=dict)
+    arithmetic: int = LIBRARY
 
 
 @dataclass(frozen=True, eq=False)

@@ -189,5 +189,6 @@ def named(
             return instance(name, part.parameters, level, seed)
     except TextureError as error:
         raise BrushError(f"{where}.{error.place}", error.found, error.expected) from None
-    names = ", ".join([*(row.name for row in KINDS.values() if not row.pictured), *sorted(textures)[:20]])
+    known = [*(row.name for row in KINDS.values() if not row.pictured), *sorted(textures)[:20]]
+    names = ", ".join(dict.fromkeys(known))
     raise BrushError(f"{where}.texture", ascii(name), f"a texture: {names}")

@@ -12,6 +12,7 @@ from engine.brush.mixture import ONES
 from engine.brush.operand import ALPHA, Operand, Operating, planes_of
 from engine.brush.stamp import Stamp
 from engine.numeric.address import TILE, Rect
+from engine.numeric.functions import functions
 from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 
@@ -48,7 +49,8 @@ def _displace(edit: Operating, at: Operand) -> Stamp | None:
     """Returns what lies around, moved along an angle or down the slopes of the texture."""
     assert edit.read is not None
     distance, angle = edit.op.parameters["distance"], math.radians(edit.op.parameters["angle"])
-    along, aside = distance * math.cos(angle), distance * math.sin(angle)
+    own = functions(edit.scene.arithmetic)
+    along, aside = distance * own.cos(angle), distance * own.sin(angle)
     if edit.op.by_texture:
         t = edit.mixture.over(at.key.rect.grown(_SPAN))
         middle = slice(_SPAN, -_SPAN)

@@ -53,12 +53,17 @@ def _channel(loop: tones.Loop, edit: Operating, at: Operand, c: np.ndarray) -> T
     return t, s
 
 
+def _gamma(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
+    """Each channel to a power."""
+    return _channel(tones.GAMMAS[edit.scene.arithmetic], edit, at, c)
+
+
 def _saturate(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
     return _mixed(c, tints.saturating(edit.op.parameters["amount"]))
 
 
 def _hue(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
-    return _mixed(c, tints.turning(edit.op.parameters["turn"]))
+    return _mixed(c, tints.turning(edit.op.parameters["turn"], edit.scene.arithmetic))
 
 
 def _mixed(c: np.ndarray, matrix: np.ndarray) -> Targets:
@@ -101,7 +106,8 @@ def _mean(edit: Operating, at: Operand) -> np.ndarray:
 def _formula(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
     """The artist's own formula gives f; the slope is a difference over 1/255 to each side."""
     assert edit.op.tree is not None
-    run, scene = formula_kernel.kernel(edit.op.tree), edit.scene
+    scene = edit.scene
+    run = formula_kernel.kernel(edit.op.tree, scene.arithmetic)
     pressure = at.covered if scene.pressure is None else plane(scene.pressure, at.key)
     pressure = np.zeros_like(ONES) if pressure is None else pressure
     x = np.arange(TILE, dtype=np.float32) + np.float32(at.key.rect.x0 - scene.origin[0] + 0.5)
@@ -130,6 +136,7 @@ def _formula(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
 
 
 KERNELS: dict[str, _Kernel] = {name: partial(_channel, loop) for name, loop in tones.CHANNELS.items()} | {
+    "gamma": _gamma,
     "saturate": _saturate,
     "hue": _hue,
     "gradient": _gradient,

@@ -29,6 +29,7 @@ from engine.brush.parts import Surface
 from engine.brush.rim import Rim, Tiles
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.elementary import log2
 from engine.numeric.kernel import kernel
 from engine.numeric.pyramid import reduce
 from engine.numeric.shaping import look_up, table
@@ -102,7 +103,7 @@ def _ground(
     period = getattr(found.made, "period", None)
     if period is None:
         return found
-    above = max(0, math.floor(math.log2(period / 4.0)))
+    above = max(0, math.floor(log2(period / 4.0)))
     if isinstance(period, int):  # pictures come in whole pixels
         above = min(above, (period & -period).bit_length() - 1)
     if above == 0:

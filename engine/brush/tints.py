@@ -9,6 +9,8 @@ import numpy as np
 
 from engine.brush import checks, tones
 from engine.brush.ops import Chosen
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.functions import functions
 
 _MOST = 9
 
@@ -29,15 +31,25 @@ def saturating(amount: float) -> np.ndarray:
 
 
 @lru_cache(32)
-def turning(degrees: float) -> np.ndarray:
+def turning(degrees: float, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the matrix (3, 3), not to be written to, that turns colours about the grey axis; brightness and greys
     stay."""
-    angle = math.radians(degrees)
+    own, angle = functions(arithmetic), math.radians(degrees)
+    cos, sin = own.cos(angle), own.sin(angle)
     cross = np.array([[0.0, -1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 1.0, 0.0]]) / math.sqrt(3.0)
     grey = np.tile(np.array(tones.LUMA), (3, 1))
-    turn = np.eye(3) * math.cos(angle) + math.sin(angle) * cross + (1.0 - math.cos(angle)) / 3.0
+    turn = np.eye(3) * cos + sin * cross + (1.0 - cos) / 3.0
     chroma = np.eye(3) - grey
-    out: np.ndarray = chroma @ turn @ chroma + grey
+    if arithmetic == LIBRARY:
+        out: np.ndarray = chroma @ turn @ chroma + grey
+        return out
+    everywhere: np.ndarray = _times(_times(chroma, turn), chroma) + grey
+    return everywhere
+
+
+def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Returns the product of two matrices (3, 3), its sums in order: the same bits everywhere."""
+    out: np.ndarray = a[:, :1] * b[:1] + a[:, 1:2] * b[1:2] + a[:, 2:] * b[2:]
     return out
 
 

@@ -20,6 +20,7 @@ from engine.brush.parts import Tip
 from engine.brush.settings import Brush
 from engine.numeric.address import TILE, Rect
 from engine.numeric.curves import Shape
+from engine.numeric.elementary import log2
 from engine.numeric.hashing import fold_key, mix64
 from engine.numeric.kernel import Array, inlined, kernel
 from engine.numeric.pyramid import reduce
@@ -82,7 +83,7 @@ def resolve(
         return Pattern(
             _field(cast(Hashable, field), tip.shaping, size), np.array([size]), True, fold_key(_DOMAIN, seed)
         )
-    size = min(max(1 << math.ceil(math.log2(max(2.0 * brush.radius, 1.0))), 2 * _SMALLEST), LARGEST)
+    size = min(max(1 << math.ceil(log2(max(2.0 * brush.radius, 1.0))), 2 * _SMALLEST), LARGEST)
     made = _laid_out(tip, textures, level, seed, size, at)
     return Pattern(*_sample(cast(Hashable, made), tip.shaping, size), False, 0)
 

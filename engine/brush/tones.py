@@ -11,6 +11,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+from engine.numeric.elementary import power
 from engine.numeric.grid import snap
 from engine.numeric.kernel import Array, forced, inner, kernel
 
@@ -95,6 +97,13 @@ def _gamma(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[
 
 
 @forced
+def _gamma_everywhere(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
+    """As `_gamma`, with the same bits on every processor."""
+    x, y = np.float64(c), np.float64(a)
+    return np.float32(power(x, y)), np.float32(y * power(max(x, 1e-6), y - 1.0))
+
+
+@forced
 def _contrast(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return b + a * (c - b), a
 
@@ -128,6 +137,9 @@ CHANNELS: dict[str, Loop] = {
         _contrast, _posterise,
     )
 }  # fmt: skip
+
+
+GAMMAS = {LIBRARY: CHANNELS["gamma"], EVERYWHERE: _separable(_gamma_everywhere)}  # by arithmetic
 
 
 @kernel

@@ -38,7 +38,7 @@ def define(command: DefineTexture, root: Group, around: Around) -> Texture:
     make = MAKERS.get(command.maker)
     if make is None:
         raise FieldError("maker", f"{command.maker!a}", f"one of {', '.join(MAKERS)}")
-    texture = make(untimed(command), root, around)
+    texture = replace(make(untimed(command), root, around), arithmetic=around.arithmetic)
     texture.instance({}, 0, 0)  # its parameters are checked where it is defined, not where it is used
     return texture
 

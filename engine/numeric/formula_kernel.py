@@ -15,6 +15,8 @@ import numpy as np
 from numba import njit
 from numba.core.types import Array, float32, float64, void
 
+from engine.numeric import elementary
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.formula import NAMES, Tree, printed
 from engine.numeric.hashing import place64
 from engine.numeric.kernel import dividing
@@ -111,6 +113,21 @@ def _pow(a: float, b: float) -> float:
 
 
 @dividing
+def _own_exp(a: float) -> float:
+    return elementary.exp(a if a < 700.0 or a != a else 700.0)
+
+
+@dividing
+def _own_log(a: float) -> float:
+    return elementary.log(abs(a) + 1e-300)
+
+
+@dividing
+def _own_pow(a: float, b: float) -> float:
+    return elementary.power(abs(a), b)
+
+
+@dividing
 def _mod(a: float, b: float) -> float:
     return a - b * np.floor(a / b)  # type: ignore[no-any-return]
 
@@ -153,13 +170,13 @@ def source(tree: Tree) -> str:
 
 
 @lru_cache(MEMO)
-def kernel(tree: Tree) -> Callable[..., None]:
+def kernel(tree: Tree, arithmetic: int = LIBRARY) -> Callable[..., None]:
     """Returns the compiled loop of a checked tree: (pic, luma, tex, d, pressure, x, y, colour, level, out).
 
-    All but `colour` and `level`, which are floats, are C-contiguous float32 (n,); `out` is written: finite, within
-    -1e6..1e6.  Raises nothing.
+    `arithmetic`: that of the painting.  All but `colour` and `level`, which are floats, are C-contiguous float32 (n,);
+    `out` is written: finite, within -1e6..1e6.  Raises nothing.
     """
-    scope = dict(_SCOPE)
+    scope = dict(_SCOPE) if arithmetic == LIBRARY else _SCOPE | _OF_OUR_OWN
     exec(compile(source(tree), "<formula>", "exec"), scope)  # text printed here from a checked tree
     out: Callable[..., None] = njit(_SIGNATURE, nogil=True, error_model="numpy")(scope["kernel"])
     return out
@@ -170,4 +187,14 @@ _FUNCTIONS = (
     _min, _max, _clamp, _mix, _step, _smoothstep, _pow, _mod, _noise,
 )  # fmt: skip
 _SCOPE = {"__builtins__": {}, "range": range, "np": np, "bounded": _bounded} | {f.__name__: f for f in _FUNCTIONS}
+# What takes the place of functions of the C library: the same bits on every processor.
+_OF_OUR_OWN = {
+    "_sin": elementary.sin,
+    "_cos": elementary.cos,
+    "_tan": elementary.tan,
+    "_atan2": elementary.atan2,
+    "_exp": _own_exp,
+    "_log": _own_log,
+    "_pow": _own_pow,
+}
 assert set(_ROWS) | set(_SCALARS) == set(NAMES)

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.functions import functions
 from engine.numeric.kernel import Array, Int, Real, inlined, inner, kernel
 
 UNIT = 1 << 24  # units in a pixel
@@ -51,10 +53,11 @@ class Wave:
     phase: int
 
     @classmethod
-    def of(cls, period: float, angle: float, phase: float) -> Wave:
+    def of(cls, period: float, angle: float, phase: float, arithmetic: int = LIBRARY) -> Wave:
         """`period` in pixels, `angle` in degrees from +x towards +y (clockwise as seen), `phase` in periods."""
         turns, rest = divmod(angle, 90.0)
-        ux, uy = math.cos(math.radians(rest)), math.sin(math.radians(rest))
+        along = functions(arithmetic)
+        ux, uy = along.cos(math.radians(rest)), along.sin(math.radians(rest))
         for _ in range(int(turns) % 4):
             ux, uy = -uy, ux
         units = 4 * round(period * UNIT / 4)

@@ -20,6 +20,7 @@ from engine.files.atomic import replacing
 from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, Fields, dumps, loads
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Redo, Undo, parse, to_json
 from engine.painting.places import BookmarkCommand
 
@@ -37,16 +38,23 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """`frame`: level-0 pixels; `seed`: of every texture that is not given its own."""
+    """`frame`: level-0 pixels; `seed`: of every texture that is not given its own; `arithmetic`: in which pixels are
+    worked out, for as long as the painting lives."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
     extra: Map[str, Any] = field(default_factory=Map)
+    arithmetic: int = LIBRARY
 
-    def to_json(self) -> dict[str, Any]:
-        """Tells the header as the first line of a recording does; `parse_header` is the inverse."""
+    def to_json(self, version: int = 1) -> dict[str, Any]:
+        """Tells the header as the first line of a recording of `version` or later does; `parse_header` is the inverse.
+
+        The arithmetic is that of the version, unless it says another one.
+        """
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
-        return {"inkfall": 1, "frame": frame, "seed": self.seed, **thawed(self.extra)}
+        version = max(version, self.arithmetic)
+        other = {"arithmetic": self.arithmetic} if self.arithmetic < version else {}
+        return {"inkfall": version, "frame": frame, "seed": self.seed, **thawed(self.extra), **other}
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +79,7 @@ class Recording:
 
     def lines(self) -> Iterator[str]:
         """Yields the file's lines, without their ends."""
-        yield dumps({**self.header.to_json(), "inkfall": max(map(version_of, self.commands), default=1)})
+        yield dumps(self.header.to_json(max(map(version_of, self.commands), default=1)))
         for command in self.commands:
             yield dumps(to_json(command))
 
@@ -183,7 +191,8 @@ def parse_header(value: Any) -> Header:
     if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
         raise members.fault("frame", "a width and height from 1 to 2^40")
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
-    return Header(Rect.at(x, y, width, height), seed, members.rest())
+    arithmetic = members.integer("arithmetic", EVERYWHERE, lo=LIBRARY, hi=EVERYWHERE) if version > 1 else LIBRARY
+    return Header(Rect.at(x, y, width, height), seed, members.rest(), arithmetic)
 
 
 def write(recording: Recording, path: str | os.PathLike[str]) -> None:

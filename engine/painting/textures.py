@@ -4,43 +4,56 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from immutables import Map
 
 from engine.canvas.evaluate import TileCache
+from engine.numeric.arithmetic import LIBRARY
 from engine.painting.commands import DefineTexture
 from engine.texture.image import ImageSource
 from engine.texture.record import Instance
-from engine.texture.table import instance
+from engine.texture.table import KINDS, instance
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Texture:
     """`kind`: a row of KINDS; `parameters`: those that the definition gives, a brush may give others on top;
     `source`: the picture of an image; `mask`: of an example, white where the region is that is grown, None where that
-    goes by alpha."""
+    goes by alpha; `arithmetic`: that of its painting."""
 
     kind: str
     parameters: Map[str, Any]
     source: ImageSource | None = None
     mask: ImageSource | None = None
+    arithmetic: int = LIBRARY
 
     def instance(self, parameters: Mapping[str, Any], level: int, seed: int) -> Instance:
         """Makes the instance that a brush's ink names, with the parameters that it gives anew, a base level and a
         seed.  TextureError names what is wrong."""
-        return instance(self.kind, {**self.parameters, **parameters}, level, seed, self.source)
+        given = {**self.parameters, **parameters}
+        return instance(self.kind, given, level, seed, self.source, self.arithmetic)
+
+
+@cache
+def built_in(arithmetic: int) -> Map[str, Texture]:
+    """Returns the textures that need no definition, by name; none in the arithmetic in which whoever asks for a kind by
+    its name gets it anyhow."""
+    named = () if arithmetic == LIBRARY else (row.name for row in KINDS.values() if not row.pictured)
+    return Map({name: Texture(name, Map(), arithmetic=arithmetic) for name in named})
 
 
 @dataclass(frozen=True, slots=True)
 class Around:
     """What carrying out a command may use besides the painting: a cache of tiles, the folder that paths start from, and
-    pictures that are known already, by their sha."""
+    pictures that are known already, by their sha; `arithmetic`: the painting's."""
 
     cache: TileCache | None = None
     folder: Path | None = None
     pictures: Mapping[str, ImageSource] = Map()
+    arithmetic: int = LIBRARY
 
 
 def recorded(command: DefineTexture, texture: Texture) -> DefineTexture:

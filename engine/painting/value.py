@@ -9,10 +9,11 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
 from engine.painting.commands import Same
 from engine.painting.places import NO_BOOKMARKS, Bookmarks
-from engine.painting.recording import DEFAULT_FRAME
-from engine.painting.textures import Texture
+from engine.painting.recording import DEFAULT_FRAME, Header
+from engine.painting.textures import Texture, built_in
 
 
 class Refusal(ValueError):
@@ -22,7 +23,8 @@ class Refusal(ValueError):
 @dataclass(frozen=True, eq=False, slots=True)
 class Painting:
     """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;
-    `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name."""
+    `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name;
+    `arithmetic`: in which its pixels are worked out, that of its recording."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
@@ -30,6 +32,18 @@ class Painting:
     active: str | None = None
     textures: Map[str, Texture] = field(default_factory=Map)
     bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
+    arithmetic: int = LIBRARY
+
+    @property
+    def known_textures(self) -> Map[str, Texture]:
+        """Gives the textures that a brush may name: those defined, and those that need no definition, each in the
+        painting's arithmetic."""
+        return built_in(self.arithmetic).update(self.textures)
+
+
+def first_painting(header: Header) -> Painting:
+    """Returns the painting that a recording begins with."""
+    return Painting(header.frame, header.seed, arithmetic=header.arithmetic)
 
 
 def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SAME, to: int | None = None) -> Painting:

@@ -107,7 +107,7 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
 
 
 def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:
-    texture = define(command, painting.root, around)
+    texture = define(command, painting.root, replace(around, arithmetic=painting.arithmetic))
     return replace(painting, textures=painting.textures.set(command.name, texture))
 
 

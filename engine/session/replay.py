@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from immutables import Map
 
@@ -11,7 +12,8 @@ from engine.files.fault import FileError
 from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Recording, undo_reach
-from engine.session.apply import STEPS, Painting, Refusal
+from engine.painting.value import first_painting
+from engine.session.apply import STEPS, Refusal
 from engine.session.history import History
 from engine.session.session import Session
 from engine.texture.image import ImageSource
@@ -28,7 +30,7 @@ def opened(
     back.
     """
     header = recording.header
-    painting = Painting(header.frame, header.seed if seed is None else seed)
+    painting = first_painting(header if seed is None else replace(header, seed=seed))
     history_bytes = memory.history_share() if history_bytes is None else history_bytes
     history = History(history_bytes, undo_reach(recording.commands, STEPS))
     return Session(painting, cache, folder=recording.folder, history=history, extra=header.extra)

@@ -61,7 +61,8 @@ class Session(Owned):
         self.log: list[c.Command] = list(log)
         self._history = history if history is not None else History(memory.history_share())
         self._extra = extra if extra is not None else Map()
-        self.base = Painting(self.painting.frame, self.painting.seed) if self.log else self.painting
+        given = self.painting
+        self.base = Painting(given.frame, given.seed, arithmetic=given.arithmetic) if self.log else given
         self.leapt = False
         self._steps: Steps | None = None
         self.heard: Heard = lambda command, live: None
@@ -118,7 +119,8 @@ class Session(Owned):
 
     def recording(self) -> Recording:
         """Returns all that was done, as a recording that gives this painting."""
-        header = Header(self.painting.frame, self.painting.seed, self._extra)
+        told = self.painting
+        header = Header(told.frame, told.seed, self._extra, told.arithmetic)
         return Recording(header, tuple(self.log), folder=self.folder)
 
     def around(self, lent: ImageSource | None = None) -> Around:
@@ -127,7 +129,7 @@ class Session(Owned):
         textures = self.painting.textures.values()
         sources = (lent, *(t.source for t in textures), *(t.mask for t in textures))
         known = {source.sha: source for source in sources if source is not None}
-        return Around(self.cache, self.folder, {**self.pictures, **known})
+        return Around(self.cache, self.folder, {**self.pictures, **known}, self.painting.arithmetic)
 
     def _done(self, command: c.Command, after: Painting, live: Live | None = None) -> Painting:
         if type(command) in STEPS:

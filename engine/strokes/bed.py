@@ -19,6 +19,7 @@ from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.shown import keys_within
 from engine.numeric.address import Rect
+from engine.numeric.elementary import log2
 from engine.texture.example import tiles
 
 _LEAST_SQUARE, _SQUARES = 16, 3  # px along a square; 2^3 squares and less to a radius
@@ -89,7 +90,7 @@ class Meeting:
 
     def __init__(self, level: int, origin: tuple[int, int], radius: float) -> None:
         self._level, self._origin = level, origin
-        self._side = max(_LEAST_SQUARE, 1 << math.ceil(math.log2(radius + 1.0)) >> _SQUARES)
+        self._side = max(_LEAST_SQUARE, 1 << math.ceil(log2(radius + 1.0)) >> _SQUARES)
         self._known: set[tuple[int, int]] = set()
 
     def any(self, growth: Growth, dabs: np.ndarray, spread: int) -> bool:

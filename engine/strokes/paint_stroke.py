@@ -36,7 +36,7 @@ class LiveStroke(Drawn):
     """
 
     def _begin(self) -> None:
-        brush, level, own, textures = self.brush, self.level, self.own, self.before.textures
+        brush, level, own, textures = self.brush, self.level, self.own, self.before.known_textures
         made = edits.class_of(brush.mode)
         self._stroker = Stroker(brush)
         self._tip = tip.resolve(brush, textures, level, own)
@@ -117,7 +117,8 @@ class LiveStroke(Drawn):
     def edit(self) -> Edit:
         """Returns the edit of the layer that the points so far make."""
         if self._edit is None:
-            locked, scene = self.layer.alpha_locked, self._scenery.scene
+            locked = self.layer.alpha_locked
+            scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
             self._edit = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._relief, scene)
         return self._edit
 

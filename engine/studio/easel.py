@@ -11,8 +11,11 @@ import numpy as np
 from engine.canvas.growth import Growth
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import NEWEST
 from engine.painting import commands as c
 from engine.painting.difference import areas
+from engine.painting.recording import Header
+from engine.painting.value import first_painting
 from engine.session.session import Session
 from engine.strokes.example_stroke import Live
 from engine.studio import results
@@ -30,7 +33,7 @@ class Easel(Owned):
 
     def __init__(self, send: Callable[[results.Result], None]) -> None:
         self.send = send
-        self.session = Session()
+        self.session = Session(first_painting(Header(arithmetic=NEWEST)))
         self.live: Live | None = None
         self.path: Path | None = None
         self.name = ""

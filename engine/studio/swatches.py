@@ -25,7 +25,7 @@ _COLOURS = ("#23262e", "#7c2f3b", "#c8643c", "#e2b04a", "#6f9a4c", "#3d8f93", "#
 
 def painted(request: Swatch, of: Painting) -> np.ndarray:
     """Returns the picture: float32 (4, height, width), premultiplied.  `of`: whose textures the brush may name."""
-    painting = Painting(seed=of.seed, textures=of.textures)
+    painting = Painting(seed=of.seed, textures=of.textures, arithmetic=of.arithmetic)
     for definition in request.textures:
         painting = apply(painting, definition)
     width, height = request.size

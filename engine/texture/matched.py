@@ -22,11 +22,13 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
+from engine.numeric.functions import functions
 from engine.numeric.hashing import fold_key
 from engine.texture import sample
 from engine.texture.continuation import STEEPEST, octave_of
 from engine.texture.image import ImageSource, tiled
 from engine.texture.octaves import Continuation, octave_weights
+from engine.texture.record import told_kind
 from engine.texture.spectral import Tiled
 
 _DOMAIN = 0x6D6F6374  # "moct": tells these hashes from those of other textures
@@ -95,7 +97,7 @@ class Matched(Tiled):
 
     def _curve(self, alpha: np.ndarray, level: int) -> np.ndarray:
         """0 up to t, as it is from 2.5 t on; 1 likewise."""
-        t = np.float32(_reach(self.picture, self.period, self.roughness, level - self.native))
+        t = np.float32(_reach(self.picture, self.period, self.roughness, level - self.native, self.arithmetic))
         near = np.clip(np.minimum(alpha, np.float32(1.0) - alpha), np.float32(0.0), np.float32(0.5))
         near = np.minimum(near, np.maximum(near - t, np.float32(0.0)) * np.float32(2.5 / 1.5))
         out: np.ndarray = np.where(alpha < np.float32(0.5), near, np.float32(1.0) - near)
@@ -106,7 +108,7 @@ class Matched(Tiled):
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % tile.shape[2], (h >> 32) % tile.shape[1]
         out = tiled(tile, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))
-        out *= np.float32(_stretched(self.shown, self.period, self.roughness))
+        out *= np.float32(_stretched(self.shown, self.period, self.roughness, self.arithmetic))
         return out
 
     def _planes(self, octave: np.ndarray) -> np.ndarray:
@@ -116,7 +118,7 @@ class Matched(Tiled):
     @property
     def form(self) -> Continuation:
         """Returns the same for colours and alpha, so that they stay together."""
-        return _form(self.picture, self.period, self.roughness)
+        return _form(self.picture, self.period, self.roughness, self.arithmetic)
 
 
 @dataclass(frozen=True)
@@ -126,8 +128,8 @@ class Series(Matched):
     The picture holds them one below the other, `stages` of them, at the weights 0 to 1; `weight` says which one it is.
     """
 
-    stages: int
-    weight: float
+    stages: int = 2
+    weight: float = 0.0
 
     kind: ClassVar[str] = "series"
 
@@ -135,7 +137,7 @@ class Series(Matched):
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.period, self.roughness, self.stages, self.weight)
-        return (self.kind, self.base, *numbers, self.source.name, self.source.sha)
+        return (told_kind(self.kind, self.arithmetic), self.base, *numbers, self.source.name, self.source.sha)
 
     @property
     def coloured(self) -> bool:
@@ -198,12 +200,12 @@ def _unit(planes: np.ndarray) -> np.ndarray:
 
 def series(base: int, period: int, roughness: float, stages: int, weight: float, source: ImageSource) -> Series:
     """Returns the texture at `weight` of a series."""
-    return Series(base, period, roughness, source, stages, weight)
+    return Series(base, period, roughness, source, stages=stages, weight=weight)
 
 
 def series_cover(base: int, period: int, roughness: float, stages: int, weight: float, source: ImageSource) -> Series:
     """Returns its alpha."""
-    return SeriesCover(base, period, roughness, source, stages, weight)
+    return SeriesCover(base, period, roughness, source, stages=stages, weight=weight)
 
 
 def weights(stages: int) -> tuple[float, ...]:
@@ -233,15 +235,15 @@ def _alpha(picture: ImageSource) -> ImageSource:
     return ImageSource(picture.name, f"{picture.sha}/alpha", data)
 
 
-def _stretched(source: ImageSource, period: int, roughness: float) -> float:
+def _stretched(source: ImageSource, period: int, roughness: float, arithmetic: int) -> float:
     """Tells how much weaker an octave is because the native level is wider than the picture's own pixels."""
     wide = sample.tile(source, period).levels[-1].shape[2] / max(source.width, 1)
-    out: float = max(roughness, STEEPEST) ** math.log2(wide)
-    return out
+    own = functions(arithmetic)
+    return own.power(max(roughness, STEEPEST), own.log2(wide))
 
 
 @lru_cache(maxsize=256)
-def _form(picture: ImageSource, period: int, roughness: float) -> Continuation:
+def _form(picture: ImageSource, period: int, roughness: float, arithmetic: int) -> Continuation:
     """Tells how strong an octave is to the texture, and how large the features of both are."""
     tiles = [sample.tile(picture, period)]
     octave = octave_of(picture).tile
@@ -250,16 +252,17 @@ def _form(picture: ImageSource, period: int, roughness: float) -> Continuation:
     else:
         tiles.append(sample.tile(_alpha(picture), period))
     own, added = (_energy(planes) for planes in (np.concatenate([tile.levels[-1] for tile in tiles]), octave))
-    strength = math.sqrt(added / own) * _stretched(picture, period, roughness) if own > 0.0 else 0.0
+    strength = math.sqrt(added / own) * _stretched(picture, period, roughness, arithmetic) if own > 0.0 else 0.0
     loudest = max(tiles, key=lambda tile: _energy(tile.levels[-1]))
     return replace(loudest.form, strength=round(strength, 6), octave=_SIZE)
 
 
 @lru_cache(maxsize=1024)
-def _reach(picture: ImageSource, period: int, roughness: float, depth: int) -> float:
+def _reach(picture: ImageSource, period: int, roughness: float, depth: int, arithmetic: int) -> float:
     """Tells how far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
-    weights = octave_weights(depth, roughness, _form(picture, period, roughness))[:depth]
-    own = math.sqrt(_energy(octave_of(picture).tile[-1:])) / 2.0 * _stretched(picture, period, roughness)
+    form = _form(picture, period, roughness, arithmetic)
+    weights = octave_weights(depth, roughness, form, arithmetic)[:depth]
+    own = math.sqrt(_energy(octave_of(picture).tile[-1:])) / 2.0 * _stretched(picture, period, roughness, arithmetic)
     return round(min(_REACH * own * math.sqrt(float(np.square(weights, dtype=np.float64).sum())), _FARTHEST), 5)
 
 

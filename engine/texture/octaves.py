@@ -18,14 +18,19 @@ variance (compare `engine.texture.rock`).  Below a roughness of an eighth nothin
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.elementary import log2
+from engine.numeric.functions import functions
+
 VIEW = 7  # features of 2^7 pixels are as large as one likes to see them
 _SMOOTH = 0.125  # below this roughness nothing is raised
-_NEGLIGIBLE = 2.0**-12  # of the strongest octave
+_FAINTEST = 12  # octaves: 2^-12 of the strongest is negligible
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,25 +54,28 @@ class Continuation:
 
 
 @lru_cache(maxsize=4096)
-def octave_weights(depth: int, roughness: float, form: Continuation) -> np.ndarray:
+def octave_weights(depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY) -> np.ndarray:
     """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,)."""
-    settled = form.settled
+    settled, own = form.settled, functions(arithmetic)
     if roughness < _SMOOTH or depth <= settled:
         out = np.zeros(depth + 1)
         for j in range(min(depth, _added(roughness)) + 1):
-            out[depth - j] = roughness**j
+            out[depth - j] = own.power(roughness, j)
         return out.astype(np.float32)
-    profile = _profile(depth, -math.log2(roughness), form)
-    gain = _size(_profile(settled, -math.log2(roughness), form), settled, form) / _size(profile, depth, form)
+    slope = -own.log2(roughness)
+    profile = _profile(depth, slope, form, own.two_to)
+    gain = _size(_profile(settled, slope, form, own.two_to), settled, form) / _size(profile, depth, form)
     return (np.array(profile) * gain).astype(np.float32)
 
 
 @lru_cache(maxsize=4096)
-def octave_changes(depth: int, roughness: float, form: Continuation) -> np.ndarray:
+def octave_changes(depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY) -> np.ndarray:
     """W(depth, j) - W(depth - 1, j), by age, without the zeros at the end: float32 (number of octaves,)."""
     if roughness < _SMOOTH:  # so deep that the arrays of weights would be long
-        return np.array([roughness**depth] if depth <= _added(roughness) else [], np.float32)
-    now, before = octave_weights(depth, roughness, form), octave_weights(depth - 1, roughness, form)
+        return np.array(
+            [functions(arithmetic).power(roughness, depth)] if depth <= _added(roughness) else [], np.float32
+        )
+    now, before = (octave_weights(d, roughness, form, arithmetic) for d in (depth, depth - 1))
     both = np.zeros(max(now.size, before.size + 1), np.float32)
     both[: now.size] = now
     both[1 : before.size + 1] -= before
@@ -78,14 +86,14 @@ def _added(roughness: float) -> int:
     """Tells how many octaves of a smooth texture are strong enough to be seen."""
     if roughness <= 0.0:
         return 0
-    return 1 << 20 if roughness >= _SMOOTH else int(math.log2(_NEGLIGIBLE) / math.log2(roughness))
+    return 1 << 20 if roughness >= _SMOOTH else int(-_FAINTEST / log2(roughness))
 
 
-def _profile(depth: int, slope: float, form: Continuation) -> list[float]:
+def _profile(depth: int, slope: float, form: Continuation, two_to: Callable[[float], float]) -> list[float]:
     """Returns the weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age M."""
     peak = form.peak(depth)
-    ages = range(min(depth, int(peak - math.log2(_NEGLIGIBLE))) + 1)
-    return [2.0 ** (slope * (m - peak)) if m <= peak else 2.0 ** (peak - m) for m in ages]
+    ages = range(min(depth, int(peak + _FAINTEST)) + 1)
+    return [two_to(slope * (m - peak) if m <= peak else peak - m) for m in ages]
 
 
 def _size(profile: list[float], depth: int, form: Continuation) -> float:

@@ -19,9 +19,11 @@ from typing import ClassVar
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.detail import FLOOR, cut, expand_row, parents, subtract_expanded
 from engine.numeric.kernel import kernel
 from engine.numeric.wave import FAR, LONGEST, Wave, saw_wave, square_wave, step_wave
+from engine.texture.record import told_kind
 
 Sampler = Callable[[Wave, Rect], np.ndarray]  # pixel averages, float32 (h, w)
 
@@ -57,17 +59,18 @@ class _Waves:
     period: float
     angle: float = 0.0
     phase: float = 0.0
+    arithmetic: int = LIBRARY
 
     kind: ClassVar[str]
 
     @property
     def key(self) -> tuple[object, ...]:
-        return (self.kind, self.base, self.period, self.angle, self.phase)
+        return (told_kind(self.kind, self.arithmetic), self.base, self.period, self.angle, self.phase)
 
     def wave(self, level: int) -> Wave:
         if level < self.base:
             raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
-        return _wave(self.period, self.angle, self.phase).finer(level - self.base)
+        return _wave(self.period, self.angle, self.phase, self.arithmetic).finer(level - self.base)
 
     def sampler(self, fine: Wave) -> Sampler:
         """Returns the pixel averages whose refinement at the level of `fine` is wanted."""

@@ -11,6 +11,18 @@ from typing import Protocol
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+
+
+def told_kind(kind: str, arithmetic: int) -> str:
+    """Returns how a key names a kind of texture that is worked out in an arithmetic; `kind_of_key` is the inverse."""
+    return kind if arithmetic == LIBRARY else f"{kind}#{arithmetic}"
+
+
+def kind_of_key(told: str) -> tuple[str, int]:
+    """Returns the kind and the arithmetic that the first part of a key tells."""
+    kind, _, number = told.rpartition("#")
+    return (kind, EVERYWHERE) if kind and number == str(EVERYWHERE) else (told, LIBRARY)
 
 
 class Instance(Protocol):

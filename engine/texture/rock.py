@@ -26,20 +26,25 @@ weight is below 2^-17 are left out, so S and the bandpass are finite cascades at
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.detail import blend_rows, cut, expand_row
+from engine.numeric.elementary import log2
+from engine.numeric.functions import functions
 from engine.numeric.hashing import MASK32, fold_key, place64
 from engine.numeric.kernel import inner, kernel
+from engine.texture.record import told_kind
 
 FIRST = 10  # the depth down to which octaves keep their amplitudes, at least
 PEAK = 8  # the age of the strongest octave in the end: features of 2^8 pixels
 SPREAD = 0.36  # standard deviation of S from that depth on: one pixel in 200 leaves the nominal -1..1
-_NEGLIGIBLE = 2.0**-17
+_FAINTEST = 17  # octaves: below 2^-17, a weight is negligible
 _DOMAIN = 0x726F636B  # "rock": tells these hashes from those of other textures
 
 # Coordinates reach the kernel as their low 62 bits; what lies above 2^32 is in the keys.  An ancestor m levels up
@@ -57,21 +62,23 @@ class Rock:
     period: float
     roughness: float = 0.5
     seed: int = 0
+    arithmetic: int = LIBRARY
 
     @property
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
-        return ("rock", self.base, self.period, self.roughness, self.seed)
+        return (told_kind("rock", self.arithmetic), self.base, self.period, self.roughness, self.seed)
 
     @property
     def root(self) -> int:
         """Returns the level of octave 0."""
-        return self.base - math.ceil(math.log2(self.period))
+        return self.base - math.ceil(log2(self.period))
 
     @property
     def first(self) -> float:
         """Returns the part of octave 0 that is there, 0..1, so that S varies steadily with the period."""
-        return 1.0 + math.log2(self.period) - math.ceil(math.log2(self.period))
+        size = functions(self.arithmetic).log2(self.period)
+        return 1.0 + size - math.ceil(size)
 
     @property
     def settled(self) -> int:
@@ -92,11 +99,11 @@ class Rock:
 
     def weights(self, level: int) -> np.ndarray:
         """Returns what S takes of the octaves of ages 0, 1, ...: float32 (ages,)."""
-        return octave_weights(level - self.root, self.settled, self.roughness, self.first)
+        return octave_weights(level - self.root, self.settled, self.roughness, self.first, self.arithmetic)
 
     def changes(self, level: int) -> np.ndarray:
         """Returns what the bandpass takes of them, without the zeros at the end: float32 (ages,)."""
-        return octave_changes(level - self.root, self.settled, self.roughness, self.first)
+        return octave_changes(level - self.root, self.settled, self.roughness, self.first, self.arithmetic)
 
     def _cascade(self, level: int, rect: Rect, factors: np.ndarray) -> np.ndarray:
         """sum over m of factors[m] E^m n_(level - m), over `rect`: float32 (1, h, w)."""
@@ -108,29 +115,30 @@ class Rock:
 
 
 @lru_cache(maxsize=4096)
-def octave_weights(depth: int, settled: int, roughness: float, first: float) -> np.ndarray:
+def octave_weights(depth: int, settled: int, roughness: float, first: float, arithmetic: int = LIBRARY) -> np.ndarray:
     """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,)."""
+    two_to = functions(arithmetic).two_to
     if depth <= settled:
-        gain = _gain(_profile(settled, settled, roughness, first))
-        return np.array(_profile(depth, depth, roughness, first), np.float32) * np.float32(gain)
-    profile = _profile(max(float(PEAK), settled - (depth - settled) / 2), depth, roughness, first)
+        gain = _gain(_profile(settled, settled, roughness, first, two_to))
+        return np.array(_profile(depth, depth, roughness, first, two_to), np.float32) * np.float32(gain)
+    profile = _profile(max(float(PEAK), settled - (depth - settled) / 2), depth, roughness, first, two_to)
     return np.array(profile, np.float32) * np.float32(_gain(profile))
 
 
 @lru_cache(maxsize=4096)
-def octave_changes(depth: int, settled: int, roughness: float, first: float) -> np.ndarray:
+def octave_changes(depth: int, settled: int, roughness: float, first: float, arithmetic: int = LIBRARY) -> np.ndarray:
     """W(depth, j) - W(depth - 1, j), by age, without the zeros at the end: float32 (number of octaves,)."""
-    now, before = (octave_weights(d, settled, roughness, first) for d in (depth, depth - 1))
+    now, before = (octave_weights(d, settled, roughness, first, arithmetic) for d in (depth, depth - 1))
     both = np.zeros(max(now.size, before.size + 1), np.float32)
     both[: now.size] = now
     both[1 : before.size + 1] -= before
     return np.trim_zeros(both, "b")
 
 
-def _profile(peak: float, depth: int, roughness: float, first: float) -> list[float]:
+def _profile(peak: float, depth: int, roughness: float, first: float, two_to: Callable[[float], float]) -> list[float]:
     """Returns the weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age `peak`."""
-    ages = range(min(depth, int(peak - math.log2(_NEGLIGIBLE))) + 1)
-    profile = [2.0 ** (roughness * (m - peak)) if m <= peak else 2.0 ** (peak - m) for m in ages]
+    ages = range(min(depth, int(peak + _FAINTEST)) + 1)
+    profile = [two_to(roughness * (m - peak) if m <= peak else peak - m) for m in ages]
     if len(profile) == depth + 1:
         profile[depth] *= first
     return profile
@@ -146,9 +154,18 @@ def octave_variance(age: int) -> float:
     along, across = np.ones(2), np.array([1.0, -1.0])
     age = min(age, 12)  # by then it has converged, to a part in a million
     for _ in range(age):
-        along, across = (np.convolve(np.repeat(f, 2), [0.25, 0.5, 0.25]) for f in (along, across))
+        along, across = (_expanded(np.repeat(f, 2)) for f in (along, across))
     va, vd = (float((f * f).sum()) / 2 ** (age + 1) for f in (along, across))
     out: float = (2 * va * vd + vd * vd) / 3
+    return out
+
+
+def _expanded(f: np.ndarray) -> np.ndarray:
+    """Returns values (n,) smoothed by (1, 2, 1)/4: (n + 2,)."""
+    out = np.zeros(f.size + 2)
+    out[:-2] += 0.25 * f
+    out[1:-1] += 0.5 * f
+    out[2:] += 0.25 * f
     return out
 
 

@@ -19,12 +19,14 @@ import numpy as np
 
 from engine.numeric import sparse
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.detail import add_expanded, cut, parents, subtract_expanded
 from engine.numeric.hashing import fold_key
 from engine.numeric.spectra import SPREAD
 from engine.texture import sample
 from engine.texture.image import ImageSource, tiled
 from engine.texture.octaves import Continuation, octave_changes, octave_weights
+from engine.texture.record import told_kind
 
 _DOMAIN = 0x73706172  # "spar": tells these hashes from those of other textures
 
@@ -38,6 +40,7 @@ class _Spectral:
     period: int
     roughness: float
     source: ImageSource
+    arithmetic: int
 
     @property
     def shown(self) -> ImageSource:
@@ -77,7 +80,7 @@ class _Spectral:
         if level <= self.native:
             out: np.ndarray = self._own(level, rect) + self.centre
             return out
-        factors = octave_weights(level - self.native, self.roughness, self.form)
+        factors = octave_weights(level - self.native, self.roughness, self.form, self.arithmetic)
         carried: np.ndarray = self._cascade(level - self.native, rect, factors) + self.centre
         return carried
 
@@ -85,7 +88,7 @@ class _Spectral:
         if level <= self.base or rect.empty or self.shown.data is None:
             return None
         if level > self.native:
-            changes = octave_changes(level - self.native, self.roughness, self.form)
+            changes = octave_changes(level - self.native, self.roughness, self.form, self.arithmetic)
             return self._cascade(level - self.native, rect, changes) if changes.size else None
         even = rect.evened()
         out = self._own(level, even)
@@ -123,13 +126,15 @@ class Tiled(_Spectral):
     period: int
     roughness: float
     source: ImageSource
+    arithmetic: int = LIBRARY
 
     kind: ClassVar[str] = "spectrum"
 
     @property
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
-        return (self.kind, self.base, self.period, self.roughness, self.source.name, self.source.sha)
+        told = told_kind(self.kind, self.arithmetic)
+        return (told, self.base, self.period, self.roughness, self.source.name, self.source.sha)
 
     @property
     def native(self) -> int:
@@ -175,6 +180,7 @@ class Sparse(_Spectral):
     quantise: int
     seed: int
     source: ImageSource
+    arithmetic: int = LIBRARY
 
     kind: ClassVar[str] = "sparse"
 
@@ -182,7 +188,8 @@ class Sparse(_Spectral):
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.roughness, self.density, self.mean, self.spread, self.quantise, self.seed)
-        return (self.kind, self.base, self.period, *numbers, self.source.name, self.source.sha)
+        told = told_kind(self.kind, self.arithmetic)
+        return (told, self.base, self.period, *numbers, self.source.name, self.source.sha)
 
     @property
     def native(self) -> int:

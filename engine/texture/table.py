@@ -7,16 +7,17 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_within
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.matched import Matched, MatchedCover, series, series_cover
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
-from engine.texture.record import Instance
+from engine.texture.record import Instance, kind_of_key
 from engine.texture.rock import Rock
 from engine.texture.shaped import Shaped
 from engine.texture.spectral import Sparse, Tiled
@@ -123,13 +124,18 @@ KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 
 
 def instance(
-    kind: str, parameters: Mapping[str, Any], level: int, seed: int, source: ImageSource | None = None
+    kind: str,
+    parameters: Mapping[str, Any],
+    level: int,
+    seed: int,
+    source: ImageSource | None = None,
+    arithmetic: int = LIBRARY,
 ) -> Instance:
     """Returns a texture bound to its base level `level`.
 
     Parameters that are missing take the row's default, those of other kinds are ignored; `seed` is for textures
     whose parameters name none; `source` is the picture of an image or the sample of a spectral texture, its width the
-    default period.  TextureError names the field.
+    default period; `arithmetic`: that of the painting.  TextureError names the field.
     """
     row = _row(kind)
     _check_level(level)
@@ -142,10 +148,17 @@ def instance(
                 value = min(max(source.width, int(p.lo)), int(p.hi))
         values.append(p.checked(value))
     if not row.pictured:
-        return row.make(level, *values)
+        return _worked_out(row.make(level, *values), arithmetic)
     if source is None:
         raise TextureError("source", "none", f"a picture for the texture {kind!r}")
-    return row.make(level, *values, source)
+    return _worked_out(row.make(level, *values, source), arithmetic)
+
+
+def _worked_out(made: Instance, arithmetic: int) -> Instance:
+    """Returns a texture in an arithmetic; the same one where that makes no difference."""
+    if arithmetic == LIBRARY or not isinstance(made, Rock | Stripes | Sawtooth | Squares | Tiled | Sparse):
+        return made
+    return replace(made, arithmetic=arithmetic)
 
 
 def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
@@ -157,20 +170,22 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         raise TextureError("key", described(key), "[kind, base level, parameters ...]")
     if key[0] == "shaped":
         return _shaped_from_key(key, images)
-    row = (_COVERS.get(key[0]) if isinstance(key[0], str) else None) or _row(key[0])
+    kind, arithmetic = kind_of_key(key[0]) if isinstance(key[0], str) else (key[0], LIBRARY)
+    row = (_COVERS.get(kind) if isinstance(kind, str) else None) or _row(kind)
     _check_level(key[1])
     count = 2 + len(row.parameters) + (2 if row.pictured else 0)
     if len(key) != count:
         raise TextureError("key", f"{len(key)} parts", f"{count} parts for {row.name!r}")
     values = [p.checked(value) for p, value in zip(row.parameters, key[2:], strict=False)]
     if not row.pictured:
-        return row.make(key[1], *values)
+        return _worked_out(row.make(key[1], *values), arithmetic)
     name, sha = key[-2:]
     for field, text in (("name", name), ("sha", sha)):
         if not isinstance(text, str):
             raise TextureError(field, described(text), "a string")
     known = images.get(sha)
-    return row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
+    made = row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
+    return _worked_out(made, arithmetic)
 
 
 def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:

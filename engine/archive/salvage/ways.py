@@ -140,7 +140,9 @@ class _Parts:
         if self._unseen:
             root, told = _with_seen(remains, root, manifest.frame)
         textures = self._textures()
-        painting = Painting(manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks)
+        painting = Painting(
+            manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks, manifest.arithmetic
+        )
         notes = (IN_PART, *self._notes, *told, *manifest.notes, *steps_missing(remains))
         return Opened(painting, notes, False, None, remains.pictures, tuple(self._marks))
 

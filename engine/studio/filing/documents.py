@@ -18,7 +18,7 @@ from engine.keeping import memory
 from engine.keeping.fingerprint import Fingerprint, fingerprint
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_torn
-from engine.painting.value import Painting
+from engine.painting.value import Painting, first_painting
 from engine.session import replay
 from engine.session.damaged import open_or_salvage
 from engine.studio import faults
@@ -119,7 +119,7 @@ def _size(path: Path) -> int:
 def _begun(recording: Recording) -> Document:
     """Returns the painting that a recording begins with, nothing done yet."""
     header = recording.header
-    return Document(Painting(header.frame, header.seed), folder=recording.folder, header=header, live=recording)
+    return Document(first_painting(header), folder=recording.folder, header=header, live=recording)
 
 
 def _played(recording: Recording, progress: Progress) -> Document:

@@ -13,8 +13,9 @@ from engine.journal.heads import head_of_file, head_of_new
 from engine.journal.volume import Continued
 from engine.keeping.preferences import Preferences
 from engine.keeping.unfinished import unfinished
+from engine.numeric.arithmetic import NEWEST
 from engine.painting.recording import Header
-from engine.painting.value import Painting
+from engine.painting.value import Painting, first_painting
 from engine.studio import faults, results
 from engine.studio import requests as q
 from engine.studio.easel import Easel
@@ -130,8 +131,8 @@ class Filing(Owned):
 
     def _new(self, request: q.New) -> None:
         self.openings.cancel()
-        header = Header(request.frame, request.seed)
-        self.replace(Document(Painting(frame=request.frame, seed=request.seed), header=header))
+        header = Header(request.frame, request.seed, arithmetic=NEWEST)
+        self.replace(Document(first_painting(header), header=header))
 
     def _open(self, request: q.Open) -> None:
         read = partial(documents.opened, request.path, request.live, request.untitled)
@@ -176,5 +177,6 @@ def _head(document: Document) -> Mapping[str, object]:
     header = document.header
     if document.stamp is None:
         return head_of_new(header, document.name, document.folder)
-    told = Header(document.painting.frame, document.painting.seed, header.extra)
+    painting = document.painting
+    told = Header(painting.frame, painting.seed, header.extra, painting.arithmetic)
     return head_of_file(document.stamp, document.path is not None, told)

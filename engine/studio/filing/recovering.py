@@ -27,7 +27,7 @@ from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_from, undo_reach
 from engine.painting.times import members
-from engine.painting.value import Painting, Refusal
+from engine.painting.value import Painting, Refusal, first_painting
 from engine.session import replay
 from engine.session.apply import STEPS
 from engine.session.history import History
@@ -187,7 +187,7 @@ def _start(folder: Path, story: Story, missing: list[str], begins: _Begins) -> _
             _do(session, folder, command, [])
         return _Start(session, True, 0)
     missing.append(_GONE.format(name=base.name))
-    return _Start(Session(Painting(base.header.frame, base.header.seed), folder=base.folder), False, 0)
+    return _Start(Session(first_painting(base.header), folder=base.folder), False, 0)
 
 
 class _Base:

@@ -1,0 +1,10 @@
+"""The two arithmetics in which pixels are worked out, by the number that a painting and its textures carry.
+
+1, LIBRARY: functions of the C library and of NumPy, whose last bits differ from processor to processor: that of
+recordings of version 1, which keep their pixels.  2, EVERYWHERE: those of `elementary`, the same everywhere.  What a
+function is given is part of what it is cached by, so the number is an argument wherever it counts; module `functions`
+has what it stands for.  Light to import.
+"""
+
+LIBRARY, EVERYWHERE = 1, 2
+NEWEST = EVERYWHERE  # of paintings that begin now

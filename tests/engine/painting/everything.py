@@ -1,0 +1,221 @@
+"""Small recordings that together do all that a recording can: each mode, operation, texture, curve, maker, blend mode.
+
+    python everything.py FOLDER VERSION [NAME ...]
+
+plays them, as recordings of that version, and prints {name: hashes of the pixels that are exported, and of all values
+that are stored or evaluated}.  FOLDER holds what `pictures` wrote.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from engine.archive import export
+from engine.brush.ops import OPS
+from engine.canvas.evaluate import evaluate
+from engine.canvas.layers import layers
+from engine.numeric.address import Rect
+from engine.numeric.blend import BLENDS
+from engine.numeric.curves import CURVES, EDGES
+from engine.painting.grown import settled
+from engine.painting.recording import read_from
+from engine.painting.value import Painting
+from engine.session.replay import replay
+from engine.texture.table import KINDS
+
+FRAME = [0, 0, 96, 72]
+PLACES = ((-1, Rect.at(-8, -8, 64, 52)), (0, Rect.at(-16, -16, 128, 104)), (2, Rect.at(100, 90, 96, 96)))
+DEEP = (14, Rect.at((40 << 14) + 77, (30 << 14) + 5, 64, 64))
+LINE = [[8, 12, 0.3, 0, 0, 0], [40, 30, 0.9, 10, 5, 0.1], [88, 60, 0.6, 20, 0, 0.25]]
+BACK = [[88, 10, 1, 0, 0, 0], [50, 40, 0.7, 0, 0, 0.1], [10, 64, 0.2, 0, 0, 0.3]]
+WAVES = {"period": 13.7, "angle": 33.3, "phase": 0.21}
+FORMULAS = (
+    "0.3*sin(x/3.1) + 0.2*cos(y*1.7)",
+    "tan(x/17) * 0.1 + atan2(y - 30.3, x - 41.7) / 4",
+    "exp(-abs(x - 40)/9) - log(1 + luma*7)/5",
+    "pow(pic, 1.7) - pic + 0.1*tex**0.3*noise(x/4, y/5)",
+    "mix(colour, pic, smoothstep(0, 60, x)) - pic*fract(y/7.3) + d*pressure*0.1*step(0.5, level + 0.7)",
+    "sqrt(luma)*clamp(mod(x, 7)/7, 0.2, 0.9) - pic",
+)
+
+
+def stroke(*points: list[float], level: int = 0, **brush: Any) -> dict[str, Any]:
+    """A stroke command; with no points, along a line."""
+    given = {"radius": 14.3, "hardness": 0.37, "colour": "#c06020", **brush}
+    return {"do": "stroke", "level": level, "points": list(points) or LINE, "brush": given, "seed": 5}
+
+
+def ink(name: str, **more: Any) -> dict[str, Any]:
+    return {"texture": name, "amount": 0.83, "colour": "#f0e0a0", **more}
+
+
+GROUND = stroke(*BACK, ink=[ink("rock", period=11.3, roughness=0.41)], radius=30)
+
+
+def texture(maker: str, name: str = "t", **members: Any) -> dict[str, Any]:
+    return {"do": "texture", "name": name, "maker": maker, **members}
+
+
+MADE: dict[str, dict[str, Any]] = {
+    "image": texture("image", path="colour.png", period=37),
+    "canvas": texture("canvas", rect=[0, 4, 3, 40, 36], detail=1),
+    "spectrum": texture("spectrum", path="grey.png"),
+    "spectrum-colour": texture("spectrum", path="colour.png", phase="zero", part="imag"),
+    "spectrum-phase": texture("spectrum", path="colour.png", phase="grey.png", part="magnitude"),
+    "spectrum-forward": texture("spectrum", path="grey.png", forward=True, part="log"),
+    "spectrum-angle": texture("spectrum", path="grey.png", forward=True, part="phase"),
+    "spectrum-shapes": texture(
+        "spectrum",
+        size=[64, 48],
+        shapes=[
+            {"shape": "ring", "frequency": 0.3},
+            {"shape": "wedge", "angle": 20},
+            {"shape": "noise"},
+            {"shape": "points"},
+        ],
+    ),
+    "spectrum-strokes": texture(
+        "spectrum", size=[64, 64], strokes=[{"points": [[20, 40], [44, 40]], "brush": {"radius": 5}}]
+    ),
+    "sparse": texture("sparse", path="colour.png", density=12, quantise=5),
+    "impulse": texture("impulse", path="grey.png", window=16, average=5),
+    "impulse-random": texture("impulse", path="colour.png", phase="random", field="tile"),
+    "match": texture("match", path="colour.png", iterations=2, levels=3),
+    "match-laplacian": texture("match", path="grey.png", iterations=2, levels=3, pyramid="laplacian"),
+    "match-alpha": texture("match", path="blob.png", iterations=2, levels=2, size=[32, 32]),
+    "match-bands": texture(
+        "match", path="colour.png", iterations=1, levels=2, bands=[{"level": 0, "gain": 2.0}], axes=[1, 2, 0.5, 1]
+    ),
+    "mix-palette": texture("mix", path="colour.png", pattern="grey.png", iterations=2, levels=3),
+    "mix-bands": texture("mix", path="colour.png", pattern="grey.png", how="bands", split=1, iterations=2, levels=3),
+    "mix-average": texture(
+        "mix", path="colour.png", pattern="grey.png", how="average", stages=3, iterations=2, levels=3
+    ),
+}
+
+
+def _grown() -> Iterator[tuple[str, list[Any]]]:
+    defined = texture("example", path="blob.png")
+    grow = stroke(mode="example", example="t", radius=17)
+    yield "example", [defined, grow]
+    yield "example-mask", [texture("example", path="colour.png", mask="grey.png", kappa=2), grow]
+    over = stroke(*BACK, mode="example", example="u", radius=9, depth=1, example_detail=1)
+    other = texture("example", "u", path="colour.png")
+    yield "example-over", [defined, other, grow, over, {"do": "swap", "at": [40, 30], "example": "u"}]
+    yield "example-painted-over", [defined, grow, stroke(*BACK, radius=5)]
+
+
+def _brushes() -> Iterator[tuple[str, list[Any]]]:
+    yield "plain", [stroke(), stroke(*BACK, hardness=1, spacing=0.1), stroke(*BACK, level=3), stroke(level=-2)]
+    for name, row in KINDS.items():
+        if not row.pictured:
+            given = {"period": 21.9, "roughness": 0.613} if name == "rock" else WAVES
+            yield f"ink {name}", [stroke(ink=[ink(name, **given)]), stroke(*BACK, level=1, ink=[ink(name)])]
+            yield f"grain {name}", [stroke(grain={"texture": name, "amount": 0.7, "period": 9.1})]
+            yield f"density {name}", [stroke(density={"texture": name, "amount": 0.9, "shaping": [[0.1, 0], [0.7, 1]]})]
+            yield f"tip {name}", [stroke(tip={"texture": name, "period": 8.3})]
+    for name in CURVES:
+        yield f"curve {name}", [stroke(ink=[ink("rock", shaping=name)])]
+    for name in EDGES:
+        yield f"edge {name}", [stroke(edge={"curve": name, "width": 0.7, "colour": "#102040"})]
+    for name in ("erase", "smooth"):
+        yield f"mode {name}", [GROUND, stroke(mode=name, ink=[ink("rock")])]
+    yield "dynamics", [stroke(dynamics={"radius": "pressure", "flow": [[0, 0.3], [0.7, 0.9]]})]
+
+
+def _operations() -> Iterator[tuple[str, list[Any]]]:
+    given: dict[str, dict[str, Any]] = {
+        "gamma": {"gamma": 1.37},
+        "hue": {"turn": 41.7},
+        "displace": {"distance": 11.3, "angle": 37.7},
+        "clone": {"layer": "Layer 1", "offset": [7, -5]},
+        "predict": {"window": 32},
+    }
+    for name in OPS:
+        op = {"name": name, **given.get(name, {})}
+        yield f"op {name}", [GROUND, stroke(mode="raster", op=op, ink=[ink("rock", period=19.1)])]
+    by_texture = {"name": "displace", "by": "texture", "distance": 31, "angle": 11}
+    yield "op displace by texture", [GROUND, stroke(mode="raster", op=by_texture, ink=[ink("stripes", **WAVES)])]
+    for n, text in enumerate(FORMULAS):
+        yield f"formula {n}", [GROUND, stroke(mode="raster", op={"formula": text}, ink=[ink("rock")])]
+
+
+def _layered() -> Iterator[tuple[str, list[Any]]]:
+    for blend in BLENDS:
+        above = {"do": "layer", "add": "above"}
+        set_it = {"do": "layer", "set": "above", "opacity": 0.7, "blend": blend}
+        yield f"blend {blend}", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), set_it]
+    locked = {"do": "layer", "set": "Layer 1", "alpha_locked": True}
+    yield "alpha locked", [GROUND, locked, stroke(ink=[ink("rock")]), {"do": "undo"}, {"do": "redo"}]
+
+
+def _made() -> Iterator[tuple[str, list[Any]]]:
+    for name, defined in MADE.items():
+        part = ink("t", weight="pressure") if "stages" in defined else ink("t")
+        yield f"maker {name}", [GROUND, defined, stroke(ink=[part], radius=25)]
+    sample = MADE["sparse"]
+    yield "tip sparse", [sample, stroke(tip={"texture": "t", "from": "window"}), stroke(*BACK, tip="t")]
+    yield "extent", [sample, stroke(ink=[ink("t")], extent=True)]
+    shaped = ink("t", shaping="power", period=19, roughness=0.37)
+    yield "shaped", [MADE["spectrum"], stroke(ink=[shaped]), stroke(*BACK, density={"texture": "t"}, level=1)]
+
+
+def recordings() -> dict[str, list[Any]]:
+    """The commands of each recording, by its name."""
+    parts: tuple[Iterable[tuple[str, list[Any]]], ...] = (_brushes(), _operations(), _layered(), _made(), _grown())
+    return {name: commands for part in parts for name, commands in part}
+
+
+def pictures(folder: Path) -> None:
+    """Writes the pictures that the recordings name; they are made of whole numbers alone."""
+    y, x = np.mgrid[:40, :36]
+    waves = (x * 7 + (y * y) // 9) % 64 * 3 + (x * 5167 + y * 7919 + (x * y) % 13 * 331) % 61
+    colours = np.stack([waves, 255 - (waves + 5 * y) % 256, (waves * 3 + 2 * x) % 256], axis=2)
+    inside = (x - 18) ** 2 + (y - 20) ** 2 < 256
+    Image.fromarray(waves.astype(np.uint8)).save(folder / "grey.png")
+    Image.fromarray(colours.astype(np.uint8)).save(folder / "colour.png")
+    Image.fromarray(np.dstack([colours, 255 * inside]).astype(np.uint8)).save(folder / "blob.png")
+
+
+def played(name: str, commands: list[Any], folder: Path, version: int) -> Painting:
+    """The painting that commands give."""
+    header = {"inkfall": version, "frame": FRAME, "seed": 3}
+    lines = "\n".join(map(json.dumps, [header, *commands])).encode()
+    return settled(replay(read_from(io.BytesIO(lines), name, folder)).painting, 1)
+
+
+def hashes(painting: Painting, folder: Path) -> list[str]:
+    """Of the pictures exported at 16 bits, and of all values of all layers at some places."""
+    pixels, values = hashlib.sha256(), hashlib.sha256()
+    for level, rect in (*PLACES[:2], (1, None)):
+        export.export(folder / "out.png", export.Picture(painting, level, rect, depth=16))
+        pixels.update((folder / "out.png").read_bytes())
+    for layer in layers(painting.root):
+        for level, rect in (*PLACES, DEEP):
+            values.update(evaluate(layer.pyramid, level, rect).data.tobytes())
+    return [pixels.hexdigest()[:16], values.hexdigest()[:16]]
+
+
+def main(folder: str, version: str, *names: str) -> None:
+    """Plays them in a folder of this process's own, and prints what they hash to."""
+    found = {}
+    for name, commands in recordings().items():
+        if not names or any(name.startswith(each) for each in names):
+            try:
+                found[name] = hashes(played(name, commands, Path(folder), int(version)), Path.cwd())
+            except Exception as error:
+                found[name] = [f"{type(error).__name__}: {error}"]
+    json.dump(found, sys.stdout)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
