@@ -283,10 +283,10 @@ def _only(one: Pyramid, other: Pyramid) -> Iterator[_Only]:
         there = other.levels.get(level)
         if there is stored:
             continue
-        if one.settled != other.settled:  # folded in between: records changed wherever a stroke had waited
+        # Folded in between, records changed wherever a stroke had waited; and several commits met the same tiles.
+        if one.settled != other.settled or len(rects := changed_rects(other, one, level)) > 1:
             places = ((TileKey(level, *place), record) for place, record in stored.items())
         else:
-            rects = changed_rects(other, one, level)
             places = (found for rect in rects for found in one.records(level, rect.grown(_AROUND)))
         for key, record in places:
             beside = there.get((key.x, key.y)) if there is not None else None

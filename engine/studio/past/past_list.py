@@ -15,9 +15,8 @@ from engine.checks.owned import Owned
 from engine.session.steps import LoggedStep
 from engine.studio import results
 from engine.studio.past import past_records as p
-from engine.studio.past import step_pictures
 from engine.studio.past.rebuilding import Rebuilding
-from engine.studio.past.step_pictures import StepPictures
+from engine.studio.past.step_pictures import StepPainter, StepPictures
 from engine.studio.past.trail import Trail
 from engine.studio.past.travels import Travels
 from engine.studio.requests import Handlers
@@ -38,7 +37,7 @@ class PastList(Owned):
     def _begin(self) -> None:
         """Another painting is on the easel."""
         self._session = self._easel.session
-        self._pictures = StepPictures()
+        self._pictures, self._painter = StepPictures(), StepPainter()
         self._open: list[LoggedStep] = []  # steps without a picture, the newest last
         self._logged = 0  # commands in the log that were looked at
         self._tour: Rebuilding | None = None
@@ -116,7 +115,7 @@ class PastList(Owned):
         there = step.number <= len(steps) and steps[step.number - 1] is step and step not in self._pictures
         painting = self._trail.held(step.number) if there else None
         if painting is not None:
-            self._keep(step, step_pictures.made(step, painting, self._session.cache))
+            self._keep(step, self._painter.made(step, painting, self._session.cache))
 
     def _go_on(self, tour: Rebuilding) -> None:
         """Plays the next command, and makes a picture of its step."""
@@ -134,7 +133,7 @@ class PastList(Owned):
         place = bisect_left(steps, at, key=lambda step: step.index)
         step = steps[place] if place < len(steps) else None
         if step is not None and step.index == at and step not in self._pictures:
-            self._keep(step, step_pictures.made(step, tour.session.painting, tour.session.cache))
+            self._keep(step, self._painter.made(step, tour.session.painting, tour.session.cache))
 
     def _keep(self, step: LoggedStep, pixels: np.ndarray) -> None:
         self._pictures.keep(step, pixels)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import zlib
 from collections import OrderedDict
 
 import numpy as np
+from isal import isal_zlib
 
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Layer
 from engine.canvas.reading import layer_planes
-from engine.numeric.address import Rect
+from engine.canvas.store import Pyramid
+from engine.numeric.address import TILE, Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting.value import Painting
@@ -23,18 +24,34 @@ _ROOM = 0.8  # of a picture that a stroke may fill
 _PICTURE_BYTES = 64 << 20  # bytes of pictures kept, the oldest forgotten first
 
 
-def made(step: LoggedStep, painting: Painting, cache: TileCache | None) -> np.ndarray:
-    """Returns the picture of a step: uint8 (72, 96, 4), premultiplied; `painting`: as it was after it."""
-    level, whole = _place(step.command, painting)
-    known: dict[int, np.ndarray | None] = {}
+class StepPainter:
+    """Makes pictures of steps, one after the other."""
 
-    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-        if layer.id not in known:  # once for all blocks
-            known[layer.id] = layer_planes(layer, level, whole, cache)
-        planes = known[layer.id]
-        return None if planes is None else planes[:, *rect.slices(whole)]
+    def __init__(self) -> None:
+        self._before: dict[int, Pyramid] = {}  # by their ids, the layers' paint as it was at the last picture
 
-    return to_premul8(composite(painting.root, level, whole, read))
+    def made(self, step: LoggedStep, painting: Painting, cache: TileCache | None) -> np.ndarray:
+        """Returns the picture of a step: uint8 (72, 96, 4), premultiplied; `painting`: as it was after it."""
+        level, whole = _place(step.command, painting)
+        known: dict[int, tuple[Rect, np.ndarray | None]] = {}
+
+        def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+            if layer.id not in known:  # once for all blocks
+                # Of a layer that stays, whole tiles are kept for the next picture.
+                stays = self._before.get(layer.id) is layer.pyramid and not layer.growth
+                around = _tiled(whole) if stays else whole
+                known[layer.id] = around, layer_planes(layer, level, around, cache)
+                self._before[layer.id] = layer.pyramid
+            around, planes = known[layer.id]
+            return None if planes is None else planes[:, *rect.slices(around)]
+
+        return to_premul8(composite(painting.root, level, whole, read))
+
+
+def _tiled(rect: Rect) -> Rect:
+    """Returns the tiles that a rectangle meets."""
+    x0, y0 = rect.x0 // TILE * TILE, rect.y0 // TILE * TILE
+    return Rect(x0, y0, -(-rect.x1 // TILE) * TILE, -(-rect.y1 // TILE) * TILE)
 
 
 def _place(command: c.Command, painting: Painting) -> tuple[int, Rect]:
@@ -61,7 +78,7 @@ class StepPictures:
     def keep(self, step: LoggedStep, pixels: np.ndarray) -> None:
         """Keeps a picture, uint8 (72, 96, 4)."""
         self._forget(step.index)
-        packed = zlib.compress(pixels.tobytes(), 1)
+        packed = isal_zlib.compress(pixels.data, 1)
         self._kept[step.index] = step.command, packed
         self.held += len(packed)
         while self.held > _PICTURE_BYTES:
@@ -70,7 +87,7 @@ class StepPictures:
     def of(self, step: LoggedStep) -> np.ndarray:
         """Returns a picture that is kept."""
         packed = self._kept[step.index][1]
-        return np.frombuffer(zlib.decompress(packed), np.uint8).reshape(PICTURE_HEIGHT, PICTURE_WIDTH, 4)
+        return np.frombuffer(isal_zlib.decompress(packed), np.uint8).reshape(PICTURE_HEIGHT, PICTURE_WIDTH, 4)
 
     def _forget(self, index: int) -> None:
         known = self._kept.pop(index, None)
