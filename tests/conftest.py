@@ -20,10 +20,12 @@ os.environ |= {"XDG_STATE_HOME": f"{_OWN}/state", "XDG_CONFIG_HOME": f"{_OWN}/co
 
 
 def pytest_collection_modifyitems(items):
-    """Slow proofs have an hour each: they take minutes, more where the machine does something else, too."""
+    """Slow proofs have an hour each: they take minutes, more where the machine does something else, too.  Tests with a
+    window, the longest, come first, so that none is left at the end for one process while others have nothing to do."""
     for item in items:
         if item.get_closest_marker("nightly") and not item.get_closest_marker("timeout"):
             item.add_marker(pytest.mark.timeout(3600))
+    items.sort(key=lambda item: item.get_closest_marker("window") is None)
 
 
 class _Kept(logging.Handler):

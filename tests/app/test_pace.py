@@ -36,6 +36,26 @@ class Events:
         self.woken += 1
 
 
+class Clock:
+    """Takes the place of the clock: time passes only where somebody sleeps, and where a test says so."""
+
+    def __init__(self):
+        self.now = 100.0
+
+    def monotonic(self):
+        return self.now
+
+    def sleep(self, seconds):
+        self.now += seconds
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    stand_in = Clock()
+    monkeypatch.setattr(pace, "time", stand_in)
+    return stand_in
+
+
 @pytest.fixture
 def events(monkeypatch):
     stand_in = Events()
@@ -54,17 +74,17 @@ def frame(one, growing, moving=False):
     one.end(True, moving, growing)
 
 
-@pytest.mark.serial
-def test_the_engine_has_the_rest_between_two_frames(events):
+def test_the_engine_has_the_rest_between_two_frames(events, clock):
     one = paced(SOFTWARE)
     one.event()
-    start = time.monotonic()
-    frame(one, growing=True)
-    drawn = time.monotonic()
+    start = clock.now
+    one.begin(start)
+    clock.now += 0.004
+    one.end(True, False, True)
     one.wait(False)
     (end,) = one.worker.turns
-    assert start < end < drawn + STILL
-    assert time.monotonic() - start >= STILL - 0.001
+    assert start + 0.004 < end < start + STILL
+    assert clock.now == pytest.approx(start + STILL)
     assert events.waited == []  # events do not cut it short
 
 
@@ -107,18 +127,17 @@ def test_what_moves_by_itself_has_turns_too(events, monkeypatch):
     assert None not in one.worker.turns
 
 
-@pytest.mark.serial
 @pytest.mark.parametrize("took", [0.012, 0.014, 0.0155, 0.0166, 0.018, 0.08])
-def test_the_engine_gets_its_turn_however_long_a_frame_takes(events, took):
+def test_the_engine_gets_its_turn_however_long_a_frame_takes(events, clock, took):
     one = paced(SOFTWARE)
     one.event()
-    one.begin(time.monotonic() - took)
+    one.begin(clock.now - took)
     one.end(True, False, True)
-    start = time.monotonic()
+    start = clock.now
     one.wait(False)
     assert one.worker.turns[-1] >= start + pace.LEAST
     if took > STILL:
-        assert time.monotonic() - start >= pace.SHARE * took
+        assert clock.now - start >= pace.SHARE * took - 1e-9
 
 
 def lingering(monkeypatch, drawn=False, moving=False):

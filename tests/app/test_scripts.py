@@ -110,19 +110,24 @@ def run_tests(tmp_path, *words, fails="never"):
     return done.returncode, asked
 
 
-def test_tests_that_measure_time_run_alone_even_after_others_failed(tmp_path):
+def test_all_tests_run_beside_one_another_and_a_failure_is_told(tmp_path):
     status, asked = run_tests(tmp_path, fails="-n")
     assert status == 3
-    assert "-m serial and not nightly" in asked[-1]
-    assert " -n " not in asked[-1]
-    assert " -n auto " in asked[-2]
-    assert asked[-3] == "python -m app doctor --prepare"
+    assert asked[-1] == "python -m pytest -n 2 --dist worksteal"
+    assert "python -m app doctor --prepare" in asked[:-1]
 
 
-def test_all_tests_passed(tmp_path):
+def test_some_are_chosen_after_the_order_of_imports(tmp_path):
     status, asked = run_tests(tmp_path, "-k", "canvas")
     assert status == 0
-    assert [line.endswith(" -k canvas") for line in asked[-2:]] == [True, True]
+    assert asked[-1].endswith(" -k canvas")
+    assert "python -m pytest tests/test_architecture.py" in asked[:-1]
+
+
+def test_no_test_runs_where_a_check_fails(tmp_path):
+    status, asked = run_tests(tmp_path, fails="check")
+    assert status == 3
+    assert not [line for line in asked if "pytest" in line]
 
 
 def test_checks_alone(tmp_path):

@@ -89,20 +89,22 @@ def test_the_keys_for_the_view_and_the_panels(program):
     assert app.comes_to(before)
 
 
-@pytest.mark.serial
 def test_an_idle_window_sleeps(program):
+    """Once the engine has warmed up, thumbnails are painted, and frames linger no more."""
     app = program()
     app.wait_for("all brushes ready")
     app.settled()
-    time.sleep(8)  # the engine warms up, thumbnails are painted, frames linger
 
     def used() -> float:
         fields = Path(f"/proc/{app.process.pid}/stat").read_text().rpartition(")")[2].split()
         return (int(fields[11]) + int(fields[12])) / 100
 
-    before = used()
-    time.sleep(4)
-    assert used() - before < 0.12  # 3 % of one core
+    end, taken = time.monotonic() + 60.0, 4.0
+    while taken > 0.12:  # 3 % of one core
+        assert time.monotonic() < end, f"{taken:.2f} s of the processor in 4"
+        before = used()
+        time.sleep(4)
+        taken = used() - before
 
 
 def test_the_first_frame_comes_before_the_engine(program):

@@ -116,7 +116,6 @@ def test_shapes_of_any_size_and_numbers(name, size, data):
     assert shape[size[0] // 2, size[1] // 2] == 0
 
 
-@pytest.mark.serial
 def test_points_lie_on_both_sides_and_dense_wide_ones_are_a_matter_of_a_moment():
     found = drawn("points", (64, 64), {"spacing": 0.25})
     for i in range(-4, 4):

@@ -107,14 +107,14 @@ def test_requests_are_carried_out_in_order(worker):
     assert worker.bench.did == posts
 
 
-@pytest.mark.serial
 def test_posting_never_waits(worker):
+    """The engine does nothing before all is posted: this would never end."""
     worker.bench.gate.clear()
-    start = time.perf_counter()
     for n in range(200):
         worker.post(q.New(Rect(0, 0, n, n)))
-    assert time.perf_counter() - start < 0.5
+    assert len(worker.bench.did) < 100
     worker.bench.gate.set()
+    until(lambda: len(worker.bench.did) == 200)
 
 
 def test_a_newer_look_replaces_the_tiles_of_the_older(worker):
