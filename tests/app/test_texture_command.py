@@ -63,11 +63,16 @@ def test_sixteen_bits_are_the_eight_and_more(tmp_path, maker):
 @pytest.mark.parametrize("maker", ["sparse", "impulse"])
 @pytest.mark.parametrize("origin", [(0, 0), (-40, 1013), (10**30, -(10**31))])
 def test_windows_of_the_endless_field_agree(tmp_path, maker, origin):
-    """Run as a program of its own, once: as far as from outside."""
     path, (x, y) = picture(tmp_path, "RGB"), origin
     whole = made(tmp_path, maker, path, "--size", "90x70", "--origin", f"{x},{y}", out="whole.png")
-    part = tmp_path / "part.png"
-    words = ["texture", maker, path, "--size", "50x33", "--origin", f"{x + 31},{y + 17}", "--out", part]
+    part = made(tmp_path, maker, path, "--size", "50x33", "--origin", f"{x + 31},{y + 17}", out="part.png")
+    assert np.array_equal(part, whole[17:50, 31:81])
+
+
+def test_another_program_makes_the_same_field(tmp_path):
+    path, part = picture(tmp_path, "RGB"), tmp_path / "part.png"
+    whole = made(tmp_path, "sparse", path, "--size", "90x70", "--origin", f"{10**30},{-(10**31)}", out="whole.png")
+    words = ["texture", "sparse", path, "--size", "50x33", "--origin", f"{10**30 + 31},{17 - 10**31}", "--out", part]
     done = subprocess.run([sys.executable, "-m", "app", *map(str, words)], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""

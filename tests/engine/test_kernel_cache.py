@@ -1,5 +1,6 @@
 """Compiled kernels are kept whole, for what they depend on, and wherever that is possible."""
 
+import json
 import os
 import subprocess
 import sys
@@ -15,15 +16,37 @@ TOY = "from numba import njit\n@njit(cache=True)\ndef double(x):\n    return 2 *
 PROGRAM = """
 import sys
 sys.path[:0] = sys.argv[1:3]
-import engine, toy
+import engine, numba
+numba.config.reload_config()  # it was there before the engine told it where kernels are kept
+import toy
 print(toy.double(21), sum(toy.double.stats.cache_hits.values()))
+"""
+# Runs a program for each line that it reads, in a process that has loaded numba already, and nothing of the engine.
+SERVER = """
+import json, os, sys
+import numba
+numba.njit(lambda x: x + 1)(1)  # what it sets up for the first
+for line in sys.stdin:
+    told = json.loads(line)
+    child = os.fork()
+    if child == 0:
+        os.environ.clear()
+        os.environ.update(told["environment"])
+        os.chdir(told["folder"])
+        for number, name in ((1, "out"), (2, "error")):
+            os.dup2(os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), number)
+        sys.argv[1:] = told["words"]
+        exec(told["program"], {"__name__": "__main__"})
+        break
+    os.write(1, b"%d\\n" % os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 """
 
 
 class Toy:
-    """A kernel in a folder of its own, called by a new process each time."""
+    """A kernel in a folder of its own, called by a new process each time, which `server` forks off."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, server: "subprocess.Popen[str]") -> None:
+        self._server = server
         self.folder, self.cache, self.home = folder, folder / "cache", folder / "home"
         self.environment = {**os.environ, "XDG_CACHE_HOME": str(self.home), "NUMBA_CACHE_DIR": str(self.cache)}
         self.write(TOY)
@@ -34,21 +57,30 @@ class Toy:
 
     def call(self, program: str = PROGRAM) -> list[int]:
         """The result, and how many kernels came from the cache."""
-        words = [sys.executable, "-B", "-c", program, str(ROOT), str(self.folder)]
-        done = subprocess.run(
-            words, capture_output=True, text=True, env=self.environment, cwd=self.folder, timeout=100, check=False
-        )
-        assert done.returncode == 0, done.stderr
-        assert not done.stderr
-        return [int(word) for word in done.stdout.split()]
+        words, place = [str(ROOT), str(self.folder)], str(self.folder)
+        told = {"program": program, "words": words, "folder": place, "environment": self.environment}
+        self._server.stdin.write(f"{json.dumps(told)}\n")
+        self._server.stdin.flush()
+        status = self._server.stdout.readline()
+        error = (self.folder / "error").read_text()
+        assert (status, error) == ("0\n", "")
+        return [int(word) for word in (self.folder / "out").read_text().split()]
 
     def kernels(self) -> list[Path]:
         return sorted(self.folder.rglob(f"*{kernel_cache.ENDING}"))
 
 
+@pytest.fixture(scope="module")
+def server():
+    command = [sys.executable, "-B", "-c", SERVER]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        yield process
+        process.stdin.close()
+
+
 @pytest.fixture
-def toy(tmp_path):
-    return Toy(tmp_path)
+def toy(tmp_path, server):
+    return Toy(tmp_path, server)
 
 
 def test_a_kernel_is_compiled_once(toy):
@@ -185,7 +217,9 @@ def test_a_thread_may_refuse_to_compile(toy):
     program = """
 import sys
 sys.path[:0] = sys.argv[1:3]
-import engine, toy
+import engine, numba
+numba.config.reload_config()
+import toy
 from engine import kernel_cache
 told = []
 try:
