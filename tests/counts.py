@@ -131,7 +131,7 @@ class House:
     def compared_modes(self) -> list[str]:
         out = []
         for module in self.modules.values():
-            for node in ast.walk(module.tree):
+            for node in module.nodes:
                 if isinstance(node, ast.Compare) and _compares_mode(node):
                     out.append(f"{module.name}:{node.lineno}: {ast.unparse(node)}")
         return out
@@ -151,7 +151,7 @@ class House:
         return [
             (module, node.name, node)
             for module in self.modules.values()
-            for node in ast.walk(module.tree)
+            for node in module.nodes
             if isinstance(node, Function)
         ]
 
@@ -160,7 +160,7 @@ class House:
         return [
             (module, node)
             for module in self.modules.values()
-            for node in ast.walk(module.tree)
+            for node in module.nodes
             if isinstance(node, ast.ClassDef)
         ]
 
@@ -191,7 +191,7 @@ class House:
             f"{module.name}:{node.lineno}"
             for module in self.modules.values()
             if module.name.split(".")[0] == package
-            for node in ast.walk(module.tree)
+            for node in module.nodes
             if (isinstance(node, ast.Name) and node.id == "Any")
             or (isinstance(node, ast.Attribute) and node.attr == "Any")
         ]
@@ -248,7 +248,7 @@ def _names(node: ast.stmt) -> Iterator[str]:
 def _code(module: Module) -> list[tuple[int, str]]:
     """(number, text) of its lines, without what is blank, a comment, a docstring or an import."""
     skipped: set[int] = set()
-    for node in ast.walk(module.tree):
+    for node in module.nodes:
         words = (
             isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
         )
@@ -296,7 +296,10 @@ COUNTED: dict[str, Row] = {
 
 def counted(root: Path = ROOT) -> dict[str, int]:
     """Every count of the sources below a folder."""
-    house = House(root)
+    return counts_of(House(root))
+
+
+def counts_of(house: House) -> dict[str, int]:
     return {name: len(row(house)) for name, row in {**TOLD, **COUNTED}.items()}
 
 

@@ -26,6 +26,11 @@ class Module:
     def tree(self) -> ast.Module:
         return ast.parse(self.text)
 
+    @cached_property
+    def nodes(self) -> tuple[ast.AST, ...]:
+        """All of its tree, which takes a while to walk."""
+        return tuple(ast.walk(self.tree))
+
     @property
     def package(self) -> bool:
         """Whether it is the `__init__` of a folder."""
@@ -53,7 +58,7 @@ def imported(module: Module, known: dict[str, Module]) -> set[str]:
     parts = module.name.split(".")
     package = parts if module.package else parts[:-1]
     out: set[str] = set()
-    for node in ast.walk(module.tree):
+    for node in module.nodes:
         if isinstance(node, ast.Import):
             out.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
