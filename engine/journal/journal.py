@@ -45,10 +45,11 @@ class Journal:
         with self._writing.guard:
             return self._writing.now.settled and not self._points
 
-    def hear(self, tell: Callable[[str | None], None]) -> None:
-        """Has `tell` called, on the journal's thread, with why it cannot be written, and None when it can again."""
+    def hear(self, tell: Callable[[str | None], None], wake: Callable[[], None] = lambda: None) -> None:
+        """Has `tell` called, on the journal's thread, with why it cannot be written, and None when it can again; and
+        `wake`, as long as the present entry is lost and is not begun anew."""
         with self._writing.guard:
-            self._writing.hear(tell)
+            self._writing.hear(tell, wake)
 
     # --- what is asked for --------------------------------------------------------------------------------------------
 

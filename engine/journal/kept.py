@@ -12,14 +12,16 @@ from pathlib import Path
 import numpy as np
 from isal import isal_zlib
 
+from engine.archive.saving import Snapshot, save
 from engine.checks.field_error import FieldError
 from engine.files.atomic import replacing
 from engine.files.fault import FileError, WriteError
 from engine.files.strict_json import Fields, dumps, loads
 from engine.journal.heads import FileStamp
+from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 
-_FOLDER = "kept"
+_FOLDER, _PART = "kept", "painting.ora"
 _BLOCK = 1 << 20  # bytes
 _SIDE_CAP = 1 << 20  # pixels
 _NAME_CAP = 4096
@@ -76,6 +78,17 @@ def keep_file(folder: Path, stamp: FileStamp) -> str:
             place.unlink()
         raise FileError(stamp.path, "has changed since it was opened")
     return sha
+
+
+def keep_painting(folder: Path, painting: Painting) -> Path:
+    """Keeps a painting, grown to its end, as a file that is named by its SHA-256; returns that.  WriteError if it
+    cannot be written."""
+    part = _place(folder, _PART)
+    save(part, Snapshot(painting))
+    try:
+        return part.replace(_place(folder, f"{_sha(part)}.ora"))
+    except OSError as error:
+        raise WriteError(part, f"cannot be written: {error.strerror or error}") from error
 
 
 def kept_file(folder: Path, stamp: FileStamp, sha: object) -> Path | None:

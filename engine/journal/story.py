@@ -270,7 +270,7 @@ def glance(folder: Path) -> Glance:
             story.faults.append(f"a record that cannot be read ({error}), and all after it")
             break
     stays = [what for what in asked.values() if not what.startswith(_VIEW)]
-    saved = story.saved.get("commands", 0) if story.saved is not None else 0
+    saved = story.saved.get("commands", 0) if story.saved is not None else -1 if story.head.get("unsaved") else 0
     return Glance(
         story.head,
         strokes + sum(what.startswith(_STROKE) for what in stays),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import threading
 from collections import deque
 from collections.abc import Iterable, Mapping
@@ -20,6 +21,7 @@ from engine.journal.records import Kind, told_object
 from engine.journal.story import JOURNAL, Story, journal_files
 
 _AT_ONCE = 64  # frames that are written before another thread has its turn
+_GONE = "the folder of the journal is gone"
 
 
 class End(Enum):
@@ -34,7 +36,8 @@ class End(Enum):
 @dataclass(frozen=True, slots=True)
 class Continued:
     """An entry that is opened again: its folder and lock, the highest number of its files, that of the last frame that
-    is good, and the records that tell what became of all that had no answer."""
+    is good, and the records that come first: of what became of all that had no answer, or, where there is no file yet,
+    of all that was done."""
 
     folder: Path
     lock: int | None
@@ -55,18 +58,21 @@ class Volume:
 
     `folder`: None before it is made; `held`: frames that could not be written yet; `fault`: why, None if all is well;
     `sync_at`: when a sync is due, by the monotonic clock; `end`: nothing more comes, and what becomes of the entry;
-    `leaves`: numbers of what is asked of the next painting instead; `lost`: what lay beside the journal is gone.
+    `leaves`: numbers of what is asked of the next painting instead; `lost`: its folder was removed, so that it is to be
+    begun anew; `lacks`: with its beginning, so that nothing more is written; `head`: what the painting began with.
     """
 
     def __init__(
         self, parent: Path, head: Mapping[str, object], guard: threading.Lock, continued: Continued | None = None
     ) -> None:
-        self._parent, self._head, self._guard = parent, dict(head), guard
+        self.parent, self.head, self._guard = parent, dict(head), guard
         self.folder = None if continued is None else continued.folder
         self._lock = None if continued is None else continued.lock
         self._number = 1 if continued is None else continued.files + 1
-        self._sequence = -1 if continued is None else continued.last - 1
+        self._sequence = -1 if continued is None else max(continued.last, 0) - 1
         self._path: Path | None = None
+        self._files: list[Path] = []  # that there were when it was made, itself among them
+        self._remnants: list[Path] = []  # folders that somebody removed, or began to
         self._file: int | None = None
         self._first, self._after = self._sequence + 1, -1 if continued is None else continued.last  # of this file
         self._good = 0  # bytes of whole frames in it
@@ -77,8 +83,8 @@ class Volume:
         self.sync_at: float | None = None
         self.end: End | None = None
         self.leaves: list[int] = []
-        self.lost = self._unsure = False  # and whether a disk refused to sync
-        self.append(Kind.HEAD, self._told_head())
+        self.lost = self.lacks = self._unsure = False  # and whether a disk refused to sync
+        self.append(Kind.HEAD, _told_head(self.head, self._after))
         for kind, payload in () if continued is None else continued.first:
             self.append(kind, payload)
 
@@ -95,6 +101,8 @@ class Volume:
     def append(self, kind: Kind, payload: bytes) -> None:
         """Writes a record, or keeps it in memory behind those that could not be written."""
         self._sequence += 1
+        if self.lacks:
+            return
         data = framed(Frame(self._sequence, kind, payload))
         if self._file is None or self.held or not self._write(data):
             self.held.append(data)
@@ -116,9 +124,6 @@ class Volume:
 
     def _fail(self, error: OSError) -> None:
         self.fault = error.strerror or str(error)
-
-    def _told_head(self) -> bytes:
-        return told_object({**self._head, "after": self._after})
 
     # --- by one thread, without the lock ------------------------------------------------------------------------------
 
@@ -147,20 +152,25 @@ class Volume:
 
     def make(self) -> None:
         """Makes the folder, unless it is there, and the file."""
+        if self.lacks:
+            return
         try:
             if self.folder is None:
-                self.folder, self._lock = entries.new_entry(self._parent)
+                self.folder, self._lock = entries.new_entry(self.parent)
             path = self.folder / f"{JOURNAL}{self._number}"
             flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_CLOEXEC", 0)
             file = os.open(path, flags | getattr(os, "O_BINARY", 0), 0o600)
         except OSError as error:
             self._fail(error)
+            if self.folder is not None and not self.folder.exists():
+                self._lose()
             return
         with self._guard:
             self._path, self._file, self._good, self._torn, self._durable = path, file, 0, False, False
+            self._files = journal_files(self.folder)
         self.write_held()
         with suppress(WriteError):  # the head tells it, too
-            about = {name: self._head.get(name) for name in ("name", "path", "clock")}
+            about = {name: self.head.get(name) for name in ("name", "path", "clock")}
             entries.change_about(self.folder, **about, state="open", thread=threading.main_thread().ident)
 
     def sync(self) -> None:
@@ -174,7 +184,8 @@ class Volume:
             self._start_again(file)
             return
         try:
-            (os.fdatasync if hasattr(os, "fdatasync") else os.fsync)(file)
+            if count or not self._durable:
+                (os.fdatasync if hasattr(os, "fdatasync") else os.fsync)(file)
             if not self._durable:
                 assert self._path is not None
                 for folder in (self._path.parent, self._path.parent.parent, self._path.parent.parent.parent):
@@ -201,6 +212,8 @@ class Volume:
                 entries.change_about(self.folder, state="closed", days=0)
             else:
                 entries.remove_entry(self.folder)
+        for remnant in self._remnants if self.end is End.DELETED else ():
+            shutil.rmtree(remnant, ignore_errors=True)
         for descriptor in (self._file, self._lock):
             if descriptor is not None:
                 with suppress(OSError):
@@ -208,27 +221,42 @@ class Volume:
         self._file = self._lock = None
 
     def _is_there(self, file: int) -> bool:
-        """Tells whether the file is where it was made: it may have been deleted, or its disk taken away."""
+        """Tells whether the file is where it was made, with those before it: they may have been deleted, or their disk
+        taken away."""
         assert self._path is not None
         try:
-            return os.path.samestat(os.fstat(file), os.stat(self._path))
+            is_same = os.path.samestat(os.fstat(file), os.stat(self._path))
+            return is_same and all(path.exists() for path in self._files)
         except OSError:
             return False
 
     def _start_again(self, file: int) -> None:
-        """Begins an entry anew with all that was written to the file that is gone."""
+        """Writes all again that the file held which is gone; if others came before it, only the engine can tell what
+        those held."""
         try:
             again = [framed(frame) for frame in frames_in(os.pread(file, self._good, 0))[0]]
         except OSError:
             again = list(self._recent)
         with self._guard:
             os.close(file)
+            self._file = None
+            self.held.extendleft(reversed(again))
+        self._lose()
+
+    def _lose(self) -> None:
+        """Does without the folder.  Where it held more than what is in memory, nothing can be written until all is told
+        anew."""
+        with self._guard:
             if self._lock is not None:
                 os.close(self._lock)
-            self._file = self._lock = self.folder = None
-            self.held.extendleft(reversed(again))
+            if self.folder is not None:
+                self._remnants.append(self.folder)
+            self._lock = self.folder = None
             self._recent.clear()
-            self.lost, self.fault = True, "the folder of the journal is gone"
+            self.lost, self.fault = True, _GONE
+            self.lacks = self._after >= 0
+            if self.lacks:
+                self.held.clear()
 
     def _go_on_in_another(self) -> None:
         """What is not synced for sure is written again to the next file, which goes on after what is."""
@@ -241,6 +269,10 @@ class Volume:
             again.pop(0)
         else:
             self._first = self._after = first - 1
-        head = framed(Frame(self._first, Kind.HEAD, self._told_head()))
+        head = framed(Frame(self._first, Kind.HEAD, _told_head(self.head, self._after)))
         self._number, self.held = self._number + 1, deque([head, *again])
         self._recent.clear()
+
+
+def _told_head(head: Mapping[str, object], after: int) -> bytes:
+    return told_object({**head, "after": after})

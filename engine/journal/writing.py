@@ -13,7 +13,9 @@ from engine.journal.volume import End, Volume
 _LOGGER = logging.getLogger("inkfall")
 SYNC_UP, SYNC_DOWN = 0.4, 0.9  # seconds after which a sync begins: after what is whole, and of a stroke in progress
 RETRY = 3.0  # seconds between two tries to write what could not be written
+LOOK = 20.0  # seconds after which one looks whether the journal is still there, though nobody paints
 _Tell = Callable[[str | None], None]
+_Wake = Callable[[], None]
 _PARTS = frozenset({Kind.BEGIN, Kind.POINTS})  # of a stroke in progress
 
 
@@ -29,18 +31,21 @@ class Writing:
         self.guard = threading.Lock()
         self.now = make(self.guard)
         self._tell: _Tell = lambda why: None
+        self._wake: _Wake = lambda: None
         self._flush = flush
         self._changed = threading.Condition(self.guard)
         self._closed: list[Volume] = []
         self._due: float | None = 0.0  # when the thread looks again; None: when it is woken
         self._closing = False
         self._told: str | None = None
+        self._looked = time.monotonic()
         self._thread = threading.Thread(target=self._run, name="inkfall journal", daemon=True)
         self._thread.start()
 
-    def hear(self, tell: _Tell) -> None:
-        """Has `tell` called, on the thread, with why nothing can be written, and with None when it can again."""
-        self._tell, self._told = tell, None
+    def hear(self, tell: _Tell, wake: _Wake) -> None:
+        """Has `tell` called, on the thread, with why nothing can be written, and with None when it can again; and
+        `wake`, as long as the present entry is lost."""
+        self._tell, self._wake, self._told = tell, wake, None
         self.look_at(0.0)
 
     def append(self, kind: Kind, payload: bytes) -> None:
@@ -87,6 +92,8 @@ class Writing:
             if self.now.fault != self._told:
                 self._told = self.now.fault
                 self._tell(self._told)
+            if self.now.lost:
+                self._wake()
             if closing:
                 return
 
@@ -106,6 +113,8 @@ class Writing:
             return  # what had no answer is not yet written where it is asked now
         if not volume.open:
             volume.make()
+        if volume.open and volume is self.now and time.monotonic() >= self._looked + LOOK:
+            volume.sync_at = volume.sync_at or 0.0
         if volume.leaves:
             with self.guard:
                 for number in volume.leaves:
@@ -113,6 +122,7 @@ class Writing:
                 volume.leaves = []
         volume.write_held()
         if volume.open and volume.sync_at is not None and (self._closing or volume.sync_at <= time.monotonic()):
+            self._looked = time.monotonic()
             volume.sync()
             if not volume.open:
                 volume.make()
@@ -123,9 +133,9 @@ class Writing:
     def _go_on(self, volume: Volume) -> None:
         """Ends a volume that is settled, or says when it is looked at again."""
         with self.guard:
-            ends = volume.end is not None and (self._closing or volume.settled)
-            if not ends and volume.open and not volume.held and volume.sync_at is not None:
-                self.look_at(volume.sync_at)
+            ends = volume.end is not None and (self._closing or volume.settled or volume.lacks)
+            if not ends and volume.open and not volume.held:
+                self.look_at(self._looked + LOOK if volume.sync_at is None else volume.sync_at)
         if ends:
             volume.finish()
             if volume in self._closed:

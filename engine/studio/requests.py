@@ -16,6 +16,7 @@ from immutables import Map
 from engine.numeric.address import Rect
 from engine.studio.filing.film_requests import FilmGrew, MakeFilm, PreviewFilm, StopFilm
 from engine.studio.filing.opening_requests import OpeningRequest
+from engine.studio.journalled.tend_request import Tend
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 
@@ -389,6 +390,7 @@ Request = (
     | Written
     | Prepare
     | PastRequest
+    | Tend
 )
 
 

@@ -26,6 +26,7 @@ from engine.studio.filing.writers import Post, Send
 from engine.studio.grower import Grower
 from engine.studio.journalled.answers import Answers
 from engine.studio.journalled.posts import Posts
+from engine.studio.journalled.tend_request import Tend
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
 from engine.studio.past.here import HereFinder
@@ -67,6 +68,13 @@ def _of(part: Part) -> Work:
     return Work(lambda: part.pending, part.step, part.handlers)
 
 
+def _answers(easel: Easel, filing: Filing, posts: Posts) -> Answers:
+    made = Answers(easel, posts)
+    filing.turned, filing.saves.mark, filing.saves.replaces = made.turn, made.mark, made.replaces
+    made.making = filing.saves.making
+    return made
+
+
 class Studio(Owned):
     """What the worker works at.  It belongs to the engine's thread.
 
@@ -77,10 +85,7 @@ class Studio(Owned):
     def __init__(self, send: Send, post: Post, posts: Posts | None = None, preferences: Preferences = _DEFAULT) -> None:
         self.easel = easel = Easel(send)
         self.filing, self.lab, self.grower = Filing(easel, post, preferences), Lab(easel), Grower(easel)
-        self._answers = None if posts is None else Answers(easel, posts)
-        if self._answers is not None:
-            self.filing.turned, self.filing.saves.mark = self._answers.turn, self._answers.mark
-            self.filing.saves.replaces = self._answers.replaces
+        self._answers = None if posts is None else _answers(easel, self.filing, posts)
         viewer, trail = easel.viewer, Trail(easel)
         travels = Travels(trail)
         past = PastList(trail, travels)
@@ -107,6 +112,7 @@ class Studio(Owned):
             q.Finish: lambda r: easel.finish(),
             q.Abandon: lambda r: easel.abandon(),
             q.Swatch: self._swatch,
+            Tend: lambda r: None,
             **self.filing.handlers,
             **Warming(send).handlers,
             **HereFinder(trail).handlers,
@@ -146,17 +152,19 @@ class Studio(Owned):
 
     @property
     def due(self) -> float | None:
-        """When a recording that plays goes on."""
-        return self.filing.due
+        """When a recording that plays goes on, or something is due beside the journal."""
+        times = (self.filing.due, None if self._answers is None else self._answers.due)
+        return min((time for time in times if time is not None), default=None)
 
     def play(self) -> None:
-        """Plays the next piece of a recording."""
+        """Plays the next piece of a recording, or looks after the journal, whichever is due first."""
         if self._answers is None:
             self.filing.play()
-        else:
+            return
+        if self.filing.due is not None and self.filing.due == self.due:
             with self._answers.timed():
                 self.filing.play()
-            self._answers.rest()
+        self._answers.rest()
 
     def close(self) -> None:
         """Waits for files that are being written.  What their threads posted is still to be carried out."""

@@ -104,7 +104,7 @@ class Worker:
         self._wake, self._make, self._posts = wake, make if posts is None else partial(_studio, posts=posts), posts
         self._stays = True  # whether the painting is to be recovered
         if posts is not None:
-            posts.hear(self._send)
+            posts.hear(self._send, self.post)
         self._posted: deque[Request] = deque()
         self._look: Look | None = None
         self._swatches: dict[str, Swatch] = {}

@@ -34,8 +34,9 @@ class Document:
     """What a file held: values alone, so any thread may make it.
 
     `name`: the file's; `path`: where to save it, None for what is no painting of ours; `log`: the commands that led to
-    the painting, None if they are not known; `folder`: what paths in it are relative to; `header`: of their recording;
-    `base`: what the log begins with, if that is not nothing; `steps`: that can be undone, `leapt`: and beyond them;
+    the painting; `folder`: what paths in it are relative to; `header`: of their recording; `base`: what the log begins
+    with, if that is not nothing; `known`: there was nothing before that; `steps`: that can be undone, `leapt`: and
+    beyond them;
     `played`: the commands are news to the journal; `unsaved`: the painting is in no file yet; `live`: a recording still
     to be played, stroke by stroke; `notes`: what was lost or replaced; `marks`: of what is to be grown again; `view`:
     where a recording looked last; `seen`, `stamp`: what the file was before it was read, None for a painting that
@@ -45,10 +46,11 @@ class Document:
     painting: Painting
     name: str = ""
     path: Path | None = None
-    log: tuple[c.Command, ...] | None = ()
+    log: tuple[c.Command, ...] = ()
     folder: Path | None = None
     header: Header = field(default_factory=Header)
     base: Painting | None = None
+    known: bool = True
     steps: HeldSteps = field(default_factory=HeldSteps)
     leapt: bool = False
     played: bool = False
@@ -61,11 +63,6 @@ class Document:
     stamp: FileStamp | None = None
     reopened: Reopened | None = None
 
-    @property
-    def known(self) -> bool:
-        """Tells whether the log leads from nothing to the painting."""
-        return self.log is not None
-
     def drop(self) -> None:
         """Gives back what is held for it: nobody wants it any more."""
         if self.reopened is not None and self.reopened.continued.lock is not None:
@@ -74,19 +71,20 @@ class Document:
     def session(self) -> Session:
         """Returns a session with the painting, for the thread that calls this."""
         history = History(memory.history_share(), steps=self.steps)
-        made = Session(self.painting, log=self.log or (), folder=self.folder, history=history, extra=self.header.extra)
+        made = Session(self.painting, log=self.log, folder=self.folder, history=history, extra=self.header.extra)
         made.base, made.leapt = self.base or made.base, self.leapt
         return made
 
 
 def held_by(session: Session, known: bool = True) -> Document:
-    """Returns what a session holds; `known`: its log leads from its base to the painting."""
+    """Returns what a session holds; `known`: its log leads from nothing to the painting."""
     return Document(
         session.painting,
-        log=tuple(session.log) if known else None,
+        log=tuple(session.log),
         folder=session.folder,
         header=session.recording().header,
         base=session.base,
+        known=known,
         steps=session.history.steps,
         leapt=session.leapt,
     )

@@ -84,7 +84,7 @@ class Filing(Owned):
         else:
             self.turned(again.head, again.continued, again.count)
         if document.played:
-            for command in document.log or ():
+            for command in document.log:
                 easel.session.heard(command, None)
         self._script, self._marks = None if live is None else Playing(live), document.marks
         self.due = None if live is None else 0.0

@@ -219,7 +219,7 @@ class _Base:
         if self._file is None:
             return None
         found = documents.opened(self._file, progress=begins)
-        session = self._session(found.painting, found.log or (), found.header, 0)
+        session = self._session(found.painting, found.log, found.header, 0)
         return _Start(session, found.known, 0)
 
     def continued(self, painting: Painting, index: int) -> _Start:

@@ -20,9 +20,11 @@ from engine.journal.story import COMMAND, STROKE
 from engine.journal.volume import Continued, End, Volume
 from engine.kernel_cache import NotCompiled
 from engine.painting import commands as c
+from engine.painting.recording import Recording
 from engine.strokes.example_stroke import Live
 from engine.studio import requests as q
 from engine.studio.easel import Easel
+from engine.studio.journalled.anew import Anew, Begun, Past
 from engine.studio.journalled.beside import Beside
 from engine.studio.journalled.posts import Posts
 
@@ -30,7 +32,7 @@ _CARRIED_OUT = (q.Begin, q.Points, q.Finish, q.Do)
 
 
 class Answers(Owned):
-    """It belongs to the engine's thread."""
+    """It belongs to the engine's thread.  `making`: how the painting was made, None if nobody knows."""
 
     def __init__(self, easel: Easel, posts: Posts) -> None:
         self._easel, self._posts, self._journal = easel, posts, posts.journal
@@ -38,7 +40,9 @@ class Answers(Owned):
         self._command: int | None = None  # the one that is being carried out
         self._parted = False  # whether points of the stroke were refused
         self._count = 0  # of the commands that the journal has of this painting
-        self._beside = Beside(self._journal, lambda: posts.is_compiling())
+        self._beside = Beside(self._journal, lambda: posts.is_compiling(), lambda: posts.wake())
+        self._anew = Anew(self._beside.do, lambda: posts.wake())
+        self.making: Callable[[], Recording | None] = lambda: None
         easel.session.heard = self._heard
         posts.is_modified = lambda: easel.modified
 
@@ -62,9 +66,19 @@ class Answers(Owned):
         self.rest()
 
     def rest(self) -> None:
-        """Has written what is due beside the journal, unless a stroke is in progress."""
-        if self._easel.live is None:
-            self._beside.rest(self._easel.session.painting, self._count)
+        """Begins the journal anew if that is lost, and has written what is due beside it, unless a stroke is in
+        progress, of which nothing can be told twice."""
+        if self._easel.live is not None:
+            return
+        lost = self._journal.entry
+        if lost.lost and (begun := self._anew.begun(lost, self._past)) is not None:
+            self._go_on(begun)
+        self._beside.rest(self._easel.session.painting, self._count)
+
+    @property
+    def due(self) -> float | None:
+        """When there is something to rest for, by the monotonic clock; None if nothing is known of."""
+        return None if self._easel.live is not None else self._beside.due
 
     @contextmanager
     def timed(self) -> Iterator[None]:
@@ -79,6 +93,7 @@ class Answers(Owned):
         """Another painting comes on the easel, which has so many commands already; what is there, the artist knew of
         when he asked for another."""
         self._beside.leave(self._easel.session.painting)
+        self._anew.drop()
         self._count = count
         self._journal.turn(head, End.BIN if self._easel.modified else End.DELETED, continued)
         self._beside.turn(head)
@@ -103,6 +118,22 @@ class Answers(Owned):
             self._beside.do(partial(_rename, entry, path))
 
         return saved
+
+    def _past(self) -> Past:
+        easel, session, made = self._easel, self._easel.session, self.making()
+        name = str(self._journal.entry.head.get("name") or "") if easel.path is None else easel.path.name
+        header, textures = session.recording().header, tuple(session.painting.textures.values())
+        base = session.base if made is None else None
+        return Past(easel.path, name, header, session.folder, base, tuple(session.log), textures)
+
+    def _go_on(self, begun: Begun) -> None:
+        """The same painting goes on in an entry that was begun anew."""
+        log = self._easel.session.log
+        self._count = len(log)
+        self._journal.turn(begun.head, End.DELETED, begun.until(log))
+        if self._easel.path is not None and not self._easel.modified:
+            self.mark()(self._easel.path)
+        self._beside.again()
 
     def _settle(self, request: q.Request, number: int | None) -> None:
         """Tells of what is over, and was not carried out, that it was refused."""

@@ -8,6 +8,7 @@ tells all that was painted.
 from __future__ import annotations
 
 import logging
+import math
 import os
 import threading
 import time
@@ -20,23 +21,23 @@ from pathlib import Path
 
 import numpy as np
 
-from engine.checks.field_error import FieldError
 from engine.checks.owned import Owned
 from engine.files.atomic import replacing
 from engine.files.fault import Cancelled, FileError
 from engine.files.png_writer import write_png
 from engine.journal.checkpoints import write_checkpoint
 from engine.journal.entries import PICTURE_FILE
-from engine.journal.heads import FileStamp
 from engine.journal.journal import Journal
-from engine.journal.kept import keep_file, keep_source, stamp_of
+from engine.journal.kept import keep_source
 from engine.journal.records import Kind, told_object
-from engine.journal.volume import End, Volume
+from engine.journal.volume import Volume
+from engine.journal.writing import RETRY
 from engine.numeric.colour import to_rgba8
 from engine.painting.grown import waiting
 from engine.painting.rendering import strips
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
+from engine.studio.journalled.opened import Opened, in_folder
 
 _LOGGER = logging.getLogger("inkfall")
 SMALL = 256  # pixels: the picture's sides at most
@@ -44,8 +45,8 @@ LIMIT = 1.0  # seconds of carrying out after which a checkpoint is written: more
 PATIENCE = 3.0  # times that long one waits until what is painted with examples has grown by itself
 PAUSE_FACTOR = 1.0  # times as long as a checkpoint took until the next is begun, at least
 PICTURE_PAUSE = 5.0  # seconds between two small pictures, at least
-FOLDER_PATIENCE = 10.0  # seconds that what lies beside a journal waits for its folder, at most
-_POLL = 0.01  # seconds
+PREPARING = 0.25  # seconds from one look at whether kernels are still being compiled to the next
+_MOST_FAILURES = 5  # each of which doubles the time until a checkpoint is tried again
 _NICE = 10
 
 
@@ -53,64 +54,93 @@ class Beside(Owned):
     """It belongs to the engine's thread, and gives its own nothing but values.
 
     `is_compiling` tells whether kernels are being compiled in other processes: until they are there, nothing is begun
-    that needs any, as nobody else could load one while this thread compiled it.
-    `spent`: seconds that what came after the last checkpoint took to be carried out.
+    that needs any, as nobody else could load one while this thread compiled it.  `wake` has the engine's thread `rest`,
+    as something has ended here.
+    `spent`: seconds that what came after the last checkpoint took to be carried out; `due`: when there will be
+    something to be done at `rest`, by the monotonic clock, None if that is not known.
     """
 
-    def __init__(self, journal: Journal, is_compiling: Callable[[], bool] = lambda: False) -> None:
+    def __init__(
+        self,
+        journal: Journal,
+        is_compiling: Callable[[], bool] = lambda: False,
+        wake: Callable[[], None] = lambda: None,
+    ) -> None:
         self._journal, self._entry = journal, journal.entry
         self._pool = ThreadPoolExecutor(1, "inkfall beside", initializer=_yield)
-        self._closing, self._urgent = threading.Event(), threading.Event()
-        self._is_compiling = is_compiling
-        self._stamp: FileStamp | None = None  # of the file that was opened, before it is kept
-        self._keeping: tuple[Path, Future[None]] | None = None  # that file, and what ends when it is kept
-        self._writing: Future[float] | None = None  # gives how long it took
+        self._closing = threading.Event()
+        self._is_compiling, self._wake = is_compiling, wake
+        self._opened = Opened(journal, self.do, wake)
+        self._writing: Future[float | None] | None = None  # gives how long it took, None if it was not written
+        self._owed = 0.0  # `spent` before that one
+        self._failures = 0  # to write one, in a row
         self._generation = int(time.time())  # none that an entry had before
         self._next, self._pictured = 0.0, 0.0  # when a checkpoint may be begun, and a picture was
         self._seen = True  # the small picture shows the painting as it is
         self.spent = 0.0
+        self.due: float | None = None
 
     def changed(self) -> None:
         """A command was carried out."""
         self._seen = False
-        self._keep_opened()
+        self._opened.keep()
 
     def replaces(self, path: Path) -> Callable[[], None]:
         """A file is going to be written: has what was opened kept; returns what waits for that on any thread, if this
         is the file that was opened."""
-        self._keep_opened()
-        keeping = self._keeping
-
-        def wait() -> None:
-            if keeping is not None and os.path.realpath(keeping[0]) == os.path.realpath(path):
-                keeping[1].exception()
-
-        return wait
+        return self._opened.replaces(path)
 
     def keep(self, texture: Texture) -> None:
         """A texture was defined: its pictures are kept."""
         for source in (texture.source, texture.mask):
             if source is not None:
-                self.do(partial(_in_folder, self._entry, partial(keep_source, source=source)))
+                self.do(partial(in_folder, self._entry, partial(keep_source, source=source)))
 
     def rest(self, painting: Painting, count: int) -> None:
         """Nothing is being painted: writes what is due of the painting after `count` commands."""
-        now = time.monotonic()
-        if self._entry.lost or self._urgent.is_set():  # what lay there is gone, or will be
-            self._entry.lost, self.spent = False, max(self.spent, PATIENCE * LIMIT)
-            self._urgent.clear()
-        if self._writing is not None and self._writing.done():
-            self._next, self._writing = now + PAUSE_FACTOR * self._writing.result(), None
-        if self._is_compiling():
+        self.due, now = None, time.monotonic()
+        if self._closing.is_set():
             return
-        if self._writing is None and self.spent >= LIMIT and now >= self._next:
-            if not waiting(painting.root) or self.spent >= PATIENCE * LIMIT:
-                self.spent, self._generation = 0.0, self._generation + 1
-                about = _Generation(self._generation, painting, count, self._closing.is_set)
-                self._writing = self._pool.submit(_checkpoint, self._journal, self._entry, about)
-        elif not self._seen and now - self._pictured >= PICTURE_PAUSE:
+        if self._opened.is_gone():  # only the painting itself is left
+            self.spent = max(self.spent, PATIENCE * LIMIT)
+        if self._writing is not None and self._writing.done():
+            self._written(self._writing.result(), now)
+        waits = [self._opened.keep_late(now)]
+        if self._is_compiling():
+            waits.append(now + PREPARING if self.spent >= LIMIT or not self._seen else math.inf)
+        else:
+            waits += [self._check(painting, count, now), self._depict(painting, now)]
+        due = min(waits)
+        self.due = None if due == math.inf else due
+
+    def _written(self, took: float | None, now: float) -> None:
+        """A checkpoint has ended."""
+        self._writing = None
+        if took is None:
+            self._next, self.spent = now + RETRY * 2**self._failures, max(self.spent, self._owed)
+            self._failures = min(self._failures + 1, _MOST_FAILURES)
+        else:
+            self._next, self._failures = now + PAUSE_FACTOR * took, 0
+
+    def _check(self, painting: Painting, count: int, now: float) -> float:
+        """Begins a checkpoint, if one is due; returns when one will be."""
+        if self._writing is not None or self.spent < LIMIT:
+            return math.inf  # who ends it wakes this thread
+        if now < self._next:
+            return self._next
+        if waiting(painting.root) and self.spent < PATIENCE * LIMIT:
+            return now + LIMIT
+        self._owed, self.spent, self._generation = self.spent, 0.0, self._generation + 1
+        about = _Generation(self._generation, painting, count, self._closing.is_set)
+        self._writing = self._pool.submit(_checkpoint, self._journal, self._entry, about, self._wake)
+        return math.inf
+
+    def _depict(self, painting: Painting, now: float) -> float:
+        """Has the small picture written, if that is due; returns when it will be."""
+        if not self._seen and now - self._pictured >= PICTURE_PAUSE and self._writing is None:
             self._pictured = now
             self._picture(painting)
+        return math.inf if self._seen or self._writing is not None else self._pictured + PICTURE_PAUSE
 
     def leave(self, painting: Painting) -> None:
         """The painting is closed, or another one comes: the small picture shows it as it is."""
@@ -119,12 +149,14 @@ class Beside(Owned):
 
     def turn(self, head: Mapping[str, object]) -> None:
         """Another painting is there, which began with `head`."""
-        self._entry, self._stamp, self.spent, self._seen = self._journal.entry, None, 0.0, True
-        self._keeping = None
-        base = head.get("base")
-        if isinstance(base, Mapping) and "file" in base:
-            with suppress(FieldError):
-                self._stamp = stamp_of(base)
+        self._entry, self.spent, self._owed, self._seen = self._journal.entry, 0.0, 0.0, True
+        self._opened.turn(head)
+
+    def again(self) -> None:
+        """The same painting goes on in another entry, with what it began with: all else is written again."""
+        self._entry = self._journal.entry
+        self._opened.turn({})
+        self.spent, self._seen = max(self.spent, PATIENCE * LIMIT), False
 
     def do(self, job: Callable[[], None]) -> Future[None] | None:
         """Has a job done on the thread, after those that wait; returns what ends with it, None if it is closed."""
@@ -137,16 +169,9 @@ class Beside(Owned):
         self._closing.set()
         self._pool.shutdown()
 
-    def _keep_opened(self) -> None:
-        """Has the file kept that was opened, once."""
-        if self._stamp is not None:
-            stamp, self._stamp = self._stamp, None
-            ended = self.do(partial(_keep_file, self._journal, self._entry, stamp, self._urgent))
-            self._keeping = None if ended is None else (stamp.path, ended)
-
     def _picture(self, painting: Painting) -> None:
         self._seen = True
-        self.do(partial(_in_folder, self._entry, partial(write_picture, painting=painting)))
+        self.do(partial(in_folder, self._entry, partial(write_picture, painting=painting)))
 
 
 # --- on the thread ---------------------------------------------------------------------------------------------------
@@ -174,43 +199,18 @@ def write_picture(folder: Path, painting: Painting) -> None:
         write_png(file, to_rgba8(planes))
 
 
-def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> float:
-    """Returns seconds that it took."""
-    start = time.monotonic()
+def _checkpoint(journal: Journal, entry: Volume, about: _Generation, wake: Callable[[], None]) -> float | None:
+    """Returns seconds that it took; None if it was not written."""
+    start, written = time.monotonic(), list[int]()
 
     def write(folder: Path) -> None:
         told = write_checkpoint(folder, about.number, about.painting, about.cancelled)
         journal.note(Kind.CHECKPOINT, told_object({**told, "commands": about.count}), entry)
+        written.append(about.count)
 
-    _tried(partial(_in_folder, entry, write))
-    return time.monotonic() - start
-
-
-def _keep_file(journal: Journal, entry: Volume, stamp: FileStamp, urgent: threading.Event) -> None:
-    """Keeps the file that was opened; where it is another one already, only the painting itself is left."""
-    folder = _folder(entry)
-    if folder is None:
-        return
-    try:
-        sha = keep_file(folder, stamp)
-    except FileError:
-        urgent.set()
-        raise
-    journal.note(Kind.BASE, told_object({"sha": sha}), entry)
-
-
-def _in_folder(entry: Volume, job: Callable[[Path], None]) -> None:
-    folder = _folder(entry)
-    if folder is not None and entry.end is not End.DELETED:
-        job(folder)
-
-
-def _folder(entry: Volume) -> Path | None:
-    """Returns an entry's folder, which the journal's thread is about to make; None where it cannot, or is late."""
-    end = time.monotonic() + FOLDER_PATIENCE
-    while entry.folder is None and entry.fault is None and entry.end is None and time.monotonic() < end:
-        time.sleep(_POLL)
-    return entry.folder
+    _tried(partial(in_folder, entry, write))
+    wake()
+    return time.monotonic() - start if written else None
 
 
 def _yield() -> None:

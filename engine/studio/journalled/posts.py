@@ -11,6 +11,7 @@ from engine.journal.records import Touch, told_brush, told_command, told_touch
 from engine.journal.volume import End
 from engine.painting.times import timed
 from engine.studio import requests as q
+from engine.studio.journalled.tend_request import Tend
 from engine.studio.results import Note, Result
 
 _LOGGER = logging.getLogger("inkfall")
@@ -19,7 +20,8 @@ _LOGGER = logging.getLogger("inkfall")
 class Posts:
     """The strokes and commands that were posted, by the numbers that the journal gave them.  `tell` is called by the
     thread that posts, the others by the engine's.  `is_modified`: whether the painting's file lacks any of it;
-    `is_compiling`: whether kernels are being compiled in processes of their own."""
+    `is_compiling`: whether kernels are being compiled in processes of their own; `wake`, on any thread, has the engine
+    look after the journal."""
 
     def __init__(self, journal: Journal) -> None:
         self.journal = journal
@@ -28,6 +30,7 @@ class Posts:
         self._stroke = 0
         self.is_modified: Callable[[], bool] = lambda: True
         self.is_compiling: Callable[[], bool] = lambda: False
+        self.wake: Callable[[], None] = lambda: None
         self._brush: tuple[object, str] = (None, "")  # the last one, and its text
 
     def tell(self, request: q.Request) -> None:
@@ -44,9 +47,11 @@ class Posts:
             case q.Finish() | q.Abandon():
                 self.journal.end(self._stroke, isinstance(request, q.Finish))
 
-    def hear(self, send: Callable[[Result], None]) -> None:
-        """Has the window told when the journal cannot be written, and when it can again."""
-        self.journal.hear(lambda why: send(_note(why)))
+    def hear(self, send: Callable[[Result], None], post: Callable[[q.Request], None]) -> None:
+        """Has the window told when the journal cannot be written, and when it can again; the engine, when there is
+        something to be done for it."""
+        self.wake = lambda: post(Tend())
+        self.journal.hear(lambda why: send(_note(why)), self.wake)
 
     def number(self, request: q.Request) -> int | None:
         """Returns the number of a request that has no answer yet; None if it has none."""

@@ -14,6 +14,7 @@ from engine.kernel_cache import NotCompiled, refusing
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing.opening_requests import CancelOpening, FileRead, FileWhole
+from engine.studio.journalled.tend_request import Tend
 from engine.studio.preparing.job_queue import Job, job_of
 from engine.studio.preparing.processes import Preparing
 from engine.studio.preparing.waiting_line import THUMBNAIL, WaitingLine
@@ -49,7 +50,7 @@ class Waiting:
             case q.GetReady() if self._preparing.busy:
                 self._examples = job_of(q.Swatch("", Brush(mode="example", example="a"), THUMBNAIL))
                 self._preparing.want((self._examples,), soon=True)
-            case q.FileGrown() | q.Written() | FileRead() | FileWhole() | CancelOpening():
+            case q.FileGrown() | q.Written() | FileRead() | FileWhole() | CancelOpening() | Tend():
                 self._studio.do(request)
             case _:
                 self._line.do(request)
@@ -85,7 +86,7 @@ class Waiting:
     @property
     def due(self) -> float | None:
         """When to look again at what was compiled, or the studio's recording goes on."""
-        due = self._studio.due
+        due = None if self.waits else self._studio.due
         if not (self.waits or self._swatches.open or self._unseen or self._examples):
             return due
         soon = self._looked + POLL

@@ -8,6 +8,7 @@ import time
 
 import numpy as np
 import pytest
+from PIL import Image
 from test_answers import draw, idle
 from test_killed import pixels
 from test_recovering import left, painter, saved
@@ -24,6 +25,7 @@ from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing.recovering import recovered
+from opens import opens_in
 
 
 @pytest.fixture(autouse=True)
@@ -46,7 +48,7 @@ def small_disk(tmp_path):
     subprocess.run(["umount", "-l", folder], check=True)
 
 
-def until(condition, seconds=20.0):
+def until(condition, seconds=120.0):
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end
@@ -82,6 +84,29 @@ def test_a_disk_fills_while_one_paints_and_saves(small_disk):
     found = recovered(folder)
     assert found.missing == []
     assert np.array_equal(pixels(found.session.painting), pixels(open_painting(file).painting))
+
+
+def test_what_was_opened_is_kept_as_soon_as_there_is_room(small_disk, tmp_path, monkeypatch):
+    monkeypatch.setattr("engine.studio.journalled.opened.RETRY", 0.1)
+    file = tmp_path / "photo.png"
+    Image.fromarray(np.random.default_rng(5).integers(0, 255, (600, 800, 3), np.uint8)).save(file)
+    worker = painter(small_disk / "p")
+    idle(worker)
+    (small_disk / "filler").write_bytes(bytes(shutil.disk_usage(small_disk).free - 200_000))
+    opens_in(worker, file)
+    draw(worker, 40, 1)
+    until(lambda: idle(worker) is not None and worker.entry is not None)
+    folder = worker.entry
+    until(lambda: len(read_story(folder).commands) == 1)
+    time.sleep(0.5)  # it is tried now and then
+    assert read_story(folder).base is None
+    (small_disk / "filler").unlink()
+    until(lambda: read_story(folder).base is not None)  # though nothing is painted
+    file.unlink()
+    left(worker)
+    found = recovered(folder)
+    assert found.missing == []
+    assert pixels(found.session.painting)[:, 500:, 700:].any()  # of the picture: nothing was painted there
 
 
 def asked(journal, count):

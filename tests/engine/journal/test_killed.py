@@ -2,6 +2,7 @@
 its commands give the same pixels, and what it was writing is the old file or the new one."""
 
 import collections
+import random
 import signal
 import subprocess
 import sys
@@ -172,6 +173,26 @@ def test_no_stroke_is_lost_at_hundreds_of_moments(tmp_path):
     seen, moments = forked(tmp_path / "p", 420, 13, 2.5)
     assert seen > 5000
     assert min(moments[kind] for kind in KINDS) > 40
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("k", range(9))
+def test_no_stroke_is_lost_where_the_folder_was_removed(tmp_path, k):
+    """By another program, once or twice; the painter is killed when what is painted has been told anew."""
+    told, kind, folder, log = random.Random(k), KINDS[k % len(KINDS)], tmp_path / "p", tmp_path / "log"
+    (tmp_path / "f").mkdir()
+    words = [sys.executable, HERE / "headless.py", folder, str(k), tmp_path / "f", "loaded", kind]
+    with log.open("wb") as out:
+        process = subprocess.Popen(words, stdout=out, cwd=HERE.parents[2])
+        while b"up " not in log.read_bytes():
+            time.sleep(0.05)
+        for _ in range(told.choice((1, 2))):
+            time.sleep(told.uniform(0.1, 1.2))
+            subprocess.run(["rm", "-rf", folder], check=False)
+        time.sleep(told.uniform(2.0, 4.0))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    check(folder, k, Told.of(log.read_text()), kind == "growing")
 
 
 def test_no_stroke_is_lost_while_the_engine_loads(tmp_path):

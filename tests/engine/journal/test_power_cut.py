@@ -24,7 +24,7 @@ def painted(folder, monkeypatch):
     recorder = Recorder(folder, monkeypatch)
     monkeypatch.setattr("engine.studio.preparing.processes.Preparing.busy", False)
     for name in ("LIMIT", "PAUSE_FACTOR", "PICTURE_PAUSE"):
-        monkeypatch.setattr(f"engine.studio.journalled.beside.{name}", 0.0)
+        monkeypatch.setattr(f"engine.studio.journalled.beside.{name}", 1e-9)
     worker = painter(folder / "p")
     ups = []
     draw(worker, 4, 0)

@@ -28,7 +28,7 @@ from engine.studio import results
 from engine.studio.filing import recovering
 from engine.studio.filing.opening_requests import CancelOpening, Show
 from engine.studio.filing.recovering import recovered
-from engine.studio.journalled import beside
+from engine.studio.journalled import opened
 from engine.studio.journalled.posts import Posts
 from engine.studio.worker import Worker
 from opens import opens_in, recovers_in
@@ -204,7 +204,7 @@ def test_an_opened_file_is_what_it_was_though_it_was_replaced(tmp_path):
 @pytest.mark.parametrize("first", ["a stroke", "a save"])
 def test_a_save_replaces_what_was_opened_only_when_that_is_kept(tmp_path, monkeypatch, first):
     """However long that takes: killed as soon as it is saved, the strokes since are still on what was opened."""
-    folder, file, keep = tmp_path / "p", tmp_path / "lake.ora", beside.keep_file
+    folder, file, keep = tmp_path / "p", tmp_path / "lake.ora", opened.keep_file
     one = painter(folder)
     draw(one, 40, 1)
     saved(one, file)
@@ -216,7 +216,7 @@ def test_a_save_replaces_what_was_opened_only_when_that_is_kept(tmp_path, monkey
             time.sleep(0.01)
         return keep(folder, stamp)
 
-    monkeypatch.setattr(beside, "keep_file", kept_late)
+    monkeypatch.setattr(opened, "keep_file", kept_late)
     make = Volume.make
     monkeypatch.setattr(Volume, "make", lambda self: time.sleep(0.3) or make(self))  # its folder is late, too
     two = painter(folder)
