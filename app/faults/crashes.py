@@ -6,16 +6,25 @@ import re
 
 from app.faults.log import SIZE, log_file
 
-_TRACE = re.compile(r"^Fatal Python error: .*?(?=^\d{4}-\d\d-\d\d |\Z)", re.MULTILINE | re.DOTALL)
-_THREAD = re.compile(r"^(?:Current thread|Thread) 0x([0-9a-f]+) ", re.MULTILINE)
+_BEGUN = re.compile(r" program ([0-9a-f]+) begins with thread 0x([0-9a-f]+)$")  # as `program_line` tells it
+_CRASH = re.compile(r"(?:Fatal Python error|Windows fatal exception): ")
+_DATED = re.compile(r"\d{4}-\d\d-\d\d ")  # what the log tells is, a trace is not
+_THREAD = re.compile(r"(?:Current thread|Thread) 0x([0-9a-f]+) ")
 
 
-def crashed_threads() -> frozenset[int]:
-    """Returns the threads of all programs that crashed, by their idents, as far as the log goes back.  For the files'
-    thread."""
+def crashed_programs() -> frozenset[str]:
+    """Returns the idents of all programs that crashed, as far as the log goes back: of those that began with a thread
+    of a trace, the last before it.  For the files' thread."""
     try:
         with log_file().open(encoding="utf-8", errors="replace") as file:
             text = file.read(2 * SIZE)
     except OSError:
         return frozenset()
-    return frozenset(int(ident, 16) for trace in _TRACE.findall(text) for ident in _THREAD.findall(trace))
+    begun, crashed, in_trace = dict[int, str](), set[str](), False
+    for line in text.splitlines():
+        if (told := _BEGUN.search(line)) is not None:
+            begun[int(told[2], 16)] = told[1]
+        in_trace = bool(_CRASH.match(line)) or (in_trace and not _DATED.match(line))
+        if in_trace and (told := _THREAD.match(line)) is not None:
+            crashed |= {begun[thread] for thread in (int(told[1], 16),) if thread in begun}
+    return frozenset(crashed)

@@ -17,6 +17,8 @@ from typing import Any
 
 import platformdirs
 
+from engine.keeping.program import program_ident
+
 SIZE, OLD = 1 << 20, 3  # bytes of the log at most, and how many full ones are kept
 FORM = "%(asctime)s %(levelname)s %(threadName)s: %(message)s"
 LOGGER = logging.getLogger("inkfall")
@@ -32,12 +34,22 @@ def fault_words(fault: str = "A fault in Inkfall") -> str:
     return f"{fault}: {log_file()} tells more"
 
 
+def program_line(ident: str, thread: int) -> str:
+    """Returns the line with which a program begins in the log: `thread`, which it began with, is all that a trace of a
+    crash tells of it, and others may have that number later."""
+    return f"program {ident} begins with thread 0x{thread:x}"
+
+
 class _Log(RotatingFileHandler):
     """The open file also takes what a crash of the interpreter leaves behind."""
 
     def _open(self) -> TextIOWrapper:
         stream = super()._open()
         faulthandler.enable(stream)
+        told = program_line(program_ident(), threading.main_thread().ident or 0)
+        line = logging.LogRecord(LOGGER.name, logging.INFO, "", 0, told, None, None)
+        stream.write(f"{logging.Formatter(FORM).format(line)}\n")
+        stream.flush()
         return stream
 
     def close(self) -> None:

@@ -44,7 +44,7 @@ class Entry:
     `number`: its place in the list, from 1; `ident`: its short name, which stays; `path`: the file it was opened from
     or saved as; `when`: it was last painted on (seconds since 1970); `seconds`: spent painting; `alive`: a program
     has it open; `faults`: what is damaged, a line each; `picture`: a small one, if there is one;
-    `thread`: the ident of the one that its program began with, by which a crash of it is known (0: unknown).
+    `program`: the ident of the one that had it open last, by which a crash of it is known ("": unknown).
     """
 
     ident: str
@@ -59,7 +59,7 @@ class Entry:
     folder: Path
     in_bin: bool
     picture: Path | None
-    thread: int = 0
+    program: str = ""
 
 
 def paintings_folder() -> Path:
@@ -228,7 +228,7 @@ def _entry(folder: Path) -> Entry | None:
         folder,
         _is_closed(folder),
         picture if picture.is_file() else None,
-        thread if type(thread := about.get("thread")) is int else 0,
+        program if isinstance(program := about.get("program"), str) else "",
     )
 
 

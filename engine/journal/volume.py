@@ -19,6 +19,7 @@ from engine.journal import entries
 from engine.journal.frames import Frame, framed, frames_in
 from engine.journal.records import Kind, told_object
 from engine.journal.story import JOURNAL, Story, journal_files
+from engine.keeping.program import program_ident
 
 _AT_ONCE = 64  # frames that are written before another thread has its turn
 _GONE = "the folder of the journal is gone"
@@ -171,7 +172,7 @@ class Volume:
         self.write_held()
         with suppress(WriteError):  # the head tells it, too
             about = {name: self.head.get(name) for name in ("name", "path", "clock")}
-            entries.change_about(self.folder, **about, state="open", thread=threading.main_thread().ident)
+            entries.change_about(self.folder, **about, state="open", program=program_ident())
 
     def sync(self) -> None:
         """Brings what is written to disk.  What a disk refused once is written again, to another file: it may have

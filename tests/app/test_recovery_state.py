@@ -12,14 +12,15 @@ from app.desk.asked import Asked
 from app.desk.recovery import recovery_state as state
 from app.desk.recovery import recovery_work
 from app.faults import crashes
+from app.faults.log import program_line
 from engine.journal import entries
 
 ROOT = Path(__file__).parents[2]
 NOON = time.mktime((2026, 3, 2, 12, 0, 0, 0, 0, -1))
 
 
-def entry(ident, when, alive=False, thread=0):
-    return SimpleNamespace(ident=ident, when=when, alive=alive, thread=thread)
+def entry(ident, when, alive=False, program=""):
+    return SimpleNamespace(ident=ident, when=when, alive=alive, program=program)
 
 
 @pytest.mark.parametrize(
@@ -58,8 +59,8 @@ def test_what_is_alive_in_another_program_is_not_offered_and_the_newest_comes_fi
 
 
 def test_a_crash_is_told_of_the_painting_of_the_program_that_crashed():
-    entries = (entry("a", 100.0, thread=7), entry("b", 200.0, thread=8), entry("c", 300.0, alive=True, thread=7))
-    assert state.crashed_among(entries, frozenset({7, 9})) == {"a"}
+    entries = (entry("a", 1.0, program="7"), entry("b", 2.0, program="8"), entry("c", 3.0, alive=True, program="7"))
+    assert state.crashed_among(entries, frozenset({"7", "9"})) == {"a"}
     assert state.crashed_among(entries, frozenset()) == set()
 
 
@@ -67,25 +68,36 @@ def test_a_crash_is_told_of_the_painting_of_the_program_that_crashed():
 def crashed(tmp_path, monkeypatch):
     """A program whose interpreter has crashed."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    code = "import os, signal, threading\nfrom app.faults.log import LOGGER, open_log\nopen_log()\n"
-    code += "LOGGER.error('before')\nprint(threading.main_thread().ident, flush=True)\n"
+    code = "import os, signal, threading\nfrom app.faults.log import LOGGER, open_log, program_ident\nopen_log()\n"
+    code += "LOGGER.error('before')\nprint(program_ident(), flush=True)\n"
     code += "threading.Thread(target=os.kill, args=(os.getpid(), signal.SIGSEGV)).start()\nthreading.Event().wait()"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, timeout=60)
-    return tmp_path / "inkfall" / "log" / "inkfall.log", int(done.stdout)
+    return tmp_path / "inkfall" / "log" / "inkfall.log", done.stdout.decode().strip()
 
 
-def test_the_thread_that_a_crashed_program_began_with_is_found_in_the_log(crashed):
-    log, thread = crashed
-    assert thread in crashes.crashed_threads()
+def test_the_program_that_crashed_is_found_in_the_log(crashed):
+    log, ident = crashed
+    assert crashes.crashed_programs() == {ident}
     with log.open("a") as file:
+        file.write(f"2027-01-01 00:00:00,000 INFO MainThread: {program_line('77', 7)}\n")
         file.write("2027-01-01 00:00:00,000 ERROR MainThread: something else\nThread 0x0000000000000007 (waits)\n")
-    assert thread in crashes.crashed_threads()
-    assert 7 not in crashes.crashed_threads()
+    assert crashes.crashed_programs() == {ident}
+
+
+def test_programs_that_began_with_a_thread_of_one_number_are_told_apart(tmp_path, monkeypatch):
+    """As on Windows, where the numbers of threads are small and come again, and a crash has other words."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    log = tmp_path / "inkfall" / "log" / "inkfall.log"
+    log.parent.mkdir(parents=True)
+    begins = [f"2027-01-01 00:00:00,000 INFO MainThread: {program_line(ident, 0x1A4C)}" for ident in ("aa", "bb", "cc")]
+    crash = "Windows fatal exception: access violation\n\nCurrent thread 0x00001a4c (most recent call first):\n"
+    log.write_text("\n".join((begins[0], begins[1], crash, begins[2], "")))
+    assert crashes.crashed_programs() == {"bb"}
 
 
 def test_no_log_no_crash(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    assert crashes.crashed_threads() == frozenset()
+    assert crashes.crashed_programs() == frozenset()
 
 
 class Desk:
@@ -115,7 +127,7 @@ def test_what_was_not_saved_of_a_file_is_offered_when_it_is_opened(tmp_path, mon
 def test_only_cards_of_the_file_that_is_opened_are_shown(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     kept = [
-        SimpleNamespace(ident=name, when=1.0, alive=False, thread=0, path=tmp_path / f"{name}.ora")
+        SimpleNamespace(ident=name, when=1.0, alive=False, program="", path=tmp_path / f"{name}.ora")
         for name in ("lake", "sea")
     ]
     monkeypatch.setattr(entries, "listed", lambda with_bin: tuple(kept))

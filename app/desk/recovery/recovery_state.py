@@ -30,9 +30,9 @@ def newest_first(entries: tuple[Entry, ...], wanted: Callable[[Entry], bool]) ->
     return tuple(sorted(found, key=lambda entry: -entry.when))
 
 
-def crashed_among(entries: tuple[Entry, ...], threads: frozenset[int]) -> frozenset[str]:
-    """Returns the idents of the entries whose programs began with one of these threads, which crashed."""
-    return frozenset(entry.ident for entry in entries if not entry.alive and entry.thread in threads)
+def crashed_among(entries: tuple[Entry, ...], programs: frozenset[str]) -> frozenset[str]:
+    """Returns the idents of the entries that were open last in one of these programs, which crashed."""
+    return frozenset(entry.ident for entry in entries if not entry.alive and entry.program in programs)
 
 
 def when_text(when: float, now: float) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from app.desk.desk import Desk, FileWork, Message
 from app.desk.recovery.recovery_state import crashed_among, newest_first
-from app.faults.crashes import crashed_threads
+from app.faults.crashes import crashed_programs
 from app.trace import trace
 from engine.studio.requests import Recover
 from engine.studio.results import Opening, Scene
@@ -32,7 +32,7 @@ class FindCards(FileWork):
         from engine.journal.entries import listed  # here: the window is up before the engine is loaded
 
         entries = listed(with_bin=False)
-        return newest_first(entries, self._wanted), crashed_among(entries, crashed_threads())
+        return newest_first(entries, self._wanted), crashed_among(entries, crashed_programs())
 
     def _wanted(self, entry: Entry) -> bool:
         return self.path in (None, entry.path)
