@@ -65,6 +65,7 @@ class Writing:
     def turn(self, after: Volume, end: End, leaves: list[int]) -> None:
         """Goes on with another volume; the one before ends, and is told that the other has what it `leaves`."""
         before, self.now = self.now, after
+        after.sync_at = 0.0  # what it begins with may be all that there is of a painting
         before.leaves = leaves
         before.end, before.sync_at = end, 0.0
         self._closed.append(before)

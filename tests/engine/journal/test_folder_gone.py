@@ -112,6 +112,7 @@ def whole(worker, folder):
     """Waits until all that was painted is on disk, in a folder that is there, and the one before is gone."""
     journal = worker._posts.journal
     until(lambda: idle(worker) is not None and journal.settled and not journal.entry.lost)
+    until(lambda: not journal.entry._recent)  # no power cut takes any of it
     until(lambda: len(entries.listed(folder)) == 1)
 
 
