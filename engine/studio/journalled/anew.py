@@ -10,11 +10,13 @@ import shutil
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
 from engine.checks.owned import Owned
+from engine.files.fault import FileError
 from engine.journal.entries import new_entry
 from engine.journal.heads import head_again
 from engine.journal.kept import keep_painting, keep_source
@@ -73,11 +75,6 @@ class Anew(Owned):
         self._begun: list[tuple[Volume, Begun]] = []
         self._next = 0.0  # when it may be tried again
 
-    @property
-    def due(self) -> float | None:
-        """When a try that failed is to be made again."""
-        return self._next if self._next and not self._begun else None
-
     def begun(self, lost: Volume, past: Callable[[], Past]) -> Begun | None:
         """Returns an entry in place of one that is lost, of the past as it was when it was first asked for; None as
         long as there is none."""
@@ -91,9 +88,20 @@ class Anew(Owned):
                 return begun
             begun.drop()
         if now >= self._next:
-            self._next = now + RETRY
-            self._making = self._do(partial(_make, lost, past(), self._begun, self._wake))
+            self._next, wake = now + RETRY, self._wake
+            self._making = self._do(partial(_make, lost, past(), self._begun))
+            if self._making is not None:
+                self._making.add_done_callback(lambda made: wake())
         return None
+
+    def begun_now(self, lost: Volume, past: Callable[[], Past]) -> Begun | None:
+        """Returns the same, for which it waits; None if it cannot be."""
+        if self._making is not None:
+            self._making.exception()
+        if not self._begun:
+            with suppress(FileError, OSError):
+                _make(lost, past(), self._begun)
+        return self.begun(lost, past) if self._begun else None
 
     def drop(self) -> None:
         """Another painting comes, or none."""
@@ -102,15 +110,12 @@ class Anew(Owned):
             self._begun.pop()[1].drop()
 
 
-def _make(lost: Volume, past: Past, out: list[tuple[Volume, Begun]], wake: Callable[[], None]) -> None:
-    try:
-        begun = _made(lost.parent, past)
-        if lost.end is None:
-            out.append((lost, begun))
-        else:
-            begun.drop()
-    finally:
-        wake()
+def _make(lost: Volume, past: Past, out: list[tuple[Volume, Begun]]) -> None:
+    begun = _made(lost.parent, past)
+    if lost.end is None:
+        out.append((lost, begun))
+    else:
+        begun.drop()
 
 
 def _made(parent: Path, past: Past) -> Begun:

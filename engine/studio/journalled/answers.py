@@ -100,6 +100,11 @@ class Answers(Owned):
 
     def close(self) -> None:
         """The painting is closed as it is."""
+        entry = self._journal.entry
+        if entry.lost or (entry.folder is not None and not entry.folder.exists()):
+            begun = self._anew.begun_now(entry, self._past)
+            if begun is not None:
+                self._go_on(begun)
         self._beside.leave(self._easel.session.painting)
         self._beside.close()
 

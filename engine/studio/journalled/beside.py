@@ -132,7 +132,9 @@ class Beside(Owned):
             return now + LIMIT
         self._owed, self.spent, self._generation = self.spent, 0.0, self._generation + 1
         about = _Generation(self._generation, painting, count, self._closing.is_set)
-        self._writing = self._pool.submit(_checkpoint, self._journal, self._entry, about, self._wake)
+        wake = self._wake
+        self._writing = self._pool.submit(_checkpoint, self._journal, self._entry, about)
+        self._writing.add_done_callback(lambda written: wake())
         return math.inf
 
     def _depict(self, painting: Painting, now: float) -> float:
@@ -199,7 +201,7 @@ def write_picture(folder: Path, painting: Painting) -> None:
         write_png(file, to_rgba8(planes))
 
 
-def _checkpoint(journal: Journal, entry: Volume, about: _Generation, wake: Callable[[], None]) -> float | None:
+def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> float | None:
     """Returns seconds that it took; None if it was not written."""
     start, written = time.monotonic(), list[int]()
 
@@ -209,7 +211,6 @@ def _checkpoint(journal: Journal, entry: Volume, about: _Generation, wake: Calla
         written.append(about.count)
 
     _tried(partial(in_folder, entry, write))
-    wake()
     return time.monotonic() - start if written else None
 
 

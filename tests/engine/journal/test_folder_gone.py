@@ -199,6 +199,20 @@ def test_a_painting_that_its_file_holds_is_not_offered(tmp_path):
     left(worker)
 
 
+@pytest.mark.parametrize("known", [False, True])
+def test_it_is_begun_anew_where_the_program_ends_at_once(tmp_path, monkeypatch, known):
+    worker, before = taken_again(tmp_path, monkeypatch)
+    draw(worker, 30, 1)
+    whole(worker, tmp_path / "p")
+    removed(tmp_path / "p")
+    draw(worker, 31, 2, end=not known)
+    if known:  # that it is gone, while a stroke is in progress
+        until(lambda: idle(worker) is not None and worker._posts.journal.entry.lost)
+        worker.post(q.Finish())
+    left(worker)
+    assert strokes(then(worker, tmp_path)[1]) == [*before, 30, 31]
+
+
 def test_what_is_left_of_a_folder_that_is_removed_in_part_is_not_offered(tmp_path, monkeypatch):
     worker, before = taken_again(tmp_path, monkeypatch)
     draw(worker, 30, 1)
