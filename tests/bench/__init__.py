@@ -48,6 +48,7 @@ BENCHES = {
     "zoom": "a continuous zoom through 40 levels at 1280 x 800: the engine's work, and the frames of a real window",
     "frames": "the frames of a real window that pans",
     "filming": "a flight through 12 levels at 1920 x 1080, against libx264 on the same frames",
+    "pyramids": "a Zarr pyramid by a Dask cluster of two processes, against one process",
     "files": "saving and opening four layers of 4000 x 4000",
     "start": "from the command to the first frame of the window",
     "first_start": "with no kernel compiled: to the first dab, and to all brushes",

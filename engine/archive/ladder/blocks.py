@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections import deque
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TypeVar
@@ -13,12 +13,15 @@ from typing import TypeVar
 import numpy as np
 
 from engine.archive.ladder.rungs import Block, Ladder
+from engine.canvas import layers
+from engine.canvas.composite import composite
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
-from engine.painting.rendering import Stop, check_cancelled, strips
+from engine.painting.rendering import HELD, Stop, check_cancelled, piece_reader
 
 AHEAD = 3  # blocks of each thread that are begun before the first of them is asked for
+_COLUMNS, _ROWS = 1024, 512  # of the pieces in which layers are evaluated
 _LITTLE = 64  # pixels along a side
 
 _Made = TypeVar("_Made")
@@ -44,11 +47,19 @@ class Source:
         area = Rect.at(place.rect.x0 + rect.x0, place.rect.y0 + rect.y0, rect.width, rect.height)
         convert, kind = (to_rgba8, np.uint8) if self.ladder.depth == 8 else (to_rgba16, np.uint16)
         out = np.empty((rect.height, rect.width, 4), kind)
-        row = 0
-        for strip in strips(self.root, place.level, area, cancelled):
-            out[row : row + strip.shape[1]] = convert(strip)
-            row += strip.shape[1]
+        for piece in _pieces(area, sum(1 for _ in layers.layers(self.root))):
+            check_cancelled(cancelled)
+            out[piece.slices(area)] = convert(composite(self.root, place.level, piece, piece_reader(piece)))
         return out
+
+
+def _pieces(area: Rect, count: int) -> Iterator[Rect]:
+    """Yields what is evaluated at a time of so many layers: large enough that what it has in common with its
+    neighbours, the coarser levels around it, counts little."""
+    columns = max(128, _COLUMNS * HELD // max(HELD, count))
+    for y in range(area.y0, area.y1, _ROWS):
+        for x in range(area.x0, area.x1, columns):
+            yield Rect.at(x, y, columns, _ROWS).intersect(area)
 
 
 def in_order(

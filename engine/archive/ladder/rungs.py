@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from engine.numeric.address import Rect
 
-MOST_BLOCKS = 32  # along a side of the picture, while a block may still become larger
-TILES_OF_BLOCK = 8  # along a side of a block, at most
+TILES_OF_BLOCK = 8  # along a side, at most
+_MOST_BLOCKS = 16  # along a side of the picture, while a block may still become larger
+_MOST_SMALL = 4  # of those that are a single tile: they take longer than a larger one
 
 
 class Block(NamedTuple):
@@ -58,8 +59,9 @@ class Ladder:
     @property
     def block(self) -> int:
         """Gives the pixels along a side of a block: some tiles, more of them for a larger picture."""
-        side = self.tile
-        while side < TILES_OF_BLOCK * self.tile and side * MOST_BLOCKS < max(self.rungs[0].size):
+        largest = max(self.rungs[0].size)
+        side = self.tile if largest <= _MOST_SMALL * self.tile else 2 * self.tile
+        while side < TILES_OF_BLOCK * self.tile and side * _MOST_BLOCKS < largest:
             side *= 2
         return side
 

@@ -15,7 +15,7 @@ from engine.archive.ladder.rungs import Block, Ladder, Rung
 CHUNK = 512
 AXES = ("c", "y", "x")
 CHANNELS = (("red", "FF0000"), ("green", "00FF00"), ("blue", "0000FF"), ("alpha", "FFFFFF"))
-LEVEL = 1  # of zstd: 3 gives 2 % less in twice the time
+LEVEL = 1  # of zstd, behind a shuffle of bits: 3 gives 1 % less in a tenth more time
 
 
 def require() -> None:
@@ -26,7 +26,7 @@ def require() -> None:
 def begin(folder: Path, ladder: Ladder) -> None:
     """Makes all of it but the pixels."""
     from zarr import create_array
-    from zarr.codecs import ZstdCodec
+    from zarr.codecs import BloscCodec
 
     folder.mkdir()
     about = {"zarr_format": 3, "node_type": "group", "attributes": _attributes(ladder)}
@@ -40,7 +40,7 @@ def begin(folder: Path, ladder: Ladder) -> None:
             shards=(4, ladder.block, ladder.block),
             dtype=kind,
             fill_value=0,
-            compressors=ZstdCodec(level=LEVEL),
+            compressors=BloscCodec(cname="zstd", clevel=LEVEL, shuffle="bitshuffle"),
             dimension_names=AXES,
         )
 

@@ -20,7 +20,7 @@ from engine.painting import commands as c
 from engine.session.apply import Painting
 from engine.session.session import Session
 
-RECT = Rect.at(77, 41, 3000, 1700)
+RECT = Rect.at(77, 41, 2040, 1990)
 
 
 @pytest.fixture(scope="module")

@@ -141,7 +141,7 @@ def test_a_tiff_holds_every_level(painting, tmp_path, depth):
 
 
 def test_blocks_grow_with_the_picture_and_share_nothing():
-    for side, block in ((1, 512), (16384, 512), (16385, 1024), (1 << 20, 4096)):
+    for side, block in ((1, 512), (2048, 512), (2049, 1024), (16385, 2048), (1 << 20, 4096)):
         assert Ladder.of("a", 0, Rect.at(0, 0, side, 5), 8, 512, 512).block == block
     ladder = Ladder.of("a", 7, Rect.at(-(5**60), 5**50, 3000, 1000), 8, 512, 512)
     for rung in ladder.rungs:
