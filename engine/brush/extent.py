@@ -122,7 +122,8 @@ def resolve(
             coarser = max(made.native - level, 0)
             size = made.impulse(made.native).size if made.native >= level else _own_size(made)
             points = made.noise
-            return Extent(_window(size, coarser), sparse.Noise(points.key, points.density, sparse.ALIKE), brush.opacity)
+            window = _window(size, coarser, made.arithmetic)
+            return Extent(window, sparse.Noise(points.key, points.density, sparse.ALIKE), brush.opacity)
     return None
 
 
@@ -132,6 +133,6 @@ def _own_size(made: Sparse) -> tuple[int, int]:
 
 
 @lru_cache(maxsize=8)
-def _window(size: tuple[int, int], coarser: int) -> sparse.Impulse:
-    whole = sparse.Impulse.of(radial_window(*size)[None])
+def _window(size: tuple[int, int], coarser: int, arithmetic: int) -> sparse.Impulse:
+    whole = sparse.Impulse.of(radial_window(*size, arithmetic)[None])
     return whole.seen(coarser) if coarser else whole

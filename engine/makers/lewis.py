@@ -6,7 +6,7 @@ A sample travels as a picture: S as (S + 1) / 2 over alpha 1, grey where its thr
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -43,7 +43,7 @@ Maker = Callable[[Fields, PictureSource], Sample]
 def of_spectrum(members: Fields, place: PictureSource) -> Sample:
     """Returns an amplitude spectrum, from a picture or painted, becomes a sample (section 5.1)."""
     if "path" not in members and "rect" not in members:
-        design = spectrum.read(members.all())
+        design = replace(spectrum.read(members.all()), arithmetic=place.arithmetic)
         return Sample(spectrum.spectrum_picture(spectrum.sample(spectrum.drawn(design, place.shape), design)))
     given = place.picture(members)
     height, width = given.shape[1:]
@@ -59,6 +59,7 @@ def of_spectrum(members: Fields, place: PictureSource) -> Sample:
         turns, phase = _phases(members, place, (height, width)), "painted"
     loudness = _planes(given)  # premultiplied: what is transparent is silent
     design = spectrum.Design((width, height), phase=phase, seed=seed, part=_PARTS[part], forward=forward)
+    design = replace(design, arithmetic=place.arithmetic)
     sheets = spectrum.Sheets(loudness if forward else spectra.symmetric(loudness), turns)
     return Sample(spectrum.spectrum_picture(spectrum.sample(sheets, design)))
 
@@ -86,7 +87,7 @@ def of_photograph(members: Fields, place: PictureSource) -> Sample:
     if phase not in impulse.PHASES:
         raise members.fault("phase", f"one of {', '.join(impulse.PHASES)}")
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
-    response = impulse.impulse_response(planes, window, average, phase, seed)
+    response = impulse.impulse_response(planes, window, average, phase, seed, place.arithmetic)
     found: dict[str, Any] = {"window": window, "average": average}
     means = np.full((1, 1, 1), 0.5, np.float32)
     if len(planes) == 3:

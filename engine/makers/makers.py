@@ -70,7 +70,7 @@ def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Aro
         raise members.fault("field", f"one of {', '.join(FIELDS)}")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        sample = make(members, PictureSource(around.folder, root, around.pictures))
+        sample = make(members, PictureSource(around.folder, root, around.pictures, around.arithmetic))
         parameters = sample.found.update(parameters)
         rgba = sample.rgba
         if field == "tile" and rgba.shape[2] < NARROWEST:
@@ -85,7 +85,8 @@ def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
     members = Fields(thawed(command.arguments), "")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        sample = heeger_bergen.of_examples(command.maker, members, PictureSource(around.folder, root, around.pictures))
+        place = PictureSource(around.folder, root, around.pictures)
+        sample = heeger_bergen.of_examples(command.maker, members, place)
         parameters = sample.found.update(parameters)
         source = ImageSource.of(command.name, sample.rgba)
     return Texture(kind_of(command), parameters, source)

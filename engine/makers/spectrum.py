@@ -24,6 +24,8 @@ from engine.checks.values import described
 from engine.files.strict_json import Fields
 from engine.numeric import shapes, spectra
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
 from engine.numeric.grid import snapped
 from engine.numeric.resample import resampled
 from engine.painting import commands as c
@@ -31,6 +33,7 @@ from engine.painting.value import Painting
 from engine.strokes.paint_stroke import LiveStroke
 
 SPAN = 4096.0  # the loudest amplitude to that of a value of 1 / ln SPAN: 72 dB from white to black
+_LOG_SPAN = 8.317766166719343  # ln SPAN
 SIDES = (8, 1024)  # least and most pixels along a side
 SHAPES_CAP, STROKES_CAP = 64, 4096
 _FURTHEST = 1 << 24  # pixels from the corner at which a stroke's points may begin
@@ -49,7 +52,8 @@ class Design:
     `size`: width, height; `shapes`: JSON-ready members of each, whose `shape` is a row of `shapes.SHAPES` or one of
     PICTURED; `strokes`: on layer "amplitude" (also where none is named) or "phase"; `phase`: one of PHASES,
     "own" being those of the last of PICTURED, painted over; `seed`: of random phases; `part`: a row of `spectra.PARTS`;
-    `forward`: the painting is a pattern, not symmetric, and the texture its spectrum.
+    `forward`: the painting is a pattern, not symmetric, and the texture its spectrum; `arithmetic`: in which it is
+    worked out, which is the painting's to say.
     """
 
     size: tuple[int, int] = (256, 256)
@@ -59,6 +63,7 @@ class Design:
     seed: int = 0
     part: str = "real"
     forward: bool = False
+    arithmetic: int = LIBRARY
 
     def to_arguments(self) -> Map[str, Any]:
         """Returns the members of a texture command that `read` gives back; defaults are left out."""
@@ -166,14 +171,15 @@ class Sheets(NamedTuple):
         return self.phase.shape[2], self.phase.shape[1]
 
 
-def loudness(amplitude: np.ndarray) -> np.ndarray:
+def loudness(amplitude: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Amplitudes, 0..1, as they are painted and shown: logarithmic, 0..1, on the grid."""
-    return snapped(np.log1p(amplitude * np.float32(SPAN - 1)) * np.float32(1 / np.log(SPAN)))
+    heard = array_functions(arithmetic).log1p(amplitude * np.float32(SPAN - 1))
+    return snapped(heard * np.float32(1 / _LOG_SPAN))
 
 
-def amplitude(loudness: np.ndarray) -> np.ndarray:
+def amplitude(loudness: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the inverse of `loudness`, up to the grid."""
-    return np.expm1(loudness * np.float32(np.log(SPAN))) * np.float32(1 / (SPAN - 1))
+    return array_functions(arithmetic).expm1(loudness * np.float32(_LOG_SPAN)) * np.float32(1 / (SPAN - 1))
 
 
 Look = Callable[[Map[str, Any]], np.ndarray]  # the picture that a shape names: premultiplied RGBA, float32 (4, h, w)
@@ -189,15 +195,15 @@ def begun(design: Design, look: Look | None = None) -> Sheets:
             if look is None:
                 raise FieldError("shapes", repr(shape["shape"]), f"one of {', '.join(shapes.SHAPES)}")
             picture = look(shape)
-            one = of_picture(picture, (height, width)) * np.float32(shape.get("strength", 1.0))
-            phase = phase_of_picture(picture, (height, width)) if design.phase == "own" else phase
+            one = of_picture(picture, (height, width), design.arithmetic) * np.float32(shape.get("strength", 1.0))
+            phase = phase_of_picture(picture, (height, width), design.arithmetic) if design.phase == "own" else phase
         else:
-            one = shapes.drawn(shape["shape"], (height, width), shape)[None]
+            one = shapes.drawn(shape["shape"], (height, width), shape, design.arithmetic)[None]
         together = np.maximum(together, one)
-    return _sheets(loudness(together), phase)
+    return _sheets(loudness(together, design.arithmetic), phase)
 
 
-def of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+def of_picture(rgba: np.ndarray, size: tuple[int, int], arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the amplitude spectrum of a picture, float32 (1 or 3, h, w), 0..1: its windows of `size` (h, w), half
     over one another, averaged as powers (the modified periodogram of Lewis 1984, section 5.3).
 
@@ -207,13 +213,14 @@ def of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
     power = np.zeros((len(rgb), height, width), np.float32)
     for y in _starts(rgb.shape[1], height):
         for x in _starts(rgb.shape[2], width):
-            power += np.square(spectra.image_spectrum(rgb[:, y : y + height, x : x + width]))
+            piece = rgb[:, y : y + height, x : x + width]
+            power += np.square(spectra.image_spectrum(piece, arithmetic=arithmetic))
     found = spectra.symmetric(np.sqrt(power))
     found[:, height // 2, width // 2] = 0.0
     return found / np.float32(max(float(found.max()), 1e-20))
 
 
-def phase_of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+def phase_of_picture(rgba: np.ndarray, size: tuple[int, int], arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the phases of the window of `size` (h, w) in the middle of a picture, as a sheet: float32 (1, h, w),
     0..1.
 
@@ -223,8 +230,8 @@ def phase_of_picture(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
     rgb, (height, width) = _planes(rgba, size), size
     top, left = (rgb.shape[1] - height) // 2, (rgb.shape[2] - width) // 2
     seen = rgb[:, top : top + height, left : left + width].sum(axis=0)
-    found = spectra.forward(seen - seen.mean())
-    turn = np.angle(found)[None] * np.float32(0.5 / np.pi)
+    found = spectra.forward(seen - seen.mean(), arithmetic)
+    turn = array_functions(arithmetic).angle(found)[None] * np.float32(0.5 / np.pi)
     # Odd but for rounding, and for pi where a frequency is its own opposite: there it becomes 0.
     return snapped(np.float32(0.5) * (turn - spectra.opposite(turn))) + np.float32(_GROUND["phase"])
 
@@ -252,7 +259,13 @@ def _sheets(amplitude: np.ndarray, phase: np.ndarray) -> Sheets:
     return Sheets(amplitude, phase)
 
 
-def touch(sheets: Sheets, brush: Any, sheet: str = "amplitude", cache: TileCache | None = None) -> LiveStroke:
+def touch(
+    sheets: Sheets,
+    brush: Any,
+    sheet: str = "amplitude",
+    cache: TileCache | None = None,
+    arithmetic: int = LIBRARY,
+) -> LiveStroke:
     """Returns a stroke that begins on one of SHEETS; points in pixels from the corner.  BrushError as `LiveStroke`."""
     planes = getattr(sheets, sheet)
     width, height = sheets.size
@@ -260,7 +273,7 @@ def touch(sheets: Sheets, brush: Any, sheet: str = "amplitude", cache: TileCache
     opaque = np.ones((4, height, width), np.float32)
     opaque[:3] = planes
     layer = Layer(1, sheet, pyramid=laid(lambda part: opaque[:, *part.slices(rect)], rect))
-    painting = Painting(root=replace(layers.EMPTY, children=(layer,)), active=sheet)
+    painting = Painting(root=replace(layers.EMPTY, children=(layer,)), active=sheet, arithmetic=arithmetic)
     return LiveStroke(painting, 0, (0, 0), brush, cache, sheet)
 
 
@@ -299,13 +312,13 @@ def drawn(design: Design, look: Look | None = None) -> Sheets:
     """Returns the spectrum with all its shapes and strokes.  BrushError if a brush cannot paint it."""
     sheets = begun(design, look)
     for stroke in design.strokes:
-        sheets = with_stroke(sheets, stroke, not design.forward)
+        sheets = with_stroke(sheets, stroke, not design.forward, design.arithmetic)
     return sheets
 
 
-def with_stroke(sheets: Sheets, stroke: c.Stroke, mirrored: bool = True) -> Sheets:
+def with_stroke(sheets: Sheets, stroke: c.Stroke, mirrored: bool = True, arithmetic: int = LIBRARY) -> Sheets:
     """Returns one more stroke, whole."""
-    live = touch(sheets, stroke.brush, stroke.layer or SHEETS[0])
+    live = touch(sheets, stroke.brush, stroke.layer or SHEETS[0], arithmetic=arithmetic)
     live.lay(stroke.points + np.array([*stroke.origin, 0, 0, 0, 0]))
     return stroked(sheets, live, mirrored)
 
@@ -317,8 +330,8 @@ def sample(sheets: Sheets, design: Design) -> np.ndarray:
         phase = design.seed
     elif design.phase in ("painted", "own"):
         phase = (sheets.phase[0] - np.float32(0.5)) * np.float32(2 * np.pi)
-    painted = sheets.amplitude if design.forward else amplitude(sheets.amplitude)
-    return spectra.texture_of(painted, phase, design.part, design.forward)
+    painted = sheets.amplitude if design.forward else amplitude(sheets.amplitude, design.arithmetic)
+    return spectra.texture_of(painted, phase, design.part, design.forward, design.arithmetic)
 
 
 def spectrum_picture(texture: np.ndarray) -> np.ndarray:

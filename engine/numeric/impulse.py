@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric.analysis import autocorrelation, middle
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import ArrayFunctions, array_functions
 from engine.numeric.prediction import noise_at
 from engine.numeric.spectra import normalised
 
@@ -38,7 +40,9 @@ def suggested_window(planes: np.ndarray) -> int:
     return out
 
 
-def impulse_response(planes: np.ndarray, window: int, average: int, phase: str = "window", seed: int = 0) -> np.ndarray:
+def impulse_response(
+    planes: np.ndarray, window: int, average: int, phase: str = "window", seed: int = 0, arithmetic: int = LIBRARY
+) -> np.ndarray:
     """Returns the impulse response of a picture float32 (c, h, w): float32 (c, n, m), mean 0, deviation
     `spectra.SPREAD`.
 
@@ -53,27 +57,29 @@ def impulse_response(planes: np.ndarray, window: int, average: int, phase: str =
     if average == 1 and phase == "window":
         top, left = corners(planes.shape[1:], size, 1)[0]
         return normalised(planes[:, top : top + size[0], left : left + size[1]])
-    taper = np.outer(_tapered(size[0]), _tapered(size[1])).astype(np.float32)
+    own = array_functions(arithmetic)
+    taper = np.outer(_tapered(size[0], own), _tapered(size[1], own)).astype(np.float32)
     power = np.zeros((len(planes), *size))
     first: np.ndarray | None = None
     for top, left in corners(planes.shape[1:], size, average):
-        found = np.fft.fft2(_levelled(planes[:, top : top + size[0], left : left + size[1]], taper))
-        power += np.abs(found) ** 2
+        found = own.fft2(_levelled(planes[:, top : top + size[0], left : left + size[1]], taper))
+        power += own.size(found) ** 2
         first = found if first is None else first
     assert first is not None
     amplitude = np.sqrt(power / average)
     amplitude[:, 0, 0] = 0.0
     if phase == "window":
         together = first.sum(axis=0)
-        length = np.abs(together)
+        length = own.size(together)
         common: np.ndarray = np.where(length > 1e-20, together / np.maximum(length, 1e-20), 1.0)
         # Where channels are opposed, as in red and blue patches, a channel follows against the common phase.
-        sign = np.where((first * np.conj(common)).real < 0.0, -1.0, 1.0)
-        return normalised(np.fft.ifft2(amplitude * sign * common).real)
+        sign = np.where(own.turned(first, np.conj(common)).real < 0.0, -1.0, 1.0)
+        return normalised(own.ifft2(own.turned(amplitude * sign, common)).real)
     turn: np.ndarray = np.ones(size, complex)
     if phase == "random":
-        turn = np.exp(1j * np.angle(np.fft.fft2(noise_at(seed, 0, 0, (1, *size))[0])))
-    return normalised(np.fft.fftshift(np.fft.ifft2(amplitude * turn).real, axes=(1, 2)))
+        angle = own.angle(own.fft2(noise_at(seed, 0, 0, (1, *size))[0]))
+        turn = np.exp(1j * angle) if arithmetic == LIBRARY else own.waves(angle)
+    return normalised(np.fft.fftshift(own.ifft2(own.turned(amplitude, turn)).real, axes=(1, 2)))
 
 
 def corners(shape: tuple[int, ...], size: tuple[int, int], count: int) -> list[tuple[int, int]]:
@@ -86,10 +92,10 @@ def corners(shape: tuple[int, ...], size: tuple[int, int], count: int) -> list[t
     return [(room[0] // 2, room[1] // 2), *((y, x) for y, x in scattered)]
 
 
-def _tapered(n: int) -> np.ndarray:
+def _tapered(n: int, own: ArrayFunctions) -> np.ndarray:
     """Returns a window (n,) that is flat in the middle and ends in halves of a cosine (Tukey's)."""
     at = np.minimum((np.arange(n) + 0.5) / (n * _TAPER), 1.0)
-    half = 0.5 - 0.5 * np.cos(np.pi * at)
+    half = 0.5 - 0.5 * own.cos(np.pi * at)
     out: np.ndarray = np.minimum(half, half[::-1])
     return out
 

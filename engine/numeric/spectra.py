@@ -12,6 +12,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import ArrayFunctions, array_functions
 from engine.numeric.hashing import fold_key, hash_plane
 
 SPREAD = 0.36  # standard deviation of a texture of nominal range -1..1: one pixel in 200 leaves it
@@ -30,18 +32,18 @@ def frequencies(height: int, width: int) -> tuple[np.ndarray, np.ndarray]:
     return v.astype(np.float32)[:, None], u.astype(np.float32)[None]
 
 
-def radial_window(height: int, width: int | None = None, sigma: float = WINDOW) -> np.ndarray:
+def radial_window(height: int, width: int | None = None, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the radial Gaussian that keeps a sample's edges out of the field: float32 (h, w), 1 in the middle.
 
-    `sigma` in sides of the sample.  What is left at the rim, half a side from the middle, is taken off, so that the
+    What is left at the rim, half a side from the middle, is taken off, so that the
     window ends at exactly zero (Lewis 1984, section 5.2).
     """
-    width = height if width is None else width
+    width, exp = height if width is None else width, array_functions(arithmetic).exp
     y = (np.arange(height) + 0.5) / height - 0.5
     x = (np.arange(width) + 0.5) / width - 0.5
     squared = y[:, None] ** 2 + x[None] ** 2
-    rim = np.exp(-0.125 / sigma**2)
-    window = (np.exp(-0.5 * squared / sigma**2) - rim) / (1.0 - rim)
+    rim = exp(np.array([-0.125 / WINDOW**2]))
+    window = (exp(-0.5 * squared / WINDOW**2) - rim) / (1.0 - rim)
     out: np.ndarray = np.maximum(window, 0.0).astype(np.float32)
     return out
 
@@ -59,7 +61,7 @@ def symmetric(amplitude: np.ndarray) -> np.ndarray:
 
 
 @lru_cache(maxsize=2)
-def _random_phasors(height: int, width: int, seed: int) -> np.ndarray:
+def _random_phasors(height: int, width: int, seed: int, arithmetic: int) -> np.ndarray:
     """Returns two independent sets of phases, each F(-u, -v) = F*(u, v), as e^(i p) + i e^(i q): complex64 (h, w).
 
     The real and the imaginary part of the inverse transform are then two textures of the same amplitudes.
@@ -70,52 +72,52 @@ def _random_phasors(height: int, width: int, seed: int) -> np.ndarray:
         turns = ((hashed >> np.uint64(shift)) & np.uint64(0xFFFFFF)).astype(np.float32)
         # The difference of two even distributions on a circle is even again, and changes sign with the frequency.
         angles = (turns - opposite(turns)) * np.float32(2.0 * np.pi / (1 << 24))
-        out += np.complex64(unit) * (np.cos(angles) + np.complex64(1j) * np.sin(angles))
+        waves = array_functions(arithmetic).waves(angles)
+        out += np.complex64(unit) * waves  # times 1 or i, which rounds nothing
     out.flags.writeable = False
     return out
 
 
-def inverse(amplitude: np.ndarray, phase: Phase = None) -> np.ndarray:
+def inverse(amplitude: np.ndarray, phase: Phase = None, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the inverse transform of a centred amplitude spectrum: complex64 (..., h, w).
 
     `phase`: radians, or the seed of random ones, or None for zero, which gathers all in the sample's middle.
     """
-    spectrum: np.ndarray = np.asarray(amplitude, np.float32)
+    own, spectrum = array_functions(arithmetic), np.asarray(amplitude, np.float32)
     height, width = spectrum.shape[-2:]
     if isinstance(phase, np.ndarray):
         angles = phase.astype(np.float32, copy=False)
-        spectrum = spectrum * (np.cos(angles) + np.complex64(1j) * np.sin(angles))
+        spectrum = own.turned(spectrum, own.waves(angles))
     elif phase is not None:
-        spectrum = spectrum * _random_phasors(height, width, int(phase))
-    sample = np.fft.ifft2(np.fft.ifftshift(spectrum, axes=_AXES), axes=_AXES)
+        spectrum = own.turned(spectrum, _random_phasors(height, width, int(phase), arithmetic))
+    sample = own.ifft2(np.fft.ifftshift(spectrum, axes=_AXES))
     if phase is None:
         sample = np.fft.fftshift(sample, axes=_AXES)
     return sample.astype(np.complex64, copy=False)
 
 
-def forward(image: np.ndarray) -> np.ndarray:
+def forward(image: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the centred spectrum of real or complex pictures: complex64 (..., h, w).
 
     Of a real, asymmetric pattern it is itself a texture (the forward variant of section 5.1).
     """
-    found = np.fft.fftshift(np.fft.fft2(np.asarray(image), axes=_AXES), axes=_AXES)
+    found = np.fft.fftshift(array_functions(arithmetic).fft2(np.asarray(image)), axes=_AXES)
     return found.astype(np.complex64, copy=False)
 
 
-def _log(sample: np.ndarray) -> np.ndarray:
-    magnitude = np.abs(sample)
+def _log(sample: np.ndarray, own: ArrayFunctions) -> np.ndarray:
+    magnitude = own.size(sample)
     least = 1e-3 * float(magnitude.mean())
-    out: np.ndarray = np.log(magnitude + np.float32(least if least > 0.0 else 1.0))
-    return out
+    return own.log(magnitude + np.float32(least if least > 0.0 else 1.0))
 
 
 # What a texture takes of a complex sample: name -> complex64 (..., h, w) to float32.
-PARTS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
-    "real": np.real,
-    "imaginary": np.imag,
-    "magnitude": np.abs,
+PARTS: dict[str, Callable[[np.ndarray, ArrayFunctions], np.ndarray]] = {
+    "real": lambda sample, own: np.real(sample),
+    "imaginary": lambda sample, own: np.imag(sample),
+    "magnitude": lambda sample, own: own.size(sample),
     "log": _log,
-    "phase": np.angle,
+    "phase": lambda sample, own: own.angle(sample),
 }
 
 
@@ -145,33 +147,38 @@ def normalised(values: np.ndarray) -> np.ndarray:
     return result
 
 
-def texture_of(amplitude: np.ndarray, phase: Phase = None, part: str = "real", forward: bool = False) -> np.ndarray:
+def texture_of(
+    amplitude: np.ndarray,
+    phase: Phase = None,
+    part: str = "real",
+    forward: bool = False,
+    arithmetic: int = LIBRARY,
+) -> np.ndarray:
     """Returns the texture whose spectrum was painted: float32 like `amplitude`, mean 0, standard deviation SPREAD.
 
     It is not clipped to -1..1, and tiles without seams.  `part`: a row of PARTS.  With `forward`, `amplitude`
     is a pattern, mean taken off, and the texture a part of its spectrum (times the phases, if any).
     """
-    given = np.asarray(amplitude, np.float32)
+    given, own = np.asarray(amplitude, np.float32), array_functions(arithmetic)
     if not forward:
-        return normalised(PARTS[part](_unrounded(inverse(given, phase))))
+        return normalised(PARTS[part](_unrounded(inverse(given, phase, arithmetic)), own))
     pattern = given - given.mean(axis=_AXES, keepdims=True)
-    return normalised(PARTS[part](_unrounded(np.conj(inverse(pattern, phase)))))
+    return normalised(PARTS[part](_unrounded(np.conj(inverse(pattern, phase, arithmetic))), own))
 
 
-def image_spectrum(image: np.ndarray, window: bool = True) -> np.ndarray:
+def image_spectrum(image: np.ndarray, window: bool = True, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the amplitude spectrum of pictures (..., h, w), means taken off: float32, centred.
 
     With `window`, their edges are kept out of it.
     """
     values = np.asarray(image, np.float32)
     if window:
-        weights = radial_window(*values.shape[-2:])
+        weights = radial_window(values.shape[-2], values.shape[-1], arithmetic)
         total = max(float(weights.sum()), 1e-9)
         values = (values - (values * weights).sum(axis=_AXES, keepdims=True) / np.float32(total)) * weights
     else:
         values = values - values.mean(axis=_AXES, keepdims=True)
-    out: np.ndarray = np.abs(forward(values))
-    return out
+    return array_functions(arithmetic).size(forward(values, arithmetic))
 
 
 def power(image: np.ndarray) -> np.ndarray:

@@ -19,6 +19,7 @@ from engine.files.images import read_image
 from engine.files.limits import LIMITS
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.numeric.grid import snapped
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
@@ -35,11 +36,13 @@ _NO_PICTURES: Map[str, ImageSource] = Map()
 
 @dataclass(frozen=True, slots=True)
 class PictureSource:
-    """Where pictures come from: files, paths starting from a folder; the canvas; those known by their sha."""
+    """Where pictures come from: files, paths starting from a folder; the canvas; those known by their sha.
+    `arithmetic`: in which what is made of them is worked out."""
 
     folder: Path | None
     root: Group
     pictures: Mapping[str, ImageSource] = _NO_PICTURES
+    arithmetic: int = LIBRARY
 
     def picture(self, members: Fields) -> np.ndarray:
         """Returns the picture that `path`, or else `rect` and `layer`, name: premultiplied RGBA, float32 (4, h, w)."""

@@ -237,7 +237,7 @@ def _alpha(picture: ImageSource) -> ImageSource:
 
 def _stretched(source: ImageSource, period: int, roughness: float, arithmetic: int) -> float:
     """Tells how much weaker an octave is because the native level is wider than the picture's own pixels."""
-    wide = sample.tile(source, period).levels[-1].shape[2] / max(source.width, 1)
+    wide = sample.tile(source, period, arithmetic).levels[-1].shape[2] / max(source.width, 1)
     own = functions(arithmetic)
     return own.power(max(roughness, STEEPEST), own.log2(wide))
 
@@ -245,12 +245,12 @@ def _stretched(source: ImageSource, period: int, roughness: float, arithmetic: i
 @lru_cache(maxsize=256)
 def _form(picture: ImageSource, period: int, roughness: float, arithmetic: int) -> Continuation:
     """Tells how strong an octave is to the texture, and how large the features of both are."""
-    tiles = [sample.tile(picture, period)]
+    tiles = [sample.tile(picture, period, arithmetic)]
     octave = octave_of(picture).tile
     if picture.opaque:
         octave = octave[:-1]
     else:
-        tiles.append(sample.tile(_alpha(picture), period))
+        tiles.append(sample.tile(_alpha(picture), period, arithmetic))
     own, added = (_energy(planes) for planes in (np.concatenate([tile.levels[-1] for tile in tiles]), octave))
     strength = math.sqrt(added / own) * _stretched(picture, period, roughness, arithmetic) if own > 0.0 else 0.0
     loudest = max(tiles, key=lambda tile: _energy(tile.levels[-1]))

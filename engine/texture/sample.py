@@ -11,6 +11,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
+from engine.numeric.functions import functions
 from engine.numeric.pyramid import reduce
 from engine.numeric.sparse import Impulse
 from engine.numeric.spectra import frequencies, radial_window
@@ -72,7 +75,7 @@ class Tile:
 
 
 @lru_cache(maxsize=16)  # of a series with alpha, two of each stage
-def tile(source: ImageSource, period: int) -> Tile:
+def tile(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> Tile:
     """Gives the pyramid of a sample that is tiled with a period in pixels of its base level; kept for the next call."""
     n = finer(source, period)
     native = _native(source, period, n)
@@ -83,7 +86,7 @@ def tile(source: ImageSource, period: int) -> Tile:
         levels.append(reduce(levels[-1]))
     for plane in levels:
         plane.flags.writeable = False
-    return Tile(mean, tuple(reversed(levels)), *_top(native))
+    return Tile(mean, tuple(reversed(levels)), *_top(native, arithmetic))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -96,39 +99,39 @@ class Response:
 
 
 @lru_cache(maxsize=8)
-def sample_response(source: ImageSource, period: int) -> Response:
+def sample_response(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> Response:
     """Returns the zero-mean sample under the radial Gaussian window."""
     native = _native(source, period, finer(source, period, LARGEST))
-    own = _windowed(native)
+    own = _windowed(native, arithmetic)
     energy = float(np.square(own, dtype=np.float64).sum()) / native.size
-    own *= np.float32(energy**-0.5 if energy > 1e-10 else 0.0)
+    own *= np.float32(functions(arithmetic).power(energy, -0.5) if energy > 1e-10 else 0.0)
     return Response(_mean(native), Impulse.of(own))
 
 
 @lru_cache(maxsize=8)
-def finest(source: ImageSource, period: int) -> tuple[Impulse, Continuation]:
+def finest(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> tuple[Impulse, Continuation]:
     """Returns the finest octaves of the impulse response, at the native level, and how they continue it.  Only who
     zooms in needs them."""
-    top, form = _top(sample_response(source, period).own.phases[0, 0])
+    top, form = _top(sample_response(source, period, arithmetic).own.phases[0, 0], arithmetic)
     held = float(np.square(top, dtype=np.float64).sum())
-    top = _windowed(top)
+    top = _windowed(top, arithmetic)
     left = float(np.square(top, dtype=np.float64).sum())
-    top *= np.float32((held / left) ** 0.5 if left > 0.0 else 0.0)
+    top *= np.float32(functions(arithmetic).power(held / left, 0.5) if left > 0.0 else 0.0)
     return Impulse.of(top), form
 
 
-def _windowed(planes: np.ndarray) -> np.ndarray:
+def _windowed(planes: np.ndarray, arithmetic: int) -> np.ndarray:
     """`planes` (c, h, w) under the window, their means under it taken off."""
-    window = radial_window(*planes.shape[1:])
+    window = radial_window(planes.shape[1], planes.shape[2], arithmetic)
     weight = np.float32(max(float(window.sum(dtype=np.float64)), 1e-9))
     out: np.ndarray = (planes - (planes * window).sum((1, 2), keepdims=True) / weight) * window
     return out
 
 
 @lru_cache(maxsize=32)
-def seen(source: ImageSource, period: int, coarser: int) -> Impulse:
+def seen(source: ImageSource, period: int, coarser: int, arithmetic: int = LIBRARY) -> Impulse:
     """Returns the impulse response some levels above the native one."""
-    return sample_response(source, period).own.seen(coarser)
+    return sample_response(source, period, arithmetic).own.seen(coarser)
 
 
 def _mean(planes: np.ndarray) -> np.ndarray:
@@ -136,25 +139,25 @@ def _mean(planes: np.ndarray) -> np.ndarray:
     return out
 
 
-def _top(planes: np.ndarray) -> tuple[np.ndarray, Continuation]:
+def _top(planes: np.ndarray, arithmetic: int) -> tuple[np.ndarray, Continuation]:
     """Returns the octaves of (periodic) `planes` (c, h, w) from the finest down to the highest that is not empty.
 
     Of 1/f noise that is the finest alone; of a ring at a period of 16 pixels, all down to the ring.
     """
-    _, height, width = planes.shape
+    own, (_, height, width) = array_functions(arithmetic), planes.shape
     v, u = frequencies(height, width)
-    f = np.fft.ifftshift(np.hypot(u, v))
-    spectrum = np.fft.fft2(planes)
-    power = np.square(np.abs(spectrum)).sum(0, dtype=np.float64)
-    octave = np.ceil(np.log2(np.maximum(f, 1e-9))).clip(-40, 0)
+    f = np.fft.ifftshift(own.distance(u, v))
+    spectrum = own.fft2(planes)
+    power = np.square(own.size(spectrum)).sum(0, dtype=np.float64)
+    octave = np.ceil(own.log2(np.maximum(f, 1e-9))).clip(-40, 0)
     held = np.array([float(power[octave == -i].sum()) for i in range(max(1, max(height, width).bit_length() - 1))])
     lowest = int(np.argmax(held >= _FAINT * held.max()))
     edge = 2.0 ** (-lowest - 1)  # passed from there on, half way at 1/1.2 of it, nothing below 1/1.44
-    passed = np.clip(1.0 + np.log(np.maximum(f, 1e-9) / edge) / np.log(1.44), 0.0, 1.0)
-    part = np.square(np.sin(0.5 * np.pi * passed)).astype(np.float32)
-    out = np.fft.ifft2(spectrum * part).real
+    passed = np.clip(1.0 + own.log(np.maximum(f, 1e-9) / edge) / own.log(np.array([1.44])), 0.0, 1.0)
+    part = np.square(own.sin(0.5 * np.pi * passed)).astype(np.float32)
+    out = own.ifft2(own.turned(spectrum, part)).real
     whole = float(power.sum())
     strength = float((power * np.square(part)).sum()) / whole if whole > 0.0 else 0.0
     middle = float((held * np.arange(held.size)).sum()) / max(float(held.sum()), 1e-30)
-    form = Continuation(round(strength**0.5, 6), round(1.0 + middle, 3), 1.0 + lowest)
+    form = Continuation(round(functions(arithmetic).power(strength, 0.5), 6), round(1.0 + middle, 3), 1.0 + lowest)
     return np.ascontiguousarray(out, np.float32), form

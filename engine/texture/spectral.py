@@ -144,20 +144,20 @@ class Tiled(_Spectral):
     @property
     def centre(self) -> np.ndarray:
         """Gives the mean around which the sample varies: float32 (1 or 3, 1, 1)."""
-        return sample.tile(self.shown, self.period).mean
+        return sample.tile(self.shown, self.period, self.arithmetic).mean
 
     @property
     def form(self) -> Continuation:
         """Gives how octaves beyond the sample's pixels go on."""
-        return sample.tile(self.shown, self.period).form
+        return sample.tile(self.shown, self.period, self.arithmetic).form
 
     def _own(self, level: int, rect: Rect) -> np.ndarray:
-        levels = sample.tile(self.shown, self.period).levels
+        levels = sample.tile(self.shown, self.period, self.arithmetic).levels
         return tiled(levels[level - self.native - 1], rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
         """Returns the tile's finest content, shifted elsewhere."""
-        top = sample.tile(self.shown, self.period).top
+        top = sample.tile(self.shown, self.period, self.arithmetic).top
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % top.shape[2], (h >> 32) % top.shape[1]
         return tiled(top, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))
@@ -199,21 +199,20 @@ class Sparse(_Spectral):
     @property
     def centre(self) -> np.ndarray:
         """Gives the mean of the field: float32 (1 or 3, 1, 1)."""
-        own = (
-            sample.sample_response(self.source, self.period).mean if self.coloured else np.zeros((1, 1, 1), np.float32)
-        )
-        return own + np.float32(self.mean)
+        if not self.coloured:
+            return np.full((1, 1, 1), self.mean, np.float32)
+        return sample.sample_response(self.source, self.period, self.arithmetic).mean + np.float32(self.mean)
 
     def impulse(self, level: int) -> sparse.Impulse:
         """Returns the impulse response at a level from the base to the native one."""
         if level >= self.native:
-            return sample.sample_response(self.source, self.period).own
-        return sample.seen(self.source, self.period, self.native - level)
+            return sample.sample_response(self.source, self.period, self.arithmetic).own
+        return sample.seen(self.source, self.period, self.native - level, self.arithmetic)
 
     @property
     def form(self) -> Continuation:
         """Gives how octaves beyond the sample's pixels go on."""
-        return sample.finest(self.source, self.period)[1]
+        return sample.finest(self.source, self.period, self.arithmetic)[1]
 
     @property
     def noise(self) -> sparse.Noise:
@@ -227,7 +226,7 @@ class Sparse(_Spectral):
         return self._field(self.impulse(level), 0, rect)
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
-        return self._field(sample.finest(self.source, self.period)[0], depth, rect)
+        return self._field(sample.finest(self.source, self.period, self.arithmetic)[0], depth, rect)
 
     def _field(self, impulse: sparse.Impulse, octave: int, rect: Rect) -> np.ndarray:
         out = sparse.field(impulse, self._noise(octave), rect)

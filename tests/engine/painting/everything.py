@@ -44,7 +44,7 @@ FORMULAS = (
     "exp(-abs(x - 40)/9) - log(1 + luma*7)/5",
     "pow(pic, 1.7) - pic + 0.1*tex**0.3*noise(x/4, y/5)",
     "mix(colour, pic, smoothstep(0, 60, x)) - pic*fract(y/7.3) + d*pressure*0.1*step(0.5, level + 0.7)",
-    "sqrt(luma)*clamp(mod(x, 7)/7, 0.2, 0.9) - pic",
+    "sqrt(luma)*clamp(mod(x, 7)/7, 0.2, 0.9) - min(pic, 1 - pic)*floor(y/5)/9 - max(pic, abs(0.3 - luma))",
 )
 
 
