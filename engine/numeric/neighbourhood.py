@@ -16,6 +16,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from engine.numeric.elementary import exp, mapped
 from engine.numeric.kernel import kernel
 
 RADIUS, SIDE = 3, 7
@@ -131,7 +132,7 @@ def weights(side: int = SIDE, spread: float = 2.0) -> np.ndarray:
     """Returns a Gaussian of `spread` pixels over `side` x `side` pixels (3, 5 or 7): int16 (7 * 32), read-only,
     summing to about 49 * WEIGHT for each channel."""
     y, x = np.mgrid[-RADIUS : RADIUS + 1, -RADIUS : RADIUS + 1]
-    plane = np.exp(-(x * x + y * y) / (2.0 * spread * spread)) * ((abs(x) <= side // 2) & (abs(y) <= side // 2))
+    plane = mapped(exp, -(x * x + y * y) / (2.0 * spread * spread)) * ((abs(x) <= side // 2) & (abs(y) <= side // 2))
     plane = np.maximum(np.rint(plane * (WEIGHT * plane.size / plane.sum())), plane > 0.0)
     out = np.zeros((SIDE, ROW // 4, 4), np.int16)
     out[:, :SIDE] = plane[:, :, None]

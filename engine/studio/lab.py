@@ -123,8 +123,10 @@ class Lab(Owned):
 
     def _tried(self) -> Texture:
         """Returns the texture as the command would make it, without making it again."""
-        command = self._command(_TRIED)
-        return Texture(FIELDS[command.arguments.get("field", "tile")], command.arguments, self._source(_TRIED))
+        command, own = self._command(_TRIED), self._easel.session.painting.arithmetic
+        return Texture(
+            FIELDS[command.arguments.get("field", "tile")], command.arguments, self._source(_TRIED), None, own
+        )
 
     def _source(self, name: str) -> ImageSource:
         assert self._texture is not None

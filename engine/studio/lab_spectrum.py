@@ -30,18 +30,19 @@ _CACHE = 1 << 24  # bytes of evaluated tiles, for strokes on a sheet
 @dataclass(frozen=True, eq=False, slots=True)
 class _Start:
     """What sheets depend on besides strokes; `own`: whether phases are a picture's; `root`: the layers, where a shape
-    looks at them."""
+    looks at them; `arithmetic`: the painting's, in which its command makes them."""
 
     size: tuple[int, int]
     shapes: tuple[Map[str, Any], ...]
     forward: bool
     own: bool
     root: Group | None
+    arithmetic: int
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, _Start) or self.root is not other.root:
             return False
-        mine, theirs = ((s.size, s.shapes, s.forward, s.own) for s in (self, other))
+        mine, theirs = ((s.size, s.shapes, s.forward, s.own, s.arithmetic) for s in (self, other))
         return mine == theirs
 
 
@@ -105,7 +106,8 @@ class LabSpectrum(Owned):
     def _begin(self, request: q.LabBegin) -> None:
         self.finish_building()
         assert self._now.sheets is not None
-        self.live = spectrum.touch(self._now.sheets, request.brush, self.asked.sheet, TileCache(_CACHE))
+        own, sheet = self._start().arithmetic, self.asked.sheet
+        self.live = spectrum.touch(self._now.sheets, request.brush, sheet, TileCache(_CACHE), own)
 
     def _extend(self, request: q.LabPoints) -> None:
         if self.live is not None and not self.live.add(rounded(request.points)).empty:
@@ -147,13 +149,15 @@ class LabSpectrum(Owned):
     def design(self) -> Design:
         """Returns what a texture command tells of it."""
         s = self.asked
-        return Design(s.size, s.shapes, self._now.strokes, s.phase, s.seed, s.part, s.forward)
+        own = self._easel.session.painting.arithmetic
+        return Design(s.size, s.shapes, self._now.strokes, s.phase, s.seed, s.part, s.forward, own)
 
     def _start(self) -> _Start:
         s = self.asked
         seen = any(shape["shape"] == "canvas" for shape in s.shapes)
-        root = self._easel.session.painting.root if seen else None
-        return _Start(s.size, s.shapes, s.forward, s.phase == "own", root)
+        painting = self._easel.session.painting
+        root = painting.root if seen else None
+        return _Start(s.size, s.shapes, s.forward, s.phase == "own", root, painting.arithmetic)
 
     @property
     def ready(self) -> bool:
@@ -167,7 +171,7 @@ class LabSpectrum(Owned):
             self._building = start, spectrum.begun(self.design, self._look), 0
         _, sheets, laid = self._building
         if laid < len(strokes):
-            sheets, laid = spectrum.with_stroke(sheets, strokes[laid], not start.forward), laid + 1
+            sheets, laid = spectrum.with_stroke(sheets, strokes[laid], not start.forward, start.arithmetic), laid + 1
         self._building = start, sheets, laid
         if laid >= len(strokes):
             self._now.sheets, self._now.start, self._building = sheets, start, None

@@ -11,6 +11,7 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
+from engine.numeric.elementary import exp, mapped
 from engine.numeric.grid import snapped
 from engine.numeric.kernel import Array, Int, Real, inlined, inner, kernel
 from engine.texture.example import tiles
@@ -96,7 +97,7 @@ def _blended(region: Region, rect: Rect, level: int) -> tuple[np.ndarray, np.nda
     if exemplar.boundary:  # a rim is narrow, and would be blurred
         reach //= 2
     distance = np.abs(np.arange(-reach, reach + 1))
-    window = np.exp(-(distance**2) / (2.0 * max(reach, 1) ** 2))
+    window = mapped(exp, -(distance**2) / (2.0 * max(reach, 1) ** 2))
     out = np.zeros((4, rect.height, rect.width), np.float32)
     blended = np.zeros((rect.height, rect.width), np.bool_)
     weights = np.outer(window, window).astype(np.float32)

@@ -23,6 +23,7 @@ from engine.archive import export
 from engine.brush.ops import OPS
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.files.images import read_image
 from engine.numeric.address import Rect
 from engine.numeric.blend import BLENDS
 from engine.numeric.curves import CURVES, EDGES
@@ -198,7 +199,7 @@ def hashes(painting: Painting, folder: Path) -> list[str]:
     pixels, values = hashlib.sha256(), hashlib.sha256()
     for level, rect in (*PLACES[:2], (1, None)):
         export.export(folder / "out.png", export.Picture(painting, level, rect, depth=16))
-        pixels.update((folder / "out.png").read_bytes())
+        pixels.update(read_image(folder / "out.png", "out.png")[0].tobytes())
     for layer in layers(painting.root):
         for level, rect in (*PLACES, DEEP):
             values.update(evaluate(layer.pyramid, level, rect).data.tobytes())

@@ -11,6 +11,7 @@ from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import NEWEST
 from engine.numeric.spectra import opposite
 from engine.painting import commands as c
 from engine.painting.recording import Recording
@@ -62,7 +63,7 @@ def desk():
 
 
 def sample_of(command):
-    return apply(Painting(), command).textures[command.name].source
+    return apply(Painting(arithmetic=NEWEST), command).textures[command.name].source
 
 
 def test_the_lab_shows_what_its_command_makes(desk):
