@@ -33,9 +33,8 @@ from functools import lru_cache
 import numpy as np
 
 from engine.numeric.address import Rect
-from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 from engine.numeric.detail import blend_rows, cut, expand_row
-from engine.numeric.elementary import log2
 from engine.numeric.functions import functions
 from engine.numeric.hashing import MASK32, fold_key, place64
 from engine.numeric.kernel import inner, kernel
@@ -72,12 +71,12 @@ class Rock:
     @property
     def root(self) -> int:
         """Returns the level of octave 0."""
-        return self.base - math.ceil(log2(self.period))
+        return self.base - math.ceil(_size(self.period, EVERYWHERE))  # both arithmetics agree on the whole number
 
     @property
     def first(self) -> float:
         """Returns the part of octave 0 that is there, 0..1, so that S varies steadily with the period."""
-        size = functions(self.arithmetic).log2(self.period)
+        size = _size(self.period, self.arithmetic)
         return 1.0 + size - math.ceil(size)
 
     @property
@@ -112,6 +111,12 @@ class Rock:
         out = np.empty((1, even.height, even.width), np.float32)
         _fill_cascade(out[0], even.x0 & _SEEN, even.y0 & _SEEN, keys, factors)
         return cut(out, rect, even)
+
+
+@lru_cache(maxsize=4096)
+def _size(period: float, arithmetic: int) -> float:
+    """Returns log2 of a period."""
+    return functions(arithmetic).log2(period)
 
 
 @lru_cache(maxsize=4096)
