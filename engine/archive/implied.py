@@ -27,10 +27,10 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.archive import implied_kernels as kernels
-from engine.archive.cascade import Cascade
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
+from engine.painting.cascade import Cascade
 from engine.texture.planes import COLOURS, Planes
 from engine.texture.record import Instance
 

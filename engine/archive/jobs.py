@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from engine.archive.cascade import Cascade
 from engine.archive.implied import Tile, without
 from engine.archive.manifest import Pack
 from engine.archive.packing import grouped, pack
+from engine.painting.cascade import Cascade
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,6 @@ from typing import IO
 import numpy as np
 
 from engine.archive import grounds, pictures, plot_files
-from engine.archive.cascade import Cascade
 from engine.archive.grounds import GroundEntry
 from engine.archive.implied import needed, ordered
 from engine.archive.jobs import Job, pack_jobs
@@ -43,6 +42,7 @@ from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted_size
+from engine.painting.cascade import Cascade
 from engine.painting.grown import settled_root
 from engine.painting.recording import Recording
 from engine.painting.rendering import Progress, Stop, check_cancelled, folded_layers, reach, sheets, strips

@@ -10,12 +10,14 @@ from engine.canvas import growth, layers
 from engine.canvas.composite import Read, composite
 from engine.canvas.fold import fold
 from engine.canvas.layers import Group, Layer
-from engine.canvas.reading import layer_planes
+from engine.canvas.reading import covered, layer_planes
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
+from engine.painting.cascade import Cascade
 
 _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 256
+_HELD, _HELD_OF_ALL = 1 << 19, 1 << 22  # pixels of a coarser level up to which it is held: of a layer, of all of them
 _COLUMNS = 1024  # of the pieces in which layers are evaluated
 TOGETHER = 1 << 25  # pixels of all layers' parts of a band, about: half a gigabyte
 HELD = 64  # layers for which a piece has that size; for more it is narrower
@@ -46,6 +48,7 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
     count = sum(1 for _ in layers.layers(root))
     columns = max(128, _COLUMNS * HELD // max(HELD, count))
     out: np.ndarray | None = None
+    evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
     for band in bands(rect):
         if out is None:
             out = np.empty((4, band.height, band.width), np.float32)
@@ -54,7 +57,7 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
             check_cancelled(cancelled)
             piece = Rect(x, band.y0, min(x + columns, band.x1), band.y1)
             rows, across = piece.slices(band)
-            strip[:, rows, across] = composite(root, level, piece, piece_reader(piece))
+            strip[:, rows, across] = composite(root, level, piece, piece_reader(piece, evaluated.planes))
         yield strip
 
 
@@ -113,13 +116,13 @@ def check_cancelled(cancelled: Stop) -> None:
         raise Cancelled
 
 
-def piece_reader(piece: Rect) -> Read:
+def piece_reader(piece: Rect, evaluate: Read = layer_planes) -> Read:
     """Returns what evaluates each layer once for a whole piece, and hands out its blocks."""
     known: dict[int, np.ndarray | None] = {}
 
     def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         if layer.id not in known:
-            known[layer.id] = layer_planes(layer, level, piece)
+            known[layer.id] = evaluate(layer, level, piece)
         planes = known[layer.id]
         if planes is None:
             return None
@@ -127,6 +130,28 @@ def piece_reader(piece: Rect) -> Read:
         return planes[:, rows, columns]
 
     return read
+
+
+class _Evaluated:
+    """Evaluates the pieces of a `frame` of one level; what they have in common, the coarser levels, once.
+
+    `held`: pixels of a layer's level up to which it is held as a whole.
+    """
+
+    def __init__(self, level: int, frame: Rect, held: int) -> None:
+        self._needed, self._held = {level: frame.evened()}, held
+        self._cascades: dict[int, Cascade] = {}
+
+    def planes(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        """Returns a layer's pixels of a piece, as `layer_planes`."""
+        if layer.pyramid.bare is not None:
+            return layer_planes(layer, level, rect)
+        cascade = self._cascades.get(layer.id)
+        if cascade is None:
+            cascade = self._cascades[layer.id] = Cascade(layer.pyramid, self._needed, self._held, level)
+        around = rect.evened()
+        found = cascade.at(level, around)
+        return covered(None if found is None else found.rgba[:, *rect.slices(around)], layer.growth, level, rect)
 
 
 def reach(layer: Layer, level: int, frame: Rect) -> Rect:

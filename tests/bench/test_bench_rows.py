@@ -19,6 +19,7 @@ QUICK = (
     "matching",
     "example",
     "stroke",
+    "exporting",
     "memory",
 )  # the others open windows and other programs
 

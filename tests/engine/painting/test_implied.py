@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.archive import implied, implied_kernels, opening
-from engine.archive.cascade import Cascade
 from engine.archive.grounds import with_tiles
 from engine.archive.implied import needed, ordered, restored, without
 from engine.archive.manifest import FORMAT
@@ -22,6 +21,7 @@ from engine.canvas.layers import layers
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import expand
+from engine.painting.cascade import Cascade
 from engine.painting.commands import parse
 from engine.painting.rendering import folded_layers
 from engine.session.apply import Painting, apply

@@ -18,13 +18,17 @@ Held = tuple[Rect, Planes | None]
 
 class Cascade:
     """`needed`: the even rectangle of each level within which values will be asked for.  Safe for several threads.
-    `inked`: whether any ink lies in the pyramid.
+    `inked`: whether any ink lies in the pyramid.  `held`: pixels of a level up to which it is held as a whole.
+    `shown`: the one level whose colours are asked for; ink that adds no texture down to it is left out.
 
     A level is evaluated when a finer one is, at the latest, and must not change after that.
     """
 
-    def __init__(self, pyramid: Pyramid, needed: Mapping[int, Rect]) -> None:
+    def __init__(
+        self, pyramid: Pyramid, needed: Mapping[int, Rect], held: int = SMALL, shown: int | None = None
+    ) -> None:
         self.pyramid = pyramid
+        self._most, self._shown = held, shown
         self.inked = any(record.inks for _, record in pyramid.all_records())
         self._coarsest = pyramid.coarsest if pyramid.coarsest is not None else 0
         self._rects = dict(needed)
@@ -46,7 +50,7 @@ class Cascade:
         with self._lock:
             for k in range(self._next, level + 1):
                 rect = self._rects.get(k)
-                if rect is not None and rect.area <= SMALL:
+                if rect is not None and rect.area <= self._most:
                     self._held[k] = rect, self._at(k, rect)
                 self._held.pop(k - _KEPT, None)
             self._next = max(self._next, level + 1)
@@ -62,6 +66,6 @@ class Cascade:
             above = None
         at, value = above if above is not None else (rects[-1].parents(), None)
         for k, inner in zip(range(level - len(rects) + 1, level + 1), reversed(rects), strict=True):
-            value = step(self.pyramid, value, at, k, inner)
+            value = step(self.pyramid, value, at, k, inner, self._shown)
             at = inner
         return value
