@@ -14,11 +14,11 @@ LIST_WIDTH, LIST_HEIGHT = 44.0, 0.6  # of the list: ems; part of the window's he
 _LIST = "notices"
 
 
-def count_button(desk: Desk, right: float) -> float:
+def count_button(desk: Desk, right: float, least: int = 1) -> float:
     """Draws a button at the end of the free part of the line, which opens the list; returns where that part ends now.
-    Nothing, if there are no notices."""
+    Nothing, if there are fewer notices than `least`."""
     count = len(desk.notices.rows)
-    if count:
+    if count >= least:
         label = f"{icons.WARNING} {count} note{'s' if count > 1 else ''}"
         right -= imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x
         imgui.same_line(right)

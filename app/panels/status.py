@@ -17,6 +17,7 @@ from app.tools import TOOLS
 from engine.studio.results import Opening
 
 _LEVEL = "The level of detail shown and painted on; each level is twice as fine.  Click to type or copy a place"
+_NARROW = 70.0  # ems of a line in which a notice needs the room of what can wait
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
 
 
@@ -25,7 +26,8 @@ def draw(desk: Desk, pointer_name: str) -> None:
     left = imgui.get_cursor_pos_x()
     right = imgui.get_window_width() - imgui.get_style().window_padding.x
     imgui.dummy(ImVec2(0, 0))
-    for label, hint, fixed, action in reversed(_fields(desk, pointer_name)):
+    crowded = bool(desk.notices.rows) and imgui.get_window_width() < _NARROW * imgui.get_font_size()
+    for label, hint, fixed, action in reversed(_fields(desk, pointer_name, crowded)):
         width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())
         right -= width
         imgui.same_line(right)
@@ -38,7 +40,7 @@ def draw(desk: Desk, pointer_name: str) -> None:
                 perform(desk, ACTIONS[action])
         w.tooltip(hint)
         right -= 1.4 * imgui.get_font_size()
-    right = notice_line.count_button(desk, right)
+    right = notice_line.count_button(desk, right, 2 if crowded else 1)
     imgui.same_line(left)
     _left(desk, right)
 
@@ -142,12 +144,13 @@ def _work(desk: Desk) -> str:
     return f"{desk.known.pending} tiles to do" if desk.known.pending else ""
 
 
-def _fields(desk: Desk, pointer_name: str) -> list[tuple[str, str, float, str]]:
-    """(text, hint, least width in ems, what a click does), left to right."""
-    view = desk.view
+def _fields(desk: Desk, pointer_name: str, crowded: bool) -> list[tuple[str, str, float, str]]:
+    """(text, hint, least width in ems, what a click does), left to right; `crowded`: as little as will do."""
+    view, work = desk.view, _work(desk)
+    hint = "What is still being computed, or written; you can go on painting"
     out = [
-        (_work(desk), "What is still being computed, or written; you can go on painting", 6.0, ""),
-        (pointer_name, "The device that last moved the pointer", 0.0, ""),
+        (icons.WAIT, f"{work}.  {hint}", 0.0, "") if crowded and work else (work, hint, 6.0, ""),
+        ("" if crowded else pointer_name, "The device that last moved the pointer", 0.0, ""),
     ]
     if view.angle or view.mirrored:
         turned = f"{math.degrees(view.angle):.0f}°" if view.angle else ""

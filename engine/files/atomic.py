@@ -172,4 +172,6 @@ def sync_folder(folder: Path) -> None:
 
 
 def _reason(error: Exception) -> str:
+    if isinstance(error, FileNotFoundError):
+        return "there is no such folder"
     return getattr(error, "strerror", None) or str(error)

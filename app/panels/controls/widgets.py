@@ -353,8 +353,10 @@ def picture(shown: Any, size: tuple[float, float], hint: str, tile: float = 0.0,
 def lit_button(label: str, hint: str, on: bool, width: float = 0.0) -> bool:
     """Returns a button with a text, lit while `on`."""
     imgui.push_style_color(Col.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
+    if on:
+        imgui.push_style_color(Col.button_hovered, theme.vec(theme.ACCENT_SOFT))
     pressed = text_button(label, hint, width=width)
-    imgui.pop_style_color()
+    imgui.pop_style_color(1 + on)
     return pressed
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app import theme
+from app import icons, theme
 from app.desk.asked import FILM_SIZES, film_wish, fitted_frame
 from app.desk.desk import Desk
 from app.desk.places import going
@@ -42,14 +42,15 @@ class FilmDialog:
         replays = film.kind != "flight"
         imgui.begin_disabled(not replays)
         _, film.brush = w.tick("Brush", film.brush, "Show a ring where the brush is")
-        imgui.same_line()
+        imgui.same_line(0, em)
         _, film.undone = w.tick("What was undone", film.undone, "Show what was taken back, and how it is")
-        imgui.same_line()
+        imgui.same_line(0, em)
         _, film.by_clock = w.tick("By the clock", film.by_clock, "As fast as it was painted; else all strokes alike")
         imgui.end_disabled()
         length = desk.known.film_length
         fault = length.fault if replays else ""
-        told = fault or f"{length.seconds:.3g} s, {length.frames:,} frames"
+        long = f"{length.seconds:.3g} s, {length.frames:,} frames" if length.frames else f"{icons.WAIT} counting…"
+        told = fault or long
         imgui.push_text_wrap_pos(em * (_WIDE + 1))
         imgui.text_colored(theme.vec(theme.WARN if fault else theme.QUIET), told)
         imgui.pop_text_wrap_pos()

@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import actions, icons, theme
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
+from app.panels.controls.fitting import ended
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow, Ready
@@ -128,7 +129,8 @@ class LayersPanel:
         imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))
         imgui.push_style_var(imgui.StyleVar_.selectable_text_align, ImVec2(0.0, 0.5))
         flags = imgui.SelectableFlags_.allow_double_click
-        if imgui.selectable(f"{row.name}{signs}###name", active, flags, ImVec2(0, imgui.get_frame_height()))[0]:
+        shown = ended(row.name, imgui.get_content_region_avail().x - imgui.calc_text_size(signs).x)
+        if imgui.selectable(f"{shown}{signs}###name", active, flags, ImVec2(0, imgui.get_frame_height()))[0]:
             if imgui.is_mouse_double_clicked(0):
                 self._editing, self._text, self._focus = row.name, row.name, True
             elif not active:
@@ -139,7 +141,8 @@ class LayersPanel:
         self._drag(desk, row)
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
         blend = dict(blend_titles(desk.known.tables)).get(row.blend, row.blend)
-        w.tooltip(f"{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
+        whole = f"{row.name}\n" if shown != row.name else ""
+        w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:
         imgui.set_next_item_width(-1)

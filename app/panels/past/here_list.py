@@ -13,6 +13,7 @@ from app.desk.desk import Desk
 from app.desk.hand import LARGEST, SMALLEST
 from app.desk.past.past_state import brush_name, when
 from app.panels.controls import widgets as w
+from app.panels.controls.fitting import ended
 from app.panels.past import step_card
 from app.panels.past.step_card import Look
 from engine.studio.past.past_records import HereStroke
@@ -57,7 +58,9 @@ class HereList:
         name = brush_name(brush, desk.known.presets)
         imgui.text_unformatted(name)
         w.named(f"brush {n}: {name}")
-        imgui.text_disabled(_about(stroke))
+        about = _about(stroke)
+        imgui.text_disabled(ended(about, imgui.get_content_region_avail().x))
+        w.tooltip(about)
         if w.text_button(f"Use this brush##{n}", "Take the brush, with its size and colour"):
             use_brush(desk, stroke)
         imgui.same_line()
@@ -72,8 +75,8 @@ class HereList:
 def _about(stroke: HereStroke) -> str:
     """Returns a line about a stroke: when, how much of it shows, where, with which textures."""
     step = stroke.step
-    told = [f"step {step.number}", when(step.time, datetime.now()), f"{stroke.share:.0%} shows", f"on {stroke.layer}"]
-    told += [f"level {step.level}", ", ".join(stroke.textures), f"seed {stroke.seed}" if stroke.textures else ""]
+    told = [f"step {step.number}", when(step.time, datetime.now()), f"{stroke.share:.0%} shows", f"level {step.level}"]
+    told += [f"on {stroke.layer}", ", ".join(stroke.textures), f"seed {stroke.seed}" if stroke.textures else ""]
     return "  ·  ".join(part for part in told if part)
 
 

@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.panels.controls import widgets as w
+from app.panels.controls.fitting import ended
 
 WIDE, TALL = 96.0, 72.0  # points of the picture
 _GAP = 4.0
@@ -57,7 +58,7 @@ def draw(name: str, picture: object | None, lines: tuple[str, ...], look: Look, 
     for n, text in enumerate(lines):
         colour = theme.TEXT if n == 0 else theme.QUIET
         y = edge.y + 0.5 * gap + n * imgui.get_text_line_height()
-        painter.add_text(ImVec2(at.x, round(y)), theme.packed(colour, max(strength, 0.5)), text)
+        painter.add_text(ImVec2(at.x, round(y)), theme.packed(colour, max(strength, 0.5)), ended(text, WIDE * scale))
     painter.pop_clip_rect()
     return "left" if pressed else "right" if right else ""
 

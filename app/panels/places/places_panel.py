@@ -10,6 +10,7 @@ from app.desk.desk import Desk
 from app.desk.examples.following import Following
 from app.desk.places import going
 from app.panels.controls import widgets as w
+from app.panels.controls.fitting import ended
 from app.panels.panel import Panel
 from app.panels.places.paint_map import PaintMapView
 from engine.painting.commands import RemoveBookmark, RenameBookmark
@@ -137,7 +138,7 @@ class PlacesPanel(Panel):
 
     def _name(self, desk: Desk, mark: Bookmark, wide: float) -> None:
         flags = imgui.SelectableFlags_.allow_double_click
-        chosen = imgui.selectable(f"{_short(mark.name, wide)}###name", False, flags, ImVec2(wide, 0))[0]
+        chosen = imgui.selectable(f"{ended(mark.name, wide)}###name", False, flags, ImVec2(wide, 0))[0]
         if chosen and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             self._edit(mark)
         w.named(mark.name)
@@ -172,15 +173,6 @@ def _add_card(desk: Desk, size: tuple[float, float], first: bool) -> None:
     w.tooltip(tip("bookmark"))
     if pressed:
         perform(desk, action)
-
-
-def _short(name: str, wide: float) -> str:
-    """Returns a name as far as there is room for it."""
-    if imgui.calc_text_size(name).x <= wide:
-        return name
-    while name and imgui.calc_text_size(f"{name}…").x > wide:
-        name = name[:-1]
-    return f"{name}…"
 
 
 def _mapped(desk: Desk, found: PaintMap, _now: float) -> None:

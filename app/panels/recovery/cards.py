@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 _WIDTH, _PICTURE, _PAD = 43.0, 8.2, 0.8  # of a card, of its picture, around both; ems
 _GAP = 0.55  # ems from a card to the next
 _IN_SIGHT = 3.45  # cards: part of the next one shows that there are more
+_AROUND = 12.0  # ems of a window that the dialog takes above and below the cards
 _NAME = 1.25  # a name's size, in that of all other text
 _CARD, _SPENT = (0.195,) * 3, (0.155,) * 3  # greys of a card, and of one that is dealt with
+_DAMAGED = "Part of what was done last is missing"
 _BUTTONS = {"Open": 5.6, "Keep for later": 8.6, "Discard": 6.0}  # widths, ems
 
 
@@ -57,7 +59,9 @@ class Cards:
     def _list(self, desk: Desk, em: float) -> bool:
         """Draws the cards; tells whether one of them is opened."""
         tall, gap = em * (_PICTURE + 2 * _PAD), em * _GAP
-        shown = min(float(len(self._entries)), _IN_SIGHT)
+        around = em * (_AROUND if self._entries else 0.0)
+        fitting = max((imgui.get_main_viewport().work_size.y - around + gap) / (tall + gap), 1.0)
+        shown = min(float(len(self._entries)), _IN_SIGHT, fitting)
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(imgui.get_style().item_spacing.x, gap))
         imgui.begin_child("cards", ImVec2(em * _WIDTH, shown * (tall + gap) - gap))
         opened = None
@@ -106,14 +110,12 @@ class Cards:
         imgui.text_unformatted(f"{when_text(entry.when, time.time())}")
         imgui.text_disabled(made_text(entry.strokes, entry.seconds))
         wrong = [f"Missing: {fault}" for fault in entry.faults]
-        if entry.ident in self._crashed:
-            wrong.insert(0, "Inkfall crashed")
-        if wrong:
-            more = f"  (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
-            imgui.text_colored(theme.vec(theme.WARN), f"{icons.WARNING}  {wrong[0]}{more}")
+        told = [*(["Inkfall crashed"] if entry.ident in self._crashed else []), *([_DAMAGED] if wrong else [])]
+        if told:
+            imgui.text_colored(theme.vec(theme.WARN), f"{icons.WARNING}  {'; '.join(told)}")
             w.named(f"fault of {entry.name}")
-            told = f"\n{log_file()} tells more of the crash" if entry.ident in self._crashed else ""
-            w.tooltip("\n".join(wrong) + told)
+            crash = [f"{log_file()} tells more of the crash"] if entry.ident in self._crashed else []
+            w.tooltip("\n".join([*wrong, *crash]))
         if entry.path is not None:
             imgui.text_disabled(_shortened(f"of {_home(entry.path)}", em * (_WIDTH - _PICTURE - 4.5)))
             w.tooltip(f"{entry.path} stays as it is")
