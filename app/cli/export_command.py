@@ -41,6 +41,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Carries the command out; returns the exit status."""
+    options.out = options.out.rstrip(os.sep) or options.out  # a folder's name may be completed with one
     ending = checked_output(options.out, ENDINGS, MANY_FILES[:1]) or ""
     _check(options, ending)
     if os.path.exists(options.out) and os.path.samefile(options.painting, options.out):

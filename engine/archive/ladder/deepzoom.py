@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
+import re
 import threading
 from pathlib import Path
 
@@ -77,10 +78,5 @@ def _page(files: str, ladder: Ladder) -> str:
     width, height = ladder.rungs[0].size
     rungs = [{"size": rung.size, "at": ladder.offset(rung)} for rung in ladder.rungs]
     told = {"files": files, "size": (width, height), "tile": DZI_TILE, "overlap": OVERLAP, "rungs": rungs}
-    text = json.dumps(told).replace("<", "\\u003c")
-    return (
-        _PAGE.read_text("utf-8")
-        .replace("$MARK", MARK)
-        .replace("$NAME", html.escape(ladder.name))
-        .replace("$TOLD", text)
-    )
+    texts = {"MARK": MARK, "NAME": html.escape(ladder.name), "TOLD": json.dumps(told).replace("<", "\\u003c")}
+    return re.sub(r"\$(MARK|NAME|TOLD)", lambda place: texts[place[1]], _PAGE.read_text("utf-8"))

@@ -104,7 +104,7 @@ def test_a_zarr_holds_every_level_as_the_painting_has_it(painting, tmp_path, lev
 
 @pytest.mark.parametrize(("level", "rect"), [(0, None), (1, ODD)])
 def test_deepzoom_is_read_by_what_it_says_of_itself(painting, tmp_path, level, rect):
-    path = tmp_path / "a b.dzi"
+    path = tmp_path / "a $TOLD<b>.dzi"
     picture = Picture(painting, level, rect)
     write_folder(path, picture)
     ladder = ladder_files.ladder_of(path, picture, ladder_files.FOLDERS[".dzi"])
@@ -113,12 +113,13 @@ def test_deepzoom_is_read_by_what_it_says_of_itself(painting, tmp_path, level, r
     assert len(found) == len(pictures)
     for one, other in zip(found, pictures, strict=True):
         assert np.array_equal(one, other)
-    page = (tmp_path / "a b.html").read_text()
+    page = path.with_suffix(".html").read_text()
     told = json.loads(re.search(r"const told = (.*);\n", page)[1])
-    assert told["files"] == "a b_files"
+    assert told["files"] == "a $TOLD<b>_files"
+    assert "<title>a $TOLD&lt;b&gt;</title>" in page
     assert told["size"] == [picture.area.width, picture.area.height]
     assert [rung["size"] for rung in told["rungs"]] == [[p.shape[1], p.shape[0]] for p in pictures]
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["a b.dzi", "a b.html", "a b_files"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == [f"a $TOLD<b>{end}" for end in (".dzi", ".html", "_files")]
 
 
 @pytest.mark.parametrize("depth", [8, 16])
