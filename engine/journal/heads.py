@@ -50,14 +50,14 @@ def renamed_head(head: Mapping[str, object], name: str) -> Members:
 
 
 def head_again(name: str, path: Path | None, header: Header, folder: Path | None, base: Path | None) -> Members:
-    """Tells of a painting that is in the middle of being made, and in no file: as of a new one, or, if nobody knows how
-    it was made, as of one of a file that lies nowhere but among what is kept, `base`."""
+    """Tells of a painting that is in the middle of being made: as of a new one, or, if nobody knows how it was made, as
+    of one of a file that lies nowhere but among what is kept, `base`."""
     told = head_of_new(header, name, folder)
     if base is not None:
         stays = os.path.join(folder or base.parent, base.name)
         about = {"file": stays, "size": os.path.getsize(base), "changed": 0, "header": header.to_json()}
         told = _head(name, None, about)
-    return {**told, "path": None if path is None else os.path.abspath(path), "unsaved": True}
+    return {**told, "path": None if path is None else os.path.abspath(path)}
 
 
 def header_of(base: Mapping[str, object]) -> Header:

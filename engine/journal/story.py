@@ -6,7 +6,7 @@ Whatever is torn, damaged or not understood ends the story there; what came befo
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -274,11 +274,16 @@ def glance(folder: Path) -> Glance:
     return Glance(
         story.head,
         strokes + sum(what.startswith(_STROKE) for what in stays),
-        sum(min(max(b - a, 0.0), PAUSE) for a, b in pairwise(clocks)),
+        spent(clocks) + (float(before) if isinstance(before := story.head.get("seconds"), int | float) else 0.0),
         max(clocks, default=0.0),
         bool(stays) or (type(saved) is int and held > saved),
         tuple(story.faults),
     )
+
+
+def spent(clocks: Sequence[float]) -> float:
+    """Returns the seconds that were spent painting, by when things were asked for."""
+    return sum(min(max(b - a, 0.0), PAUSE) for a, b in pairwise(clocks))
 
 
 def _what(frame: Frame) -> bytes:

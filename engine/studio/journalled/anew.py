@@ -21,11 +21,13 @@ from engine.journal.entries import new_entry
 from engine.journal.heads import head_again
 from engine.journal.kept import keep_painting, keep_source
 from engine.journal.records import Kind, Members, told_command
+from engine.journal.story import spent
 from engine.journal.volume import Continued, Volume
 from engine.journal.writing import RETRY
 from engine.painting import commands as c
 from engine.painting.recording import Header
 from engine.painting.textures import Texture
+from engine.painting.times import time_of
 from engine.painting.value import Painting
 
 Do = Callable[[Callable[[], None]], Future[None] | None]  # has a job done beside the engine's thread
@@ -34,7 +36,8 @@ Do = Callable[[Callable[[], None]], Future[None] | None]  # has a job done besid
 @dataclass(frozen=True, eq=False, slots=True)
 class Past:
     """How the painting on the easel came about.  `path`: its file, `name`: what it is called; `header`, `folder`: of
-    its recording; `base`: what `commands` began with, None for nothing; `textures`: that it has."""
+    its recording; `base`: what `commands` began with, None for nothing; `textures`: that it has; `unsaved`: it is in no
+    file."""
 
     path: Path | None
     name: str
@@ -43,6 +46,7 @@ class Past:
     base: Painting | None
     commands: tuple[c.Command, ...]
     textures: tuple[Texture, ...]
+    unsaved: bool
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -126,7 +130,9 @@ def _made(parent: Path, past: Past) -> Begun:
         for source in (source for texture in past.textures for source in (texture.source, texture.mask)):
             if source is not None:
                 keep_source(folder, source)
+        clocks = [clock for command in past.commands if (clock := time_of(command)) is not None]
         head = head_again(past.name, past.path, past.header, past.folder, base)
+        head |= {"unsaved": past.unsaved, "seconds": spent(clocks)}
         return Begun(head, Continued(folder, lock, 0, -1, tuple(_told(past.commands))), past.commands)
     except BaseException:
         _drop(folder, lock)

@@ -113,7 +113,7 @@ def whole(worker, folder):
     journal = worker._posts.journal
     until(lambda: idle(worker) is not None and journal.settled and not journal.entry.lost)
     until(lambda: not journal.entry._recent)  # no power cut takes any of it
-    until(lambda: len(entries.listed(folder)) == 1)
+    until(lambda: [worker.entry] == list(folder.glob("*")))
 
 
 def then(worker, tmp_path):
@@ -225,6 +225,28 @@ def test_what_is_left_of_a_folder_that_is_removed_in_part_is_not_offered(tmp_pat
     assert strokes(then(worker, tmp_path)[1]) == [*before, 30, 31]
     left(worker)
     assert len(list((tmp_path / "p").iterdir())) == 1
+
+
+def test_what_was_never_painted_on_is_not_offered_and_how_long_it_took_is_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr("engine.journal.writing.LOOK", 0.1)
+    worker = painter(tmp_path / "p")
+    idle(worker)
+    until(lambda: worker.entry is not None)
+    folder = worker.entry
+    removed(tmp_path / "p")
+    until(
+        lambda: idle(worker) is not None and worker.entry not in (None, folder) and not worker._posts.journal.entry.lost
+    )
+    assert entries.listed(tmp_path / "p") == ()
+    for name, clock in (("sky", 1000.0), ("sea", 1030.0), ("land", 5000.0)):  # away after the second
+        worker.post(q.Do(c.AddLayer(name), time=clock))
+    whole(worker, tmp_path / "p")
+    folder = worker.entry
+    removed(tmp_path / "p")
+    until(lambda: worker.entry not in (None, folder))
+    whole(worker, tmp_path / "p")
+    assert 90.0 <= entries.listed(tmp_path / "p")[0].seconds < 150.0
+    left(worker)
 
 
 def test_it_is_seen_though_nobody_paints(tmp_path, monkeypatch):
