@@ -13,9 +13,9 @@ import sys
 def main() -> int:
     """Runs the command line; returns the exit status."""
     come_first(os.path.dirname(os.path.abspath(__file__)))
-    from app.__main__ import main as run
+    from app.__main__ import last
 
-    return run()
+    return last()
 
 
 def come_first(folder: str) -> None:

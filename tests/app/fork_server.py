@@ -69,8 +69,7 @@ if __name__ == "__main__":
         "a process with threads cannot be forked"
     )
     gc.collect()
-    gc.freeze()  # what all share stays shared
+    gc.freeze()  # what all share stays shared: no child looks through it, in the end neither
     wanted = serve()
     if wanted is not None:
-        gc.unfreeze()
         become(wanted)

@@ -1,10 +1,12 @@
 """The command line from outside: exit status, one line for what is wrong, nothing half-written."""
 
+import os
 import signal
 import subprocess
+import sys
 import time
 
-from command_line import HEADER, start
+from command_line import HEADER, ROOT, start
 
 from app.__main__ import main
 
@@ -38,6 +40,19 @@ def test_a_full_disk_behind_standard_output_is_one_line(script):
         told = done.communicate(timeout=60)[1]
     assert done.returncode == 1
     assert told.count("\n") == 1
+
+
+def test_a_process_that_ends_looks_through_nothing(tmp_path):
+    """Where the interpreter looks for garbage before it goes: all that was loaded is passed over."""
+    told = "import atexit, gc\natexit.register(lambda: print(len(gc.get_objects())))\n"
+    (tmp_path / "sitecustomize.py").write_text(told)
+    starts = (["-m", "app"], ["-c", "import inkfall_start; inkfall_start.main()"])
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (tmp_path, ROOT, ROOT / "app")))}
+    for words in starts:
+        done = subprocess.run([sys.executable, *words, "--version"], env=environment, capture_output=True, text=True)
+        version, left = done.stdout.split("\n", 1)
+        assert version.startswith("inkfall ")
+        assert int(left) < 1000
 
 
 def test_a_damaged_cache_of_kernels_is_cleared(tmp_path):
