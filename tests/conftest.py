@@ -2,6 +2,7 @@
 no test passes while a fault of the program is told, unless it takes the fault away."""
 
 import atexit
+import gc
 import logging
 import os
 import shutil
@@ -13,6 +14,7 @@ import pytest
 os.environ["INKFALL_CHECK_THREADS"] = "1"  # before any module of the program is loaded
 _OWN = tempfile.mkdtemp(prefix="inkfall-tests-")  # what is kept, and preferred, is not that of whoever runs the tests
 atexit.register(shutil.rmtree, _OWN, ignore_errors=True)
+gc.disable()  # until all is collected, which is a quarter of that time; nothing of it is garbage
 for _number in (signal.SIGINT, getattr(signal, "SIGHUP", signal.SIGINT)):
     if signal.getsignal(_number) is signal.SIG_IGN:  # in the background of a shell, and under nohup
         signal.signal(_number, lambda *_: None)  # so what tests start does hear it
@@ -26,6 +28,12 @@ def pytest_collection_modifyitems(items):
         if item.get_closest_marker("nightly") and not item.get_closest_marker("timeout"):
             item.add_marker(pytest.mark.timeout(3600))
     items.sort(key=lambda item: item.get_closest_marker("window") is None)
+
+
+def pytest_collection_finish():
+    """What is loaded now stays, and need not be looked through again and again."""
+    gc.freeze()
+    gc.enable()
 
 
 class _Kept(logging.Handler):
