@@ -144,7 +144,7 @@ def _work(desk: Desk) -> str:
     return f"{desk.known.pending} tiles to do" if desk.known.pending else ""
 
 
-def _fields(desk: Desk, pointer_name: str, crowded: bool) -> list[tuple[str, str, float, str]]:
+def _fields(desk: Desk, pointer_name: str, crowded: bool = False) -> list[tuple[str, str, float, str]]:
     """(text, hint, least width in ems, what a click does), left to right; `crowded`: as little as will do."""
     view, work = desk.view, _work(desk)
     hint = "What is still being computed, or written; you can go on painting"
