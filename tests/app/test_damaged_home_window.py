@@ -10,6 +10,7 @@ import shutil
 
 import pytest
 from damaged_home import damage, damaged_cache, make_home
+from driven import REST
 
 from engine.archive.opening import open_painting
 from engine.painting import commands as c
@@ -42,6 +43,8 @@ def starts(program, folder, **how):
     if "cards: 0" not in app.log.read_text():
         app.keys("Escape")
         app.until_gone("Open")
+    app.park()
+    app.until_rest(REST)
     app.stroke((500, 400), (620, 430), (560, 520))
     app.wait_for("a stroke is posted")
     app.save_as(folder / "saved.ora")
