@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+import engine
 from app.__main__ import main
 from bench import BENCHES, Figure, Skipped
 from bench.clock import best, copying
@@ -36,6 +37,7 @@ def checked(row):
 
 
 def test_quick_benchmarks_run_and_tell_their_rows(capsys, tmp_path):
+    assert engine.__file__  # its import says where kernels are kept
     file, environment = tmp_path / "ratios.json", dict(os.environ)
     assert main(["bench", *QUICK, "--small", "--json", "--store", str(file)]) == 0
     assert os.environ == environment  # what is started after it is started as before
