@@ -43,7 +43,7 @@ def starts(program, folder, **how):
     if "cards: 0" not in app.log.read_text():
         app.keys("Escape")
         app.until_gone("Open")
-    app.park()
+    app.move_to(REST)
     app.until_rest(REST)
     app.stroke((500, 400), (620, 430), (560, 520))
     app.wait_for("a stroke is posted")
