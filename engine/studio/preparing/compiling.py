@@ -60,6 +60,8 @@ def main(niceness: int) -> None:
     os.dup2(2, 1)  # nothing that is printed gets between the lines
     post = Post(os.fdopen(os.dup(0), encoding="utf-8"), target)
 
+    from engine.checks.field_error import FieldError
+    from engine.files.fault import FileError
     from engine.kernel_cache import Watch, watched
     from engine.studio.preparing import exercise
 
@@ -71,6 +73,8 @@ def main(niceness: int) -> None:
                 exercise.run(job)
         except Elsewhere as error:
             post.tell(done=True, blocked=str(error))
+        except (FieldError, FileError) as error:  # a brush of the artist's own that names what is not there
+            post.tell(done=True, fault=str(error))
         except Exception:
             post.tell(done=True, fault=traceback.format_exc(limit=-3))
         else:
