@@ -2,7 +2,8 @@
 
 The tree is flattened once to a list of steps; then each block of `BLOCK` x `BLOCK` pixels runs through all of them
 while it stays in the processor's cache.  Blocks lie on the grid of tiles, so a reader that keeps tiles hands them out
-without a copy.  A block is read from the top layer down, and reading stops at a layer that hides all below it.
+without a copy.  A rectangle no larger than a tile of the screen is one block, and is drawn where it is wanted.  A block
+is read from the top layer down, and reading stops at a layer that hides all below it.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
 
 BLOCK = TILE
+AT_ONCE = 4 * BLOCK * BLOCK  # pixels of a rectangle up to which it is one block
 
 
 class Read(Protocol):
@@ -86,6 +88,10 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     given."""
     if out is None:
         out = np.empty((4, rect.height, rect.width), np.float32)
+    if 0 < rect.area <= AT_ONCE and out.flags.c_contiguous:
+        if _draw(_gather(steps(root), level, rect, read), rect.area, [out.reshape(-1)], 0) is None:
+            out[:] = 0
+        return out
     for place, pixels in blocks(root, level, rect, read):
         rows, columns = place.slices(rect)
         out[:, rows, columns] = 0 if pixels is None else pixels
@@ -115,7 +121,7 @@ def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read)
 def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.ndarray | None:
     """Returns the sources composited onto nothing: (4, n) in the buffer of this depth; None if it stayed empty."""
     if depth == len(buffers):
-        buffers.append(np.empty(4 * BLOCK * BLOCK, np.float32))
+        buffers.append(np.empty(4 * max(n, BLOCK * BLOCK), np.float32))
     target = buffers[depth][: 4 * n].reshape(4, n)
     empty, i = True, 0
     while i < len(found):
