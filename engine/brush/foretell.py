@@ -16,6 +16,7 @@ import numpy as np
 
 from engine.brush.mask import Coverage
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.prediction import REACH_CAP, Predictor, fit, noise_at
 from engine.texture.planes import Planes
 
@@ -44,7 +45,9 @@ class Foretold:
         return out
 
 
-def predictor(read: Read, start: tuple[int, int], window: int, reach: int) -> Predictor | None:
+def predictor(
+    read: Read, start: tuple[int, int], window: int, reach: int, arithmetic: int = LIBRARY
+) -> Predictor | None:
     """Fitted to the `window` x `window` pixels around `start`, less the rows and columns at their sides in which there
     is no paint: of 3 channels if all of that is opaque, else of 4.  None if there is no paint at all."""
     paint = _paint(read(Rect.at(start[0] - window // 2, start[1] - window // 2, window, window)))
@@ -52,7 +55,7 @@ def predictor(read: Read, start: tuple[int, int], window: int, reach: int) -> Pr
     if not rows.size:
         return None
     sample = paint[:, rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    return fit(_straight(sample) if float(sample[_ALPHA].min()) >= _OPAQUE else sample, reach)
+    return fit(_straight(sample) if float(sample[_ALPHA].min()) >= _OPAQUE else sample, reach, arithmetic)
 
 
 def foretell(coverage: Coverage, read: Read, found: Predictor, seed: int) -> Foretold:

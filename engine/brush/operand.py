@@ -68,7 +68,8 @@ class Operating(Covered):
         memo = self.scene.memo
         if "predictor" not in memo:
             window, reach = (round(self.op.parameters[name]) for name in ("window", "reach"))
-            memo["predictor"] = predictor(self.read, self.scene.start, window, reach)
+            about = self.scene.start, window, reach, self.scene.arithmetic
+            memo["predictor"] = predictor(self.read, *about)
         found = memo["predictor"]
         return None if found is None else foretell(self.coverage, self.read, found, self.scene.seed)
 

@@ -81,7 +81,7 @@ def of_photograph(members: Fields, place: PictureSource) -> Sample:
     planes = flattened(place.picture(members))
     window = members.integer("window", None, lo=1, hi=impulse.LARGEST)
     if window is None:
-        window = impulse.suggested_window(planes)
+        window = impulse.suggested_window(planes, place.arithmetic)
     average = members.integer("average", 4, lo=1, hi=4096)
     phase = members.take("phase", "window")
     if phase not in impulse.PHASES:

@@ -10,6 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+from engine.numeric.array_functions import array_functions
 from engine.numeric.prediction import Predictor, fit
 from engine.numeric.regions import colour_count, false_colours, packed, region_count
 from engine.numeric.spectra import radial_mean, radial_window
@@ -118,21 +120,36 @@ def power_spectrum(grey: np.ndarray) -> np.ndarray:
     return out
 
 
-def autocorrelation(grey: np.ndarray) -> np.ndarray:
+def autocorrelation(grey: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the correlation of a picture (h, w) with itself, displaced: float64 (h, w), the displacement (0, 0) at
     [h // 2, w // 2], where it is 1; all 0 for a flat picture.
 
     Each displacement's sum is divided by the number of pixels that overlap, so it does not fade with distance.
     """
     height, width = grey.shape
-    values = grey.astype(np.float64) - grey.mean(dtype=np.float64)
-    variance = float((values**2).mean())
+    own = array_functions(arithmetic)
+    values = grey.astype(np.float64) - own.mean(grey, dtype=np.float64)
+    variance = float(own.mean(values**2))
     if variance < 1e-14:
         return np.zeros(grey.shape)
-    padded = np.fft.rfft2(values, (2 * height, 2 * width))
-    sums = np.fft.irfft2(np.abs(padded) ** 2, (2 * height, 2 * width))
+    sums = _correlated(values) if arithmetic == LIBRARY else _correlated_everywhere(values)
     dy = np.arange(height) - height // 2
     dx = np.arange(width) - width // 2
     overlap = (height - np.abs(dy))[:, None] * (width - np.abs(dx))[None]
     out: np.ndarray = sums[dy][:, dx] / overlap / variance
     return out
+
+
+def _correlated(values: np.ndarray) -> np.ndarray:
+    """Returns the sums of the products of a picture (h, w) with itself, displaced, around a circle: (2h, 2w)."""
+    size = 2 * values.shape[0], 2 * values.shape[1]
+    return np.fft.irfft2(np.abs(np.fft.rfft2(values, size)) ** 2, size)
+
+
+def _correlated_everywhere(values: np.ndarray) -> np.ndarray:
+    """As `_correlated`, the same on every processor.  The circle is as long as transforms are fast."""
+    height, width = values.shape
+    own, padded = array_functions(EVERYWHERE), np.zeros([1 << (2 * n - 1).bit_length() for n in values.shape])
+    padded[:height, :width] = values
+    found = own.fft2(padded)
+    return own.ifft2(np.square(found.real) + np.square(found.imag)).real

@@ -1,15 +1,16 @@
 """The functions of whole arrays that each arithmetic has: elementary ones, Fourier transforms, products of complex
-numbers."""
+numbers, sums."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from engine.numeric import elementary, fourier
+from engine.numeric import elementary, fourier, sums
 from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 from engine.numeric.functions import Functions, functions
 
@@ -21,7 +22,8 @@ _OfTwo = Callable[[np.ndarray, np.ndarray], np.ndarray]
 class ArrayFunctions:
     """`powers`: of what is at least 0; `distance` of (x, y) from (0, 0); `turned`: complex numbers, or real ones, times
     others of the size 1; `size`, `angle`: of complex numbers; `waves`: e^(i x); `fft2`, `ifft2`: along the
-    last two axes; `single`: functions of single floats."""
+    last two axes; `total`, `mean`: with `axis`, `dtype` and `keepdims` by name, as NumPy's, ours worked out in float64
+    whatever the `dtype`; `single`: functions of single floats."""
 
     single: Functions
     exp: _OfOne
@@ -40,6 +42,8 @@ class ArrayFunctions:
     turned: _OfTwo
     fft2: _OfOne
     ifft2: _OfOne
+    total: Callable[..., Any]
+    mean: Callable[..., Any]
 
 
 def _library_waves(angles: np.ndarray) -> np.ndarray:
@@ -94,6 +98,8 @@ _ROWS = {
         np.multiply,
         partial(np.fft.fft2, axes=_AXES),
         partial(np.fft.ifft2, axes=_AXES),
+        np.sum,
+        np.mean,
     ),
     EVERYWHERE: ArrayFunctions(
         functions(EVERYWHERE),
@@ -113,6 +119,8 @@ _ROWS = {
         _turned,
         fourier.fft2,
         fourier.ifft2,
+        sums.total,
+        sums.mean,
     ),
 }
 

@@ -23,15 +23,16 @@ _TAPER = 0.25  # of each side of a piece that fades
 _GOLDEN = (0.7548776662466927, 0.5698402909980532)  # Roberts 2018: the most even sequence of points in a square
 
 
-def suggested_window(planes: np.ndarray) -> int:
+def suggested_window(planes: np.ndarray, arithmetic: int = LIBRARY) -> int:
     """Returns a window that holds the lowest frequencies of a picture (c, h, w), from its autocorrelation: eight times
     the distance at which that is gone, since the radial window leaves the middle half of it; no more than USUAL, nor
     than the picture's shorter side."""
-    grey = middle(np.moveaxis(planes, 0, -1), _LOOKED_AT).mean(axis=-1)
+    own = array_functions(arithmetic)
+    grey = own.mean(middle(np.moveaxis(planes, 0, -1), _LOOKED_AT), axis=-1)
     shorter = min(grey.shape)
-    found = np.abs(autocorrelation(grey))
-    y, x = (np.arange(n) - n // 2 for n in grey.shape)
-    distance = np.rint(np.hypot(y[:, None], x[None])).astype(np.int64)
+    found = np.abs(autocorrelation(grey, arithmetic))
+    y, x = (np.arange(n) - float(n // 2) for n in grey.shape)
+    distance = np.rint(own.distance(y[:, None], x[None])).astype(np.int64)
     inside = distance <= max(1, shorter // 3)
     count = np.bincount(distance[inside])
     near = np.bincount(distance[inside], weights=found[inside]) / np.maximum(count, 1)
@@ -62,7 +63,7 @@ def impulse_response(
     power = np.zeros((len(planes), *size))
     first: np.ndarray | None = None
     for top, left in corners(planes.shape[1:], size, average):
-        found = own.fft2(_levelled(planes[:, top : top + size[0], left : left + size[1]], taper))
+        found = own.fft2(_levelled(planes[:, top : top + size[0], left : left + size[1]], taper, own))
         power += own.size(found) ** 2
         first = found if first is None else first
     assert first is not None
@@ -100,8 +101,8 @@ def _tapered(n: int, own: ArrayFunctions) -> np.ndarray:
     return out
 
 
-def _levelled(piece: np.ndarray, taper: np.ndarray) -> np.ndarray:
+def _levelled(piece: np.ndarray, taper: np.ndarray, own: ArrayFunctions) -> np.ndarray:
     """Returns a piece (c, h, w) under the taper, its mean under it taken off."""
-    means = (piece * taper).sum(axis=(1, 2), keepdims=True) / max(float(taper.sum()), 1e-9)
+    means = own.total(piece * taper, axis=(1, 2), keepdims=True) / max(float(own.total(taper)), 1e-9)
     out: np.ndarray = (piece - means) * taper
     return out

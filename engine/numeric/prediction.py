@@ -15,14 +15,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
 from engine.numeric.hashing import fold_key, hash_plane
 from engine.numeric.kernel import Array, kernel
+from engine.numeric.poles import pole_radius
 
 REACH_CAP = 8
 RADIUS = 0.999  # of the outermost pole, at most
 _RIDGE = 1e-6  # of the sample's variance: what a perfectly regular sample leaves undetermined
 _SHRINK = 0.98
-_FREQUENCIES = 128  # across half a turn, at which the poles are looked for
 _WORD = np.uint64(0xFFFF)
 
 
@@ -111,7 +113,7 @@ class Predictor:
         return out
 
 
-def fit(sample: np.ndarray, reach: int = 3) -> Predictor:
+def fit(sample: np.ndarray, reach: int = 3, arithmetic: int = LIBRARY) -> Predictor:
     """Returns the predictor of a sample (h, w) or (c, h, w), made stable if it is not.
 
     `reach`: 1 to 8 pixels; less is used where the sample has too few pixels to tell the coefficients.  ValueError if
@@ -124,11 +126,11 @@ def fit(sample: np.ndarray, reach: int = 3) -> Predictor:
         raise ValueError(f"prediction: found a reach of {reach}, expected 1 to {REACH_CAP}")
     reach = _affordable(reach, *planes.shape[1:])
     offsets = half_plane(reach)
-    mean = planes.mean(axis=(1, 2), dtype=np.float64)
+    mean = array_functions(arithmetic).mean(planes, axis=(1, 2), dtype=np.float64)
     centred = planes - mean[:, None, None]
     coefficients = np.stack([_least_squares(plane, reach, offsets) for plane in centred])
     fitted = Predictor(planes, reach, offsets, coefficients, mean, np.zeros((len(mean), len(mean))), 0.0, 1.0)
-    return _with_errors(_stabilised(fitted), centred)
+    return _with_errors(_stabilised(fitted, arithmetic), centred, arithmetic)
 
 
 def half_plane(reach: int) -> np.ndarray:
@@ -246,7 +248,7 @@ def _least_squares(plane: np.ndarray, reach: int, offsets: np.ndarray) -> np.nda
     return out
 
 
-def _stabilised(fitted: Predictor) -> Predictor:
+def _stabilised(fitted: Predictor, arithmetic: int) -> Predictor:
     """Returns the same with coefficients shrunk by a power of their distance, as the poles of speech filters are
     widened, until the outermost pole lies within RADIUS."""
     if not fitted.reach:
@@ -255,40 +257,16 @@ def _stabilised(fitted: Predictor) -> Predictor:
     shrunk = 1.0
     while True:
         coefficients = fitted.coefficients * shrunk**distance
-        radius = max(pole_radius(fitted.reach, fitted.offsets, taps) for taps in coefficients)
+        radius = max(pole_radius(fitted.reach, fitted.offsets, taps, arithmetic) for taps in coefficients)
         if radius <= RADIUS:
             return replace(fitted, coefficients=coefficients, radius=radius, shrunk=shrunk)
         shrunk *= _SHRINK
 
 
-def pole_radius(reach: int, offsets: np.ndarray, taps: np.ndarray) -> float:
-    """Tells how far out the outermost pole lies; the filter is stable if that is less than 1.
-
-    Ekstrom & Woods 1976: along its own row the filter must be stable, and down the rows for every frequency across.
-    """
-    table = np.zeros((reach + 1, 2 * reach + 1))  # [-dy, dx + reach]
-    table[-offsets[:, 0], offsets[:, 1] + reach] = taps
-    along = _outermost(table[0, reach - 1 :: -1][None].astype(complex))
-    angles = np.pi * np.arange(_FREQUENCIES + 1) / _FREQUENCIES
-    waves = np.exp(1j * angles[:, None] * np.arange(-reach, reach + 1))
-    rows = (waves[:, None, :] * table).sum(axis=2)  # (frequencies, reach + 1)
-    lead = 1.0 - rows[:, :1]
-    return max(along, _outermost(rows[:, 1:] / np.where(np.abs(lead) > 1e-9, lead, 1e-9)))
-
-
-def _outermost(taps: np.ndarray) -> float:
-    """Returns the largest |z| with z^n = sum of taps_k z^(n - k), over rows of complex (m, n)."""
-    n = taps.shape[1]
-    companion = np.zeros((len(taps), n, n), complex)
-    companion[:, 0] = taps
-    companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
-    return float(np.abs(np.linalg.eigvals(companion)).max())
-
-
-def _with_errors(fitted: Predictor, centred: np.ndarray) -> Predictor:
+def _with_errors(fitted: Predictor, centred: np.ndarray, arithmetic: int) -> Predictor:
     errors = _shifted(centred, fitted.reach, 0, 0).copy()
     for (dy, dx), taps in zip(fitted.offsets, fitted.coefficients.T, strict=True):
         errors -= _shifted(centred, fitted.reach, dy, dx) * taps[:, None, None]
-    channels = range(len(errors))
-    covariance = np.array([[(errors[i] * errors[j]).mean() for j in channels] for i in channels])
+    channels, mean = range(len(errors)), array_functions(arithmetic).mean
+    covariance = np.array([[float(mean(errors[i] * errors[j])) for j in channels] for i in channels])
     return replace(fitted, mixing=_cholesky(covariance))

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.numeric.analysis import Analysis, autocorrelation, brightness, power_spectrum
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 
 
 def picture(grey: np.ndarray) -> np.ndarray:
@@ -33,11 +34,11 @@ def test_the_autocorrelation_of_a_wave_is_the_wave():
     assert found[0, 56] == pytest.approx(1.0, abs=0.05)
 
 
-@given(st.integers(1, 7), st.integers(1, 8), st.integers(0, 99))
-@settings(deadline=None, max_examples=30)
-def test_the_autocorrelation_is_what_its_definition_says(height, width, seed):
+@given(st.integers(1, 7), st.integers(1, 8), st.integers(0, 99), st.sampled_from([LIBRARY, EVERYWHERE]))
+@settings(deadline=None, max_examples=40)
+def test_the_autocorrelation_is_what_its_definition_says(height, width, seed, arithmetic):
     grey = np.random.default_rng(seed).random((height, width), np.float32)
-    found = autocorrelation(grey)
+    found = autocorrelation(grey, arithmetic)
     values = grey.astype(float) - grey.astype(float).mean()
     if (values**2).mean() < 1e-14:
         assert not found.any()

@@ -43,6 +43,7 @@ ALLOWED = {
     "numeric.functions": GIVEN,
     "numeric.formula_kernel": GIVEN,
     "numeric.impulse": GIVEN,
+    "numeric.poles": GIVEN,
     "brush.tints": GIVEN,
     "brush.mixture": EXACT,
     "brush.op_targets": EXACT,
@@ -51,6 +52,8 @@ ALLOWED = {
     "numeric.laplacian": ROUNDED,
     "brush.smoothing": HAND,
     "numeric.spectra": SHOWN,
+    "numeric.analysis": SHOWN,
+    "numeric.prediction": SHOWN,
     "numeric.askew": SHOWN,
     "numeric.sheaf": SOLIDS,
     "numeric.directions": SOLIDS,
@@ -65,10 +68,6 @@ ALLOWED = {
     "texture.example.exemplar": OPEN,
     "texture.example.scanline": OPEN,
     "strokes.example_region": OPEN,
-    # the op `predict`: whether a filter is stable, by the eigenvalues of its matrix
-    "numeric.prediction": OPEN,
-    # how wide the window of `impulse` is where nothing is said, by the autocorrelation
-    "numeric.analysis": OPEN,
 }
 
 

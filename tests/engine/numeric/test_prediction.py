@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.numeric.prediction import RADIUS, fit, half_plane, noise_at, pole_radius
+from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+from engine.numeric.poles import pole_radius
+from engine.numeric.prediction import RADIUS, fit, half_plane, noise_at
 
 
 def made(taps: dict[tuple[int, int], float], shape: tuple[int, int], seed: int = 1) -> np.ndarray:
@@ -53,10 +55,33 @@ def test_an_unstable_fit_is_shrunk_and_says_so():
 
 @pytest.mark.parametrize(("value", "stable"), [(0.98, True), (1.02, False)])
 @pytest.mark.parametrize("place", [(0, -1), (-1, 0), (-1, 1), (-2, -1)])
-def test_the_pole_of_a_single_coefficient_is_known(place, value, stable):
+@pytest.mark.parametrize("arithmetic", [LIBRARY, EVERYWHERE])
+def test_the_pole_of_a_single_coefficient_is_known(place, value, stable, arithmetic):
     offsets = half_plane(2)
     taps = np.where((offsets == place).all(axis=1), value, 0.0)
-    assert (pole_radius(2, offsets, taps) < 1.0) == stable
+    assert (pole_radius(2, offsets, taps, arithmetic) < 1.0) == stable
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(1, 8), st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.integers(0, 999))
+def test_poles_are_found_without_eigenvalues(reach, size, gaps, seed):
+    """To the eigenvalues' own error, which grows where poles meet."""
+    offsets, drawn = half_plane(reach), np.random.default_rng(seed)
+    taps = size * drawn.standard_normal(len(offsets)) * (drawn.random(len(offsets)) >= gaps)
+    right = pole_radius(reach, offsets, taps)
+    assert pole_radius(reach, offsets, taps, EVERYWHERE) == pytest.approx(
+        right, rel=1e-7, abs=1e-2 if right < 0.1 else 0
+    )
+
+
+def test_a_filter_is_nearly_the_same_in_both_arithmetics():
+    y, x = np.mgrid[0:24, 0:24]
+    for sample in ((1.2 ** (y + x) * np.cos(x)).astype(np.float32), made(TAPS, (40, 50))):
+        one, other = (fit(sample, 2, arithmetic) for arithmetic in (LIBRARY, EVERYWHERE))
+        assert other.shrunk == one.shrunk
+        assert other.radius == pytest.approx(one.radius, rel=1e-6)
+        assert np.allclose(other.coefficients, one.coefficients, rtol=1e-6)
+        assert np.allclose(other.mixing, one.mixing, rtol=1e-6)
 
 
 def plain(p, values, mask, noise, origin=(0, 0)):

@@ -89,6 +89,7 @@ MADE: dict[str, dict[str, Any]] = {
     ),
     "sparse": texture("sparse", path="colour.png", density=12, quantise=5),
     "impulse": texture("impulse", path="grey.png", window=16, average=5),
+    "impulse-usual": texture("impulse", path="colour.png"),
     "impulse-random": texture("impulse", path="colour.png", phase="random", field="tile"),
     "match": texture("match", path="colour.png", iterations=2, levels=3),
     "match-laplacian": texture("match", path="grey.png", iterations=2, levels=3, pyramid="laplacian"),

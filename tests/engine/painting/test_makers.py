@@ -14,6 +14,7 @@ from engine.canvas.layers import layers
 from engine.files.fault import FileError
 from engine.makers.makers import MAKERS
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import EVERYWHERE
 from engine.numeric.impulse import corners, impulse_response, suggested_window
 from engine.numeric.spectra import SPREAD
 from engine.painting import recording as r
@@ -230,6 +231,8 @@ def test_coarser_textures_get_larger_windows():
     fine, coarse = (noise_of(np.outer(np.hanning(n), np.hanning(n)), (300, 300))[None] for n in (5, 15))
     assert suggested_window(fine) < suggested_window(coarse) <= 128
     assert suggested_window(fine[:, :7, :20]) == 7
+    for picture in (fine, coarse, fine[:, :7, :20]):
+        assert suggested_window(picture, EVERYWHERE) == suggested_window(picture)
     assert suggested_window(np.zeros((1, 1, 1), np.float32)) == 1
 
 
