@@ -94,8 +94,8 @@ def _widened(real: np.ndarray, imaginary: np.ndarray, radius: float) -> float:
 
 @inner
 def _all_inside(real: np.ndarray, imaginary: np.ndarray, radius: float) -> bool:
-    """Tells whether all such z lie within a circle (Schur 1917, Cohn 1922): whether each of the polynomials in z / radius
-    to which the recursion leads has a last coefficient smaller than its first."""
+    """Tells whether all such z lie within a circle (Schur 1917, Cohn 1922): whether each of the polynomials in
+    z / radius to which the recursion leads has a last coefficient smaller than its first."""
     n = real.size - 1
     a, b = np.zeros(n + 1), np.zeros(n + 1)
     a[0], scale = 1.0, 1.0
