@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -42,8 +41,8 @@ class ArrayFunctions:
     turned: _OfTwo
     fft2: _OfOne
     ifft2: _OfOne
-    total: Callable[..., Any]
-    mean: Callable[..., Any]
+    total: Callable[..., np.ndarray]
+    mean: Callable[..., np.ndarray]
 
 
 def _library_waves(angles: np.ndarray) -> np.ndarray:
