@@ -10,23 +10,23 @@ from __future__ import annotations
 import numpy as np
 
 from engine.canvas import kernels
-from engine.canvas.store import Change, Pyramid, Record
+from engine.canvas.store import Attenuation, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand
 
 
 def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     """Returns the record as it is now: every attenuation since it was stored applied, oldest first."""
-    pending = [change for change in pyramid.waiting(record.depth) if change.level < key.level]
+    pending = [waits for waits in pyramid.waiting(record.depth) if waits.change.level < key.level]
     if not pending:
         return record
     data = first = record.data
     at = placed(key, record.rect)
-    for change in reversed(pending):
-        keep = attenuation(change, key.level, at)
+    for waits in reversed(pending):
+        keep = attenuation(waits, key.level, at)
         if keep is not None:
             out = np.empty(data.shape, np.int32)
-            kernels.attenuate(data, keep, change.spares_alpha, out)
+            kernels.attenuate(data, keep, waits.spares_alpha, out)
             data = out
     return record if data is first else Record(record.rect, data, record.inks, pyramid.depth)
 
@@ -37,15 +37,15 @@ def placed(key: TileKey, inner: Rect) -> Rect:
     return Rect(x + inner.x0, y + inner.y0, x + inner.x1, y + inner.y1)
 
 
-def attenuation(change: Change, level: int, rect: Rect) -> np.ndarray | None:
+def attenuation(waits: Attenuation, level: int, rect: Rect) -> np.ndarray | None:
     """Returns a of a stroke carried down to a finer `level`: float32 (h, w) over `rect`, None where it is 1 all
     over."""
-    if not change.reach(level).meets(rect):
+    if not waits.change.reach(level).meets(rect):
         return None
     rects = [rect.evened()]
-    for _ in range(level - change.level):
+    for _ in range(level - waits.change.level):
         rects.append(rects[-1].parents().evened())
-    keep = _base(change, rects[-1])
+    keep = _base(waits, rects[-1])
     for outer, inner in zip(reversed(rects), reversed(rects[:-1]), strict=False):
         first = keep[0, 0]
         if (keep == first).all():
@@ -56,12 +56,11 @@ def attenuation(change: Change, level: int, rect: Rect) -> np.ndarray | None:
     return None if (keep == 1.0).all() else np.ascontiguousarray(keep)
 
 
-def _base(change: Change, rect: Rect) -> np.ndarray:
+def _base(waits: Attenuation, rect: Rect) -> np.ndarray:
     """Returns a at the stroke's own level: 1 outside its tiles."""
     keep = np.ones((rect.height, rect.width), np.float32)
-    assert change.keep is not None
-    for key in rect.tiles(change.level):
-        tile = change.keep.get((key.x, key.y))
+    for key in rect.tiles(waits.change.level):
+        tile = waits.keep.get((key.x, key.y))
         if tile is not None:
             part = key.rect.intersect(rect)
             keep[part.slices(rect)] = tile[part.slices(key.rect)]

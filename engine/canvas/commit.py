@@ -18,7 +18,7 @@ from engine.canvas.fold import fold
 from engine.canvas.front import Around, Patch, climbs, lift, united, widened
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
-from engine.canvas.store import Change, Level, Pyramid, Record
+from engine.canvas.store import Attenuation, Change, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import Planes, merged
 
@@ -181,10 +181,8 @@ def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
 
 
 def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None, records: NewRecords) -> Pyramid:
-    last, depth = pyramid.last, pyramid.depth + 1
-    attenuating = last if last is not None and last.keep is not None else (last.attenuating if last else None)
-    spares = edit.spares_alpha
-    change = Change(edit.level, rect, keeps, last, depth=depth, attenuating=attenuating, spares_alpha=spares)
+    change = Change(edit.level, rect, pyramid.last, depth=pyramid.depth + 1)
+    waits = Attenuation(change, keeps, pyramid.waits, edit.spares_alpha) if keeps else pyramid.waits
     by_level: dict[int, list[TileKey]] = {}
     for key in records:
         by_level.setdefault(key.level, []).append(key)
@@ -195,7 +193,7 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
         _write(editable, keys, records)
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
-    after = replace(pyramid, levels=levels, last=change)
+    after = replace(pyramid, levels=levels, last=change, waits=waits)
     return fold(after) if keeps and sum(1 for _ in after.waiting()) > _MOST_WAITING else after
 
 

@@ -28,4 +28,4 @@ def fold(pyramid: Pyramid) -> Pyramid:
                 editable.set(place, smaller)
         finished = editable.finish()
         levels = levels.set(level, finished) if len(finished) else levels.delete(level)
-    return replace(pyramid, levels=levels, settled=pyramid.depth)
+    return replace(pyramid, levels=levels, settled=pyramid.depth, waits=None)

@@ -49,7 +49,7 @@ def laid(tile: Tile, rect: Rect, pixels: bytes | None = None) -> Pyramid:
     if not levels:
         return Pyramid()
     stored = immutables.Map(levels)
-    change = Change(max(levels), rect, None, None)
+    change = Change(max(levels), rect, None)
     if pixels is None:
         return Pyramid(stored, change)
     return Pyramid(stored, change, ground=Ground(rect, stored, pixels, {0: picture.read, -1: half.read}))

@@ -73,18 +73,14 @@ class Record:
 class Change:
     """One commit, linked to the one before.
 
-    `level`, `rect`: where pixels changed.  `keep`: A at that level by tile, float32 (128, 128), 1 elsewhere; None when
-    no finer tile was stored under the stroke, so that nothing waits for it.  `spares_alpha`: alpha keeps all of itself.
+    `level`, `rect`: where pixels changed.
     """
 
     level: int
     rect: Rect
-    keep: Mapping[tuple[int, int], np.ndarray] | None
     before: Change | None
     serial: int = field(default_factory=lambda: next(_serials))
     depth: int = 1
-    attenuating: Change | None = None  # the newest change before this one that has a `keep`
-    spares_alpha: bool = False
 
     def reach(self, level: int) -> Rect:
         """Returns the pixels of `level` whose value this change can alter (notes of the pyramid: locality)."""
@@ -92,10 +88,23 @@ class Change:
             return self.rect.zoomed(level - self.level)
         return self.rect.grown(2).zoomed(level - self.level)
 
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Attenuation:
+    """What a commit leaves of finer detail, waiting to be applied; linked to the one before.
+
+    `keep`: A at the commit's level by tile, float32 (128, 128), 1 elsewhere; `spares_alpha`: alpha keeps all of itself.
+    """
+
+    change: Change
+    keep: Mapping[tuple[int, int], np.ndarray]
+    before: Attenuation | None
+    spares_alpha: bool = False
+
     @property
     def nbytes(self) -> int:
-        """Counts the bytes of memory that the commit takes."""
-        return RECORD_OVERHEAD + (sum(a.nbytes for a in self.keep.values()) if self.keep else 0)
+        """Counts the bytes of memory that it takes."""
+        return RECORD_OVERHEAD + sum(a.nbytes for a in self.keep.values())
 
 
 Level = immutables.Map[tuple[int, int], Record]
@@ -117,8 +126,9 @@ class Ground:
 class Pyramid:
     """One state of a layer's canvas.
 
-    `uid` names the layer's line of history, for caches.  `settled`: every attenuation of the commits up to this depth
-    has been applied to the records.  `ground`: the picture that the layer began with, if it began with one.
+    `uid` names the layer's line of history, for caches.  `waits`: the newest attenuation that was not applied to the
+    records; `settled`: those of the commits up to this depth have been.  `ground`: the picture that the layer began
+    with, if it began with one.
     """
 
     levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
@@ -126,6 +136,7 @@ class Pyramid:
     uid: int = field(default_factory=lambda: next(_serials))
     settled: int = 0
     ground: Ground | None = None
+    waits: Attenuation | None = None
 
     @property
     def depth(self) -> int:
@@ -151,15 +162,12 @@ class Pyramid:
         """Returns the same state at the start of a line of history of its own."""
         return replace(self, uid=next(_serials))
 
-    def waiting(self, since: int = 0) -> Iterator[Change]:
-        """Yields the commits whose attenuation has not been applied to a record stored at depth `since`, newest
-        first."""
-        change = self.last
-        if change is not None and change.keep is None:
-            change = change.attenuating
-        while change is not None and change.depth > max(since, self.settled):
-            yield change
-            change = change.attenuating
+    def waiting(self, since: int = 0) -> Iterator[Attenuation]:
+        """Yields the attenuations that have not been applied to a record stored at depth `since`, newest first."""
+        waits = self.waits
+        while waits is not None and waits.change.depth > since:
+            yield waits
+            waits = waits.before
 
     def records(self, level: int, rect: Rect) -> Iterator[tuple[TileKey, Record]]:
         """Yields the stored tiles of a level that meet a rectangle."""

@@ -243,7 +243,7 @@ def difference(old: Group, new: Group) -> tuple[int, int]:
             continue
         lost += sum(_alone(record, beside) for _, record, beside in _only(a, b))
         gained += sum(_alone(record, beside) for _, record, beside in _only(b, a))
-        gained += b.last.nbytes if b.last is not None and b.last is not a.last else 0
+        lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
     return lost, gained
 
 
@@ -252,6 +252,12 @@ def _alone(record: Record, beside: Record | None) -> int:
     if beside is not None and isinstance(record.held, SparsePlanes) and isinstance(beside.held, SparsePlanes):
         return record.held.alone(beside.held) + RECORD_OVERHEAD
     return record.nbytes
+
+
+def _waiting(one: Pyramid, other: Pyramid) -> int:
+    """Returns the bytes of attenuations that wait in one state and not in another."""
+    there = {id(waits) for waits in other.waiting()}
+    return sum(waits.nbytes for waits in one.waiting() if id(waits) not in there)
 
 
 def _regrown(old: Growth, new: Growth) -> tuple[int, int]:

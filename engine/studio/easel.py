@@ -109,9 +109,9 @@ class Easel(Owned):
             self.viewer.changed(areas(live.before, after))
             self.tell()
             return
-        other = areas(live.base, after)
+        other, own = areas(live.base, after), live.level  # the stroke itself, with its coverage, is not to be kept
         # At the stroke's own level the preview is what was committed: nothing changes.
-        self.viewer.changed(lambda level: [] if level == live.level else other(level))
+        self.viewer.changed(lambda level: [] if level == own else other(level))
         self.tell()
 
     def abandon(self) -> None:

@@ -71,7 +71,8 @@ class Viewer(Owned):
     def unsee(self, live: Live) -> None:
         """The preview of a stroke that came to nothing goes from the screen."""
         whole = live.flattened or live.bed is not None  # seen at other levels too
-        self.changed(lambda level: None if whole else [live.rect] if level == live.level else [])
+        own, rect = live.level, live.rect
+        self.changed(lambda level: None if whole else [rect] if level == own else [])
 
     def look_back(self, painting: Painting | None) -> None:
         """Shows another state of the painting; None: as it is now."""

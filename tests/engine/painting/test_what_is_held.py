@@ -1,0 +1,61 @@
+"""What a painting keeps in memory: what nothing leads to any more is gone."""
+
+import gc
+import weakref
+
+import numpy as np
+
+from engine.brush.settings import Brush
+from engine.canvas import layers
+from engine.canvas.commit import _MOST_WAITING
+from engine.canvas.evaluate import TileCache
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting.value import Painting
+from engine.session.history import History
+from engine.session.session import Session
+from engine.studio import requests as q
+from engine.studio.studio import Studio
+
+POINTS = np.array([[10.0, 10, 1, 0, 0, 0], [40, 30, 1, 0, 0, 0.1]])
+
+
+def stroke(level, n=0):
+    points = POINTS.copy()
+    points[:, 0] += n % 5
+    return c.Stroke(level, (0, 0), points, Brush(radius=6.0, opacity=0.5))
+
+
+def pyramid_of(session):
+    return next(layers.layers(session.painting.root)).pyramid
+
+
+def test_what_waited_for_finer_detail_is_gone_when_it_was_applied_and_no_step_leads_back():
+    session = Session(Painting(Rect.at(0, 0, 64, 64), 7), TileCache(4 << 20), history=History(0))
+    session.do(stroke(1))
+    held = []
+    for n in range(_MOST_WAITING + 3):
+        session.do(stroke(0, n))
+        held += [weakref.ref(a) for waits in pyramid_of(session).waiting() for a in waits.keep.values()]
+    assert held
+    waiting = {id(a) for waits in pyramid_of(session).waiting() for a in waits.keep.values()}
+    gc.collect()
+    assert {id(ref()) for ref in held if ref() is not None} <= waiting
+    assert len(waiting) < _MOST_WAITING / 4
+
+
+def test_a_stroke_is_not_kept_when_it_is_paint():
+    studio = Studio(lambda result: None, lambda request: None)
+    studio.do(q.New(Rect.at(0, 0, 96, 96)))
+    strokes = []
+    for drop in (False, True, False):
+        studio.do(q.Begin(0, (0, 0), Brush(radius=6.0)))
+        strokes.append(weakref.ref(studio.easel.live))
+        studio.do(q.Points(POINTS))
+        studio.look(q.Look(((0, 0, 0, -1),)))
+        while studio.step():
+            pass
+        studio.do(q.Abandon() if drop else q.Finish())
+    gc.collect()
+    assert [ref() for ref in strokes] == [None, None, None]
+    studio.close()
