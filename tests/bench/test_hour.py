@@ -1,0 +1,21 @@
+"""What an hour of random painting comes to."""
+
+from bench.hour import BOUND, percentiles, verdict
+
+
+def judged(resident, pings=(1.0,), budget=1024):
+    told = verdict([{"resident": megabytes} for megabytes in resident], list(pings), budget)
+    return told["small"], told["steady"], told["answers"]
+
+
+def test_memory_may_grow_at_first_but_not_later_and_never_beyond_the_budget():
+    assert judged([300, 900, 1200, 1200, 1200, 1190, 1210, 1200]) == (True, True, True)
+    assert judged([300, 500, 700, 800, 900, 1000, 1100, 1200]) == (True, False, True)
+    assert judged([300, 1275, 900, 900]) == (False, True, True)
+    assert judged([300, 1275, 900, 900], budget=1025) == (True, True, True)
+
+
+def test_one_ping_in_twenty_may_be_late():
+    assert judged([300], [BOUND] * 96 + [10 * BOUND] * 4) == (True, True, True)
+    assert judged([300], [BOUND] * 90 + [10 * BOUND] * 10) == (True, True, False)
+    assert percentiles([float(n) for n in range(101)])["ping 95 %"] == 95.0
