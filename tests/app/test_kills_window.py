@@ -1,8 +1,8 @@
-"""The real window, killed at random moments while it paints, saves and exports, some of it painted with an example:
-nothing that was finished is lost.
+"""The real window, killed at random moments while it is painted in, while an example grows, while it saves and while it
+exports: nothing that was finished is lost.
 
-INKFALL_KILLS: how many times; INKFALL_KILLS_SEED: of what is random; `-s` shows the figures of each, which also go to
-the file INKFALL_KILLS_TOLD.  "Short": how long before the kill the first point was posted that is not there; "behind
+INKFALL_KILLS: how many times each; INKFALL_KILLS_SEED: of what is random; `-s` shows the figures of each, which also go
+to the file INKFALL_KILLS_TOLD.  "Short": how long before the kill the first point was posted that is not there; "behind
 the pointer": by how much the stroke in hand lacks what the pointer did, frames included.
 """
 
@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from driven import Program
+from driven import PATIENCE, Program
 from PIL import Image
 
 from engine.brush.settings import Brush
@@ -34,19 +34,27 @@ from engine.studio.filing import documents
 from engine.studio.filing.recovering import recovered
 
 pytestmark = [pytest.mark.window, pytest.mark.nightly, pytest.mark.timeout(0)]
-KILLS = int(os.environ.get("INKFALL_KILLS", "80"))
+KILLS = int(os.environ.get("INKFALL_KILLS", "20"))
 SEED = int(os.environ.get("INKFALL_KILLS_SEED", "1"))
-LATEST = 4.0  # seconds after which it is killed, at most
+DOINGS = {  # what is steered to, and how many seconds after it began the program is killed, at most
+    "painting": 4.0,
+    "growing": 1.0,
+    "saving": 0.15,
+    "exporting": 0.15,
+}
+LOOK = 0.002  # seconds from one look at what the program tells to the next
+GROWS = "something grows"
 POSTED, DROPPED = "a stroke is posted", "a stroke is dropped"
 IN_HAND = 0.05  # seconds of the stroke in hand that may be lost
-EXAMPLE = Path(__file__).parents[2] / "palettes/examples/bread.png"
+EXAMPLES = Path(__file__).parents[2] / "palettes/examples"
+OWN = "wash-indigo", "felt"  # bundled examples that the artist has as “My wash” and “My felt”
 
 
 class Hand:
-    """Paints, undoes and saves at random, until the window is gone."""
+    """Paints, undoes, saves and exports at random, until the window is gone; mostly what is to be met."""
 
-    def __init__(self, app: Program, chance: random.Random) -> None:
-        self._app, self._chance = app, chance
+    def __init__(self, app: Program, chance: random.Random, meets: str) -> None:
+        self._app, self._chance, self._meets = app, chance, meets
         self.moved = 0.0  # when the pointer was last moved with its button down, seconds since 1970
         self.down = False
         self.killed = 0.0, 0.0  # when, by the monotonic clock and since 1970
@@ -54,17 +62,17 @@ class Hand:
     def work(self) -> None:
         while self._app.process.poll() is None:
             what = self._chance.random()
-            if what < 0.7:
+            if what < 0.5 or self._meets == "growing":
                 self._stroke()
-            elif what < 0.8:
+            if what < 0.1:
                 self._app.keys("ctrl+z")
-            elif what < 0.9:
+            elif what < 0.2 or (self._meets == "saving" and what < 0.8):
                 self._app.keys("ctrl+s", "Return")
-            else:
+            elif what < 0.25 or (self._meets == "exporting" and what < 0.8):
                 self._app.keys("ctrl+e", "Return", "Return", "Return")  # and once more where it was exported before
 
     def _stroke(self) -> None:
-        points = [(self._chance.randint(300, 940), self._chance.randint(120, 680)) for _ in range(4)]
+        points = [(self._chance.randint(300, 940), self._chance.randint(80, 380)) for _ in range(4)]
         self._app.do("mousemove", *points[0], "mousedown", 1)
         self.down = True
         for start, end in itertools.pairwise(points):
@@ -78,20 +86,29 @@ class Hand:
         self.down = False
 
 
-def killed(app: Program, chance: random.Random) -> Hand:
-    """Kills the program at a random moment while it is painted in; the hand that did."""
-    hand = Hand(app, chance)
+def killed(app: Program, chance: random.Random, meets: str) -> Hand:
+    """Kills the program at a random moment once it does what is to be met; the hand that painted in it."""
+    hand = Hand(app, chance, meets)
+    after, end = chance.uniform(0.0 if meets != "painting" else 0.05, DOINGS[meets]), time.monotonic() + 20
 
     def kill() -> None:
+        while doing(told(app)) != meets and time.monotonic() < end and meets != "painting":
+            time.sleep(LOOK)
+        time.sleep(after)
         hand.killed = time.monotonic(), time.time()
         app.process.kill()
 
-    timer = threading.Timer(chance.uniform(0.05, LATEST), kill)
-    timer.start()
+    beside = threading.Thread(target=kill)
+    beside.start()
     hand.work()
-    timer.join()
+    beside.join()
     app.process.wait(10)
     return hand
+
+
+def told(app: Program) -> str:
+    """What the program has told, in whole lines."""
+    return app.log.read_text(errors="replace").rpartition("\n")[0]
 
 
 def shown(session, level: int) -> np.ndarray:
@@ -113,7 +130,7 @@ def lake(tmp_path_factory):
     path, session = tmp_path_factory.mktemp("lake") / "lake.ora", Session(Painting())
     points = np.array([[100.0, 100, 1, 0, 0, 0], [700, 500, 1, 0, 0, 1]])
     points.flags.writeable = False
-    session.do(c.parse({"do": "texture", "name": "bread", "maker": "example", "path": str(EXAMPLE)}))
+    session.do(c.parse({"do": "texture", "name": "bread", "maker": "example", "path": str(EXAMPLES / "bread.png")}))
     session.do(c.Stroke(0, (0, 0), points, Brush(radius=60.0, mode="example", example="bread")))
     session.do(c.Stroke(0, (40, 90), points, Brush(radius=9.0)))
     documents.save(path, session.painting, session.recording())
@@ -131,16 +148,44 @@ def in_hand(log: str, session, kept: int, before: int) -> list[tuple[float, floa
 
 
 def doing(log: str) -> str:
-    """What went on in the background when it was killed."""
+    """What goes on in the background at the end of what is told."""
     writes = [line for line in log.splitlines() if " files are being written" in line][-1:]
-    saves, exports = any("its own" in line for line in writes), any(line[:2] not in ("0 ", "") for line in writes)
-    return " saving" if saves else " exporting" if exports else " painting"
+    if any("its own" in line for line in writes):
+        return "saving"
+    if any(line[:2] not in ("0 ", "") for line in writes):
+        return "exporting"
+    return "growing" if log.rfind(GROWS) > log.rfind("all has grown") else "painting"
+
+
+@pytest.fixture
+def own_examples(tmp_path):
+    """The artist's own examples, which are first in the list."""
+    folder = tmp_path / "data" / "inkfall" / "examples"
+    folder.mkdir(parents=True)
+    for bundled in OWN:
+        for ending in (".png", ".mask.png", ".toml"):
+            shutil.copy(EXAMPLES / f"{bundled}{ending}", folder / f"my-{bundled}{ending}")
+
+
+def take_example(app: Program, chance: random.Random) -> None:
+    """Paints with one of the artist's own examples from now on."""
+    app.do("mousemove", 640, 300)
+    app.keys("p")
+    app.wait_for("examples ready")  # which they are made once they are in sight
+    end = time.monotonic() + PATIENCE
+    while GROWS not in told(app):  # a click before the panel is at rest is of no effect
+        assert time.monotonic() < end, told(app)[-2000:]
+        app.click(f"My {chance.choice(OWN).replace('-', ' ')}")
+        app.stroke((420, 150), (560, 240), (700, 160))
+        time.sleep(1.0)
 
 
 @pytest.mark.parametrize("number", range(KILLS))
-def test_a_kill_loses_nothing_that_was_finished(display, tmp_path, lake, number, monkeypatch):
+@pytest.mark.parametrize("meets", DOINGS)
+@pytest.mark.usefixtures("own_examples")
+def test_a_kill_loses_nothing_that_was_finished(display, tmp_path, lake, meets, number, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    chance = random.Random(SEED * 100_003 + number)
+    chance = random.Random(f"{SEED} {meets} {number}")
     words, before = [], 0
     if chance.random() < 0.5:
         shutil.copy(lake, tmp_path)
@@ -148,8 +193,10 @@ def test_a_kill_loses_nothing_that_was_finished(display, tmp_path, lake, number,
     app = Program(display, tmp_path, *words)
     if words:
         app.wait_for("painting 1 shown")
-    hand = killed(app, chance)
-    log = app.log.read_text(errors="replace").rpartition("\n")[0]
+    if meets == "growing":
+        take_example(app, chance)
+    hand = killed(app, chance, meets)
+    log = told(app)
     posted = log.count(POSTED)
     sweep_unfinished()
     assert not list(tmp_path.glob(".*.part"))
@@ -171,20 +218,20 @@ def test_a_kill_loses_nothing_that_was_finished(display, tmp_path, lake, number,
     missing = [line for line in missing if not line.startswith("the end of the last stroke")]
     assert not missing
     assert before + posted <= kept <= before + posted + 1, f"{posted} strokes were finished, {kept - before} are there"
-    told = f"kill {number}: {posted} finished, {kept - before} there,{doing(log)}"
+    line = f"{meets} {number}: {posted} finished, {kept - before} there, {doing(log)}"
     if session is not None:
         again = replay(session.recording())
         for level in (0, 1):
             assert np.array_equal(shown(session, level), shown(again, level)), f"level {level} is another picture"
         lost = in_hand(log, session, kept, before)
         if lost:
-            told += f", {(hand.killed[0] - lost[0][1]) * 1000:.0f} ms short"
+            line += f", {(hand.killed[0] - lost[0][1]) * 1000:.0f} ms short"
             assert lost[-1][0] - lost[0][1] <= IN_HAND
         if hand.down and kept == before + posted + 1 and strokes(session)[-1].extra.get("time"):
             last = strokes(session)[-1]
-            told += f", {(hand.moved - last.extra['time'] - last.points[-1, 5]) * 1000:.0f} ms behind the pointer"
-    print(told, flush=True)
+            line += f", {(hand.moved - last.extra['time'] - last.points[-1, 5]) * 1000:.0f} ms behind the pointer"
+    print(line, flush=True)
     if "INKFALL_KILLS_TOLD" in os.environ:
         with Path(os.environ["INKFALL_KILLS_TOLD"]).open("a") as file:
-            file.write(told + "\n")
+            file.write(line + "\n")
     app.do("mouseup", 1)
