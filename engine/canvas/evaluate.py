@@ -40,15 +40,15 @@ class TileCache:
         self._held = 0
         self.evicted = 0  # bytes, in all
         self._levels: dict[int, _LevelTiles] = {}
-        self._level: int | None = None  # that is looked at
+        self.level: int | None = None  # that is looked at
         self._uses = 0
         self._lock = threading.Lock()
 
     def look_at(self, level: int) -> None:
         """Tells which level is seen from now on."""
-        if level != self._level:
+        if level != self.level:
             with self._lock:
-                self._level = level
+                self.level = level
                 self._evict()
 
     def get(self, pyramid: Pyramid, key: TileKey) -> tuple[bool, Planes | None]:
@@ -111,8 +111,8 @@ class TileCache:
     def _evict(self) -> None:
         while self._held > self.budget and self._levels:
             self._evict_from(self._farthest(self._levels))
-        if self._level is not None:
-            behind = [level for level in self._levels if abs(level - self._level) > _NEAR]
+        if self.level is not None:
+            behind = [level for level in self._levels if abs(level - self.level) > _NEAR]
             while behind and sum(self._levels[level].held for level in behind) > min(self.budget // 8, _BEHIND):
                 level = self._farthest(behind)
                 self._evict_from(level)
@@ -121,7 +121,7 @@ class TileCache:
 
     def _farthest(self, levels: Iterable[int]) -> int:
         """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""
-        seen = self._level
+        seen = self.level
 
         def rank(level: int) -> tuple[int, int]:
             return 0 if seen is None else -abs(level - seen), self._levels[level].oldest

@@ -13,6 +13,7 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.canvas.store import Record
+from engine.keeping.spill import Spilled, spill
 from engine.numeric.address import Rect
 from engine.texture.planes import plane_map
 from engine.texture.record import Instance
@@ -27,7 +28,7 @@ class CodedData:
     """The data of a record, less what the record `other` of the same tile predicts (None: nothing).
 
     `rect`, `inks`: the record's; `dtype`: of its data; `window`: the rows and columns of the data in which anything
-    differs, `packed`: these, low bytes before high ones, deflated.
+    differs, `packed`: these, low bytes before high ones, deflated; or where on disk that is.
     """
 
     rect: Rect
@@ -35,12 +36,12 @@ class CodedData:
     dtype: np.dtype
     other: Record | None
     window: tuple[slice, slice]
-    packed: bytes
+    packed: bytes | Spilled
 
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return len(self.packed) + _OVERHEAD
+        return _OVERHEAD + (len(self.packed) if isinstance(self.packed, bytes) else 0)
 
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
@@ -59,9 +60,10 @@ class CodedData:
 
     def _added(self) -> np.ndarray:
         out = _predicted(self.rect, self.inks, self.dtype, self.other)
-        if self.packed:
+        packed = self.packed if isinstance(self.packed, bytes) else self.packed.read()
+        if packed:
             part = out[:, *self.window]
-            raw = np.frombuffer(isal_zlib.decompress(self.packed), np.uint8).reshape(self.dtype.itemsize, part.size)
+            raw = np.frombuffer(isal_zlib.decompress(packed), np.uint8).reshape(self.dtype.itemsize, part.size)
             part += np.ascontiguousarray(raw.T).view(self.dtype).reshape(part.shape)
         out.flags.writeable = False
         return out
@@ -111,6 +113,17 @@ def encode(record: Record, other: Record | None) -> int:
         return 0
     record.exchange(coded)
     return saved
+
+
+def put_away(coded: CodedData) -> int:
+    """Puts what is packed away on disk.  Returns the bytes of memory that it takes less: 0 where it lies there already,
+    or has no room."""
+    packed = coded.packed
+    put = spill().put(packed) if isinstance(packed, bytes) and packed else None
+    if put is None:
+        return 0
+    object.__setattr__(coded, "packed", put)
+    return put.size
 
 
 def decode(record: Record) -> None:

@@ -1,14 +1,17 @@
-"""What a session holds beside its painting, kept within the budget of memory."""
+"""What a session holds beside its painting, and of the painting itself, kept within the budget of memory."""
 
 from __future__ import annotations
 
 from engine.canvas.evaluate import TileCache
+from engine.canvas.layers import Group
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.session.history import History
+from engine.session.paging import Paging
 
 SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than the room they take
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
+_PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 
 
 class Room(Owned):
@@ -19,30 +22,39 @@ class Room(Owned):
 
     def __init__(self, cache: TileCache, history: History) -> None:
         self._cache, self.history = cache, history
+        self._paging = Paging()
         self._left = 0  # bytes resident when it was looked after last
         self._evicted = 0  # bytes that the cache had evicted then
 
-    def keep_within(self) -> None:
-        """Gives free pages back, and lets evaluated tiles go, if the process takes more than the budget."""
-        most = memory.budget() + memory.PROGRAM
+    def keep_within(self, root: Group) -> None:
+        """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
+        process takes more than the budget."""
+        most = memory.budget() + memory.PROGRAM - _APART
         if memory.resident() <= max(most, self._left + _APART):
             return
         memory.give_back()
         cache, over = self._cache, memory.resident() - most
         if over > 0:
-            cache.shrink(max(cache.held - over, SMALLEST_CACHE))
+            cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()
+            over = memory.resident() - most
+        if over > 0:
+            self._paging.want(root, cache.level, over)
+            self._paging.step(_PAGED_AT_ONCE)
         self._left = memory.resident()
 
     @property
     def pending(self) -> int:
         """Counts what is to be made smaller, or given back, while nothing else is to be done."""
-        return self.history.pending + int(self._cache.evicted - self._evicted > _APART)
+        given = int(self._cache.evicted - self._evicted > _APART)
+        return self.history.pending + int(self._paging.wanted > 0) + given
 
     def step(self) -> None:
         """Does the next piece of it."""
-        if self.history.pending:
+        if self._paging.wanted > 0:
+            self._paging.step()
+        elif self.history.pending:
             self.history.step()
-            return
-        self._evicted = self._cache.evicted
-        memory.give_back()
+        else:
+            self._evicted = self._cache.evicted
+            memory.give_back()

@@ -142,7 +142,7 @@ class Session(Owned):
         if after is not self.painting:
             self.painting, self.state = after, object()
         self.heard(command, live)
-        self.room.keep_within()
+        self.room.keep_within(after.root)
         return after
 
     def amend(self, painting: Painting) -> None:

@@ -147,7 +147,8 @@ class Studio(Owned):
         row = next((row for row in self._rows if row.pending()), None)
         if row is not None:
             row.step()
-            self.easel.session.room.keep_within()
+            session = self.easel.session
+            session.room.keep_within(session.painting.root)
         return row is not None
 
     @property

@@ -1,0 +1,118 @@
+"""Bytes put away on disk for as long as the program runs: one file in the state folder, which nobody else can open.
+
+Where the system allows it the file has no name, so that nothing is left of it however the program ends.
+"""
+
+from __future__ import annotations
+
+import tempfile
+import threading
+import zlib
+from collections import deque
+from functools import cache
+from pathlib import Path
+from typing import IO
+
+from engine.keeping.state_folder import state_folder
+
+_FOLDER = "spill"
+_LEAST = 512  # bytes that a piece takes of the file
+
+
+class Spilled:
+    """A piece that was put away; its place is free for others when nobody holds it any more."""
+
+    __slots__ = ("_at", "_crc", "_spill", "size")
+
+    def __init__(self, spill: Spill, at: int, piece: bytes) -> None:
+        self._spill, self._at = spill, at
+        self.size, self._crc = len(piece), zlib.crc32(piece)
+
+    def read(self) -> bytes:
+        """Returns the piece.  OSError if it cannot be read, or is not what was written."""
+        piece = self._spill.piece(self._at, self.size)
+        if zlib.crc32(piece) != self._crc:
+            raise OSError(f"what was put away on disk: found other bytes than the {self.size} that were written")
+        return piece
+
+    def __del__(self) -> None:
+        self._spill.free(self._at, self.size)
+
+
+class Spill:
+    """A file of pieces.  Safe for several threads.
+
+    `held`: bytes of the pieces; `length`: of the file, with what is free between them.
+    """
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self._folder = folder
+        self._file: IO[bytes] | None = None
+        self._lock = threading.Lock()
+        self._room: dict[int, list[int]] = {}  # by size: places that are free
+        self._freed: deque[tuple[int, int]] = deque()  # places and sizes that are to be added to them
+        self.held = self.length = 0
+
+    def put(self, piece: bytes) -> Spilled | None:
+        """Puts a piece away; None where the disk is full, or has no folder for it."""
+        size = _rounded(len(piece))
+        with self._lock:
+            self._collect()
+            free = self._room.get(size)
+            at = free[-1] if free else self.length
+            try:
+                file = self._opened()
+                file.seek(at)
+                if file.write(piece) != len(piece):  # the disk is full
+                    return None
+            except OSError:
+                return None
+            if free:
+                free.pop()
+            else:
+                self.length += size
+            self.held += len(piece)
+        return Spilled(self, at, piece)
+
+    def piece(self, at: int, size: int) -> bytes:
+        """Returns what lies at a place.  OSError if it cannot be read."""
+        with self._lock:
+            file = self._opened()
+            file.seek(at)
+            return file.read(size)
+
+    def free(self, at: int, size: int) -> None:
+        """Frees a place.  It may be told at any moment, on any thread: nothing is waited for."""
+        self._freed.append((at, size))
+
+    def close(self) -> None:
+        """Deletes the file."""
+        with self._lock:
+            if self._file is not None:
+                self._file.close()
+
+    def _collect(self) -> None:
+        while self._freed:
+            at, size = self._freed.popleft()
+            self._room.setdefault(_rounded(size), []).append(at)
+            self.held -= size
+
+    def _opened(self) -> IO[bytes]:
+        if self._file is None:
+            folder = state_folder(_FOLDER) if self._folder is None else self._folder
+            self._file = tempfile.TemporaryFile(dir=folder, buffering=0)  # noqa: SIM115
+        elif self._file.closed:
+            raise OSError("what was put away on disk: the file is closed")
+        return self._file
+
+
+def _rounded(size: int) -> int:
+    """Returns a size a little larger, such that many pieces have the same."""
+    step = max(_LEAST, 1 << max(size.bit_length() - 3, 0))
+    return -(-size // step) * step
+
+
+@cache
+def spill() -> Spill:
+    """Returns the program's own file."""
+    return Spill()

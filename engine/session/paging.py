@@ -1,0 +1,66 @@
+"""Records of the painting itself, made smaller and put away on disk where the process would take too much.
+
+A record keeps its value: its data are made, or read, when somebody asks for them, and those asked for of late are kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from engine.canvas.layers import Group, layers
+from engine.canvas.store import Pyramid, Record
+from engine.session.coded_records import CodedData, encode, put_away
+
+_SMALL = 2 << 10  # bytes of data that are not worth it
+_OF_LATE = 32  # commits: what these stored is most likely read next
+_AT_ONCE = 1 << 20  # bytes that are looked for in one piece of work
+
+
+class Paging:
+    """Frees bytes of the records of a painting.  It belongs to the session's thread.
+
+    First it codes what was stored long ago, of the levels farthest from the one that is seen; then what was stored of
+    late; then what is coded goes to disk.  `wanted`: bytes that are still to be freed.
+    """
+
+    def __init__(self) -> None:
+        self.wanted = 0
+        self._root: Group | None = None  # whose records are looked through
+        self._found: Iterator[int] = iter(())
+
+    def want(self, root: Group, level: int | None, size: int) -> None:
+        """Tells what is to be freed of the layers `root`; `level`: that is seen, None for none."""
+        self.wanted = size
+        if root is not self._root:
+            self._root, self._found = root, _freed(root, level)
+
+    def step(self, size: int = _AT_ONCE) -> None:
+        """Frees as many bytes, or all that are wanted, or all that there are."""
+        least = max(self.wanted - size, 0)
+        while self.wanted > least:
+            freed = next(self._found, None)
+            self.wanted = self.wanted - freed if freed is not None else 0
+
+
+def _freed(root: Group, level: int | None) -> Iterator[int]:
+    """Makes one record after the other smaller; yields the bytes that were freed."""
+    pyramids = [layer.pyramid for layer in layers(root)]
+    for late in (False, True):
+        for pyramid in pyramids:
+            for record in _records(pyramid, level):
+                old = record.depth <= pyramid.depth - _OF_LATE
+                if (late or old) and isinstance(record.held, np.ndarray) and record.held.nbytes >= _SMALL:
+                    yield encode(record, None)
+    for pyramid in pyramids:
+        for record in _records(pyramid, level):
+            if isinstance(record.held, CodedData):
+                yield put_away(record.held)
+
+
+def _records(pyramid: Pyramid, level: int | None) -> Iterator[Record]:
+    """Yields all records, those of the levels farthest from one first."""
+    seen = 0 if level is None else level
+    for k in sorted(pyramid.levels, key=lambda k: -abs(k - seen)):
+        yield from pyramid.levels[k].values()

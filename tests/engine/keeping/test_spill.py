@@ -1,0 +1,83 @@
+"""What is put away on disk: read as it was written, its place used again, gone with the program."""
+
+import errno
+import os
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.keeping.spill import Spill
+
+
+@pytest.fixture
+def spill(tmp_path):
+    made = Spill(tmp_path)
+    yield made
+    made.close()
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 4)), max_size=40))
+def test_every_piece_is_what_it_was_whatever_became_of_others(tmp_path_factory, acts):
+    spill, held = Spill(tmp_path_factory.mktemp("spill")), []
+    for n, (size, dropped) in enumerate(acts):
+        piece = bytes([n]) * size
+        held.append((spill.put(piece), piece))
+        for _ in range(min(dropped - 2, len(held))):
+            held.pop(dropped % len(held))
+        assert all(put.read() == piece for put, piece in held)
+    spill.put(b"")
+    assert spill.held == sum(len(piece) for _, piece in held)
+    spill.close()
+
+
+def test_a_place_that_is_free_is_used_again(spill):
+    for n in range(50):
+        put = spill.put(bytes([n]) * (9_000 + n))
+        assert put.read()[-1] == n
+    assert spill.length < 40_000
+
+
+def test_nobody_else_finds_the_file_and_nothing_is_left_of_it(tmp_path, spill):
+    put = spill.put(b"paint")
+    assert os.name == "nt" or not list(tmp_path.iterdir())
+    assert put.read() == b"paint"
+    spill.close()
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(OSError, match="is closed"):
+        put.read()
+
+
+def test_nothing_is_put_away_where_there_is_no_folder_or_no_room(tmp_path, spill, monkeypatch):
+    assert Spill(tmp_path / "gone").put(b"paint") is None
+    kept = spill.put(b"k" * 700)
+    file = spill._file
+
+    class Full:
+        closed = False
+
+        def __getattr__(self, name):
+            return getattr(file, name)
+
+        def write(self, piece):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    class Nearly(Full):
+        def write(self, piece):
+            return file.write(piece[:100])
+
+    for disk in (Full, Nearly):
+        monkeypatch.setattr(spill, "_file", disk())
+        assert spill.put(b"x" * 700) is None
+    assert kept.read() == b"k" * 700
+    monkeypatch.setattr(spill, "_file", file)
+    assert spill.put(b"y" * 700).read() == b"y" * 700
+
+
+def test_other_bytes_than_were_written_are_told(spill):
+    put = spill.put(b"p" * 900)
+    spill._file.seek(300)
+    spill._file.write(b"x")
+    with pytest.raises(OSError, match="found other bytes than the 900 that were written"):
+        put.read()

@@ -1,0 +1,129 @@
+"""Records made smaller and put away on disk: the painting is what it was, and goes on as it would have."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.canvas import layers
+from engine.canvas.evaluate import TileCache
+from engine.keeping import memory
+from engine.keeping.spill import Spill
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting.value import Painting
+from engine.session import coded_records
+from engine.session.coded_records import CodedData
+from engine.session.paging import Paging
+from engine.session.session import Session
+
+ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def disk(tmp_path_factory):
+    spill = Spill(tmp_path_factory.mktemp("spill"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(coded_records, "spill", lambda: spill)
+        yield spill
+    spill.close()
+
+
+def stroke(n, level=0, ink=()):
+    at = [float(17 * n % 90), float(29 * n % 70)]
+    brush = {"radius": 9.0, "opacity": 0.6, "colour": f"#{40 * n % 256:02x}6080", "ink": list(ink)}
+    points = [[v * 2.0**level for v in at], [v * 2.0**level + 12 for v in at]]
+    return c.parse({"do": "stroke", "level": level, "points": points, "brush": brush})
+
+
+def contents(painting):
+    """All that is stored of a painting, copied."""
+    return [
+        (sheet.id, key, record.rect, record.inks, record.depth, record.data.dtype, record.data.tobytes())
+        for sheet in layers.layers(painting.root)
+        for key, record in sheet.pyramid.all_records()
+    ]
+
+
+def records(painting):
+    return [record for sheet in layers.layers(painting.root) for _, record in sheet.pyramid.all_records()]
+
+
+def begun():
+    return Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(1 << 20))
+
+
+ACTS = st.one_of(
+    st.builds(stroke, st.integers(0, 9), st.integers(-2, 2), st.sampled_from([(), ROCK])),
+    st.integers(1, 3).map(c.Undo),
+    st.integers(1, 3).map(c.Redo),
+    st.integers(0, 1 << 18),
+)
+
+
+@settings(deadline=None, max_examples=12)
+@given(st.lists(ACTS, min_size=3, max_size=14))
+def test_whatever_is_paged_meanwhile_the_painting_is_the_same(acts):
+    plain, paged, paging = begun(), begun(), Paging()
+    for act in (stroke(0), stroke(1, ink=ROCK), *acts, 1 << 20):
+        if isinstance(act, int):
+            paging.want(paged.painting.root, 0, act)
+            while paging.wanted > 0:
+                paging.step(1 << 16)
+            paged.cache.clear()
+            continue
+        plain.do(act)
+        paged.do(act)
+    wanted = contents(plain.painting)
+    with ThreadPoolExecutor(3) as threads:  # as those that save do
+        assert list(threads.map(contents, [paged.painting] * 3)) == [wanted] * 3
+    assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(paged.painting))
+
+
+def test_what_is_old_goes_first_and_at_last_to_disk(disk):
+    session, paging = begun(), Paging()
+    session.do(c.parse({"do": "stroke", "points": [[300, 300], [330, 330]]}))
+    for n in range(36):
+        session.do(stroke(n % 3))
+    before, root = contents(session.painting), session.painting.root
+    paging.want(root, None, 1)
+    paging.step()
+    coded = [record for record in records(session.painting) if isinstance(record.held, CodedData)]
+    assert coded
+    assert {record.depth for record in coded} == {1}
+    held, away = sum(record.nbytes for record in records(session.painting)), disk.held
+    paging.want(root, None, 1 << 30)
+    paging.step(1 << 30)
+    assert paging.wanted == 0
+    assert sum(record.nbytes for record in records(session.painting)) < held / 4
+    assert disk.held > away
+    assert contents(session.painting) == before
+
+
+def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
+    session = begun()
+    for n in range(6):
+        session.do(stroke(n))
+    room, before = session.room, contents(session.painting)
+    assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
+    monkeypatch.setattr(memory, "budget", lambda: 0)
+    monkeypatch.setattr(memory, "PROGRAM", 0)
+    room.keep_within(session.painting.root)
+    while room.pending:
+        room.step()
+    assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(session.painting))
+    assert contents(session.painting) == before
+
+
+def test_records_stay_in_memory_where_the_disk_is_full(disk, monkeypatch):
+    session, paging = begun(), Paging()
+    for n in range(6):
+        session.do(stroke(n))
+    before = contents(session.painting)
+    monkeypatch.setattr(disk, "put", lambda piece: None)
+    paging.want(session.painting.root, None, 1 << 30)
+    paging.step(1 << 30)
+    assert paging.wanted == 0
+    assert contents(session.painting) == before
