@@ -74,6 +74,7 @@ def examination() -> dict[str, Any]:
         "system": platform.platform(),
         "processors": os.cpu_count(),
         "memory": memory.fault() or f"{memory.budget() // memory.MEGABYTE} MB for paintings, beside the program's",
+        "shares": {name: f"{size // memory.MEGABYTE} MB at most" for name, size in memory.shares().items()},
         "packages": {name: _version(name) for name in PACKAGES},
         "display": display() or "none",
         "opengl": opengl(),

@@ -13,6 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.numeric.address import Rect
 from engine.studio import results
+from engine.studio.held.held_records import Held
 from engine.studio.results import (
     FilmLength,
     Growing,
@@ -34,8 +35,8 @@ class Known:
     painting; `pending`: screen tiles that wait to be made; `growing`: what is painted with examples and not yet as it
     will stay, `grows` since when; `preparing`: since when the engine gets ready for painting with examples, if it
     does; `prepared`: how many brushes are ready; `opening`: the file that is being opened; `filming`: the part done of
-    a film that is being made, `film_length`: of the one that is asked about.  Times are seconds of
-    time.monotonic()."""
+    a film that is being made, `film_length`: of the one that is asked about; `held`: who holds what memory.  Times
+    are seconds of time.monotonic()."""
 
     ready: bool = False
     tables: Ready = Ready()  # noqa: RUF009  # it is frozen
@@ -51,6 +52,7 @@ class Known:
     opening: Opening | None = None
     filming: float | None = None
     film_length: FilmLength = FilmLength()  # noqa: RUF009
+    held: Held = Held()  # noqa: RUF009
 
     @property
     def frame(self) -> Rect:
@@ -123,4 +125,5 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.Growing: _growing,
     results.Filming: lambda known, r, now: {"filming": r.part},
     results.FilmLength: lambda known, r, now: {"film_length": r},
+    Held: lambda known, r, now: {"held": r},
 }

@@ -14,10 +14,12 @@ from app.desk.desk import Desk
 from app.panels import notice_line
 from app.panels.controls import widgets as w
 from app.tools import TOOLS
+from engine.studio.held.held_records import Held
 from engine.studio.results import Opening
 
 _LEVEL = "The level of detail shown and painted on; each level is twice as fine.  Click to type or copy a place"
 _NARROW = 70.0  # ems of a line in which a notice needs the room of what can wait
+_MEGABYTE = 1 << 20
 _PATIENCE = 0.4  # seconds for which it is not worth a word that the engine gets ready
 
 
@@ -26,8 +28,10 @@ def draw(desk: Desk, pointer_name: str) -> None:
     left = imgui.get_cursor_pos_x()
     right = imgui.get_window_width() - imgui.get_style().window_padding.x
     imgui.dummy(ImVec2(0, 0))
-    crowded = bool(desk.notices.rows) and imgui.get_window_width() < _NARROW * imgui.get_font_size()
-    for label, hint, fixed, action in reversed(_fields(desk, pointer_name, crowded)):
+    narrow = imgui.get_window_width() < _NARROW * imgui.get_font_size()
+    crowded = bool(desk.notices.rows) and narrow
+    memory = [] if narrow else [_memory(desk.known.held)]
+    for label, hint, fixed, action in reversed(memory + _fields(desk, pointer_name, crowded)):
         width = max(imgui.calc_text_size(label).x, fixed * imgui.get_font_size())
         right -= width
         imgui.same_line(right)
@@ -142,6 +146,22 @@ def _work(desk: Desk) -> str:
     if desk.known.growing is not None:
         return f"growing {desk.known.growing.done * 100:.0f} %"
     return f"{desk.known.pending} tiles to do" if desk.known.pending else ""
+
+
+def _memory(held: Held) -> tuple[str, str, float, str]:
+    """Returns the field that tells what memory the program takes, and who holds it."""
+    if not held.resident:
+        return "", "", 0.0, ""
+    known = sum(size for _, size in held.rows)
+    rows = [*held.rows, ("The program itself", max(held.resident - known, 0))]
+    told = [f"{_megabytes(size):>6}  {name}" for name, size in rows if size >= _MEGABYTE or name == "Painting"]
+    more = [f"Put away on disk: {_megabytes(held.disk)}"] if held.disk >= _MEGABYTE else []
+    last = f"Paintings may take {_megabytes(held.budget)}; preferences.toml says how much"
+    return _megabytes(held.resident), "\n".join(["Memory", *told, *more, last]), 0.0, ""
+
+
+def _megabytes(size: int) -> str:
+    return f"{size / _MEGABYTE:,.0f} MB"
 
 
 def _fields(desk: Desk, pointer_name: str, crowded: bool = False) -> list[tuple[str, str, float, str]]:

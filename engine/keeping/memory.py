@@ -65,6 +65,11 @@ def states_share() -> int:
     return budget() // 8
 
 
+def shares() -> dict[str, int]:
+    """Returns the bytes that each may take, by what for; the painting itself has what is left, and then the disk."""
+    return {"screen": cache_share(), "undo": history_share(), "older steps": states_share()}
+
+
 def resident() -> int:
     """Returns the bytes of memory that the process has; where the system does not tell, the most it ever had."""
     try:

@@ -14,6 +14,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.studio.held.held_records import Held
 from engine.studio.past.past_records import Here, PastScene
 
 if TYPE_CHECKING:
@@ -377,6 +378,7 @@ Result = (
     | Growing
     | PastScene
     | Here
+    | Held
 )
 
 

@@ -24,6 +24,7 @@ from engine.studio.examine import Examiner
 from engine.studio.filing.filing import Filing
 from engine.studio.filing.writers import Post, Send
 from engine.studio.grower import Grower
+from engine.studio.held.holding import Holding
 from engine.studio.journalled.answers import Answers
 from engine.studio.journalled.posts import Posts
 from engine.studio.journalled.tend_request import Tend
@@ -79,12 +80,14 @@ class Studio(Owned):
     """What the worker works at.  It belongs to the engine's thread.
 
     `send` and `post` may be called from any thread: `send` takes results to the window, `post` requests to this.
-    `posts`: what was asked for, as the journal knows it; None without a journal.
+    `posts`: what was asked for, as the journal knows it; None without a journal.  `holding` tells what memory is held;
+    None where nobody wants to know.
     """
 
     def __init__(self, send: Send, post: Post, posts: Posts | None = None, preferences: Preferences = _DEFAULT) -> None:
         self.easel = easel = Easel(send)
         self.filing, self.lab, self.grower = Filing(easel, post, preferences), Lab(easel), Grower(easel)
+        self.holding: Holding | None = None
         self._answers = None if posts is None else _answers(easel, self.filing, posts)
         viewer, trail = easel.viewer, Trail(easel)
         travels = Travels(trail)
@@ -149,6 +152,8 @@ class Studio(Owned):
             row.step()
             session = self.easel.session
             session.room.keep_within(session.painting.root)
+            if self.holding is not None:
+                self.holding.tell()
         return row is not None
 
     @property

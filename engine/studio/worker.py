@@ -80,12 +80,15 @@ def _studio(send: Callable[[Result], None], post: Callable[[Request], None], pos
     preparing.want(PLAIN_PAINT, soon=True)  # its processes load while the studio does
 
     from engine.studio.filing.beginning import begun
+    from engine.studio.held.holding import Holding
     from engine.studio.preparing.waiting import Waiting
     from engine.studio.studio import Studio  # here, on the thread: it loads numba
 
     if posts is not None:
         posts.is_compiling = lambda: preparing.busy
-    return Waiting(Studio(send, post, posts, begun(send)), preparing, send)
+    studio = Studio(send, post, posts, begun(send))
+    studio.holding = Holding(studio.easel)
+    return Waiting(studio, preparing, send)
 
 
 class Worker:

@@ -49,3 +49,11 @@ def test_it_tells_the_budget_of_memory_or_what_is_wrong_with_it(capsys, monkeypa
     memory.budget.cache_clear()
     assert told[0].startswith("512 MB")
     assert told[1] == memory.told_budget("much")[1]
+
+
+def test_the_doctor_tells_who_may_hold_how_much(monkeypatch, capsys):
+    monkeypatch.setattr("app.cli.doctor.opengl", lambda: "none")
+    monkeypatch.setattr("app.cli.doctor.memory.budget", lambda: 512 << 20)
+    assert main(["doctor", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["shares"]
+    assert told == {"screen": "128 MB at most", "undo": "128 MB at most", "older steps": "64 MB at most"}

@@ -15,6 +15,8 @@ from engine.painting.value import Painting
 from engine.session.history import History
 from engine.session.session import Session
 from engine.studio import requests as q
+from engine.studio.held import holding
+from engine.studio.held.held_records import Held
 from engine.studio.studio import Studio
 
 POINTS = np.array([[10.0, 10, 1, 0, 0, 0], [40, 30, 1, 0, 0, 0.1]])
@@ -58,4 +60,30 @@ def test_a_stroke_is_not_kept_when_it_is_paint():
         studio.do(q.Abandon() if drop else q.Finish())
     gc.collect()
     assert [ref() for ref in strokes] == [None, None, None]
+    studio.close()
+
+
+def test_the_window_is_told_who_holds_what(monkeypatch):
+    sent, taken = [], [100 << 20]
+    monkeypatch.setattr(holding.memory, "resident", lambda: taken[0])
+    monkeypatch.setattr(holding, "_APART", 0.0)
+    monkeypatch.setattr(holding, "_SHARE", 0)
+    studio = Studio(sent.append, lambda request: None)
+    studio.holding = holding.Holding(studio.easel)
+    studio.do(q.New(Rect.at(0, 0, 96, 96)))
+    for more in (0, 0, 50 << 20):
+        taken[0] += more
+        studio.do(q.Do(stroke(0)))
+        studio.look(q.Look(((0, 0, 0, -1),)))
+        while studio.step():
+            pass
+    assert len([r for r in sent if isinstance(r, Held)]) == 2  # the process did not grow the second time
+    told = [r for r in sent if isinstance(r, Held)][-1]
+    session, rows = studio.easel.session, dict(told.rows)
+    assert told.resident == taken[0]
+    assert rows["Painting"] == pyramid_of(session).nbytes > 0
+    assert rows["Undo"] == session.history.held > 0
+    assert rows["What is on the screen"] == session.cache.held
+    assert rows["Strokes as they were drawn"] == 3 * POINTS.nbytes
+    assert rows["Pictures"] == 0
     studio.close()
