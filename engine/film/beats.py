@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from engine.film.aim import Aim
 from engine.painting import commands as c
 from engine.painting.places import NO_BOOKMARKS, BookmarkCommand, Bookmarks, bookmarks_after
+from engine.strokes.coverage_at import stroke_bounds
 
 CLOCKS = ("strokes", "pen")
 _INVISIBLE = (c.AddLayer, c.RenameLayer)  # steps that change no pixel
@@ -22,17 +25,25 @@ class Beat(NamedTuple):
     seen: bool
 
 
+Sees = Callable[[c.Command], bool]
+
+
 def beats(
-    commands: Sequence[c.Command], steps: frozenset[type], clock: str = "strokes", undone: bool = False
+    commands: Sequence[c.Command],
+    steps: frozenset[type],
+    clock: str = "strokes",
+    undone: bool = False,
+    sees: Sees = lambda command: True,
 ) -> tuple[Beat, ...]:
     """Returns when each command is carried out, from 0 on.  `steps`: those that undo takes back.
 
     `clock`: "strokes", each takes as long as the others, or "pen", as long as it took, by the `time` of commands and of
-    points.  `undone`: what was taken back is seen, and how that goes.
+    points.  `undone`: what was taken back is seen, and how that goes.  `sees`: whether the film could show a command.
     """
     now, ended = 0.0, None
     out: list[Beat] = []
-    for command, seen in zip(commands, _seen(commands, steps, undone), strict=True):
+    for command, stays in zip(commands, _seen(commands, steps, undone), strict=True):
+        seen = stays and sees(command)
         length = 0.0
         if seen and clock == "pen":
             length, time = _taken(command), _time(command)
@@ -43,6 +54,22 @@ def beats(
         out.append(Beat(now, length, seen))
         now += length
     return tuple(out)
+
+
+def seen_from(aim: Aim, size: tuple[int, int]) -> Sees:
+    """Returns what tells of a command whether pictures of `size` (width, height) of one place could show it: a stroke
+    meets them, and is as long as one of their pixels."""
+    frame = aim.window(aim.across(size), aim.level).rect
+
+    def sees(command: c.Command) -> bool:
+        if not isinstance(command, c.Stroke):
+            return True
+        bounds = stroke_bounds(command)
+        levels = command.level - aim.level
+        long = math.log2(max(bounds.width, bounds.height)) >= levels - aim.fraction
+        return long and not bounds.zoomed(-levels).intersect(frame).empty
+
+    return sees
 
 
 def _seen(commands: Sequence[c.Command], steps: frozenset[type], undone: bool) -> list[bool]:

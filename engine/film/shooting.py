@@ -12,7 +12,7 @@ import numpy as np
 
 from engine.film import tip_mark
 from engine.film.aim import Aim
-from engine.film.beats import Beat, beats
+from engine.film.beats import Beat, beats, seen_from
 from engine.film.course import flight, legs_through, length
 from engine.film.replaying import Making, Replaying
 from engine.film.sheets import Parts, Sheets, plan
@@ -114,8 +114,14 @@ class Shooting:
 
 
 def _beats_of(film: Film) -> tuple[Beat, ...]:
+    """Returns when each command is carried out.  By strokes, those that a film of one place could not show take none of
+    its time: it would stand still."""
     made = film.making
-    return () if made is None else beats(made.recording.commands, made.steps, film.clock, film.undone)
+    if made is None:
+        return ()
+    stands = film.clock == "strokes" and all(place == film.places[0] for place in film.places)
+    seen = [seen_from(film.places[0], film.size)] if stands else []
+    return beats(made.recording.commands, made.steps, film.clock, film.undone, *seen)
 
 
 class _Picture:

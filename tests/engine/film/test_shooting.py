@@ -10,7 +10,7 @@ import pytest
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
 from engine.film.aim import Aim, aim_at, aim_of
-from engine.film.beats import beats
+from engine.film.beats import beats, seen_from
 from engine.film.replaying import Replaying
 from engine.film.sheets import Sheets, plan
 from engine.film.shooting import Film, Shooting, frame_of
@@ -218,6 +218,27 @@ def test_what_was_undone_and_done_again_is_seen():
         True,
         True,
     ]
+
+
+def test_what_a_film_of_one_place_could_not_show_takes_none_of_its_time():
+    deep = stroke([[0, 0], [300, 0]], level=12, origin=[80 << 12, 45 << 12], brush={"radius": 40})
+    beside = stroke([[500, 20], [600, 20]])
+    commands = recorded([REPLAYED[1], deep, beside, REPLAYED[2]]).commands
+    whole = seen_from(aim_at(0, FRAME, SIZE), SIZE)
+    assert [(b.begin, b.length) for b in beats(commands, STEPS, sees=whole)] == [(0, 1), (1, 0), (1, 0), (1, 1)]
+    near = seen_from(aim_at(12, Rect.at(80 << 12, 45 << 12, *SIZE), SIZE), SIZE)
+    assert [near(command) for command in commands] == [False, True, False, False]
+
+
+def test_a_replay_does_not_stand_still_while_what_is_too_small_is_painted():
+    many = [
+        stroke([[0, 0], [50 + n, 0]], level=14, origin=[80 << 14, 45 << 14], brush={"radius": 9}) for n in range(40)
+    ]
+    recording = recorded([REPLAYED[1], *many, REPLAYED[2]])
+    frames = list(Shooting(Film((aim_at(0, FRAME, SIZE),), SIZE, 10.0, 4.0, making_of(recording))).frames(2))
+    still = sum(np.array_equal(a, b) for a, b in pairwise(frames[:30]))
+    assert still < 8
+    assert np.array_equal(frames[-1], of(replay(recording).painting))
 
 
 def of(painting):
