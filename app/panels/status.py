@@ -145,7 +145,7 @@ def _work(desk: Desk) -> str:
         return f"{icons.WAIT} Preparing brushes, {brushes.ready} of {brushes.of}"
     if desk.known.growing is not None:
         return f"growing {desk.known.growing.done * 100:.0f} %"
-    return f"{desk.known.pending} tiles to do" if desk.known.pending else ""
+    return "refining" if desk.known.pending else ""
 
 
 def _memory(held: Held) -> tuple[str, str, float, str]:

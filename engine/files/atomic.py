@@ -17,7 +17,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from engine.files.fault import WriteError
+from engine.files.fault import WriteError, reason_of
 
 try:
     import fcntl
@@ -174,4 +174,4 @@ def sync_folder(folder: Path) -> None:
 def _reason(error: Exception) -> str:
     if isinstance(error, FileNotFoundError):
         return "there is no such folder"
-    return getattr(error, "strerror", None) or str(error)
+    return reason_of(error)

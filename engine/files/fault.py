@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 
 
@@ -31,8 +32,17 @@ class Cancelled(Exception):
 
 def system_words(error: OSError) -> str:
     """Returns what the system says of a file, in one line: the file, if it names one, and the reason."""
-    reason = error.strerror or str(error) or type(error).__name__
-    return f"{error.filename}: {reason}" if error.filename else reason
+    return f"{error.filename}: {reason_of(error)}" if error.filename else reason_of(error)
+
+
+def reason_of(error: Exception) -> str:
+    """Returns why something could not be read or written, in words that everybody uses."""
+    if isinstance(error, OSError) and error.errno in _FULL:
+        return "the disk is full"
+    return getattr(error, "strerror", None) or str(error) or type(error).__name__
+
+
+_FULL = errno.ENOSPC, errno.EDQUOT
 
 
 def shown(text: object, limit: int = 60) -> str:

@@ -14,7 +14,7 @@ from enum import Enum
 from pathlib import Path
 
 from engine.files.atomic import sync_folder
-from engine.files.fault import WriteError
+from engine.files.fault import WriteError, reason_of
 from engine.journal import entries
 from engine.journal.frames import Frame, framed, frames_in
 from engine.journal.records import Kind, told_object
@@ -117,14 +117,14 @@ class Volume:
             self._fail(error)
             return False
         if count < len(data):  # the disk has become full within the frame
-            self._torn, self.fault = True, os.strerror(errno.ENOSPC)
+            self._torn, self.fault = True, reason_of(OSError(errno.ENOSPC, ""))
             return False
         self._good += count
         self._recent.append(data)
         return True
 
     def _fail(self, error: OSError) -> None:
-        self.fault = error.strerror or str(error)
+        self.fault = reason_of(error)
 
     # --- by one thread, without the lock ------------------------------------------------------------------------------
 

@@ -1,5 +1,8 @@
 """Work with files: what the artist is told of a refusal, and of a fault."""
 
+import errno
+import os
+
 import pytest
 
 from app.desk.desk import FileWork
@@ -21,7 +24,7 @@ class Failing(FileWork):
     ("error", "words"),
     [
         (PermissionError(13, "Permission denied", "a.json"), "a.json: Permission denied"),
-        (OSError(28, "No space left on device"), "No space left on device"),
+        (OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), "the disk is full"),
         (FileError("a.json", "found 3"), "a.json: found 3"),
         (FieldError("radius", "-1", "0 or more"), "radius: found -1, expected 0 or more"),
         (MemoryError(), "Not enough memory for this"),

@@ -103,7 +103,7 @@ def test_the_status_line_tells_how_far_it_is_grown_although_no_tiles_wait(desk):
     desk.learn(growing=Growing(0.42), pending=0)
     assert status._fields(desk, "")[0][0] == "growing 42 %"
     desk.learn(growing=None, pending=8)
-    assert status._fields(desk, "")[0][0] == "8 tiles to do"
+    assert status._fields(desk, "")[0][0] == "refining"
     desk.learn(writing=Writing(1, True, 0.4))
     assert status._fields(desk, "")[0][0] == f"{icons.DISK} Saving, growing 40 %"
     desk.learn(writing=Writing(1))

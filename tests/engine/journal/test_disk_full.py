@@ -72,7 +72,7 @@ def test_a_disk_fills_while_one_paints_and_saves(small_disk):
     until(lambda: notes.extend(idle(worker)) or any(getattr(note, "about", "") == "journal" for note in notes))
     (full,) = [note for note in notes if getattr(note, "about", "") == "journal"]
     assert full.stays
-    assert full.text == "What you paint is kept in memory only: No space left on device"
+    assert full.text == "What you paint is kept in memory only: the disk is full"
     folder = worker._posts.journal.entry.folder
     assert len(read_story(folder).commands) < 12
     (small_disk / "filler").unlink()

@@ -77,8 +77,11 @@ def test_verify_can_refuse(tmp_path):
 
 
 @pytest.mark.parametrize("call", ["open", "fsync", "replace"])
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EIO, errno.EACCES])
-def test_failing_system_calls(tmp_path, monkeypatch, call, number):
+@pytest.mark.parametrize(
+    ("number", "told"),
+    [(errno.ENOSPC, "the disk is full")] + [(number, os.strerror(number)) for number in (errno.EIO, errno.EACCES)],
+)
+def test_failing_system_calls(tmp_path, monkeypatch, call, number, told):
     target = tmp_path / "a.bin"
     target.write_bytes(b"old")
 
@@ -93,7 +96,7 @@ def test_failing_system_calls(tmp_path, monkeypatch, call, number):
 
     with pytest.raises(WriteError) as caught:
         attempt()
-    assert str(caught.value) == f"{target}: cannot be written: {os.strerror(number)}"
+    assert str(caught.value) == f"{target}: cannot be written: {told}"
     assert names(tmp_path) == ["a.bin"]
     assert target.read_bytes() == b"old"
 
