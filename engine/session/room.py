@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.checks.owned import Owned
@@ -12,6 +14,7 @@ from engine.session.paging import Paging
 SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than the room they take
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
+_AGAIN = 2.0  # seconds after which it is, at the latest: giving back takes a hundredth of that
 
 
 class Room(Owned):
@@ -24,13 +27,14 @@ class Room(Owned):
         self._cache, self.history = cache, history
         self._paging = Paging()
         self._left = 0  # bytes resident when it was looked after last
+        self._looked = -_AGAIN  # when that was
         self._evicted = 0  # bytes that the cache had evicted then
 
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
         process takes more than the budget."""
         most = memory.budget() + memory.PROGRAM - _APART
-        if memory.resident() <= max(most, self._left + _APART):
+        if not self._due(memory.resident(), most):
             return
         memory.give_back()
         cache, over = self._cache, memory.resident() - most
@@ -42,6 +46,16 @@ class Room(Owned):
             self._paging.want(root, cache.level, over)
             self._paging.step(_PAGED_AT_ONCE)
         self._left = memory.resident()
+
+    def _due(self, held: int, most: int) -> bool:
+        """Tells whether it is time to look after the memory of a process that holds so many bytes: it holds too much,
+        and more than it was left with, or that is some time ago.  Of what came and went since, as a save does, the
+        system had nothing back."""
+        now = time.monotonic()
+        if held <= most or (held <= self._left + _APART and now - self._looked < _AGAIN):
+            return False
+        self._looked = now
+        return True
 
     @property
     def pending(self) -> int:

@@ -1,0 +1,64 @@
+"""What a session holds is kept within the budget, whatever comes and goes."""
+
+import pytest
+
+from engine.canvas.evaluate import TileCache
+from engine.keeping import memory
+from engine.painting.value import Painting
+from engine.session import room as rooms
+from engine.session.history import History
+from engine.session.room import Room
+
+MEGABYTE = memory.MEGABYTE
+
+
+class Process:
+    """A process whose memory a test decides: what is given back is free at once."""
+
+    def __init__(self, monkeypatch):
+        self.used = self.free = self.now = self.given = 0
+        monkeypatch.setattr(memory, "budget", lambda: 100 * MEGABYTE)
+        monkeypatch.setattr(memory, "PROGRAM", rooms._APART)
+        monkeypatch.setattr(memory, "resident", lambda: (self.used + self.free) * MEGABYTE)
+        monkeypatch.setattr(memory, "give_back", self.give_back)
+        monkeypatch.setattr(rooms.time, "monotonic", lambda: self.now)
+
+    def give_back(self):
+        self.given += self.free > 0
+        self.free = 0
+
+
+@pytest.fixture
+def process(monkeypatch):
+    return Process(monkeypatch)
+
+
+def test_what_a_spike_left_is_given_back_soon(process):
+    room = Room(TileCache(MEGABYTE), History())
+    process.used = 500  # a save is on its way
+    room.keep_within(Painting().root)
+    process.used, process.free = 90, 400
+    room.keep_within(Painting().root)
+    assert process.free == 400  # it was looked after just now
+    process.now += rooms._AGAIN
+    room.keep_within(Painting().root)
+    assert process.free == 0
+
+
+def test_a_process_within_its_budget_is_left_alone(process):
+    room = Room(TileCache(MEGABYTE), History())
+    process.used, process.free = 60, 40
+    for _ in range(3):
+        room.keep_within(Painting().root)
+        process.now += 10 * rooms._AGAIN
+    assert process.free == 40
+
+
+def test_what_is_always_too_much_is_seldom_looked_after(process):
+    room = Room(TileCache(MEGABYTE), History())
+    process.used = 200
+    for _ in range(100):
+        process.free = 1
+        room.keep_within(Painting().root)
+        process.now += rooms._AGAIN / 10
+    assert 5 <= process.given <= 15
