@@ -173,15 +173,13 @@ def _slabs(rects: Sequence[Rect]) -> Iterator[Rect]:
 
 def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
     """Tells whether a finer level holds residuals that a stroke over `rect` would weaken."""
-    return any(
-        next(iter(pyramid.records(k, rect.grown(2).zoomed(k - level))), None) is not None
-        for k in pyramid.levels
-        if k > level
-    )
+    around = rect.grown(2)
+    return any(pyramid.has_records(k, around.zoomed(k - level)) for k in pyramid.levels if k > level)
 
 
 def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None, records: NewRecords) -> Pyramid:
-    change = Change(edit.level, rect, pyramid.last, depth=pyramid.depth + 1)
+    coarsest = min((key.level for key in records), default=edit.level)
+    change = Change(edit.level, rect, pyramid.last, depth=pyramid.depth + 1, coarsest=coarsest)
     waits = Attenuation(change, keeps, pyramid.waits, edit.spares_alpha) if keeps else pyramid.waits
     by_level: dict[int, list[TileKey]] = {}
     for key in records:

@@ -7,6 +7,7 @@ pyramid and the place; the cache only shortens it.
 
 from __future__ import annotations
 
+import itertools
 import threading
 from collections import OrderedDict
 from collections.abc import Iterable
@@ -25,6 +26,7 @@ from engine.texture.sparse_planes import SparsePlanes
 _NEAR = 1  # levels from the one that is looked at: farther ones are left behind
 _BEHIND = 128 << 20  # bytes
 _TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
+_MOST_SINCE = 256  # commits to look through for one that meets a tile: a tile is sooner made again than after more
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
 
 
@@ -61,7 +63,8 @@ class TileCache:
                 return False, None
             if kept.since is not pyramid.last:
                 rect = key.rect
-                if any(c.reach(key.level).meets(rect) for c in changes_between(kept.since, pyramid.last)):
+                since = list(itertools.islice(changes_between(kept.since, pyramid.last), _MOST_SINCE + 1))
+                if len(since) > _MOST_SINCE or any(c.reach(key.level).meets(rect) for c in since):
                     return False, None
                 kept.since = pyramid.last
             there.tiles.move_to_end(place)

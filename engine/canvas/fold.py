@@ -16,8 +16,11 @@ def fold(pyramid: Pyramid) -> Pyramid:
     """Returns the same values without pending attenuations: what a file stores.  The past of `pyramid` is kept."""
     levels = pyramid.levels
     for level, stored in pyramid.levels.items():
+        if not (places := _places(pyramid, level)):
+            continue
         editable = stored.mutate()
-        for place, record in stored.items():
+        for place in places:
+            record = stored[place]
             settled = effective(pyramid, TileKey(level, *place), record)
             if settled is record:
                 continue
@@ -29,3 +32,12 @@ def fold(pyramid: Pyramid) -> Pyramid:
         finished = editable.finish()
         levels = levels.set(level, finished) if len(finished) else levels.delete(level)
     return replace(pyramid, levels=levels, settled=pyramid.depth, waits=None)
+
+
+def _places(pyramid: Pyramid, level: int) -> set[tuple[int, int]]:
+    """Returns the places of a level's records that any attenuation meets."""
+    found: set[tuple[int, int]] = set()
+    for waiting in pyramid.waiting():
+        if waiting.change.level < level:
+            found.update((key.x, key.y) for key, _ in pyramid.records(level, waiting.change.reach(level)))
+    return found

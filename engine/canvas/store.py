@@ -23,6 +23,7 @@ from engine.numeric.address import Rect, TileKey
 from engine.texture.record import Instance
 
 RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
+_NOWHERE = Rect(0, 0, 0, 0)
 _serials = itertools.count(1)
 
 
@@ -73,7 +74,8 @@ class Record:
 class Change:
     """One commit, linked to the one before.
 
-    `level`, `rect`: where pixels changed.
+    `level`, `rect`: where pixels changed.  `coarsest`: the coarsest level that has another record now, above which no
+    value changed; None where that is not known.
     """
 
     level: int
@@ -81,9 +83,12 @@ class Change:
     before: Change | None
     serial: int = field(default_factory=lambda: next(_serials))
     depth: int = 1
+    coarsest: int | None = None
 
     def reach(self, level: int) -> Rect:
         """Returns the pixels of `level` whose value this change can alter (notes of the pyramid: locality)."""
+        if self.coarsest is not None and level < self.coarsest:
+            return _NOWHERE
         if level <= self.level:
             return self.rect.zoomed(level - self.level)
         return self.rect.grown(2).zoomed(level - self.level)
@@ -174,17 +179,26 @@ class Pyramid:
         stored = self.levels.get(level)
         if not stored or rect.empty:
             return
-        keys = rect.tiles(level)
-        first = next(keys)
-        across = (rect.x1 - 1) // 128 - first.x + 1
-        down = (rect.y1 - 1) // 128 - first.y + 1
-        if across * down <= len(stored):
-            candidates = ((key, stored.get((key.x, key.y))) for key in itertools.chain((first,), keys))
+        places = rect.within_tiles()
+        if places.area <= len(stored):
+            candidates = ((key, stored.get((key.x, key.y))) for key in rect.tiles(level))
         else:
-            candidates = ((TileKey(level, *place), record) for place, record in sorted(stored.items()))
+            x0, y0, x1, y1 = places
+            found = sorted((at, record) for at, record in stored.items() if x0 <= at[0] < x1 and y0 <= at[1] < y1)
+            candidates = ((TileKey(level, *place), record) for place, record in found)
         for key, record in candidates:
-            if record is not None and key.rect.meets(rect):
+            if record is not None:
                 yield key, record
+
+    def has_records(self, level: int, rect: Rect) -> bool:
+        """Tells whether a stored tile of a level meets a rectangle."""
+        stored, places = self.levels.get(level), rect.within_tiles()
+        if not stored or rect.empty:
+            return False
+        if places.area <= len(stored):
+            return any((key.x, key.y) in stored for key in rect.tiles(level))
+        x0, y0, x1, y1 = places
+        return any(x0 <= x < x1 and y0 <= y < y1 for x, y in stored)
 
     def all_records(self) -> Iterator[tuple[TileKey, Record]]:
         """Gives all records with their places, the coarsest level first, row by column of tiles."""
@@ -222,4 +236,5 @@ def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:
 
 def changed_rects(old: Pyramid, new: Pyramid, level: int) -> list[Rect]:
     """Returns the rectangles of `level` in which two states of one line of history may differ."""
-    return [change.reach(level) for change in changes_between(old.last, new.last)]
+    rects = (change.reach(level) for change in changes_between(old.last, new.last))
+    return [rect for rect in rects if not rect.empty]

@@ -100,6 +100,10 @@ class Rect(NamedTuple):
             slice(self.x0 - inside.x0, self.x1 - inside.x0),
         )
 
+    def within_tiles(self) -> Rect:
+        """Returns the places of the tiles that meet this rectangle, which is not empty."""
+        return Rect(self.x0 // TILE, self.y0 // TILE, (self.x1 - 1) // TILE + 1, (self.y1 - 1) // TILE + 1)
+
     def tiles(self, level: int) -> Iterator[TileKey]:
         """Yields the tiles of `level` that meet this rectangle, row by row."""
         if self.empty:

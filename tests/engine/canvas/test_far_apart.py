@@ -1,0 +1,111 @@
+"""What lies far from a stroke, in place or in level, is left alone, and found again without looking through it all."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strokes import ArrayEdit, Grain, fill, random_stroke
+
+from engine.canvas import evaluate as evaluating
+from engine.canvas import fold as folding
+from engine.canvas.commit import commit
+from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.fold import fold
+from engine.canvas.store import Pyramid, changed_rects
+from engine.numeric.address import Rect, TileKey
+
+INKS = (Grain(0, 1),)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6))
+def test_no_value_changes_above_the_coarsest_level_that_a_commit_tells(seed):
+    rng = np.random.default_rng(seed)
+    pyramid = Pyramid()
+    for _ in range(4):
+        m, x, y, keep, add = random_stroke(rng, 4, 12, INKS)
+        after = commit(pyramid, ArrayEdit(m, x, y, keep, add, INKS))
+        if after is pyramid:
+            continue
+        coarsest = after.last.coarsest
+        for level in range(coarsest - 3, coarsest):
+            rect = Rect(-4, -4, 4, 4)
+            before, now = evaluate(pyramid, level, rect), evaluate(after, level, rect)
+            assert np.array_equal(before.rgba, now.rgba)
+            assert after.last.reach(level).empty
+            assert changed_rects(pyramid, after, level) == []
+        assert not after.last.reach(coarsest).empty
+        pyramid = after
+
+
+def test_a_tile_far_above_stays_in_the_cache_while_small_strokes_follow_below():
+    cache, key = TileCache(1 << 24), TileKey(0, 0, 0)
+    pyramid = commit(Pyramid(), fill(0, 10, 10, 90, 90), cache)
+    pyramid = commit(pyramid, fill(30, 20 << 30, 20 << 30, 40, 40, (0.1, 0.9, 0.2)), cache)
+    known, value = cache.get(pyramid, key)
+    assert known
+    assert np.array_equal(value.data, evaluate(pyramid, 0, key.rect).data)
+
+
+def test_a_cached_tile_is_made_again_sooner_than_compared_with_thousands_of_commits(monkeypatch):
+    asked = []
+    plain = evaluating.changes_between
+    monkeypatch.setattr(evaluating, "_MOST_SINCE", 8)
+    monkeypatch.setattr(evaluating, "changes_between", lambda a, b: (asked.append(c) or c for c in plain(a, b)))
+    cache, key = TileCache(1 << 24), TileKey(0, 0, 0)
+    pyramid = commit(Pyramid(), fill(0, 10, 10, 90, 90), cache)
+    evaluate(pyramid, 0, key.rect, cache)
+    for n in range(8):
+        pyramid = commit(pyramid, fill(0, 10_000 + 500 * n, 0, 4, 4))
+    assert cache.get(pyramid, key)[0]
+    for n in range(20):
+        pyramid = commit(pyramid, fill(0, 20_000 + 500 * n, 0, 4, 4))
+    asked.clear()
+    assert cache.get(pyramid, key) == (False, None)
+    assert len(asked) == 9
+    assert np.array_equal(evaluate(pyramid, 0, key.rect, cache).data, evaluate(pyramid, 0, key.rect).data)
+
+
+@pytest.fixture
+def spread():
+    """Forty fine strokes far apart, and a faint coarse one over two of them."""
+    pyramid = Pyramid()
+    for n in range(40):
+        pyramid = commit(pyramid, fill(3, 4000 * n, 0, 20, 20))
+    return commit(pyramid, fill(0, 0, 0, 520, 10, alpha=0.25))
+
+
+def test_folding_looks_only_at_records_that_an_attenuation_meets(spread, monkeypatch):
+    looked = []
+    plain = folding.effective
+
+    def effective(pyramid, key, record):
+        looked.append(key)
+        return plain(pyramid, key, record)
+
+    monkeypatch.setattr(folding, "effective", effective)
+    folded = fold(spread)
+    assert looked
+    assert all(key.rect.meets(spread.last.reach(key.level)) for key in looked)
+    assert {key.x for key in looked if key.level == 3} == {-1, 0, 31}
+    for level in (2, 3):
+        for x in (0, 4000 >> 3 - level, 8000 >> 3 - level):
+            view = Rect(x - 4, -4, x + 30, 30)
+            assert np.array_equal(evaluate(folded, level, view).data, evaluate(spread, level, view).data)
+    assert all(folded.levels[level] is spread.levels[level] for level in spread.levels if level <= 0)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.integers(-3000, 3000), min_size=4, max_size=4))
+def test_records_are_found_by_few_tiles_and_by_few_records_alike(corners):
+    pyramid = Pyramid()
+    for n in range(12):
+        pyramid = commit(pyramid, fill(0, 211 * n - 1200, 97 * n - 500, 60, 40))
+    x0, x1 = sorted(corners[:2])
+    y0, y1 = sorted(corners[2:])
+    rect = Rect(x0, y0, x1, y1)
+    expected = (
+        [] if rect.empty else [key for key, _ in pyramid.all_records() if key.level == 0 and key.rect.meets(rect)]
+    )
+    assert {key for key, _ in pyramid.records(0, rect)} == set(expected)
+    assert pyramid.has_records(0, rect) is bool(expected)
