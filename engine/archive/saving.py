@@ -113,7 +113,8 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
         with ThreadPoolExecutor(WORKERS, "save") as pool:
             shown = pool.submit(plan.pictures)
             try:
-                for job in plan.jobs:
+                while plan.jobs:
+                    job = plan.jobs.popleft()  # with the last of a layer's goes what was evaluated for them
                     waiting.append((job, pool.submit(job.make)))
                     if len(waiting) >= WAITING:
                         yield _next(waiting, cancelled)
@@ -184,7 +185,7 @@ class SavePlan:
         grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
         self._recording = recording
-        self.jobs = [*seen, *laid, *stored, *grown]  # the recording needs the pictures, so they follow it
+        self.jobs = deque([*seen, *laid, *stored, *grown])  # the recording needs the pictures, so they follow it
         self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
         recorded = [] if recording is None else [RECORDING]

@@ -8,9 +8,11 @@ from collections.abc import Mapping
 from engine.canvas.evaluate import step
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
-from engine.texture.planes import Planes
+from engine.texture.planes import COLOURS, Planes
+from engine.texture.record import Instance
 
 SMALL = 1 << 21  # pixels of a level up to which it is held as a whole
+_PLANES = 16  # for each of these pixels: where more ink lies, there are fewer pixels
 _KEPT = 16  # levels held at a time: between them and the coarsest there may be many
 
 Held = tuple[Rect, Planes | None]
@@ -18,7 +20,8 @@ Held = tuple[Rect, Planes | None]
 
 class Cascade:
     """`needed`: the even rectangle of each level within which values will be asked for.  Safe for several threads.
-    `inked`: whether any ink lies in the pyramid.  `held`: pixels of a level up to which it is held as a whole.
+    `inked`: whether any ink lies in the pyramid.  `held`: pixels of a level up to which it is held as a whole, fewer
+    if there are more inks than four.
     `shown`: the one level whose colours are asked for; ink that adds no texture down to it is left out.
 
     A level is evaluated when a finer one is, at the latest, and must not change after that.
@@ -29,7 +32,8 @@ class Cascade:
     ) -> None:
         self.pyramid = pyramid
         self._most, self._shown = held, shown
-        self.inked = any(record.inks for _, record in pyramid.all_records())
+        self._inks = _inks_down_to(pyramid, shown)
+        self.inked = any(self._inks.values())
         self._coarsest = pyramid.coarsest if pyramid.coarsest is not None else 0
         self._rects = dict(needed)
         finest = max(needed, default=self._coarsest)
@@ -50,10 +54,15 @@ class Cascade:
         with self._lock:
             for k in range(self._next, level + 1):
                 rect = self._rects.get(k)
-                if rect is not None and rect.area <= self._most:
+                if rect is not None and self._planes(k) * rect.area <= _PLANES * self._most:
                     self._held[k] = rect, self._at(k, rect)
                 self._held.pop(k - _KEPT, None)
             self._next = max(self._next, level + 1)
+
+    def _planes(self, level: int) -> int:
+        """Tells how many planes lie on a pixel of a level, at most: never less than may be held without thinking."""
+        inks = max((count for k, count in self._inks.items() if k <= level), default=0)
+        return max(_PLANES, COLOURS + 3 * inks)
 
     def _at(self, level: int, rect: Rect) -> Planes | None:
         rects, above = [rect], None
@@ -69,3 +78,17 @@ class Cascade:
             value = step(self.pyramid, value, at, k, inner, self._shown)
             at = inner
         return value
+
+
+def _inks_down_to(pyramid: Pyramid, shown: int | None) -> dict[int, int]:
+    """Counts, for each level that has records, the inks of that level and of coarser ones; of those that are seen at
+    the level `shown`, if it is given."""
+    at: dict[int, set[Instance]] = {}
+    for key, record in pyramid.all_records():
+        at.setdefault(key.level, set()).update(record.inks)
+    found: set[Instance] = set()
+    counts = {}
+    for level in sorted(at):
+        found |= {ink for ink in at[level] if shown is None or ink.base < shown}
+        counts[level] = len(found)
+    return counts

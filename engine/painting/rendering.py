@@ -19,7 +19,7 @@ _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 256
 _HELD, _HELD_OF_ALL = 1 << 19, 1 << 22  # pixels of a coarser level up to which it is held: of a layer, of all of them
 _COLUMNS = 1024  # of the pieces in which layers are evaluated
-TOGETHER = 1 << 25  # pixels of all layers' parts of a band, about: half a gigabyte
+TOGETHER = 1 << 23  # pixels of all layers' parts of a band, about: 128 MB
 HELD = 64  # layers for which a piece has that size; for more it is narrower
 
 Stop = Callable[[], bool] | None
