@@ -66,5 +66,7 @@ def test_a_save_lets_go_of_each_layer_when_its_tiles_are_made(tmp_path, monkeypa
 
     monkeypatch.setattr(saving, "Cascade", noted)
     painting = made(*added, *strokes, side=60)
-    save(tmp_path / "p.ora", Snapshot(painting), lambda part: alive.append(sum(1 for each in made_values if held(each))))
+    save(
+        tmp_path / "p.ora", Snapshot(painting), lambda part: alive.append(sum(1 for each in made_values if held(each)))
+    )
     assert 0 < max(alive) <= 8 < len(names)  # those that are worked on or wait for their turn
