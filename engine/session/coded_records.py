@@ -8,6 +8,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from isal import isal_zlib
@@ -15,10 +16,10 @@ from isal import isal_zlib
 from engine.canvas.store import Record
 from engine.keeping.spill import Spilled, spill
 from engine.numeric.address import Rect
-from engine.texture.planes import plane_map
+from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
 
-_ALONE = 32  # of so many records of a tile, about one is coded by itself: so that no way to one is long
+LONGEST = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
 _OVERHEAD = 300  # bytes of a coded record's own objects, roughly
 
@@ -43,29 +44,41 @@ class CodedData:
         """Counts the bytes of memory that it takes."""
         return _OVERHEAD + (len(self.packed) if isinstance(self.packed, bytes) else 0)
 
+    @property
+    def spared(self) -> int:
+        """Counts the bytes that the data would take beside these."""
+        size = (COLOURS + 3 * len(self.inks)) * self.rect.height * self.rect.width * self.dtype.itemsize
+        return size - self.nbytes
+
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
         known = _KEPT.get(self)
         if known is not None:
             return known
         way = [self]  # to the nearest record whose data are there
-        while (held := way[-1].other and way[-1].other.held) is not None and isinstance(held, CodedData):
+        while (other := way[-1].other) is not None and isinstance(held := other.held, CodedData):
             if _KEPT.get(held) is not None:
                 break
             way.append(held)
-        for coded in reversed(way):
-            data = coded._added()
-            _KEPT.keep(coded, data)
+        first = way.pop()
+        data = first._added(first._predicted(None if first.other is None else first.other.data))
+        for before, coded in pairwise((first, *reversed(way))):
+            alike = coded.rect == before.rect and coded.inks == before.inks and coded.dtype == before.dtype
+            data = coded._added(data if alike else coded._predicted(data))
+        data.flags.writeable = False
+        _KEPT.keep(self, data)
         return data
 
-    def _added(self) -> np.ndarray:
-        out = _predicted(self.rect, self.inks, self.dtype, self.other)
+    def _predicted(self, data: np.ndarray | None) -> np.ndarray:
+        return _predicted((self.rect, self.inks, self.dtype), self.other, data)
+
+    def _added(self, out: np.ndarray) -> np.ndarray:
+        """Adds to what is predicted, in place."""
         packed = self.packed if isinstance(self.packed, bytes) else self.packed.read()
         if packed:
             part = out[:, *self.window]
             raw = np.frombuffer(isal_zlib.decompress(packed), np.uint8).reshape(self.dtype.itemsize, part.size)
             part += np.ascontiguousarray(raw.T).view(self.dtype).reshape(part.shape)
-        out.flags.writeable = False
         return out
 
 
@@ -100,19 +113,37 @@ class _Made:
 _KEPT = _Made()
 
 
+class Ways:
+    """Codes records of a line of history, the farthest first, so that the ways to their data stay short."""
+
+    def __init__(self) -> None:
+        self._behind: dict[Record, int] = {}  # records that one not coded yet is to be made before
+
+    def encode(self, record: Record, other: Record | None) -> None:
+        """Makes a record smaller; `other`: the one that took its place, None for none."""
+        behind = self._behind.pop(record, 0)
+        if other is not None and (behind >= LONGEST - 1 or leads_to(other, record)):
+            other = None
+        if encode(record, other) and other is not None:
+            self._behind[other] = max(self._behind.get(other, 0), behind + 1)
+
+    def forget(self) -> None:
+        """Holds none of the records any more: the next ways may be longer."""
+        self._behind.clear()
+
+
 def encode(record: Record, other: Record | None) -> int:
     """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
     less than before: 0 if it is coded already."""
     if not isinstance(record.held, np.ndarray):
         return 0
-    if other is not None and (_alone(record.depth) or _leads_to(other, record)):
+    if other is not None and leads_to(other, record):
         other = None
     coded = _coded(record, other)
-    saved = record.held.nbytes - coded.nbytes
-    if saved <= 0:
+    if coded.spared <= 0:
         return 0
     record.exchange(coded)
-    return saved
+    return coded.spared
 
 
 def put_away(coded: CodedData) -> int:
@@ -136,7 +167,10 @@ def decode(record: Record) -> None:
 
 def _coded(record: Record, other: Record | None) -> CodedData:
     data = record.data
-    left = data - _predicted(record.rect, record.inks, data.dtype, other)  # wraps round, and back when it is added
+    wanted = record.rect, record.inks, data.dtype
+    left = data - _predicted(
+        wanted, other, None if other is None else other.data
+    )  # wraps round, and back when it is added
     marked = left.any(axis=0)
     rows, columns = (np.flatnonzero(marked.any(axis=axis)) for axis in (1, 0))
     if not len(rows):
@@ -147,12 +181,15 @@ def _coded(record: Record, other: Record | None) -> CodedData:
     return CodedData(record.rect, record.inks, data.dtype, other, window, packed)
 
 
-def _predicted(rect: Rect, inks: tuple[Instance, ...], dtype: np.dtype, other: Record | None) -> np.ndarray:
-    """Returns what another record of the tile has at the places of one: new, in its integers."""
-    out = np.zeros((4 + 3 * len(inks), rect.height, rect.width), dtype)
+def _predicted(
+    wanted: tuple[Rect, tuple[Instance, ...], np.dtype], other: Record | None, data: np.ndarray | None
+) -> np.ndarray:
+    """Returns what another record of the tile, of these data, has at the places of the one that is wanted: new, in its
+    integers."""
+    rect, inks, dtype = wanted
+    out = np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), dtype)
     common = Rect(0, 0, 0, 0) if other is None else rect.intersect(other.rect)
-    if other is not None and not common.empty:
-        data = other.data
+    if other is not None and data is not None and not common.empty:
         here, there = common.slices(rect), common.slices(other.rect)
         for plane, source in enumerate(plane_map(other.inks, inks).tolist()):
             if source >= 0:
@@ -160,13 +197,7 @@ def _predicted(rect: Rect, inks: tuple[Instance, ...], dtype: np.dtype, other: R
     return out
 
 
-def _alone(depth: int) -> bool:
-    """Tells whether a record of so many commits is coded by itself: scattered, as the depths of a tile's records may
-    have any step."""
-    return (depth * 0x9E3779B1 & 0xFFFFFFFF) >> 8 < (1 << 24) // _ALONE
-
-
-def _leads_to(other: Record, record: Record) -> bool:
+def leads_to(other: Record, record: Record) -> bool:
     """Tells whether another record's data are made from this one's."""
     here: Record | None = other
     while here is not None and here is not record:

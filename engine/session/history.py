@@ -3,7 +3,8 @@
 A step keeps two paintings, before and after, which share all tiles that it did not change.  What the one before holds
 alone counts while the step is done (undo would bring it back), what the one after holds alone while it is undone.
 Of steps far from the present it is coded: what differs from the next painting towards the present, compressed.  Their
-paintings stay what they are, values whose data are made when somebody looks at them.
+paintings stay what they are, values whose data are made when somebody looks at them: so going to any of them takes no
+longer than going to the next, and what is coded of the painting come to is made plain while nothing else is to be done.
 """
 
 from __future__ import annotations
@@ -21,12 +22,13 @@ from engine.canvas.store import RECORD_OVERHEAD, Pyramid, Record, changed_rects
 from engine.checks.owned import Owned
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
-from engine.session.coded_records import decode, encode
+from engine.session.coded_records import CodedData, Ways, decode, leads_to
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
+_AT_ONCE = 4  # steps coded at a time while they take much
 _Only = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
@@ -64,7 +66,7 @@ class _Line:
     """
 
     def __init__(self, undone: bool, steps: Iterable[Undoable]) -> None:
-        self._undone = undone
+        self._undone, self._ways = undone, Ways()
         self.entries = deque(_Entry(step, self._alone(step)) for step in steps)
         self.held = sum(entry.held for entry in self.entries)
         self._coded = 0  # of them
@@ -82,20 +84,21 @@ class _Line:
         """Counts the steps that could still be coded: never the nearest to the present, beside which it is made."""
         return max(0, len(self.entries) - 1 - self._coded)
 
-    def push(self, step: Undoable) -> None:
-        """Adds the nearest step, as it is."""
-        self.entries.append(_Entry(step, self._alone(step)))
+    def push(self, step: Undoable, part: float = 1.0) -> None:
+        """Adds the nearest step; `part`: of its bytes, that it takes, as far as that is known before it is coded."""
+        self.entries.append(_Entry(step, STEP_OVERHEAD + int(part * (self._alone(step) - STEP_OVERHEAD))))
         self.held += self.entries[-1].held
 
-    def pop(self) -> Undoable:
-        """Takes away the nearest step, as it was; IndexError if there is none."""
+    def pop(self) -> tuple[Undoable, float]:
+        """Takes away the nearest step, as it is, and tells which part of its bytes it takes; IndexError if there is
+        none."""
         entry = self.entries.pop()
         self.held -= entry.held
-        if entry.coded:
-            self._coded -= 1
-            for _, record, _ in _changed(*self._ends(entry.step)):
-                decode(record)
-        return entry.step
+        if not entry.coded:
+            return entry.step, 1.0
+        self._coded -= 1
+        self._ways.forget()
+        return entry.step, (entry.held - STEP_OVERHEAD) / max(self._alone(entry.step) - STEP_OVERHEAD, 1)
 
     def forget(self) -> None:
         """Forgets the farthest step."""
@@ -106,6 +109,7 @@ class _Line:
     def clear(self) -> None:
         """Forgets all steps."""
         self.entries.clear()
+        self._ways.forget()
         self.held = self._coded = 0
 
     def code(self) -> None:
@@ -113,14 +117,24 @@ class _Line:
         entry = self.entries[self._coded]
         far, near = self._ends(entry.step)
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
-        saved = 0
+        held = self._alone(entry.step)
         for key, record, other in _changed(far, near):
             if not any(_holds(pyramid, key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
-                saved += encode(record, other)
-        entry.held -= saved
-        entry.coded = True
-        self.held -= saved
+                self._code(record, other)
+                held -= record.held.spared if isinstance(record.held, CodedData) else 0
+        self.held += held - entry.held
+        entry.held, entry.coded = held, True
         self._coded += 1
+
+    def _code(self, record: Record, other: Record | None) -> None:
+        """Codes a record of a far end by the one in its place; of the steps that are done, which are forgotten one by
+        one, never by one that is farther."""
+        if not self._undone and other is not None:
+            if isinstance(record.held, CodedData) and record.held.other not in (None, other):
+                decode(record)
+            if leads_to(other, record):
+                decode(other)
+        self._ways.encode(record, other)
 
     def _ends(self, step: Undoable) -> tuple[Group, Group]:
         """Returns the layers at the far end, and at the near one."""
@@ -142,6 +156,7 @@ class History(Owned):
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
         self._done, self._undone = _Line(False, steps.done), _Line(True, steps.undone)
         self._bytes_cap, self._keep = bytes_cap, keep
+        self._mixed: Iterator[Record] | None = None  # records of the present of which some are coded
         self.forgotten = 0
 
     @property
@@ -167,22 +182,26 @@ class History(Owned):
     def push(self, before: Painting, after: Painting) -> None:
         """A step was done: nothing that was undone can be redone any more."""
         self._undone.clear()
+        if self._mixed is not None:  # what is coded by records that are forgotten now would keep them
+            for record in _lost(before.root, after.root):
+                decode(record)
         self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
 
     def undo(self) -> Painting:
         """Returns the painting before the last step; IndexError if there is none."""
-        step = self._done.pop()
-        self._undone.push(step)
-        self._make_room()
-        return step.before
+        return self._cross(self._done, self._undone).before
 
     def redo(self) -> Painting:
         """Returns the painting after the step undone last; IndexError if there is none."""
-        step = self._undone.pop()
-        self._done.push(step)
-        self._make_room()
-        return step.after
+        return self._cross(self._undone, self._done).after
+
+    def _cross(self, one: _Line, other: _Line) -> Undoable:
+        """Takes the nearest step from one side of the present to the other."""
+        step, part = one.pop()
+        other.push(step, part)
+        self._mixed = _records((step.before if other is self._undone else step.after).root)
+        return step
 
     def at(self, by: int) -> Painting | None:
         """Returns the painting so many steps on, or back if that is negative; None where that is not held, or is 0."""
@@ -193,29 +212,40 @@ class History(Owned):
     def amend(self, root: Group) -> None:
         """The layers as they are now, further refined, are `root`."""
         if self._done:
-            step = self._done.pop()
+            step, _ = self._done.pop()
             after = replace(step.after, root=root)
             self._done.push(Undoable(step.before, after, *difference(step.before.root, root)))
         if self._undone:
-            step = self._undone.pop()
+            step, _ = self._undone.pop()
             before = replace(step.before, root=root)
             self._undone.push(Undoable(before, step.after, *difference(root, step.after.root)))
 
     @property
     def pending(self) -> int:
-        """Counts the steps to be coded while nothing else is to be done."""
-        return sum(max(0, line.plain - _AT_HAND) for line in (self._done, self._undone))
+        """Counts the steps to be coded, and whether the present is to be made plain, while nothing else is to be
+        done."""
+        coding = sum(max(0, line.plain - _AT_HAND) for line in (self._done, self._undone))
+        return coding + int(self._mixed is not None)
 
     def step(self) -> None:
-        """Codes one."""
-        max(self._done, self._undone, key=lambda line: line.plain).code()
+        """Makes a record of the present plain, or codes a step."""
+        if self._mixed is None:
+            max(self._done, self._undone, key=lambda line: line.plain).code()
+            return
+        record = next((record for record in self._mixed if isinstance(record.held, CodedData)), None)
+        if record is None:
+            self._mixed = None
+        else:
+            decode(record)
 
     def _make_room(self) -> None:
-        """Codes steps while all take too much."""
+        """Codes steps while all take too much; those that were crossed since are many, and wait for their turn."""
         if self._bytes_cap is not None:
             for line in (self._done, self._undone):
-                while self.held > self._bytes_cap // 4 and line.plain:
+                coded = 0
+                while line.plain and self.held > self._bytes_cap // (4 if coded < _AT_ONCE else 1):
                     line.code()
+                    coded += 1
 
     def _forget(self) -> None:
         """Drops the oldest steps beyond the limit."""
@@ -275,6 +305,22 @@ def _changed(far: Group, near: Group) -> Iterator[_Only]:
         other = there.get(layer.id)
         if other is not None and other is not layer.pyramid and other.uid == layer.pyramid.uid:
             yield from _only(layer.pyramid, other)
+
+
+def _lost(old: Group, new: Group) -> Iterator[Record]:
+    """Yields the records that one state of the layers has and a later one has not."""
+    there = {layer.id for layer in layers.layers(new)}
+    for layer in layers.layers(old):
+        if layer.id not in there:
+            yield from (record for _, record in layer.pyramid.all_records())
+    yield from (record for _, record, _ in _changed(old, new))
+
+
+def _records(root: Group) -> Iterator[Record]:
+    """Yields all records of a state of the layers."""
+    for layer in layers.layers(root):
+        for stored in layer.pyramid.levels.values():
+            yield from stored.values()
 
 
 def _holds(pyramid: Pyramid, key: TileKey, record: Record) -> bool:

@@ -12,8 +12,8 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import coded_records
-from engine.session.coded_records import decode, encode
-from engine.session.history import History
+from engine.session.coded_records import LONGEST, CodedData, decode, encode
+from engine.session.history import History, difference
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.studio import Studio
@@ -37,10 +37,44 @@ def contents(painting):
     ]
 
 
+def records(painting):
+    return [record for sheet in layers.layers(painting.root) for _, record in sheet.pyramid.all_records()]
+
+
+def rest(history):
+    """What is done of it while nothing else is to be done."""
+    while history.pending:
+        history.step()
+
+
 def code_all(history):
+    rest(history)
     for line in (history._done, history._undone):
         while line.plain:
             line.code()
+
+
+def way(record):
+    """The records from whose data those of one are made."""
+    out = []
+    while isinstance(record.held, CodedData) and record.held.other is not None:
+        record = record.held.other
+        out.append(record)
+    return out
+
+
+def check_what_is_held(session):
+    """What is coded is made of what the history holds; and what it holds is what it says."""
+    history = session.history
+    assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
+    states = [*(step.before for step in history.steps.done), session.painting]
+    there = {record for state in states for record in records(state)}
+    assert all(found in there for record in there for found in way(record))
+    for line, far in ((history._done, "before"), (history._undone, "after")):
+        for entry in list(line.entries)[: line._coded]:
+            lost, gained = difference(entry.step.before.root, entry.step.after.root)
+            assert entry.held - 2000 == (lost if far == "before" else gained)
+        assert line.held == sum(entry.held for entry in line.entries)
 
 
 ACTS = st.one_of(
@@ -74,8 +108,14 @@ def test_whatever_is_done_coded_states_are_what_they_were(acts):
     session.do(c.Redo(99))
     for painting, wanted in held.values():
         assert contents(painting) == wanted
-    records = [record for s in layers.layers(session.painting.root) for _, record in s.pyramid.all_records()]
-    assert all(isinstance(record.held, np.ndarray) for record in records)
+    rest(session.history)
+    check_what_is_held(session)
+    session.do(c.Undo(5))  # and at once, before what is coded was made plain
+    session.do(stroke(3))
+    session.do(c.Undo(3))
+    session.do(stroke(4))
+    code_all(session.history)
+    check_what_is_held(session)
 
 
 def test_a_small_stroke_over_paint_costs_a_tenth_and_undo_comes_to_the_first_step():
@@ -100,7 +140,28 @@ def test_a_small_stroke_over_paint_costs_a_tenth_and_undo_comes_to_the_first_ste
     code_all(session.history)
     session.do(c.Redo(44))
     code_all(session.history)
-    assert abs(session.history.held - held) < held / 50
+    assert 0.8 * held < session.history.held < 1.02 * held  # the next one stays coded
+
+
+def test_a_long_way_makes_no_data_but_those_that_are_looked_at(monkeypatch):
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History())
+    for n in range(60):
+        session.do(stroke(n, radius=3.0))
+    code_all(session.history)
+    states = [step.before for step in session.history.steps.done]
+    longest = max(len(way(record)) for state in states for record in records(state))
+    assert LONGEST - 2 <= longest <= LONGEST
+    made, plain = [], CodedData.made
+    monkeypatch.setattr(CodedData, "made", lambda coded: (made.append(coded), plain(coded))[1])
+    session.do(c.Undo(50))
+    session.do(c.Redo(20))
+    session.do(c.Undo(10))
+    assert not made
+    coded = [record for record in records(session.painting) if isinstance(record.held, CodedData)]
+    assert coded
+    rest(session.history)
+    assert len(made) >= len(coded)
+    assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
 
 
 def test_steps_are_coded_at_once_where_they_take_too_much():
