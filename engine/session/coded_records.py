@@ -19,7 +19,7 @@ from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
 
-LONGEST = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
+WAY = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
 _OVERHEAD = 300  # bytes of a coded record's own objects, roughly
 
@@ -122,7 +122,7 @@ class Ways:
     def encode(self, record: Record, other: Record | None) -> None:
         """Makes a record smaller; `other`: the one that took its place, None for none."""
         behind = self._behind.pop(record, 0)
-        if other is not None and (behind >= LONGEST - 1 or leads_to(other, record)):
+        if other is not None and (behind >= WAY - 1 or leads_to(other, record)):
             other = None
         if encode(record, other) and other is not None:
             self._behind[other] = max(self._behind.get(other, 0), behind + 1)

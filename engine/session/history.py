@@ -28,7 +28,7 @@ from engine.texture.sparse_planes import SparsePlanes
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
-_AT_ONCE = 4  # steps coded at a time while they take much
+_IN_PASSING = 4  # steps coded at a time while they take much
 _Only = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
@@ -243,7 +243,7 @@ class History(Owned):
         if self._bytes_cap is not None:
             for line in (self._done, self._undone):
                 coded = 0
-                while line.plain and self.held > self._bytes_cap // (4 if coded < _AT_ONCE else 1):
+                while line.plain and self.held > self._bytes_cap // (4 if coded < _IN_PASSING else 1):
                     line.code()
                     coded += 1
 

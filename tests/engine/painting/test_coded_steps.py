@@ -12,7 +12,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import coded_records
-from engine.session.coded_records import LONGEST, CodedData, decode, encode
+from engine.session.coded_records import WAY, CodedData, decode, encode
 from engine.session.history import History, difference
 from engine.session.session import Session
 from engine.studio import requests as q
@@ -150,7 +150,7 @@ def test_a_long_way_makes_no_data_but_those_that_are_looked_at(monkeypatch):
     code_all(session.history)
     states = [step.before for step in session.history.steps.done]
     longest = max(len(way(record)) for state in states for record in records(state))
-    assert LONGEST - 2 <= longest <= LONGEST
+    assert WAY - 2 <= longest <= WAY
     made, plain = [], CodedData.made
     monkeypatch.setattr(CodedData, "made", lambda coded: (made.append(coded), plain(coded))[1])
     session.do(c.Undo(50))
