@@ -4,7 +4,7 @@ A step keeps two paintings, before and after, which share all tiles that it did 
 alone counts while the step is done (undo would bring it back), what the one after holds alone while it is undone.
 Of steps far from the present it is coded: what differs from the next painting towards the present, compressed.  Their
 paintings stay what they are, values whose data are made when somebody looks at them: so going to any of them takes no
-longer than going to the next, and what is coded of the painting come to is made plain while nothing else is to be done.
+longer than going to the next, and what is coded there by other steps is made plain while nothing else is to be done.
 """
 
 from __future__ import annotations
@@ -117,11 +117,11 @@ class _Line:
         entry = self.entries[self._coded]
         far, near = self._ends(entry.step)
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
-        held = self._alone(entry.step)
         for key, record, other in _changed(far, near):
             if not any(_holds(pyramid, key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 self._code(record, other)
-                held -= record.held.spared if isinstance(record.held, CodedData) else 0
+        lost, gained = difference(entry.step.before.root, entry.step.after.root)
+        held = (gained if self._undone else lost) + STEP_OVERHEAD
         self.held += held - entry.held
         entry.held, entry.coded = held, True
         self._coded += 1
@@ -222,17 +222,18 @@ class History(Owned):
 
     @property
     def pending(self) -> int:
-        """Counts the steps to be coded, and whether the present is to be made plain, while nothing else is to be
+        """Counts the steps to be coded, and whether the present is to be looked through, while nothing else is to be
         done."""
         coding = sum(max(0, line.plain - _AT_HAND) for line in (self._done, self._undone))
         return coding + int(self._mixed is not None)
 
     def step(self) -> None:
-        """Makes a record of the present plain, or codes a step."""
+        """Makes a record of the present that is made of others plain, or codes a step."""
         if self._mixed is None:
             max(self._done, self._undone, key=lambda line: line.plain).code()
             return
-        record = next((record for record in self._mixed if isinstance(record.held, CodedData)), None)
+        # What is coded by itself may be so because there is no room for more (`Paging`), and holds nothing else.
+        record = next((record for record in self._mixed if _made_of_others(record)), None)
         if record is None:
             self._mixed = None
         else:
@@ -321,6 +322,10 @@ def _records(root: Group) -> Iterator[Record]:
     for layer in layers.layers(root):
         for stored in layer.pyramid.levels.values():
             yield from stored.values()
+
+
+def _made_of_others(record: Record) -> bool:
+    return isinstance(record.held, CodedData) and record.held.other is not None
 
 
 def _holds(pyramid: Pyramid, key: TileKey, record: Record) -> bool:
