@@ -50,17 +50,17 @@ class Stroker:
         points.flags.writeable = False  # as those of a recording: so the kernel is compiled once
         dabs = np.empty((4 * len(points) + 64, DAB))
         before = self._state.copy()
-        count = _walk(points, self._state, *self._response, dabs)
+        count = walk_points(points, self._state, *self._response, dabs)
         if count > len(dabs):
             dabs = np.empty((count, DAB))
             self._state = before
-            _walk(points, self._state, *self._response, dabs)
+            walk_points(points, self._state, *self._response, dabs)
         return dabs[:count]
 
 
 @or_interpreted()
 @kernel
-def _walk(
+def walk_points(
     points: Array,
     state: Array,
     values: Array,

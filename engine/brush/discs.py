@@ -222,3 +222,25 @@ def lay(coverage: np.ndarray, discs: np.ndarray, which: np.ndarray, first: Int, 
             if a < b:
                 down = np.float32((dy2 - disc[RIN2]) * scale)
                 _lay_row(coverage[y, a:b], across[a:b], down, ceiling, rate)
+
+
+@inlined
+def lay_spot(out: np.ndarray, disc: np.ndarray, left: Int, top: Int) -> None:
+    """Lays a disc on the pixels (h, w) from a corner on, as `lay` does in their tiles."""
+    ceiling, rate, scale = np.float32(disc[CEILING]), np.float32(disc[RATE]), disc[SCALE]
+    x, y, reach = disc[CX] - left, disc[CY] - top, disc[ROUT]
+    first, last = max(0, math.floor(x - reach)), min(out.shape[1], math.floor(x + reach) + 1)
+    for i in range(max(0, math.floor(y - reach)), min(out.shape[0], math.floor(y + reach) + 1)):
+        ty = (top + i) // TILE
+        dy = (top + i - ty * TILE) + 0.5 - (disc[CY] - ty * TILE)
+        down = np.float32((dy * dy - disc[RIN2]) * scale)
+        start = first
+        while start < last:  # tile by tile
+            tx = (left + start) // TILE
+            end, cx = min(last, (tx + 1) * TILE - left), disc[CX] - tx * TILE
+            row, place = out[i, start:end], left + start - tx * TILE
+            for k in range(row.shape[0]):
+                dx = (place + k) + 0.5 - cx
+                v = _ONE - max(_ZERO, min(_ONE, np.float32(dx * dx * scale) + down))
+                row[k] += max(_ZERO, ceiling - row[k]) * (rate * (v * v * (_THREE - _TWO * v)))
+            start = end

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ RADIUS, OPACITY, FLOW, HARDNESS, SPACING = range(len(DYNAMIC))
 
 _PRESSURE = ((0.0, 0.0), (1.0, 1.0))
 _STEADY = ((0.0, 1.0),)
+_BRUSHES = 1024  # whose responses are kept
 
 
 class Response(NamedTuple):
@@ -45,8 +47,9 @@ def evaluate(curve: Curve | None, pressure: np.ndarray) -> np.ndarray:
     return out
 
 
+@lru_cache(_BRUSHES)
 def response(brush: Brush) -> Response:
-    """Returns what the walk along a stroke needs to know of a brush."""
+    """Returns what the walk along a stroke needs to know of a brush: not to be written to."""
     rows = [SETTINGS[name] for name in DYNAMIC]
     knots = [knots_of(brush.dynamics.get(name)) for name in DYNAMIC]
     table = np.zeros((2, len(knots), max(map(len, knots))))

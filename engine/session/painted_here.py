@@ -7,7 +7,7 @@ than the strokes' the pixel is looked at in parts, so that strokes side by side 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -24,13 +24,15 @@ from engine.painting.textures import Texture
 from engine.painting.times import untimed
 from engine.painting.value import Painting
 from engine.session.steps import Definitions, LoggedStep, Steps
-from engine.strokes.coverage_at import Covering, Seeds, hides, near, stroke_bounds
+from engine.strokes.coverage_at import Covering, Seeds, bounds_of, hides, near, plain_over, plainly
 from engine.texture.table import KINDS
 
 LEAST_SHARE = 1.0 / 255.0  # of a pixel that is seen
 _PARTS = 4  # levels finer than the pixel at which it is looked at in parts
 _KEPT = 64  # sets of definitions whose textures are kept
 _ALPHA = 3
+_AT_FIRST = 64  # strokes that are looked at at once, then twice as many: few may hide the others
+_UNBOUND: tuple[c.Stroke | None, Rect] = None, Rect(0, 0, 0, 0)
 
 
 class CanvasPixel(NamedTuple):
@@ -44,6 +46,13 @@ class CanvasPixel(NamedTuple):
     def rect(self) -> Rect:
         """Gives the pixel as a rectangle of its level."""
         return Rect.at(self.x, self.y, 1, 1)
+
+
+class CanvasParts(NamedTuple):
+    """Pixels of a level, which a pixel is looked at in."""
+
+    level: int
+    rect: Rect
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -91,40 +100,68 @@ class PaintedHere:
     ) -> list[ShownStroke]:
         """`through`: how much of the layer is seen, and its alpha."""
         weight, alpha = through
-        candidates = list(self._near(bare, place, steps))
+        candidates = self._near(bare, place, steps)
         finest = max((stroke.level for _, stroke in candidates), default=place.level)
         finer = min(max(finest - place.level, 0), _PARTS)
-        level, rect = place.level + finer, place.rect.zoomed(finer)
-        left = np.full((rect.height, rect.width), weight, np.float32)
+        fine = CanvasParts(place.level + finer, place.rect.zoomed(finer))
+        left = np.full((fine.rect.height, fine.rect.width), weight, np.float32)
         found: list[ShownStroke] = []
-        for step, stroke in candidates:
-            seeds = Seeds(painting.seed if stroke.seed is None else stroke.seed, painting.seed)
-            parts = (level, rect) if stroke.level > place.level else (place.level, place.rect)  # no finer than it is
-            covered = self._covering.over(stroke, *parts, self._textures(step.textures, painting), seeds)
-            if covered is None:
-                continue
-            share = float((covered * left).mean()) * (alpha if step.locked else 1.0)
-            if share >= LEAST_SHARE:
-                found.append(ShownStroke(step, stroke, share, bare.name))
-            if hides(stroke.brush):
-                left *= 1.0 - covered
-                if left.max() < LEAST_SHARE:
-                    break
+        start, count = 0, _AT_FIRST
+        while start < len(candidates) and left.max() >= LEAST_SHARE:
+            some = candidates[start : start + count]
+            start, count = start + count, 2 * count
+            covered = self._covered(some, place, fine, painting)
+            leave = np.array([hides(stroke.brush) for _, stroke in some], np.float32)[:, None, None]
+            seen = np.multiply.accumulate(np.concatenate([left[None], 1.0 - covered * leave]))
+            shares = (covered * seen[:-1]).mean(axis=(1, 2))
+            left = seen[-1]
+            for n in np.flatnonzero(shares >= LEAST_SHARE).tolist():
+                step, stroke = some[n]
+                share = float(shares[n]) * (alpha if step.locked else 1.0)
+                if share >= LEAST_SHARE:
+                    found.append(ShownStroke(step, stroke, share, bare.name))
         return found
 
-    def _near(self, bare: Layer, place: CanvasPixel, steps: Steps) -> Iterator[tuple[LoggedStep, c.Stroke]]:
-        """Yields the strokes whose bounds meet the place, the newest first."""
+    def _covered(
+        self, some: Sequence[tuple[LoggedStep, c.Stroke]], place: CanvasPixel, fine: CanvasParts, painting: Painting
+    ) -> np.ndarray:
+        """Returns how much of the parts each stroke covers: float32 (n, h, w)."""
+        out = np.zeros((len(some), fine.rect.height, fine.rect.width), np.float32)
+        alike: dict[int, list[int]] = {}
+        for n, (step, stroke) in enumerate(some):
+            level, rect = fine if stroke.level > place.level else (place.level, place.rect)  # no finer than it is
+            if plainly(stroke, level):
+                alike.setdefault(stroke.level, []).append(n)
+                continue
+            seeds = Seeds(painting.seed if stroke.seed is None else stroke.seed, painting.seed)
+            covered = self._covering.over(stroke, level, rect, self._textures(step.textures, painting), seeds)
+            if covered is not None:
+                out[n] = covered
+        for stroke_level, places in alike.items():
+            level, rect = fine if stroke_level > place.level else (place.level, place.rect)
+            out[places] = plain_over([some[n][1] for n in places], level, rect)
+        return out
+
+    def _near(self, bare: Layer, place: CanvasPixel, steps: Steps) -> list[tuple[LoggedStep, c.Stroke]]:
+        """Returns the strokes whose bounds meet the place, the newest first."""
         there: dict[int, Rect] = {}
-        for step in steps.strokes(bare):
-            known = self._bounds.get(step.index)
-            if known is None or known[0] is not step.command:
-                assert isinstance(step.command, c.Stroke)
-                known = self._bounds[step.index] = step.command, stroke_bounds(step.command)
-            stroke, around = known
+        strokes = list(steps.strokes(bare))
+        self._bound([step for step in strokes if self._bounds.get(step.index, _UNBOUND)[0] is not step.command])
+        out: list[tuple[LoggedStep, c.Stroke]] = []
+        for step in strokes:
+            stroke, around = self._bounds[step.index]
             if stroke.level not in there:
                 there[stroke.level] = near(stroke.level, place.level, place.rect)
             if there[stroke.level].meets(around):
-                yield step, stroke
+                out.append((step, stroke))
+        return out
+
+    def _bound(self, steps: Sequence[LoggedStep]) -> None:
+        """Learns the bounds of strokes."""
+        strokes = [step.command for step in steps if isinstance(step.command, c.Stroke)]
+        if strokes:
+            for step, stroke, bounds in zip(steps, strokes, bounds_of(strokes), strict=True):
+                self._bounds[step.index] = stroke, bounds
 
     def _textures(self, definitions: Definitions, painting: Painting) -> dict[str, Texture]:
         """Returns textures as they were; one whose picture the painting has no more is as it is now, if it is there."""

@@ -6,7 +6,7 @@ than three levels finer than the pixels, its dabs are laid smaller, and what thi
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -28,6 +28,7 @@ from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import expand, reduce
 from engine.painting.commands import Stroke
+from engine.strokes import spots
 from engine.texture.image import ImageSource
 
 _EXACT = 3  # levels finer than the pixels asked for at which dabs are laid as they were
@@ -39,12 +40,24 @@ Textures = Mapping[str, Texture | ImageSource]
 
 def stroke_bounds(stroke: Stroke) -> Rect:
     """Returns a rectangle of pixels of the stroke's level outside which it covers nothing."""
-    widest = stroke.brush.radius * max(factor for _, factor in knots_of(stroke.brush.dynamics.get("radius")))
-    reach = widest + 2.0 + (WIDEST if stroke.brush.extent else 0.0)
-    x0, y0 = (int((low - reach) // 1) for low in stroke.points[:, :2].min(axis=0))
-    x1, y1 = (int(-((-high - reach) // 1)) for high in stroke.points[:, :2].max(axis=0))
-    x, y = stroke.origin
-    return Rect(x + x0, y + y0, x + x1, y + y1)
+    return bounds_of([stroke])[0]
+
+
+def bounds_of(strokes: Sequence[Stroke]) -> list[Rect]:
+    """Returns that of each of some strokes."""
+    starts = np.cumsum([0, *(len(stroke.points) for stroke in strokes[:-1])])
+    places = np.concatenate([stroke.points[:, :2] for stroke in strokes])
+    reach = np.array([_reach(stroke.brush) for stroke in strokes])[:, None]
+    low = np.floor(np.minimum.reduceat(places, starts) - reach).astype(int).tolist()
+    high = np.ceil(np.maximum.reduceat(places, starts) + reach).astype(int).tolist()
+    origins = (stroke.origin for stroke in strokes)
+    return [Rect(x + x0, y + y0, x + x1, y + y1) for (x, y), (x0, y0), (x1, y1) in zip(origins, low, high, strict=True)]
+
+
+def _reach(brush: Brush) -> float:
+    """Returns how far from its points a stroke's dabs may lie, pixels."""
+    widest = brush.radius * max(factor for _, factor in knots_of(brush.dynamics.get("radius")))
+    return widest + 2.0 + (WIDEST if brush.extent else 0.0)
 
 
 def near(stroke_level: int, level: int, rect: Rect) -> Rect:
@@ -74,20 +87,14 @@ class Covering:
 
     def __init__(self) -> None:
         self._known: dict[tuple[object, ...], _Parts] = {}
+        self._of: dict[tuple[object, ...], _Parts] = {}  # by the whole brush
 
     def over(self, stroke: Stroke, level: int, rect: Rect, textures: Textures, seeds: Seeds) -> np.ndarray | None:
         """Returns how much of each pixel the stroke changes, 0..1: float32 (h, w) over `rect` of `level`; None where it
         covers nothing.  `textures`: those that it was painted with, by name."""
-        at = min(stroke.level, level + _EXACT)
-        seen = rect.zoomed(at - level) if at >= level else _ancestors(rect, level - at)[-1]
+        at, seen = _looked_at(stroke.level, level, rect)
         found = self._laid(stroke, at, seen, textures, seeds)
-        if found is None:
-            return None
-        if at >= level:
-            for _ in range(at - level):
-                found = reduce(found[None])[0]
-            return found
-        return _expanded(found, rect, level - at)
+        return None if found is None else _carried(found[None], at, level, rect)[0]
 
     def _laid(self, stroke: Stroke, at: int, rect: Rect, textures: Textures, seeds: Seeds) -> np.ndarray | None:
         """Returns the coverage over a rectangle of a level that is not finer than the stroke's."""
@@ -113,21 +120,40 @@ class Covering:
 
     def _parts(self, stroke: Stroke, textures: Textures, seeds: Seeds) -> _Parts:
         brush = stroke.brush
-        look = replace(brush, colour="#000000", flow=1.0, spacing=1.0)
         named = tuple(textures.get(name) for name in textures_of(brush))
-        key = look, stroke.level, seeds, named
-        if key not in self._known:
-            try:
-                self._known[key] = _resolved(brush, stroke.level, textures, seeds)
-            except FieldError:  # a texture that is gone: the dabs alone tell
-                self._known[key] = _Parts(None, Relief(), None)
-        return self._known[key]
+        whole = brush, stroke.level, seeds, named
+        if whole not in self._of:
+            key = replace(brush, colour="#000000", flow=1.0, spacing=1.0), stroke.level, seeds, named
+            if key not in self._known:
+                try:
+                    self._known[key] = _resolved(brush, stroke.level, textures, seeds)
+                except FieldError:  # a texture that is gone: the dabs alone tell
+                    self._known[key] = _Parts(None, Relief(), None)
+            self._of[whole] = self._known[key]
+        return self._of[whole]
+
+
+def plain_over(strokes: Sequence[Stroke], level: int, rect: Rect) -> np.ndarray:
+    """As `Covering.over`, of several strokes of one level that `plainly` applies to: float32 (n, h, w)."""
+    at, seen = _looked_at(strokes[0].level, level, rect)
+    return _carried(spots.covered(strokes, strokes[0].level - at, seen), at, level, rect)
+
+
+def plainly(stroke: Stroke, level: int) -> bool:
+    """Tells whether how much a stroke covers of pixels of a level follows from its dabs alone."""
+    row = stroke.brush.row
+    return not row.grows and (stroke.level > level + _EXACT or spots.is_plain(stroke.brush))
 
 
 def hides(brush: Brush) -> bool:
     """Tells whether a stroke at full strength leaves nothing to see of what was there: false for raster-ops that only
     change it."""
-    return not brush.row.uses_op or ops.chosen(brush.op).hides
+    return not brush.row.uses_op or _op_hides(brush.op)
+
+
+@lru_cache(64)
+def _op_hides(op: str) -> bool:
+    return ops.chosen(op).hides
 
 
 def _resolved(brush: Brush, level: int, textures: Textures, seeds: Seeds) -> _Parts:
@@ -171,15 +197,25 @@ def _taken(stroke: Stroke, at: int, rect: Rect) -> np.ndarray | None:
     return out if out.any() else None
 
 
-def _expanded(coverage: np.ndarray, rect: Rect, finer: int) -> np.ndarray | None:
-    """Returns a coverage over `near` of a rectangle, carried down to it."""
-    rects = _ancestors(rect, finer)
+def _looked_at(stroke_level: int, level: int, rect: Rect) -> tuple[int, Rect]:
+    """Returns the level at which the dabs of a stroke are laid, and its pixels that tell of `rect` of another."""
+    at = min(stroke_level, level + _EXACT)
+    return at, rect.zoomed(at - level) if at >= level else _ancestors(rect, level - at)[-1]
+
+
+def _carried(coverages: np.ndarray, at: int, level: int, rect: Rect) -> np.ndarray:
+    """Returns coverages (n, h, w) of one level, over what `_looked_at` gives, as they are over `rect` of another."""
+    for _ in range(at - level):
+        coverages = reduce(coverages)
+    if at >= level:
+        return coverages
+    rects = _ancestors(rect, level - at)
     for outer, inner in pairwise(reversed(rects)):
-        first = coverage[0, 0]
-        if (coverage == first).all():
-            return np.full((rect.height, rect.width), first, np.float32) if first else None
-        coverage = expand(coverage[None, *inner.parents().slices(outer)])[0]
-    return coverage[rect.slices(rects[0])]
+        first = coverages[:, :1, :1]
+        if (coverages == first).all():
+            return np.broadcast_to(first, (len(coverages), rect.height, rect.width))
+        coverages = expand(coverages[:, *inner.parents().slices(outer)])
+    return coverages[:, *rect.slices(rects[0])]
 
 
 @lru_cache(64)

@@ -30,6 +30,7 @@ from engine.painting.value import Painting, Refusal
 from engine.studio import requests as q
 from engine.studio import warming
 from engine.studio.filing import documents
+from engine.studio.past.past_records import AskHere
 from engine.studio.studio import Studio
 from engine.studio.swatches import painted
 from engine.texture.planes import Planes
@@ -105,6 +106,7 @@ def filed() -> None:
             session = studio.easel.session
             documents.save(ora, session.painting, session.recording())  # as no save of the artist's: it bounds nothing
             studio.do(q.Export(png))
+            studio.do(AskHere(0, 0, 0))
         finally:
             studio.close()
         open_painting(ora)
