@@ -2,9 +2,10 @@
 
 A step keeps two paintings, before and after, which share all tiles that it did not change.  What the one before holds
 alone counts while the step is done (undo would bring it back), what the one after holds alone while it is undone.
-Of steps far from the present it is coded: what differs from the next painting towards the present, compressed.  Their
-paintings stay what they are, values whose data are made when somebody looks at them: so going to any of them takes no
-longer than going to the next, and what is coded there by other steps is made plain while nothing else is to be done.
+Of steps far from the present it is coded: what differs from the next painting towards the present, compressed; and
+where all take too much, put away on disk.  Their paintings stay what they are, values whose data are made when somebody
+looks at them: so going to any of them takes no longer than going to the next, and what is coded there by other steps is
+made plain while nothing else is to be done.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from engine.canvas.store import RECORD_OVERHEAD, Pyramid, Record, changed_rects
 from engine.checks.owned import Owned
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
-from engine.session.coded_records import CodedData, Ways, decode, leads_to
+from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
@@ -60,7 +61,7 @@ class _Entry:
 
 class _Line:
     """The steps on one side of the present, the farthest first.  Of each, the far end is the painting that it leads to
-    from the present; what that alone holds is coded from the farthest step on.
+    from the present; what that alone holds is coded, and put away on disk, from the farthest step on.
 
     `undone`: they are those undone.
     """
@@ -69,7 +70,7 @@ class _Line:
         self._undone, self._ways = undone, Ways()
         self.entries = deque(_Entry(step, self._alone(step)) for step in steps)
         self.held = sum(entry.held for entry in self.entries)
-        self._coded = 0  # of them
+        self._coded = self._away = 0  # of them
 
     def __len__(self) -> int:
         return len(self.entries)
@@ -84,6 +85,16 @@ class _Line:
         """Counts the steps that could still be coded: never the nearest to the present, beside which it is made."""
         return max(0, len(self.entries) - 1 - self._coded)
 
+    @property
+    def in_memory(self) -> int:
+        """Counts the coded steps that could still be put away on disk."""
+        return self._coded - self._away
+
+    @property
+    def beyond(self) -> int:
+        """Returns the bytes that the steps beyond the nearest hold."""
+        return self.held - self.entries[-1].held if self.entries else 0
+
     def push(self, step: Undoable, part: float = 1.0) -> None:
         """Adds the nearest step; `part`: of its bytes, that it takes, as far as that is known before it is coded."""
         self.entries.append(_Entry(step, STEP_OVERHEAD + int(part * (self._alone(step) - STEP_OVERHEAD))))
@@ -97,6 +108,7 @@ class _Line:
         if not entry.coded:
             return entry.step, 1.0
         self._coded -= 1
+        self._away = min(self._away, self._coded)
         self._ways.forget()
         return entry.step, (entry.held - STEP_OVERHEAD) / max(self._alone(entry.step) - STEP_OVERHEAD, 1)
 
@@ -105,12 +117,13 @@ class _Line:
         entry = self.entries.popleft()
         self.held -= entry.held
         self._coded -= entry.coded
+        self._away -= min(self._away, 1)
 
     def clear(self) -> None:
         """Forgets all steps."""
         self.entries.clear()
         self._ways.forget()
-        self.held = self._coded = 0
+        self.held = self._coded = self._away = 0
 
     def code(self) -> None:
         """Codes the farthest step that is not coded yet."""
@@ -125,6 +138,15 @@ class _Line:
         self.held += held - entry.held
         entry.held, entry.coded = held, True
         self._coded += 1
+
+    def put_away(self) -> None:
+        """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
+        entry = self.entries[self._away]
+        coded = (record.held for _, record, _ in _changed(*self._ends(entry.step)))
+        saved = sum(put_away(held) for held in coded if isinstance(held, CodedData))
+        entry.held -= saved
+        self.held -= saved
+        self._away += 1
 
     def _code(self, record: Record, other: Record | None) -> None:
         """Codes a record of a far end by the one in its place; of the steps that are done, which are forgotten one by
@@ -150,7 +172,8 @@ class History(Owned):
 
     `bytes_cap`: None for no limit; `keep`: steps never forgotten; `steps`: those that are there already.  Steps beyond
     the newest are coded while nothing else is to be done (`pending`, `step`), and at once where they take a quarter of
-    the limit.  `forgotten`: steps that were done and are not there any more.
+    the limit; beyond it they go to disk, and are forgotten only where that has no room.  `forgotten`: steps that were
+    done and are not there any more.
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
@@ -249,10 +272,14 @@ class History(Owned):
                     coded += 1
 
     def _forget(self) -> None:
-        """Drops the oldest steps beyond the limit."""
+        """Puts the oldest steps beyond the limit away on disk, or drops them; never for the sake of the newest alone,
+        which is not coded yet."""
         self._make_room()
-        while len(self._done) > self._keep and self._bytes_cap is not None and self.held > self._bytes_cap:
-            self._done.forget()
+        done, cap = self._done, self._bytes_cap
+        while cap is not None and done.in_memory and done.beyond > cap:
+            done.put_away()
+        while cap is not None and len(done) > self._keep and done.beyond > cap:
+            done.forget()
             self.forgotten += 1
 
 

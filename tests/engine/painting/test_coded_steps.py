@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from engine.canvas import layers
 from engine.canvas.evaluate import TileCache
+from engine.keeping.spill import Spill
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
@@ -203,7 +204,8 @@ def test_what_is_kept_of_data_that_were_asked_for_is_bounded(monkeypatch):
     assert coded_records._KEPT._held <= 1 << 20
 
 
-def test_old_steps_are_coded_beside_the_painting_and_forgotten_ones_are_played_anew():
+def test_old_steps_are_coded_beside_the_painting_and_forgotten_ones_are_played_anew(monkeypatch):
+    monkeypatch.setattr(Spill, "put", lambda spill, piece: None)
     studio = Studio(lambda result: None, lambda request: None)
     studio.do(q.New(Rect.at(0, 0, 96, 96)))
     session = studio.easel.session

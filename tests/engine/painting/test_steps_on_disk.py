@@ -1,0 +1,138 @@
+"""Steps beyond what memory and disk hold: undo comes to the first all the same, and redo to the last."""
+
+import gc
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from engine.canvas import layers
+from engine.keeping.spill import Spill, Spilled
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.session import coded_records
+from engine.session.coded_records import CodedData
+from engine.session.history import History
+from engine.studio import requests as q
+from engine.studio.studio import Studio
+
+ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
+LIMIT = 160_000  # bytes of steps in memory: each holds some thousand beside what is coded
+
+
+class Narrow(Spill):
+    """A disk with room for so many bytes."""
+
+    def __init__(self, folder, room):
+        super().__init__(folder)
+        self.room = room
+
+    def put(self, piece):
+        return super().put(piece) if self.held + len(piece) <= self.room else None
+
+
+@pytest.fixture
+def disk(tmp_path, monkeypatch):
+    spill = Narrow(tmp_path, 20_000)
+    monkeypatch.setattr(coded_records, "spill", lambda: spill)
+    yield spill
+    spill.close()
+
+
+def stroke(n, level=0, ink=()):
+    at = [float(17 * n % 90), float(29 * n % 70)]
+    brush = {"radius": 2.0, "opacity": 0.6, "colour": f"#{40 * n % 256:02x}6080", "ink": list(ink)}
+    points = [[v * 2.0**level for v in at], [v * 2.0**level + 12 for v in at]]
+    return c.parse({"do": "stroke", "level": level, "points": points, "brush": brush})
+
+
+def contents(painting):
+    """All that is stored of a painting, copied; when it was stored is another number when it is played anew."""
+    return [
+        (sheet.id, key, record.rect, record.inks, record.data.dtype, record.data.tobytes())
+        for sheet in layers.layers(painting.root)
+        for key, record in sheet.pyramid.all_records()
+    ]
+
+
+def begun():
+    studio = Studio(lambda result: None, lambda request: None)
+    studio.do(q.New(Rect.at(0, 0, 96, 96)))
+    session = studio.easel.session
+    session._history = session.room.history = History(LIMIT, keep=2)
+    return studio
+
+
+def do(studio, command):
+    studio.do(q.Do(command))
+    while studio.step():
+        pass
+
+
+def ways(history):
+    """Counts of the records of steps: in memory as they are, coded, on disk."""
+    held = [
+        record.held
+        for step in (*history.steps.done, *history.steps.undone)
+        for sheet in layers.layers(step.before.root)
+        for _, record in sheet.pyramid.all_records()
+    ]
+    coded = [h for h in held if isinstance(h, CodedData)]
+    away = sum(isinstance(h.packed, Spilled) for h in coded)
+    return sum(isinstance(h, np.ndarray) for h in held), len(coded) - away, away
+
+
+STROKES = st.builds(stroke, st.integers(0, 9), st.integers(-1, 1), st.sampled_from([(), ROCK]))
+
+
+def there_and_back(strokes):
+    """Paints, goes back to the first step and on to the last."""
+    studio = begun()
+    session = studio.easel.session
+    states = [contents(session.painting)]
+    for command in strokes:
+        do(studio, command)
+        states.append(contents(session.painting))
+    assert session.history.forgotten > 0
+    assert all(ways(session.history)), ways(session.history)
+    for wanted in states[-2::-1]:
+        assert session.can_undo
+        do(studio, c.Undo())
+        assert contents(session.painting) == wanted
+    assert not session.can_undo
+    for wanted in states[1:]:
+        assert session.can_redo
+        do(studio, c.Redo())
+        assert contents(session.painting) == wanted
+    assert not session.can_redo
+    studio.close()
+
+
+@pytest.mark.usefixtures("disk")
+def test_undo_comes_to_the_first_step_and_redo_to_the_last_whichever_way_they_are_kept():
+    there_and_back(map(stroke, range(18)))
+
+
+@pytest.mark.nightly
+@settings(deadline=None, max_examples=6, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(STROKES, min_size=8, max_size=16))
+@pytest.mark.usefixtures("disk")
+def test_so_it_does_whatever_was_painted(strokes):
+    there_and_back((*map(stroke, range(18)), *strokes))
+
+
+def test_what_steps_had_on_disk_is_free_when_they_are_gone(disk):
+    disk.room = 1 << 30
+    studio = begun()
+    for n in range(14):
+        do(studio, stroke(n))
+    assert studio.easel.session.history.forgotten == 0
+    assert disk.held > 0
+    studio.do(q.New(Rect.at(0, 0, 96, 96)))
+    studio.close()
+    del studio
+    gc.collect()
+    coded_records._KEPT._made.clear()  # what was asked for of late
+    disk.put(b"")
+    assert disk.held == 0
