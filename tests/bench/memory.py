@@ -27,6 +27,7 @@ from engine.session.session import Session
 
 STROKES = 1000
 PAINTED, BUDGET = 600, 512  # strokes at random; MB
+LEVELS, ZOOMED = 40, 600  # levels; MiB that may be resident after them
 SIDE, PIXEL = 64, 8  # of MyPaint's tiles: pixels, bytes of a pixel
 CACHE = 64 << 20  # bytes of evaluated tiles that the session may keep
 BRUSH = Brush(radius=12.0, hardness=0.7, opacity=0.8, colour="#305070")
@@ -48,6 +49,7 @@ def measure(small: bool = False) -> Iterator[Figure]:
     yield Figure("growth of the process", told["grown"] / 2**20, "MiB", bound, told["grown"] / known, 1.25, note=note)
     if not small:
         yield random_painting(PAINTED)
+        yield zoomed(LEVELS)
 
 
 def random_painting(count: int) -> Figure:
@@ -58,9 +60,21 @@ def random_painting(count: int) -> Figure:
     told = [json.loads(line) for line in done.stdout.splitlines()]
     most, last = max(row["resident"] for row in told), told[-1]
     held = ", ".join(f"{name} {last[name] >> 20}" for name in ("records", "history", "cache"))
+    held += f", on disk {last['disk'] >> 20}; {last['of files'] >> 20} of the resident are of files"
     note = f"the most that was resident; at the end, MiB: {held}; {last['steps']} steps can be taken back"
     bound, name = f"a budget of {BUDGET} MB and 250", f"{count} random strokes"
     return Figure(name, most / 2**20, "MiB", bound, most / 2**20 / (BUDGET + 250), 1.0, note=note)
+
+
+def zoomed(levels: int) -> Figure:
+    """Going through levels of four layers with three inks, in the window's size."""
+    command = python("-m", "bench.zoom_memory", str(levels))
+    done = subprocess.run(command, capture_output=True, text=True, env=children(), check=True)
+    told = [json.loads(line) for line in done.stdout.splitlines()]
+    most, last = max(row["resident"] for row in told), told[-1]
+    note = f"the most that was resident; at the end {last['resident'] >> 20}, of evaluated tiles {last['cache'] >> 20}"
+    bound = f"{ZOOMED} MiB"
+    return Figure(f"zoom through {levels} levels", most / 2**20, "MiB", bound, most / 2**20 / ZOOMED, 1.0, note=note)
 
 
 def paint(count: int) -> dict[str, int]:

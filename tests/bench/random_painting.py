@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from app.canvas.view import View, place_of_pixel
 from engine.brush.settings import Brush
 from engine.canvas.layers import layers
 from engine.keeping.memory import resident
+from engine.keeping.spill import spill
 from engine.painting import commands as c
 from engine.studio import requests as q
 from engine.studio.studio import Studio
@@ -88,11 +91,22 @@ def _held(studio: Studio, number: int) -> dict[str, int]:
     return {
         "strokes": number,
         "resident": resident(),
+        "of files": of_files(),
+        "disk": spill().held,
         "history": session.history.held,
         "cache": session.cache.held,
         "records": sum(layer.pyramid.nbytes for layer in layers(session.painting.root)),
         "steps": session.history.undo_count,
     }
+
+
+def of_files() -> int:
+    """Returns how many of the resident bytes are pages of files, which others share; 0 where the system does not
+    tell."""
+    try:
+        return int(Path("/proc/self/statm").read_text("ascii").split()[2]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, ValueError, AttributeError):
+        return 0
 
 
 if __name__ == "__main__":
