@@ -12,7 +12,6 @@ import os
 import sys
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 
 from engine.files.fault import shown
 from engine.keeping.preferences import SETTINGS, preferences_file, read_preferences
@@ -73,9 +72,15 @@ def shares() -> dict[str, int]:
 def resident() -> int:
     """Returns the bytes of memory that the process has; where the system does not tell, the most it ever had."""
     try:
-        return int(Path("/proc/self/statm").read_text("ascii").split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        return int(os.pread(_statm(os.getpid()), 100, 0).split()[1]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, ValueError, AttributeError):
         return _most_resident()
+
+
+@cache
+def _statm(process: int) -> int:
+    """Returns the open file in which the system tells of a process: it is asked for after every piece of work."""
+    return os.open(f"/proc/{process}/statm", os.O_RDONLY | os.O_CLOEXEC)
 
 
 def _most_resident() -> int:

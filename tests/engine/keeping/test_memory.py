@@ -1,8 +1,11 @@
 """The budget of memory: what it is when who says so, and free pages that go back to the system."""
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from engine.keeping import memory
@@ -56,6 +59,24 @@ def test_the_window_is_told_what_is_wrong(tmp_path, monkeypatch):
 def test_all_shares_together_leave_room_for_the_painting_itself():
     shares = memory.cache_share(), memory.history_share(), memory.states_share()
     assert sum(shares) <= memory.budget() * 3 // 4
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="others do not tell it so")
+def test_each_process_is_told_its_own_memory():
+    held, before = np.ones(64 << 20, np.uint8), memory.resident()
+    with Path("/proc/self/statm").open() as file:
+        wanted = int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    assert abs(before - wanted) < 4 << 20
+    reader, writer = os.pipe()
+    if os.fork() == 0:
+        taken = np.ones(200 << 20, np.uint8)
+        os.write(writer, str(memory.resident()).encode())
+        os._exit(int(taken[0]) - 1)
+    assert os.wait()[1] == 0
+    assert int(os.read(reader, 100)) > before + (150 << 20)
+    for end in (reader, writer):
+        os.close(end)
+    assert held.all()
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only glibc keeps pages and gives them back")
