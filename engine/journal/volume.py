@@ -95,6 +95,20 @@ class Volume:
         return self.open and not self.held and self.sync_at is None
 
     @property
+    def is_whole(self) -> bool:
+        """Tells whether its file is where it was made, with those before it, if it has one: they may have been deleted,
+        or their disk taken away."""
+        file = self._file
+        if file is None:
+            return not self.lost
+        assert self._path is not None
+        try:
+            is_same = os.path.samestat(os.fstat(file), os.stat(self._path))
+            return is_same and all(path.exists() for path in self._files)
+        except OSError:
+            return False
+
+    @property
     def open(self) -> bool:
         """Tells whether there is a file to write to."""
         return self._file is not None
@@ -181,7 +195,7 @@ class Volume:
             file, count, self.sync_at = self._file, len(self._recent), None
         if file is None:
             return
-        if not self._is_there(file):
+        if not self.is_whole:
             self._start_again(file)
             return
         try:
@@ -220,16 +234,6 @@ class Volume:
                 with suppress(OSError):
                     os.close(descriptor)
         self._file = self._lock = None
-
-    def _is_there(self, file: int) -> bool:
-        """Tells whether the file is where it was made, with those before it: they may have been deleted, or their disk
-        taken away."""
-        assert self._path is not None
-        try:
-            is_same = os.path.samestat(os.fstat(file), os.stat(self._path))
-            return is_same and all(path.exists() for path in self._files)
-        except OSError:
-            return False
 
     def _start_again(self, file: int) -> None:
         """Writes all again that the file held which is gone; if others came before it, only the engine can tell what

@@ -172,6 +172,11 @@ class Studio(Owned):
                 self.filing.play()
         self._answers.rest()
 
+    def secure(self) -> None:
+        """Has the journal whole, as a fault ends the engine's thread: the painting is had back from it."""
+        if self._answers is not None:
+            self._answers.secure()
+
     def close(self) -> None:
         """Waits for files that are being written.  What their threads posted is still to be carried out."""
         self.filing.close()

@@ -13,6 +13,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -47,6 +48,10 @@ class Bench(Protocol):
     @property
     def due(self) -> float | None:
         """When `play` is to be called next, by the monotonic clock; None when nothing plays."""
+        ...
+
+    def secure(self) -> None:
+        """Has the journal whole: a fault ends the thread."""
         ...
 
     @property
@@ -252,6 +257,8 @@ class Worker:
             self._work(bench)  # what the threads that wrote files have posted
         except BaseException as error:
             _LOGGER.critical("a fault that ends the engine's thread", exc_info=error)
+            with suppress(Exception):
+                bench.secure()
             self._stopped = True
             self._send(Stopped())
             return

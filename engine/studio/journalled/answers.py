@@ -98,13 +98,20 @@ class Answers(Owned):
         self._journal.turn(head, End.BIN if self._easel.modified else End.DELETED, continued)
         self._beside.turn(head)
 
+    def secure(self) -> None:
+        """Begins the journal anew at once, if it is lost: nobody will do so later."""
+        entry = self._journal.entry
+        if entry.is_whole:
+            return
+        if self._easel.live is not None:  # of a stroke in progress nothing can be told twice
+            self._easel.finish()
+        begun = self._anew.begun_now(entry, self._past)
+        if begun is not None:
+            self._go_on(begun)
+
     def close(self) -> None:
         """The painting is closed as it is."""
-        entry = self._journal.entry
-        if entry.lost or (entry.folder is not None and not entry.folder.exists()):
-            begun = self._anew.begun_now(entry, self._past)
-            if begun is not None:
-                self._go_on(begun)
+        self.secure()
         self._beside.leave(self._easel.session.painting)
         self._beside.close()
 

@@ -65,6 +65,10 @@ class Waiting:
         if self._studio.due is not None and self._studio.due <= time.monotonic() and not self.waits:
             self._studio.play()
 
+    def secure(self) -> None:
+        """Has the journal whole: a fault ends the engine's thread."""
+        self._studio.secure()
+
     def close(self) -> None:
         """Does all that still waits."""
         self._preparing.close()

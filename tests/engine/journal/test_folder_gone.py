@@ -17,6 +17,7 @@ from engine.archive.opening import open_painting
 from engine.journal import entries
 from engine.painting import commands as c
 from engine.studio import requests as q
+from engine.studio import results
 from engine.studio.filing.recovering import recovered
 from opens import opens_in, recovers_in
 
@@ -211,6 +212,32 @@ def test_it_is_begun_anew_where_the_program_ends_at_once(tmp_path, monkeypatch, 
         worker.post(q.Finish())
     left(worker)
     assert strokes(then(worker, tmp_path)[1]) == [*before, 30, 31]
+
+
+@pytest.mark.parametrize("gone", ["journal-1", "journal-2", "all"])
+@pytest.mark.parametrize("down", [False, True])
+def test_nothing_is_lost_when_the_engine_stops_before_it_is_begun_anew(tmp_path, monkeypatch, faults, gone, down):
+    worker, before = taken_again(tmp_path, monkeypatch)
+    draw(worker, 30, 1)
+    whole(worker, tmp_path / "p")
+    if down:  # the pen is down
+        draw(worker, 31, 2, end=False)
+        idle(worker)
+    monkeypatch.setattr("engine.studio.studio.Studio.look", stopped)
+    if gone == "all":
+        removed(tmp_path / "p")
+    else:
+        (worker.entry / gone).unlink()
+    worker.post(q.Look(()))
+    until(lambda: any(isinstance(result, results.Stopped) for result in worker.results()))
+    assert worker.close(60, by_choice=False)
+    assert strokes(then(worker, tmp_path)[1]) == [*before, 30, *([31] if down else [])]
+    assert [record.getMessage() for record in faults] == ["a fault that ends the engine's thread"]
+    faults.clear()
+
+
+def stopped(studio, look):
+    raise SystemExit  # what no command raises
 
 
 def test_what_is_left_of_a_folder_that_is_removed_in_part_is_not_offered(tmp_path, monkeypatch):
