@@ -8,7 +8,7 @@ colours, as one band more.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any, Protocol
 
@@ -92,7 +92,12 @@ class Made:
 
 
 class Pictures(Protocol):
-    """Where examples come from, such as `capture.Place`."""
+    """Where examples come from, such as `capture.PictureSource`."""
+
+    @property
+    def arithmetic(self) -> int:
+        """Gives the arithmetic in which what is made of them is worked out."""
+        ...
 
     def picture(self, members: Fields) -> np.ndarray:
         """Reads the picture that members name: float32 (C, h, w)."""
@@ -117,7 +122,11 @@ def read(maker: str, members: Fields, place: Pictures) -> Plan:
     size = _size(members, (start if start is not None else given[-1].planes).shape[1:], stages)
     if start is not None:
         start = resampled(start, size, np.arange(size[0]), np.arange(size[1]))
-    numbers = _shape(members), size, members.integer("iterations", ITERATIONS, lo=1, hi=1000)
+    numbers = (
+        replace(_shape(members), arithmetic=place.arithmetic),
+        size,
+        members.integer("iterations", ITERATIONS, lo=1, hi=1000),
+    )
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
     return Plan(tuple(given), *numbers, seed, start, how, mix, stages, _bands(members), _axes(members))
 
@@ -165,7 +174,7 @@ def sample(plan: Plan, colours: np.ndarray) -> Sample:
     own = ImageSource.of("", made)
     middle = own if plan.stages == 1 else stage(own, plan.stages, weights(plan.stages)[plan.stages // 2])
     shas = tuple(example.sha for example in plan.examples)
-    return Sample(made, Map({"roughness": octave_of(middle).slope, "examples": shas}))
+    return Sample(made, Map({"roughness": octave_of(middle, plan.shape.arithmetic).slope, "examples": shas}))
 
 
 def of_examples(maker: str, members: Fields, place: Pictures) -> Sample:
@@ -268,7 +277,7 @@ def _beginning(plan: Plan, pattern: Pattern) -> np.ndarray:
     """Returns noise, the same for all stages, or the start picture along its own axes of colour."""
     if plan.start is None:
         return noise(pattern.colours.count, plan.size, plan.seed)
-    return started(pattern, axes_of(plan.start).planes(plan.start), plan.seed)
+    return started(pattern, axes_of(plan.start, plan.shape.arithmetic).planes(plan.start), plan.seed)
 
 
 def _valid(colours: np.ndarray) -> np.ndarray:

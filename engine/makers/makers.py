@@ -85,7 +85,7 @@ def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
     members = Fields(thawed(command.arguments), "")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:
-        place = PictureSource(around.folder, root, around.pictures)
+        place = PictureSource(around.folder, root, around.pictures, around.arithmetic)
         sample = heeger_bergen.of_examples(command.maker, members, place)
         parameters = sample.found.update(parameters)
         source = ImageSource.of(command.name, sample.rgba)

@@ -11,7 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
 from engine.numeric.kernel import kernel
+from engine.numeric.symmetric import eigenvectors, pseudo_inverse
 
 LEAST = 1e-5  # standard deviation, colours being 0..1, of an axis that is one
 _BLOCK = 1 << 18  # pixels whose products are summed in float64 at a time
@@ -20,13 +23,15 @@ _BLOCK = 1 << 18  # pixels whose products are summed in float64 at a time
 @dataclass(frozen=True, slots=True, eq=False)
 class ColourAxes:
     """`axes` (C, R): each column one axis times the standard deviation along it, the longest first, pointing to the
-    brighter side; `back` (R, C) undoes it; `mean`, `low`, `high` (C,): of the example's colours.  All float32."""
+    brighter side; `back` (R, C) undoes it; `mean`, `low`, `high` (C,): of the example's colours.  All float32.
+    `arithmetic`: in which they were found, and are used."""
 
     mean: np.ndarray
     axes: np.ndarray
     back: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    arithmetic: int = LIBRARY
 
     @property
     def count(self) -> int:
@@ -36,7 +41,10 @@ class ColourAxes:
 
     def planes(self, colours: np.ndarray) -> np.ndarray:
         """Colours (C, ...) along the axes: float32 (R, ...), of the example with mean 0 and covariance 1."""
-        return combined(self.back, colours, -self.back.astype(np.float64) @ self.mean)
+        if self.arithmetic == LIBRARY:
+            return combined(self.back, colours, -self.back.astype(np.float64) @ self.mean)
+        parts = self.back.astype(np.float64) * self.mean
+        return combined(self.back, colours, -sum((part for part in parts.T), np.zeros(self.count)))
 
     def colours(self, planes: np.ndarray) -> np.ndarray:
         """Returns the colours (C, ...) of planes (R, ...), kept within the example's range: float32."""
@@ -50,18 +58,14 @@ class ColourAxes:
         return combined(self.axes, planes, self.mean)
 
 
-def axes_of(colours: np.ndarray) -> ColourAxes:
+def axes_of(colours: np.ndarray, arithmetic: int = LIBRARY) -> ColourAxes:
     """Returns the axes of pictures (C, ...), float32 in 0..1."""
     flat = colours.reshape(colours.shape[0], -1)
-    mean = flat.mean(axis=1, dtype=np.float64)
-    covariance = np.zeros((len(flat), len(flat)))
-    for start in range(0, flat.shape[1], _BLOCK):
-        block = flat[:, start : start + _BLOCK].astype(np.float64) - mean[:, None]
-        covariance += np.einsum("ip,jp->ij", block, block)
-    variances, vectors = np.linalg.eigh(covariance / flat.shape[1])
-    spreads = np.sqrt(np.maximum(variances[::-1], 0.0))
+    mean = array_functions(arithmetic).mean(flat, axis=1, dtype=np.float64)
+    variances, vectors = (_principal if arithmetic == LIBRARY else _principal_everywhere)(flat, mean)
+    spreads = np.sqrt(np.maximum(variances, 0.0))
     kept = spreads > LEAST
-    spreads, vectors = spreads[kept], vectors[:, ::-1][:, kept]
+    spreads, vectors = spreads[kept], vectors[:, kept]
     vectors = vectors * np.where(_brightness(vectors) < 0.0, -1.0, 1.0)
     return ColourAxes(
         mean.astype(np.float32),
@@ -69,7 +73,25 @@ def axes_of(colours: np.ndarray) -> ColourAxes:
         (vectors / spreads).T.astype(np.float32),
         flat.min(axis=1),
         flat.max(axis=1),
+        arithmetic,
     )
+
+
+def _principal(flat: np.ndarray, mean: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the variances of colours (C, n) along their principal axes, the largest first, and these as columns."""
+    covariance = np.zeros((len(flat), len(flat)))
+    for start in range(0, flat.shape[1], _BLOCK):
+        block = flat[:, start : start + _BLOCK].astype(np.float64) - mean[:, None]
+        covariance += np.einsum("ip,jp->ij", block, block)
+    variances, vectors = np.linalg.eigh(covariance / flat.shape[1])
+    return variances[::-1], vectors[:, ::-1]
+
+
+def _principal_everywhere(flat: np.ndarray, mean: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """As `_principal`, the same on every processor."""
+    covariance = np.zeros((len(flat), len(flat)))
+    _add_products(np.ascontiguousarray(flat, np.float32), mean, covariance)
+    return eigenvectors(covariance / flat.shape[1])
 
 
 def aligned(axes: ColourAxes, like: ColourAxes) -> ColourAxes:
@@ -94,7 +116,8 @@ def blended(a: ColourAxes, b: ColourAxes, weight: float) -> ColourAxes:
     mean, axes, low, high = (
         ((1.0 - weight) * x + weight * y).astype(np.float32) for x, y in zip(first, second, strict=True)
     )
-    return ColourAxes(mean, axes, np.linalg.pinv(axes).astype(np.float32), low, high)
+    inverse = np.linalg.pinv if a.arithmetic == LIBRARY else pseudo_inverse
+    return ColourAxes(mean, axes, inverse(axes).astype(np.float32), low, high, a.arithmetic)
 
 
 def like(axes: ColourAxes, other: ColourAxes) -> ColourAxes:
@@ -146,3 +169,18 @@ def _combine(matrix: np.ndarray, planes: np.ndarray, offset: np.ndarray, out: np
             line, factor = planes[n], matrix[m, n]
             for i in range(row.size):
                 row[i] += factor * line[i]
+
+
+@kernel
+def _add_products(flat: np.ndarray, mean: np.ndarray, out: np.ndarray) -> None:
+    """out (C, C) += the sums of the products of colours (C, n), less their mean (C,)."""
+    count = flat.shape[0]
+    apart = np.empty(count)
+    for p in range(flat.shape[1]):
+        for i in range(count):
+            apart[i] = np.float64(flat[i, p]) - mean[i]
+            for j in range(i + 1):
+                out[i, j] += apart[i] * apart[j]
+    for i in range(count):
+        for j in range(i):
+            out[j, i] = out[i, j]

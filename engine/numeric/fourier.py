@@ -47,16 +47,16 @@ def _along(values: np.ndarray, axis: int) -> np.ndarray:
 def _transformed(real: np.ndarray, imaginary: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Returns the transforms along the first axis of float64 (n, lines), in two parts; they may be written over."""
     n = len(real)
-    factors = _factors(n)
+    factors = factors_of(n)
     if factors.size and factors.max() > _LARGEST:
         return _by_convolution(real, imaginary)
     other = np.empty_like(real), np.empty_like(imaginary)
-    _steps(real, imaginary, *other, factors, *_waves(n))
+    _steps(real, imaginary, *other, factors, *waves_of(n))
     return other if factors.size % 2 else (real, imaginary)
 
 
 @lru_cache(maxsize=64)
-def _factors(n: int) -> np.ndarray:
+def factors_of(n: int) -> np.ndarray:
     """Returns the factors of n, 4 before 2: int64."""
     found, p = [], 4
     while n > 1:
@@ -70,7 +70,7 @@ def _factors(n: int) -> np.ndarray:
 
 
 @lru_cache(maxsize=16)
-def _waves(n: int) -> tuple[np.ndarray, np.ndarray]:
+def waves_of(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Returns cos and -sin of 2 pi k / n for k = 0, ..., n - 1: exact where they are 0, 1/2 or 1."""
     k = np.arange(n)
     eighth = (8 * k + n) // (2 * n)  # the nearest quarter turn
@@ -84,11 +84,11 @@ def _waves(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=16)
-def _chirp(n: int) -> tuple[np.ndarray, ...]:
+def chirp_of(n: int) -> tuple[np.ndarray, ...]:
     """Returns e^(-i pi k^2 / n), as two parts (n,), and the transform of its conjugate, laid around a circle of a power
     of two."""
     k = np.arange(n)
-    real, imaginary = (wave[k * k % (2 * n)] for wave in _waves(2 * n))
+    real, imaginary = (wave[k * k % (2 * n)] for wave in waves_of(2 * n))
     size = 1 << (2 * n - 1).bit_length()
     around = np.zeros((2, size, 1))
     around[0, :n, 0], around[1, :n, 0] = real, -imaginary
@@ -99,7 +99,7 @@ def _chirp(n: int) -> tuple[np.ndarray, ...]:
 def _by_convolution(real: np.ndarray, imaginary: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """As `_transformed`, for lengths with large prime factors (Bluestein 1970)."""
     n = len(real)
-    c, s, around, across = (part.reshape(-1, 1) for part in _chirp(n))
+    c, s, around, across = (part.reshape(-1, 1) for part in chirp_of(n))
     given = np.zeros((2, len(around), real.shape[1]))
     given[0, :n], given[1, :n] = real * c - imaginary * s, real * s + imaginary * c
     a, b = _transformed(given[0], given[1])

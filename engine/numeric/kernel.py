@@ -17,6 +17,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 Array = np.ndarray
 Int = int | np.integer[Any]  # a whole number of any width
 Real = float | np.floating[Any]
+Low = Any  # what numba and LLVM make of a value, which have no types
 
 
 def kernel(function: F) -> F:

@@ -24,7 +24,7 @@ _STEP = np.float32(Q)
 
 def most_levels(size: Sequence[int]) -> int:
     """Tells how many levels pictures of `size` have room for: the rest is 4 samples or more along its shortest axis."""
-    return max(0, int(math.log2(max(min(size), 1))) - 2)
+    return max(0, int(max(min(size), 1)).bit_length() - 3)
 
 
 def reduce(images: np.ndarray, dimensions: int = 2, edges: Edges = "circular") -> np.ndarray:

@@ -8,7 +8,6 @@ the same on every processor, whatever the order in which it adds.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from llvmlite import ir
@@ -17,14 +16,13 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from engine.numeric.elementary import exp, mapped
-from engine.numeric.kernel import kernel
+from engine.numeric.kernel import Low, kernel
 
 RADIUS, SIDE = 3, 7
 ROW = 32  # values of a row of weights
 FULL = np.uint64((1 << SIDE * SIDE) - 1)
 WEIGHT = 8  # mean of the weights over 7 x 7 pixels
 
-Low = Any  # what numba and LLVM make of a value, which have no types
 _MIDDLE, _OTHERS = (2, 3, 4), (0, 1, 5, 6)
 _LANES = ir.VectorType(ir.IntType(16), ROW)
 _WIDE = ir.VectorType(ir.IntType(32), ROW)

@@ -16,6 +16,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from engine.numeric import real_fourier
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
 from engine.numeric.kernel import kernel
 
 Change = Callable[["Place", np.ndarray], None]
@@ -39,6 +42,7 @@ class Filters:
 
     `high` (H, W//2 + 1); `bands[l]` (K, h, w//2 + 1) for l = 0 (the full size) to levels - 1; `low` for the last of
     `sizes`, which are (h, w) of each level and of the low-pass residue, each half the one before, rounded up.
+    `arithmetic`: in which they were made, and pictures are transformed.
     """
 
     levels: int
@@ -47,6 +51,7 @@ class Filters:
     high: np.ndarray
     bands: tuple[np.ndarray, ...]
     low: np.ndarray
+    arithmetic: int = LIBRARY
 
     @property
     def odd(self) -> bool:
@@ -77,41 +82,43 @@ def places(levels: int, orientations: int) -> list[Place]:
 
 def most_levels(height: int, width: int) -> int:
     """Tells how many levels a picture has room for: the low-pass residue is 4 pixels or more on its shorter side."""
-    return max(0, int(math.log2(max(min(height, width), 1))) - 2)
+    return max(0, int(max(min(height, width), 1)).bit_length() - 3)
 
 
-def filters(height: int, width: int, levels: int, orientations: int) -> Filters:
+def filters(height: int, width: int, levels: int, orientations: int, arithmetic: int = LIBRARY) -> Filters:
     """Returns the masks for pictures of `height` x `width`; kept for a while, if they are not too large."""
     if min(height, width, orientations) < 1 or not 0 <= levels <= most_levels(height, width):
         raise ValueError(
             f"steerable pyramid: found {levels} levels, {orientations} orientations for {height} x {width}"
         )
     made = _cached if height * width <= _CACHED else _made
-    return made(height, width, levels, orientations)
+    return made(height, width, levels, orientations, arithmetic)
 
 
-def _made(height: int, width: int, levels: int, orientations: int) -> Filters:
+def _made(height: int, width: int, levels: int, orientations: int, arithmetic: int) -> Filters:
     sizes = [(height, width)]
     for _ in range(levels):
         sizes.append((-(-sizes[-1][0] // 2), -(-sizes[-1][1] // 2)))
-    high, _ = _split(_logarithm(height, width, height, width)[0])
+    high, _ = _split(_logarithm(height, width, height, width, arithmetic)[0], arithmetic)
     bands = []
     for level, (h, w) in enumerate(sizes[:-1]):
-        logarithm, angle = _logarithm(height, width, h, w)
-        bands.append(masks(logarithm, angle, level, levels, orientations))
-    (low,) = masks(*_logarithm(height, width, *sizes[-1]), levels, levels, orientations)
+        logarithm, angle = _logarithm(height, width, h, w, arithmetic)
+        bands.append(masks(logarithm, angle, level, levels, orientations, arithmetic))
+    (low,) = masks(*_logarithm(height, width, *sizes[-1], arithmetic), levels, levels, orientations, arithmetic)
     fine, *oriented, coarse = (_kept(mask) for mask in (high, *bands, low))
-    return Filters(levels, orientations, tuple(sizes), fine, tuple(oriented), coarse)
+    return Filters(levels, orientations, tuple(sizes), fine, tuple(oriented), coarse, arithmetic)
 
 
-def masks(logarithm: np.ndarray, angle: np.ndarray, level: int, levels: int, orientations: int) -> np.ndarray:
+def masks(
+    logarithm: np.ndarray, angle: np.ndarray, level: int, levels: int, orientations: int, arithmetic: int = LIBRARY
+) -> np.ndarray:
     """Returns the masks of the subbands of a level, 0 to `levels` (the low-pass residue), at any frequencies (...):
     log2 of them in parts of the highest along an axis, and their direction.  float64 (K, ...), K being 1 for the
     residue."""
     if level == levels:
-        return _split(logarithm + level)[1][None]
-    radial = _split(logarithm + level)[1] * _split(logarithm + level + 1)[0]
-    return np.stack([radial * _angular(angle, k, orientations) for k in range(orientations)])
+        return _split(logarithm + level, arithmetic)[1][None]
+    radial = _split(logarithm + level, arithmetic)[1] * _split(logarithm + level + 1, arithmetic)[0]
+    return np.stack([radial * _angular(angle, k, orientations, arithmetic) for k in range(orientations)])
 
 
 def _kept(mask: np.ndarray) -> np.ndarray:
@@ -123,39 +130,50 @@ def _kept(mask: np.ndarray) -> np.ndarray:
 _cached = lru_cache(maxsize=6)(_made)
 
 
-def _logarithm(height: int, width: int, h: int, w: int) -> tuple[np.ndarray, np.ndarray]:
+def _logarithm(height: int, width: int, h: int, w: int, arithmetic: int) -> tuple[np.ndarray, np.ndarray]:
     """log2 of the frequency in parts of the highest of (height, width), and its direction, at the lowest (h, w)."""
     rows = np.arange(h)
     v = np.where(rows < -(-h // 2), rows, rows - h)[:, None] * (2.0 / height)
     u = np.arange(w // 2 + 1)[None] * (2.0 / width)
-    radius = np.hypot(v, u)
-    return np.log2(np.maximum(radius, 1e-9)), np.arctan2(v, u)
+    own, radius = array_functions(arithmetic), array_functions(arithmetic).distance(v, u)
+    return own.log2(np.maximum(radius, 1e-9)), own.arctan2(*np.broadcast_arrays(v, u))
 
 
-def _split(logarithm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _split(logarithm: np.ndarray, arithmetic: int) -> tuple[np.ndarray, np.ndarray]:
     """Returns the high-pass and the low-pass half of a split at the octave below log2 = 0; their squares add up to
     one."""
     turn = (np.pi / 2.0) * np.clip(logarithm + 1.0, 0.0, 1.0)
-    low = np.cos(turn)
-    return np.sin(turn), np.where(logarithm >= 0.0, 0.0, low)  # exactly zero where the next level has no frequencies
+    own = array_functions(arithmetic)
+    low = own.cos(turn)
+    return own.sin(turn), np.where(logarithm >= 0.0, 0.0, low)  # exactly zero where the next level has no frequencies
 
 
-def _angular(angle: np.ndarray, k: int, orientations: int) -> np.ndarray:
+def _angular(angle: np.ndarray, k: int, orientations: int, arithmetic: int) -> np.ndarray:
     order = orientations - 1
     scale = 2.0**order * math.factorial(order) / math.sqrt(orientations * math.factorial(2 * order))
-    return scale * (-1.0) ** (orientations // 2) * np.cos(angle - np.pi * k / orientations) ** order
+    cosine = array_functions(arithmetic).cos(angle - np.pi * k / orientations)
+    if arithmetic == LIBRARY:
+        return scale * (-1.0) ** (orientations // 2) * cosine**order
+    out = np.full_like(cosine, -scale if orientations // 2 % 2 else scale)
+    for _ in range(order):
+        out *= cosine
+    return out
 
 
-def spectrum(images: np.ndarray) -> np.ndarray:
+def spectrum(images: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Half of the spectrum of real pictures (..., h, w): complex64 (..., h, w//2 + 1)."""
+    if arithmetic != LIBRARY:
+        return real_fourier.rfft2(images)
     from scipy.fft import rfft2
 
     out: np.ndarray = rfft2(np.asarray(images, np.float32), axes=_AXES)
     return out
 
 
-def image(half: np.ndarray, size: tuple[int, int], spent: bool = False) -> np.ndarray:
+def image(half: np.ndarray, size: tuple[int, int], spent: bool = False, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns the pictures (..., *size) of half a spectrum: float32.  `spent`: the spectrum may be written over."""
+    if arithmetic != LIBRARY:
+        return real_fourier.irfft2(half, size, spent)
     from scipy.fft import irfft2
 
     out: np.ndarray = irfft2(half, s=size, axes=_AXES, overwrite_x=spent)
@@ -173,13 +191,13 @@ def band(half: np.ndarray, made: Filters, place: Place) -> np.ndarray:
     turn = np.float32(1.0 if made.turned(place) else 0.0)
     scale = np.float32(math.prod(size) / math.prod(made.sizes[0]))
     _masked(half.view(np.float32), mask, scale, turn, out.view(np.float32))
-    return image(out, size, True)
+    return image(out, size, True, made.arithmetic)
 
 
 def build(images: np.ndarray, made: Filters) -> dict[Place, np.ndarray]:
     """Returns the pyramid of pictures (..., H, W), float32: subbands (..., h, w) by their place."""
     planes = np.ascontiguousarray(images, np.float32).reshape(-1, *made.sizes[0])
-    half = spectrum(planes)
+    half = spectrum(planes, made.arithmetic)
     found = {place: band(half, made, place) for place in places(made.levels, made.orientations)}
     return {place: values.reshape(*images.shape[:-2], *values.shape[-2:]) for place, values in found.items()}
 
@@ -190,8 +208,8 @@ def collapse(pyramid: dict[Place, np.ndarray], made: Filters) -> np.ndarray:
     total = np.zeros((math.prod(leading), *made.high.shape), np.complex64)
     for place in places(made.levels, made.orientations):
         values = pyramid[place]
-        _give(total, spectrum(values.reshape(-1, *values.shape[-2:])), made, place)
-    return image(total, made.sizes[0], True).reshape(*leading, *made.sizes[0])
+        _give(total, spectrum(values.reshape(-1, *values.shape[-2:]), made.arithmetic), made, place)
+    return image(total, made.sizes[0], True, made.arithmetic).reshape(*leading, *made.sizes[0])
 
 
 def changed(
@@ -204,13 +222,13 @@ def changed(
     done, 0..1, and returns the pictures.  With `threads`, several subbands are worked on at once; they are added up in
     the same order, so the result is the same bit for bit.
     """
-    half = spectrum(np.ascontiguousarray(images, np.float32))
+    half = spectrum(np.ascontiguousarray(images, np.float32), made.arithmetic)
     total = np.zeros_like(half)
 
     def part(place: Place) -> np.ndarray:
         values = band(half, made, place)
         change(place, values)
-        return spectrum(values)
+        return spectrum(values, made.arithmetic)
 
     order = places(made.levels, made.orientations)
     sizes = [math.prod(made.size(place)) for place in order]
@@ -219,7 +237,7 @@ def changed(
         _give(total, found, made, place)
         done += size
         yield done / sum(sizes)
-    return image(total, made.sizes[0], True)
+    return image(total, made.sizes[0], True, made.arithmetic)
 
 
 def finished(steps: Generator[float, None, np.ndarray]) -> np.ndarray:

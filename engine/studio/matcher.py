@@ -171,7 +171,7 @@ class Matcher(Owned):
 def _alike(one: _Work, other: _Work) -> bool:
     """Tells whether both make the same texture."""
     assert one.plan is not None
-    same = other.plan is not None and one.plan.examples == other.plan.examples
+    same = other.plan is not None and (one.plan.examples, one.plan.shape) == (other.plan.examples, other.plan.shape)
     return same and (one.maker, one.arguments) == (other.maker, other.arguments)
 
 
@@ -193,6 +193,11 @@ class _Pictures:
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
         self._known: dict[tuple[Any, ...], tuple[Group | None, np.ndarray]] = {}
+
+    @property
+    def arithmetic(self) -> int:
+        """Gives the painting's."""
+        return self._easel.session.painting.arithmetic
 
     def picture(self, members: Fields) -> np.ndarray:
         session = self._easel.session

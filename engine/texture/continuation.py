@@ -13,13 +13,16 @@ no step where it ends.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from engine.numeric import histograms, steerable
-from engine.numeric.colour_axes import ColourAxes
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
+from engine.numeric.colour_axes import ColourAxes, combined
+from engine.numeric.functions import functions
 from engine.numeric.steerable import Place
 from engine.texture import sample
 from engine.texture.image import ImageSource
@@ -51,22 +54,25 @@ class Octave:
 
 
 @lru_cache(maxsize=16)
-def octave_of(source: ImageSource) -> Octave:
+def octave_of(source: ImageSource, arithmetic: int = LIBRARY) -> Octave:
     """Returns what continues a picture."""
     assert source.data is not None
     count = 3 if sample.coloured(source) else 1
     # What is opaque is looked at without its alpha: another channel would be another sum of float32 numbers.
     channels = [*range(count), *([] if source.opaque else [3])]
     picture = np.ascontiguousarray(source.data[channels, :LOOKED_AT, :LOOKED_AT])
-    pattern = analysed(picture, _SHAPE)
+    pattern = analysed(picture, replace(_SHAPE, arithmetic=arithmetic))
     if not pattern.shape.levels or not pattern.bands:
         return Octave(np.zeros((count + 1, OCTAVE_SIDE, OCTAVE_SIDE), np.float32), _USUAL)
     finest, slope = measured(pattern)
     axes = pattern.colours
     assert isinstance(axes, ColourAxes)
-    planes = _filtered(_noise(pattern, finest, slope))
-    tile = 2.0 * np.einsum("cr,rhw->chw", axes.axes, planes)
-    tile -= tile.mean((1, 2), keepdims=True)
+    planes = _filtered(_noise(pattern, finest, slope), arithmetic)
+    if arithmetic == LIBRARY:
+        tile = 2.0 * np.einsum("cr,rhw->chw", axes.axes, planes)
+    else:
+        tile = np.float32(2.0) * combined(axes.axes, planes, np.zeros(len(axes.axes)))
+    tile -= array_functions(arithmetic).mean(tile, axis=(1, 2), keepdims=True)
     tile = np.concatenate([tile, np.zeros((count + 1 - len(tile), OCTAVE_SIDE, OCTAVE_SIDE))]).astype(np.float32)
     tile.flags.writeable = False
     return Octave(tile, slope)
@@ -74,24 +80,25 @@ def octave_of(source: ImageSource) -> Octave:
 
 def measured(pattern: Pattern) -> tuple[int, float]:
     """Returns the finest level that is not blurred away, and the slope from there on: amplitude per octave."""
-    strengths = _strengths(pattern)
+    strengths, arithmetic = _strengths(pattern), pattern.shape.arithmetic
     for finest in range(min(2, len(strengths) - 2)):
-        slope = _slope(strengths[finest + 1 :])
+        slope = _slope(strengths[finest + 1 :], arithmetic)
         if strengths[finest] >= _BLURRED * slope * strengths[finest + 1]:
-            return finest, _slope(strengths[finest:])
+            return finest, _slope(strengths[finest:], arithmetic)
     finest = max(0, min(2, len(strengths) - 2))
-    return finest, _slope(strengths[finest:])
+    return finest, _slope(strengths[finest:], arithmetic)
 
 
 def _strengths(pattern: Pattern) -> list[float]:
     """Returns the standard deviation of each level's subbands together, colours being 0..1, from the finest."""
     axes, shape = pattern.colours, pattern.shape
+    mean = array_functions(shape.arithmetic).mean
     assert isinstance(axes, ColourAxes)
     lengths = np.square(axes.axes, dtype=np.float64).sum(axis=0)
     return [
         math.sqrt(
             sum(
-                float(length) * float(np.square(bands[Place(level, k)], dtype=np.float64).mean())
+                float(length) * float(mean(np.square(bands[Place(level, k)], dtype=np.float64)))
                 for length, bands in zip(lengths, pattern.bands, strict=True)
                 for k in range(shape.orientations)
             )
@@ -100,20 +107,26 @@ def _strengths(pattern: Pattern) -> list[float]:
     ]
 
 
-def _slope(strengths: list[float]) -> float:
-    """Returns a line through their logarithms."""
+def _slope(strengths: list[float], arithmetic: int) -> float:
+    """Returns how steep a line through their logarithms is."""
     if len(strengths) < 2 or min(strengths) <= 0.0:
         return _USUAL
-    fall = np.polyfit(np.arange(len(strengths)), np.log2(strengths), 1)[0]
-    out: float = round(min(max(2.0 ** -float(fall), STEEPEST), EVENEST), 4)
+    own = functions(arithmetic)
+    if arithmetic == LIBRARY:
+        fall = float(np.polyfit(np.arange(len(strengths)), np.log2(strengths), 1)[0])
+    else:
+        places = [k - (len(strengths) - 1) / 2.0 for k in range(len(strengths))]
+        fall = sum(x * own.log2(y) for x, y in zip(places, strengths, strict=True)) / sum(x * x for x in places)
+    out: float = round(min(max(own.two_to(-fall), STEEPEST), EVENEST), 4)
     return out
 
 
 def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
     """Returns planes (R, 256, 256) along the axes, whose subbands are distributed as the finest ones of the pattern;
     those of lower octaves stronger, as the slope tells."""
-    made = steerable.filters(OCTAVE_SIDE, OCTAVE_SIDE, _OCTAVES, _SHAPE.orientations)
-    rise = max(slope, _LOUDEST)
+    arithmetic = pattern.shape.arithmetic
+    made = steerable.filters(OCTAVE_SIDE, OCTAVE_SIDE, _OCTAVES, _SHAPE.orientations, arithmetic)
+    rise, power = max(slope, _LOUDEST), functions(arithmetic).power
     rest = _rest(made, rise)
 
     def wanted(axis: int, place: Place) -> np.ndarray:
@@ -121,7 +134,7 @@ def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
         if place.level < 0 and not finest:
             return bands[place]
         ordered = bands[Place(finest, max(place.orientation, 0))]
-        return ordered * np.float32(slope**finest * (rest if place.level < 0 else rise**-place.level))
+        return ordered * np.float32(power(slope, finest) * (rest if place.level < 0 else power(rise, -place.level)))
 
     targets = {
         place: [histograms.quantiles(wanted(axis, place), _QUANTILES) for axis in range(len(pattern.bands))]
@@ -143,20 +156,27 @@ def _noise(pattern: Pattern, finest: int, slope: float) -> np.ndarray:
 
 def _rest(made: steerable.Filters, slope: float) -> float:
     """Tells how strong the high-pass residue is to one subband of the finest level, in noise of that slope."""
-    v, u = np.fft.fftfreq(OCTAVE_SIDE)[:, None], np.fft.rfftfreq(OCTAVE_SIDE)[None]
-    f = np.maximum(np.hypot(u, v), 1.0 / OCTAVE_SIDE)
-    power = f ** (-2.0 * (1.0 - math.log2(slope)))
-    high = float((np.square(made.high) * power).sum())
-    return math.sqrt(high / float((np.square(made.bands[0]) * power).sum() / made.orientations))
+    own, v, u = (
+        array_functions(made.arithmetic),
+        np.fft.fftfreq(OCTAVE_SIDE)[:, None],
+        np.fft.rfftfreq(OCTAVE_SIDE)[None],
+    )
+    f = np.maximum(own.distance(u, v), 1.0 / OCTAVE_SIDE)
+    power = own.powers(f, -2.0 * (1.0 - own.single.log2(slope)))
+    high = float(own.total(np.square(made.high) * power))
+    return math.sqrt(high / float(own.total(np.square(made.bands[0]) * power) / made.orientations))
 
 
-def _filtered(planes: np.ndarray) -> np.ndarray:
+def _filtered(planes: np.ndarray, arithmetic: int) -> np.ndarray:
     """Without what expand lets pass of a coarser level: the part 1 - e^2 of the power stays."""
-    e = _response(np.fft.fftfreq(OCTAVE_SIDE))[:, None] * _response(np.fft.rfftfreq(OCTAVE_SIDE))[None]
+    rows, columns = (_response(f, arithmetic) for f in (np.fft.fftfreq(OCTAVE_SIDE), np.fft.rfftfreq(OCTAVE_SIDE)))
+    e = rows[:, None] * columns[None]
     part = np.sqrt(np.maximum(1.0 - e * e, 0.0)).astype(np.float32)
-    return steerable.image(steerable.spectrum(planes) * part, (OCTAVE_SIDE, OCTAVE_SIDE), True)
+    spectrum = array_functions(arithmetic).turned(steerable.spectrum(planes, arithmetic), part)
+    return steerable.image(spectrum, (OCTAVE_SIDE, OCTAVE_SIDE), True, arithmetic)
 
 
-def _response(f: np.ndarray) -> np.ndarray:
+def _response(f: np.ndarray, arithmetic: int) -> np.ndarray:
     """Of expand (1, 3, 3, 1)/4 along an axis, f in cycles per pixel of the finer level."""
-    return np.cos(np.pi * f) ** 3
+    cosine = array_functions(arithmetic).cos(np.pi * f)
+    return cosine**3 if arithmetic == LIBRARY else cosine * cosine * cosine

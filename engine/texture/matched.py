@@ -21,6 +21,7 @@ from typing import ClassVar
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.array_functions import array_functions
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.functions import functions
 from engine.numeric.hashing import fold_key
@@ -104,7 +105,7 @@ class Matched(Tiled):
         return out
 
     def _octave(self, depth: int, rect: Rect) -> np.ndarray:
-        tile = self._planes(octave_of(self.picture).tile)
+        tile = self._planes(octave_of(self.picture, self.arithmetic).tile)
         h = fold_key(_DOMAIN, depth)
         x, y = (h & 0xFFFFFFFF) % tile.shape[2], (h >> 32) % tile.shape[1]
         out = tiled(tile, Rect.at(rect.x0 + x, rect.y0 + y, rect.width, rect.height))
@@ -246,14 +247,16 @@ def _stretched(source: ImageSource, period: int, roughness: float, arithmetic: i
 def _form(picture: ImageSource, period: int, roughness: float, arithmetic: int) -> Continuation:
     """Tells how strong an octave is to the texture, and how large the features of both are."""
     tiles = [sample.tile(picture, period, arithmetic)]
-    octave = octave_of(picture).tile
+    octave = octave_of(picture, arithmetic).tile
     if picture.opaque:
         octave = octave[:-1]
     else:
         tiles.append(sample.tile(_alpha(picture), period, arithmetic))
-    own, added = (_energy(planes) for planes in (np.concatenate([tile.levels[-1] for tile in tiles]), octave))
+    own, added = (
+        _energy(planes, arithmetic) for planes in (np.concatenate([tile.levels[-1] for tile in tiles]), octave)
+    )
     strength = math.sqrt(added / own) * _stretched(picture, period, roughness, arithmetic) if own > 0.0 else 0.0
-    loudest = max(tiles, key=lambda tile: _energy(tile.levels[-1]))
+    loudest = max(tiles, key=lambda tile: _energy(tile.levels[-1], arithmetic))
     return replace(loudest.form, strength=round(strength, 6), octave=_SIZE)
 
 
@@ -262,9 +265,11 @@ def _reach(picture: ImageSource, period: int, roughness: float, depth: int, arit
     """Tells how far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
     form = _form(picture, period, roughness, arithmetic)
     weights = octave_weights(depth, roughness, form, arithmetic)[:depth]
-    own = math.sqrt(_energy(octave_of(picture).tile[-1:])) / 2.0 * _stretched(picture, period, roughness, arithmetic)
-    return round(min(_REACH * own * math.sqrt(float(np.square(weights, dtype=np.float64).sum())), _FARTHEST), 5)
+    own = math.sqrt(_energy(octave_of(picture, arithmetic).tile[-1:], arithmetic)) / 2.0
+    own *= _stretched(picture, period, roughness, arithmetic)
+    far = float(array_functions(arithmetic).total(np.square(weights, dtype=np.float64)))
+    return round(min(_REACH * own * math.sqrt(far), _FARTHEST), 5)
 
 
-def _energy(planes: np.ndarray) -> float:
-    return float(np.square(planes, dtype=np.float64).mean())
+def _energy(planes: np.ndarray, arithmetic: int) -> float:
+    return float(array_functions(arithmetic).mean(np.square(planes, dtype=np.float64)))

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from engine.numeric import histograms, laplacian, steerable
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.colour_axes import ColourAxes, axes_of
 from engine.numeric.grid import snapped
 from engine.numeric.hashing import fold_key, hash_plane
+from engine.numeric.real_fourier import fast_length
 from engine.numeric.steerable import Change, Place, places
 
 LEVELS, ORIENTATIONS, ITERATIONS = 4, 4, 5
@@ -31,11 +33,13 @@ Match = Callable[[np.ndarray, np.ndarray], None]  # moves values, in place, to a
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """Which pyramid: `kind` one of PYRAMIDS; `orientations` mean something to the steerable one only."""
+    """Which pyramid: `kind` one of PYRAMIDS; `orientations` mean something to the steerable one only; `arithmetic`: in
+    which pictures are taken apart."""
 
     kind: str = "steerable"
     levels: int = LEVELS
     orientations: int = ORIENTATIONS
+    arithmetic: int = LIBRARY
 
     def places(self) -> list[Place]:
         """Gives the places of all subbands, the finest first."""
@@ -46,7 +50,7 @@ class Shape:
     def within(self, *sizes: tuple[int, ...]) -> Shape:
         """With no more levels than all these pictures have room for."""
         most = min(laplacian.most_levels(size) for size in sizes)
-        return Shape(self.kind, min(self.levels, most), self.orientations)
+        return replace(self, levels=min(self.levels, most))
 
 
 class Colours(Protocol):
@@ -84,7 +88,7 @@ class Step:
 
 def analysed(picture: np.ndarray, shape: Shape, axes: ColourAxes | None = None) -> Pattern:
     """Returns the pattern of an example (C, h, w), mirrored at its edges, along given axes or its own."""
-    axes = axes or axes_of(picture)
+    axes = axes or axes_of(picture, shape.arithmetic)
     shape = shape.within(picture.shape[1:])
     planes = axes.planes(picture)
     pixels = tuple(histograms.sorted_values(plane) for plane in planes)
@@ -98,7 +102,7 @@ def _bands(plane: np.ndarray, shape: Shape) -> Bands:
         return {Place(level): histograms.sorted_values(band) for level, band in enumerate(pyramid)}
     mirrored, within = _mirrored(plane, 4 << shape.levels)
     made = filters_for(mirrored, shape)
-    half = steerable.spectrum(mirrored[None])
+    half = steerable.spectrum(mirrored[None], shape.arithmetic)
     found = {}
     for place in shape.places():
         band = steerable.band(half, made, place)[0]
@@ -110,12 +114,10 @@ def _bands(plane: np.ndarray, shape: Shape) -> Bands:
 def _mirrored(plane: np.ndarray, reach: int) -> tuple[np.ndarray, list[tuple[float, float]]]:
     """Returns a plane with its mirror images around it, `reach` pixels of them or half its size on each side, and
     what part of each axis is its own.  Sizes are such that transforms are fast."""
-    from scipy.fft import next_fast_len
-
     sides, within = [], []
     for n in plane.shape:
         margin = min(reach, n // 2)
-        total = 2 * n if margin == n // 2 else next_fast_len(n + 2 * margin, real=True)
+        total = 2 * n if margin == n // 2 else fast_length(n + 2 * margin)
         sides.append((margin, total - n - margin))
         within.append((margin / total, (margin + n) / total))
     return np.pad(plane, sides, mode="symmetric"), within
@@ -216,7 +218,7 @@ def _iterated(
 def filters_for(planes: np.ndarray, shape: Shape) -> steerable.Filters:
     """Gives the filters of a steerable pyramid for planes (..., h, w)."""
     height, width = planes.shape[-2:]
-    return steerable.filters(height, width, shape.levels, shape.orientations)
+    return steerable.filters(height, width, shape.levels, shape.orientations, shape.arithmetic)
 
 
 def _band_match(pattern: Pattern, match: Match) -> Change:

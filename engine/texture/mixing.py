@@ -70,7 +70,8 @@ def palette(first: np.ndarray, second: np.ndarray, shape: Shape, mix: Mix) -> Pa
     pattern = analysed(second, shape)
     assert isinstance(pattern.colours, ColourAxes)
     return replace(
-        pattern, colours=colour_axes.counted(aligned(axes_of(first), pattern.colours), pattern.colours.count)
+        pattern,
+        colours=colour_axes.counted(aligned(axes_of(first, shape.arithmetic), pattern.colours), pattern.colours.count),
     )
 
 
@@ -103,8 +104,8 @@ def average(first: np.ndarray, second: np.ndarray, shape: Shape, mix: Mix) -> Pa
 def _both(first: np.ndarray, second: np.ndarray, shape: Shape) -> tuple[Pattern, Pattern]:
     """Returns the patterns of both, along axes that point to the same sides."""
     shape = shape.within(first.shape[1:], second.shape[1:])
-    own = axes_of(first)
-    return analysed(first, shape, own), analysed(second, shape, aligned(axes_of(second), own))
+    own = axes_of(first, shape.arithmetic)
+    return analysed(first, shape, own), analysed(second, shape, aligned(axes_of(second, shape.arithmetic), own))
 
 
 def _axes(pattern: Pattern) -> ColourAxes:

@@ -33,7 +33,6 @@ FUNCTIONS = {
 }
 GIVEN = "given the name by the arithmetic of version 1, or of our own"
 EXACT = "sums in order, without BLAS: `einsum` over one axis, or of whole numbers"
-ROUNDED = "only what is rounded to a whole number that no last bit changes"
 SHOWN = "shown, and part of no painting's pixels"
 SOLIDS = "solids, which no recording makes"
 HAND = "what the hand does, before it is recorded"
@@ -44,12 +43,14 @@ ALLOWED = {
     "numeric.formula_kernel": GIVEN,
     "numeric.impulse": GIVEN,
     "numeric.poles": GIVEN,
+    "numeric.steerable": GIVEN,
+    "numeric.colour_axes": GIVEN,
+    "texture.continuation": GIVEN,
     "brush.tints": GIVEN,
     "brush.mixture": EXACT,
     "brush.op_targets": EXACT,
     "brush.tip": EXACT,
     "texture.grey": EXACT,
-    "numeric.laplacian": ROUNDED,
     "brush.smoothing": HAND,
     "numeric.spectra": SHOWN,
     "numeric.analysis": SHOWN,
@@ -59,11 +60,6 @@ ALLOWED = {
     "numeric.directions": SOLIDS,
     "numeric.bspline": SOLIDS,
     "texture.settling": SOLIDS,
-    # `match`, `mix` and the octaves beyond a matched picture's own pixels: masks, transforms in float32, axes of colour
-    "numeric.steerable": OPEN,
-    "numeric.colour_axes": OPEN,
-    "texture.continuation": OPEN,
-    "texture.matching": OPEN,
     # examples that are grown: blurs, luminance by BLAS, principal axes, nearest neighbours by SciPy's tree
     "texture.example.exemplar": OPEN,
     "texture.example.scanline": OPEN,
