@@ -186,7 +186,7 @@ class _Opening:
         """With what was painted with examples, which is still to be grown; and the marks of how it was."""
         marks: list[Mark] = []
         plots = [plot for found in manifest.plots.values() for plot in found]
-        nursery = Nursery.of(manifest.examples, plots, sources)
+        nursery = Nursery.of(manifest.examples, plots, sources, manifest.arithmetic)
         for layer in list(layers.layers(root)):
             if layer.id in manifest.plots:
                 where = f"{self._archive.name}: layer {shown(layer.name)}"

@@ -218,9 +218,14 @@ class Nursery:
 
     @classmethod
     def of(
-        cls, entries: Mapping[str, ExampleEntry], plots: Iterable[PlotEntry], pictures: Mapping[str, ImageSource]
+        cls,
+        entries: Mapping[str, ExampleEntry],
+        plots: Iterable[PlotEntry],
+        pictures: Mapping[str, ImageSource],
+        arithmetic: int,
     ) -> Nursery:
-        """Returns those that plots are of; FieldError if there is nothing to learn from one."""
+        """Returns those that plots are of, in the painting's arithmetic; FieldError if there is nothing to learn from
+        one."""
         found: dict[str, tuple[str, Exemplar]] = {}
         for plot in plots:
             if plot.example in found:
@@ -228,7 +233,7 @@ class Nursery:
             if plot.example not in entries:
                 raise FieldError(f"plot {shown(plot.name)}.example", shown(plot.example), "one of those in the file")
             entry = entries[plot.example]
-            texture = _texture(entry, plot.name, pictures)
+            texture = replace(_texture(entry, plot.name, pictures), arithmetic=arithmetic)
             try:
                 found[plot.example] = key_of(texture, entry.detail), exemplar_of(texture, entry.detail)
             except FieldError as error:

@@ -17,6 +17,7 @@ from engine.checks.field_error import FieldError
 from engine.files.atomic import replacing
 from engine.files.fault import FileError, WriteError
 from engine.files.images import read_image
+from engine.numeric.arithmetic import LIBRARY
 from engine.texture.example.exemplar import ExampleLevel, Exemplar, analysed
 from engine.texture.example.parameters import Parameters, read_toml
 
@@ -71,14 +72,21 @@ def read_mask(path: str | os.PathLike[str]) -> np.ndarray:
     return out
 
 
-def kept(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, folder: Path | None = None) -> Exemplar:
+def kept(
+    pixels: np.ndarray,
+    mask: np.ndarray | None,
+    parameters: Parameters,
+    folder: Path | None = None,
+    arithmetic: int = LIBRARY,
+) -> Exemplar:
     """As `exemplar.analysed`, from the folder of analyses if it is there, else put into it."""
-    place = (folder or platformdirs.user_cache_path("inkfall") / "examples") / f"{key(pixels, mask, parameters)}.npz"
+    folder = folder or platformdirs.user_cache_path("inkfall") / "examples"
+    place = folder / f"{key(pixels, mask, parameters, arithmetic)}.npz"
     with suppress(*_DAMAGED):
-        found = _read(place, pixels, parameters)
+        found = _read(place, pixels, parameters, arithmetic)
         os.utime(place)
         return found
-    exemplar = analysed(pixels, mask, parameters)
+    exemplar = analysed(pixels, mask, parameters, arithmetic)
     with suppress(OSError, WriteError):  # a folder that cannot be written to: analysed anew each time
         place.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         _write(place, exemplar)
@@ -86,10 +94,11 @@ def kept(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, fo
     return exemplar
 
 
-def key(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters) -> str:
+def key(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, arithmetic: int = LIBRARY) -> str:
     """Returns a hash of the content, in hexadecimal."""
     held = tuple((name, getattr(parameters, name)) for name in _ANALYSED)
-    about = (VERSION, pixels.shape, pixels.dtype.str, mask is None, held)
+    told = () if arithmetic == LIBRARY else (arithmetic,)
+    about = (VERSION, pixels.shape, pixels.dtype.str, mask is None, held, *told)
     found = hashlib.sha256(repr(about).encode())
     found.update(pixels.tobytes())
     if mask is not None:
@@ -106,7 +115,7 @@ def _write(place: Path, exemplar: Exemplar) -> None:
         np.savez(file, **arrays)  # type: ignore[arg-type]
 
 
-def _read(place: Path, pixels: np.ndarray, parameters: Parameters) -> Exemplar:
+def _read(place: Path, pixels: np.ndarray, parameters: Parameters, arithmetic: int) -> Exemplar:
     """Returns one of _DAMAGED if it is not there or not whole; its members have check sums."""
     with open(place, "rb") as file, np.load(file) as held:
         count, block, boundary = (int(n) for n in held["facts"])
@@ -117,7 +126,7 @@ def _read(place: Path, pixels: np.ndarray, parameters: Parameters) -> Exemplar:
     own = pixels.copy()
     for array in (own, mask, blocks, *(getattr(lv, field.name) for lv in levels for field in fields(lv))):
         array.flags.writeable = False
-    return Exemplar(own, mask, parameters, tuple(levels), blocks, block, bool(boundary))
+    return Exemplar(own, mask, parameters, tuple(levels), blocks, block, bool(boundary), arithmetic=arithmetic)
 
 
 def _tidy(folder: Path) -> None:

@@ -67,7 +67,8 @@ def of_definition(command: c.DefineTexture, around: Around) -> Texture:
     if mask is not None:
         found["mask_sha"] = mask.sha
     given = {name: value for name, value in command.arguments.items() if name not in ("sha", "mask_sha")}
-    texture = Texture(KIND, command.arguments.update(found).update(given), source, mask)
+    parameters = command.arguments.update(found).update(given)
+    texture = Texture(KIND, parameters, source, mask, arithmetic=around.arithmetic)
     exemplar_of(texture)  # what is wrong with it is told where it is defined
     return texture
 
@@ -188,7 +189,7 @@ def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:
     """
     if texture.kind != KIND or texture.source is None or texture.source.data is None:
         raise BrushError("brush.example", f"a texture of the kind {texture.kind}", "one of the maker example")
-    return _analysed(texture.source, texture.mask, parameters_of(texture), detail)
+    return _analysed(texture.source, texture.mask, parameters_of(texture), detail, texture.arithmetic)
 
 
 def key_of(texture: Texture, detail: int = 0) -> str:
@@ -200,13 +201,15 @@ def key_of(texture: Texture, detail: int = 0) -> str:
 
 
 @lru_cache(maxsize=_HELD)
-def _analysed(source: ImageSource, mask: ImageSource | None, parameters: Parameters, detail: int) -> Exemplar:
+def _analysed(
+    source: ImageSource, mask: ImageSource | None, parameters: Parameters, detail: int, arithmetic: int
+) -> Exemplar:
     assert source.data is not None
     origin = Origin(source, mask, detail)
     if detail:
-        return replace(shrunk(_analysed(source, mask, parameters, 0), detail), origin=origin)
+        return replace(shrunk(_analysed(source, mask, parameters, 0, arithmetic), detail), origin=origin)
     _, height, width = source.data.shape
     if max(height, width) > EXAMPLE_SIDE:
         raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
     inside = None if mask is None or mask.data is None else mask.data[3] > _WHITE
-    return replace(kept(to_rgba16(source.data), inside, parameters), origin=origin)
+    return replace(kept(to_rgba16(source.data), inside, parameters, arithmetic=arithmetic), origin=origin)

@@ -184,7 +184,7 @@ class _Parts:
         if any(one is None or one.picture not in known or one.mask not in (None, *known) for one in examples):
             return (), False
         try:
-            nursery = Nursery.of(self._manifest.examples, plots, self._remains.pictures)
+            nursery = Nursery.of(self._manifest.examples, plots, self._remains.pictures, self._manifest.arithmetic)
             where = f"{self._remains.archive.name}: layer {shown(layer.name)}"
             growth, marks = nursery.plots(plots, self._masks, where)
         except (FileError, FieldError):

@@ -13,6 +13,9 @@ from typing import Any
 import numpy as np
 
 from engine.checks.field_error import FieldError
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
+from engine.numeric.blur import blurred
 from engine.numeric.colour import to_rgba16
 from engine.numeric.halving import halved, halved_region
 from engine.numeric.neighbourhood import FULL, RADIUS, region_bits
@@ -53,7 +56,7 @@ class Exemplar:
 
     `finer`: what there is of the example in levels below the finest of `levels`, the coarsest of them first:
     premultiplied float32 (h, w, 4) in 0..1, twice as large each.
-    `origin`: what it was made of, for whoever has to make it again.
+    `origin`: what it was made of, for whoever has to make it again; `arithmetic`: in which it was analysed.
     """
 
     pixels: np.ndarray
@@ -65,12 +68,13 @@ class Exemplar:
     boundary: bool
     finer: tuple[np.ndarray, ...] = ()
     origin: Any = None
+    arithmetic: int = LIBRARY
 
     @cached_property
     def average(self) -> np.ndarray:
         """Returns the mean colour of the region: premultiplied float32 (4,) in 0..1."""
-        out: np.ndarray = premultiplied(self.pixels)[self.mask].mean(axis=0, dtype=np.float64).astype(np.float32)
-        return out
+        inside = premultiplied(self.pixels)[self.mask]
+        return array_functions(self.arithmetic).mean(inside, axis=0, dtype=np.float64).astype(np.float32)
 
     @cached_property
     def shapes(self) -> tuple[np.ndarray, ...]:
@@ -92,14 +96,19 @@ class Exemplar:
         return tuple(_frozen(colours) for colours, _ in _pyramid(self, len(self.levels)))
 
 
-def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Parameters | None = None) -> Exemplar:
+def analysed(
+    pixels: np.ndarray,
+    mask: np.ndarray | None = None,
+    parameters: Parameters | None = None,
+    arithmetic: int = LIBRARY,
+) -> Exemplar:
     """Returns the exemplar of a picture, uint8 or uint16 RGBA (h, w, 4), whose region is `mask`, bool (h, w), or
     alpha > 0.
 
     FieldError where there is nothing to learn from.
     """
     parameters = parameters or Parameters()
-    mask = _region_of(pixels, mask, parameters)
+    mask = _region_of(pixels, mask, parameters, arithmetic)
     boundary = parameters.boundary == "yes" or (parameters.boundary == "auto" and not mask.all())
     count = _level_count(mask, parameters, boundary)
     colours, region = premultiplied(pixels), mask
@@ -107,9 +116,10 @@ def analysed(pixels: np.ndarray, mask: np.ndarray | None = None, parameters: Par
     for n in range(count):
         if n:
             colours, region = _coarser(colours, region)
-        levels.append(_level(colours, region, parameters, boundary))
+        levels.append(_level(colours, region, parameters, boundary, arithmetic))
     blocks, block = _blocks(levels[-1], parameters.block)
-    return Exemplar(_frozen(pixels), _frozen(mask), parameters, tuple(levels), blocks, block, boundary)
+    held = _frozen(pixels), _frozen(mask), parameters, tuple(levels), blocks, block, boundary
+    return Exemplar(*held, arithmetic=arithmetic)
 
 
 def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
@@ -121,12 +131,11 @@ def shrunk(exemplar: Exemplar, detail: int) -> Exemplar:
     pixels = to_rgba16(np.ascontiguousarray(colours.transpose(2, 0, 1)))
     levels, blocks, block = exemplar.levels[detail:], exemplar.blocks, exemplar.block
     if not levels:  # there are no levels left of it: one pixel or so may be all
-        levels = (_level(colours, region, exemplar.parameters, exemplar.boundary),)
+        levels = (_level(colours, region, exemplar.parameters, exemplar.boundary, exemplar.arithmetic),)
         blocks, block = _blocks(levels[-1], exemplar.parameters.block)
     finer = *(_frozen(colours) for colours, _ in reversed(below)), *exemplar.finer
-    return Exemplar(
-        _frozen(pixels), _frozen(region), exemplar.parameters, levels, blocks, block, exemplar.boundary, finer
-    )
+    held = _frozen(pixels), _frozen(region), exemplar.parameters, levels, blocks, block, exemplar.boundary, finer
+    return Exemplar(*held, arithmetic=exemplar.arithmetic)
 
 
 def _pyramid(exemplar: Exemplar, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -138,7 +147,7 @@ def _pyramid(exemplar: Exemplar, count: int) -> list[tuple[np.ndarray, np.ndarra
     return found
 
 
-def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters) -> np.ndarray:
+def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Parameters, arithmetic: int) -> np.ndarray:
     height, width = pixels.shape[:2]
     if max(height, width) > EXAMPLE_SIDE:
         raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
@@ -148,12 +157,14 @@ def _region_of(pixels: np.ndarray, mask: np.ndarray | None, parameters: Paramete
     if not found.any():
         place, what = ("example", "only transparent pixels") if mask is None else ("mask", "no white pixel")
         raise FieldError(place, what, "a region to learn from")
-    return _smoothed(found, parameters.smooth) if parameters.smooth else found
+    return _smoothed(found, parameters.smooth, arithmetic) if parameters.smooth else found
 
 
-def _smoothed(mask: np.ndarray, sigma: float) -> np.ndarray:
+def _smoothed(mask: np.ndarray, sigma: float, arithmetic: int) -> np.ndarray:
     """Returns a smoother outline, a little wider: what was ragged in it is then left to the alpha of the region's
     pixels."""
+    if arithmetic != LIBRARY:
+        return blurred(mask, sigma) > _SMOOTHED
     from scipy.ndimage import gaussian_filter
 
     out: np.ndarray = gaussian_filter(mask.astype(np.float32), sigma, mode="constant") > _SMOOTHED
@@ -176,7 +187,9 @@ def _coarser(colours: np.ndarray, region: np.ndarray) -> tuple[np.ndarray, np.nd
     return halved(colours, region) * above[..., None], above
 
 
-def _level(colours: np.ndarray, region: np.ndarray, parameters: Parameters, boundary: bool) -> ExampleLevel:
+def _level(
+    colours: np.ndarray, region: np.ndarray, parameters: Parameters, boundary: bool, arithmetic: int
+) -> ExampleLevel:
     if boundary:
         shown = np.pad(np.where(region[..., None], colours, np.float32(0.0)), ((PAD, PAD), (PAD, PAD), (0, 0)))
     else:  # beyond its edges it goes on as its mirror image, so that all of it may be copied
@@ -188,18 +201,27 @@ def _level(colours: np.ndarray, region: np.ndarray, parameters: Parameters, boun
     if not boundary:
         bits[padded > 0] = FULL
     order, starts = _by_count(padded, bits)
-    return ExampleLevel(*map(_frozen, (_compared(shown, parameters), padded, bits, order, starts)))
+    return ExampleLevel(*map(_frozen, (_compared(shown, parameters, arithmetic), padded, bits, order, starts)))
 
 
-def _compared(colours: np.ndarray, parameters: Parameters) -> np.ndarray:
+def _compared(colours: np.ndarray, parameters: Parameters, arithmetic: int) -> np.ndarray:
     """Returns what neighbourhoods are compared by: int16 (h, w, 4)."""
     found = np.rint(np.float32(255.0) * colours)
     if parameters.channels == "luminance":  # as heavy as three channels, in one
-        found[..., 0] = np.rint(255.0 * np.tensordot(colours[..., :3], np.asarray(_LUMINANCE, np.float32), 1))
+        found[..., 0] = np.rint(255.0 * _luminance(colours, arithmetic))
         found[..., 1] = found[..., 2] = found[..., 0]
     if not parameters.alpha:
         found[..., 3] = 0.0
     return np.clip(found, 0.0, 255.0).astype(np.int16)
+
+
+def _luminance(colours: np.ndarray, arithmetic: int) -> np.ndarray:
+    weights = np.asarray(_LUMINANCE, np.float32)
+    if arithmetic == LIBRARY:
+        return np.tensordot(colours[..., :3], weights, 1)
+    red, green, blue = (colours[..., c] * weight for c, weight in enumerate(weights))
+    out: np.ndarray = red + green + blue
+    return out
 
 
 def _by_count(region: np.ndarray, bits: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
