@@ -215,7 +215,7 @@ def _example(members: Fields, name: str, place: Pictures, known: Any = None) -> 
     if "path" not in members and "rect" not in members:
         raise FieldError(members.at("path"), "nothing", 'a picture, or "rect" for a piece of the canvas')
     given = place.picture(members)
-    opaque = flattened(given)
+    opaque = flattened(given, place.arithmetic)
     found = _looked_at(opaque if (given[3] == 1.0).all() else given)
     if len(found.planes) == 4 and known is not None and known != found.sha:
         without = _looked_at(opaque)

@@ -17,6 +17,8 @@ from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.makers import spectrum
 from engine.numeric import impulse, spectra
+from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.array_functions import array_functions
 from engine.numeric.grid import snapped
 from engine.painting.capture import PictureSource
 from engine.painting.commands import SEED_LIMIT
@@ -70,7 +72,7 @@ def of_picture(members: Fields, place: PictureSource) -> Sample:
         return of_spectrum(members, place)
     given = place.picture(members)
     _check_size(members, given)
-    return Sample(_pictured(flattened(given)))
+    return Sample(_pictured(flattened(given, place.arithmetic)))
 
 
 def of_photograph(members: Fields, place: PictureSource) -> Sample:
@@ -78,7 +80,7 @@ def of_photograph(members: Fields, place: PictureSource) -> Sample:
 
     A coloured one keeps its mean colour, and its contrast as `spread`.
     """
-    planes = flattened(place.picture(members))
+    planes, own = flattened(place.picture(members), place.arithmetic), array_functions(place.arithmetic)
     window = members.integer("window", None, lo=1, hi=impulse.LARGEST)
     if window is None:
         window = impulse.suggested_window(planes, place.arithmetic)
@@ -91,19 +93,20 @@ def of_photograph(members: Fields, place: PictureSource) -> Sample:
     found: dict[str, Any] = {"window": window, "average": average}
     means = np.full((1, 1, 1), 0.5, np.float32)
     if len(planes) == 3:
-        means = planes.mean(axis=(1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
-        deviation = float(np.sqrt(np.square(planes - means).mean(dtype=np.float64)))
+        means = own.mean(planes, axis=(1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
+        deviation = float(np.sqrt(own.mean(np.square(planes - means), dtype=np.float64)))
         found["spread"] = min(round(2.0 * deviation / spectra.SPREAD, 4), _SPREAD_CAP)
     return Sample(_pictured(_fitted(response, means)), Map(found))
 
 
-def flattened(rgba: np.ndarray) -> np.ndarray:
+def flattened(rgba: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Red, green and blue of a premultiplied picture (4, h, w), or one plane if they are equal: float32.
 
     What is transparent takes the mean colour of the rest, so that it adds nothing to a texture.
     """
-    covered = max(float(rgba[3].mean(dtype=np.float64)), 1e-6)
-    mean = rgba[:3].mean(axis=(1, 2), keepdims=True, dtype=np.float64).astype(np.float32) / np.float32(covered)
+    own = array_functions(arithmetic)
+    covered = max(float(own.mean(rgba[3], dtype=np.float64)), 1e-6)
+    mean = own.mean(rgba[:3], axis=(1, 2), keepdims=True, dtype=np.float64).astype(np.float32) / np.float32(covered)
     return _planes(np.concatenate([rgba[:3] + (1.0 - rgba[3:]) * mean, rgba[3:]]))
 
 

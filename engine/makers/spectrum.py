@@ -209,7 +209,7 @@ def of_picture(rgba: np.ndarray, size: tuple[int, int], arithmetic: int = LIBRAR
 
     A picture smaller than that is enlarged to it.
     """
-    rgb, (height, width) = _planes(rgba, size), size
+    rgb, (height, width) = _planes(rgba, size, arithmetic), size
     power = np.zeros((len(rgb), height, width), np.float32)
     for y in _starts(rgb.shape[1], height):
         for x in _starts(rgb.shape[2], width):
@@ -227,23 +227,24 @@ def phase_of_picture(rgba: np.ndarray, size: tuple[int, int], arithmetic: int = 
     With them, the sample looks like the picture; the field of its copies is that of a sampled impulse response
     (section 5.3), whose window it brings along.
     """
-    rgb, (height, width) = _planes(rgba, size), size
+    rgb, (height, width) = _planes(rgba, size, arithmetic), size
     top, left = (rgb.shape[1] - height) // 2, (rgb.shape[2] - width) // 2
     seen = rgb[:, top : top + height, left : left + width].sum(axis=0)
-    found = spectra.forward(seen - seen.mean(), arithmetic)
+    found = spectra.forward(seen - array_functions(arithmetic).mean(seen), arithmetic)
     turn = array_functions(arithmetic).angle(found)[None] * np.float32(0.5 / np.pi)
     # Odd but for rounding, and for pi where a frequency is its own opposite: there it becomes 0.
     return snapped(np.float32(0.5) * (turn - spectra.opposite(turn))) + np.float32(_GROUND["phase"])
 
 
-def _planes(rgba: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+def _planes(rgba: np.ndarray, size: tuple[int, int], arithmetic: int) -> np.ndarray:
     """Red, green and blue of a picture, or one plane if they are equal, enlarged to `size` (h, w) where it is smaller:
     float32 (1 or 3, h, w); what is transparent takes the mean colour."""
     rows, columns = max(size[0], rgba.shape[1]), max(size[1], rgba.shape[2])
     if (rows, columns) != rgba.shape[1:]:
         rgba = resampled(rgba, (rows, columns), np.arange(rows), np.arange(columns))
-    covered = max(float(rgba[3].mean()), 1e-6)
-    rgb = rgba[:3] + (1.0 - rgba[3:]) * (rgba[:3].mean(axis=(1, 2), keepdims=True) / np.float32(covered))
+    mean = array_functions(arithmetic).mean
+    covered = max(float(mean(rgba[3])), 1e-6)
+    rgb = rgba[:3] + (1.0 - rgba[3:]) * (mean(rgba[:3], axis=(1, 2), keepdims=True) / np.float32(covered))
     out: np.ndarray = rgb[:1] if np.array_equal(rgb[0], rgb[1]) and np.array_equal(rgb[0], rgb[2]) else rgb
     return out
 

@@ -57,7 +57,7 @@ def impulse_response(
     size = min(window, planes.shape[1]), min(window, planes.shape[2])
     if average == 1 and phase == "window":
         top, left = corners(planes.shape[1:], size, 1)[0]
-        return normalised(planes[:, top : top + size[0], left : left + size[1]])
+        return normalised(planes[:, top : top + size[0], left : left + size[1]], arithmetic)
     own = array_functions(arithmetic)
     taper = np.outer(_tapered(size[0], own), _tapered(size[1], own)).astype(np.float32)
     power = np.zeros((len(planes), *size))
@@ -75,12 +75,12 @@ def impulse_response(
         common: np.ndarray = np.where(length > 1e-20, together / np.maximum(length, 1e-20), 1.0)
         # Where channels are opposed, as in red and blue patches, a channel follows against the common phase.
         sign = np.where(own.turned(first, np.conj(common)).real < 0.0, -1.0, 1.0)
-        return normalised(own.ifft2(own.turned(amplitude * sign, common)).real)
+        return normalised(own.ifft2(own.turned(amplitude * sign, common)).real, arithmetic)
     turn: np.ndarray = np.ones(size, complex)
     if phase == "random":
         angle = own.angle(own.fft2(noise_at(seed, 0, 0, (1, *size))[0]))
         turn = np.exp(1j * angle) if arithmetic == LIBRARY else own.waves(angle)
-    return normalised(np.fft.fftshift(own.ifft2(own.turned(amplitude, turn)).real, axes=(1, 2)))
+    return normalised(np.fft.fftshift(own.ifft2(own.turned(amplitude, turn)).real, axes=(1, 2)), arithmetic)
 
 
 def corners(shape: tuple[int, ...], size: tuple[int, int], count: int) -> list[tuple[int, int]]:

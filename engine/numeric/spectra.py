@@ -107,7 +107,7 @@ def forward(image: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
 
 def _log(sample: np.ndarray, own: ArrayFunctions) -> np.ndarray:
     magnitude = own.size(sample)
-    least = 1e-3 * float(magnitude.mean())
+    least = 1e-3 * float(own.mean(magnitude))
     return own.log(magnitude + np.float32(least if least > 0.0 else 1.0))
 
 
@@ -121,11 +121,11 @@ PARTS: dict[str, Callable[[np.ndarray, ArrayFunctions], np.ndarray]] = {
 }
 
 
-def _unrounded(sample: np.ndarray) -> np.ndarray:
+def _unrounded(sample: np.ndarray, own: ArrayFunctions) -> np.ndarray:
     """Returns a complex sample without a real or imaginary part that is nothing but rounding error: symmetric
     spectra have real transforms, whose phase is 0 or pi, and not -pi or pi as chance has it."""
     real, imaginary = (
-        np.square(part, dtype=np.float64).sum(axis=_AXES, keepdims=True) for part in (sample.real, sample.imag)
+        own.total(np.square(part, dtype=np.float64), axis=_AXES, keepdims=True) for part in (sample.real, sample.imag)
     )
     out = sample.copy()
     np.copyto(out.imag, 0.0, where=imaginary <= _ROUNDING**2 * real)
@@ -133,16 +133,16 @@ def _unrounded(sample: np.ndarray) -> np.ndarray:
     return out
 
 
-def normalised(values: np.ndarray) -> np.ndarray:
+def normalised(values: np.ndarray, arithmetic: int = LIBRARY) -> np.ndarray:
     """Returns mean 0 (of each plane) and standard deviation SPREAD (of all planes together); float32, zeros if it is
     flat."""
-    out = np.asarray(values, np.float32)
-    out = out - out.mean(axis=_AXES, keepdims=True, dtype=np.float64).astype(np.float32)
+    own, out = array_functions(arithmetic), np.asarray(values, np.float32)
+    out = out - own.mean(out, axis=_AXES, keepdims=True, dtype=np.float64).astype(np.float32)
     size = float(np.abs(out).max(initial=0.0))
     if not size > 0.0 or not np.isfinite(size):
         return np.zeros_like(out)
     out /= np.float32(size)  # so that no square leaves the range of float32
-    spread = float(np.sqrt(np.square(out).mean(dtype=np.float64)))
+    spread = float(np.sqrt(own.mean(np.square(out), dtype=np.float64)))
     result: np.ndarray = out * np.float32(SPREAD / spread)
     return result
 
@@ -161,9 +161,9 @@ def texture_of(
     """
     given, own = np.asarray(amplitude, np.float32), array_functions(arithmetic)
     if not forward:
-        return normalised(PARTS[part](_unrounded(inverse(given, phase, arithmetic)), own))
-    pattern = given - given.mean(axis=_AXES, keepdims=True)
-    return normalised(PARTS[part](_unrounded(np.conj(inverse(pattern, phase, arithmetic))), own))
+        return normalised(PARTS[part](_unrounded(inverse(given, phase, arithmetic), own), own), arithmetic)
+    pattern = given - own.mean(given, axis=_AXES, keepdims=True)
+    return normalised(PARTS[part](_unrounded(np.conj(inverse(pattern, phase, arithmetic)), own), own), arithmetic)
 
 
 def image_spectrum(image: np.ndarray, window: bool = True, arithmetic: int = LIBRARY) -> np.ndarray:
@@ -171,14 +171,14 @@ def image_spectrum(image: np.ndarray, window: bool = True, arithmetic: int = LIB
 
     With `window`, their edges are kept out of it.
     """
-    values = np.asarray(image, np.float32)
+    own, values = array_functions(arithmetic), np.asarray(image, np.float32)
     if window:
         weights = radial_window(values.shape[-2], values.shape[-1], arithmetic)
-        total = max(float(weights.sum()), 1e-9)
-        values = (values - (values * weights).sum(axis=_AXES, keepdims=True) / np.float32(total)) * weights
+        total = max(float(own.total(weights)), 1e-9)
+        values = (values - own.total(values * weights, axis=_AXES, keepdims=True) / np.float32(total)) * weights
     else:
-        values = values - values.mean(axis=_AXES, keepdims=True)
-    return array_functions(arithmetic).size(forward(values, arithmetic))
+        values = values - own.mean(values, axis=_AXES, keepdims=True)
+    return own.size(forward(values, arithmetic))
 
 
 def power(image: np.ndarray) -> np.ndarray:

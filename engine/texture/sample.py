@@ -79,7 +79,7 @@ def tile(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> Tile:
     """Gives the pyramid of a sample that is tiled with a period in pixels of its base level; kept for the next call."""
     n = finer(source, period)
     native = _native(source, period, n)
-    mean = _mean(native)
+    mean = _mean(native, arithmetic)
     native = native - mean
     levels = [native]
     for _ in range(n):
@@ -103,9 +103,9 @@ def sample_response(source: ImageSource, period: int, arithmetic: int = LIBRARY)
     """Returns the zero-mean sample under the radial Gaussian window."""
     native = _native(source, period, finer(source, period, LARGEST))
     own = _windowed(native, arithmetic)
-    energy = float(np.square(own, dtype=np.float64).sum()) / native.size
+    energy = _held(own, arithmetic) / native.size
     own *= np.float32(functions(arithmetic).power(energy, -0.5) if energy > 1e-10 else 0.0)
-    return Response(_mean(native), Impulse.of(own))
+    return Response(_mean(native, arithmetic), Impulse.of(own))
 
 
 @lru_cache(maxsize=8)
@@ -113,18 +113,18 @@ def finest(source: ImageSource, period: int, arithmetic: int = LIBRARY) -> tuple
     """Returns the finest octaves of the impulse response, at the native level, and how they continue it.  Only who
     zooms in needs them."""
     top, form = _top(sample_response(source, period, arithmetic).own.phases[0, 0], arithmetic)
-    held = float(np.square(top, dtype=np.float64).sum())
+    held = _held(top, arithmetic)
     top = _windowed(top, arithmetic)
-    left = float(np.square(top, dtype=np.float64).sum())
+    left = _held(top, arithmetic)
     top *= np.float32(functions(arithmetic).power(held / left, 0.5) if left > 0.0 else 0.0)
     return Impulse.of(top), form
 
 
 def _windowed(planes: np.ndarray, arithmetic: int) -> np.ndarray:
     """`planes` (c, h, w) under the window, their means under it taken off."""
-    window = radial_window(planes.shape[1], planes.shape[2], arithmetic)
-    weight = np.float32(max(float(window.sum(dtype=np.float64)), 1e-9))
-    out: np.ndarray = (planes - (planes * window).sum((1, 2), keepdims=True) / weight) * window
+    window, total = radial_window(planes.shape[1], planes.shape[2], arithmetic), array_functions(arithmetic).total
+    weight = np.float32(max(float(total(window, dtype=np.float64)), 1e-9))
+    out: np.ndarray = (planes - total(planes * window, axis=(1, 2), keepdims=True) / weight) * window
     return out
 
 
@@ -134,9 +134,13 @@ def seen(source: ImageSource, period: int, coarser: int, arithmetic: int = LIBRA
     return sample_response(source, period, arithmetic).own.seen(coarser)
 
 
-def _mean(planes: np.ndarray) -> np.ndarray:
-    out: np.ndarray = planes.mean((1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
-    return out
+def _mean(planes: np.ndarray, arithmetic: int) -> np.ndarray:
+    return array_functions(arithmetic).mean(planes, axis=(1, 2), keepdims=True, dtype=np.float64).astype(np.float32)
+
+
+def _held(planes: np.ndarray, arithmetic: int) -> float:
+    """Returns the energy of planes."""
+    return float(array_functions(arithmetic).total(np.square(planes, dtype=np.float64)))
 
 
 def _top(planes: np.ndarray, arithmetic: int) -> tuple[np.ndarray, Continuation]:
@@ -150,14 +154,14 @@ def _top(planes: np.ndarray, arithmetic: int) -> tuple[np.ndarray, Continuation]
     spectrum = own.fft2(planes)
     power = np.square(own.size(spectrum)).sum(0, dtype=np.float64)
     octave = np.ceil(own.log2(np.maximum(f, 1e-9))).clip(-40, 0)
-    held = np.array([float(power[octave == -i].sum()) for i in range(max(1, max(height, width).bit_length() - 1))])
+    held = np.array([float(own.total(power[octave == -i])) for i in range(max(1, max(height, width).bit_length() - 1))])
     lowest = int(np.argmax(held >= _FAINT * held.max()))
     edge = 2.0 ** (-lowest - 1)  # passed from there on, half way at 1/1.2 of it, nothing below 1/1.44
     passed = np.clip(1.0 + own.log(np.maximum(f, 1e-9) / edge) / own.log(np.array([1.44])), 0.0, 1.0)
     part = np.square(own.sin(0.5 * np.pi * passed)).astype(np.float32)
     out = own.ifft2(own.turned(spectrum, part)).real
-    whole = float(power.sum())
-    strength = float((power * np.square(part)).sum()) / whole if whole > 0.0 else 0.0
-    middle = float((held * np.arange(held.size)).sum()) / max(float(held.sum()), 1e-30)
+    whole = float(own.total(power))
+    strength = float(own.total(power * np.square(part))) / whole if whole > 0.0 else 0.0
+    middle = float(own.total(held * np.arange(held.size))) / max(float(own.total(held)), 1e-30)
     form = Continuation(round(functions(arithmetic).power(strength, 0.5), 6), round(1.0 + middle, 3), 1.0 + lowest)
     return np.ascontiguousarray(out, np.float32), form
