@@ -80,8 +80,8 @@ def _sampled(make: lewis.Maker, command: DefineTexture, root: Group, around: Aro
 
 
 def _matched(command: DefineTexture, root: Group, around: Around) -> Texture:
-    """Returns a texture, or a series of them, matched to examples.  The sha of the result is no condition: machines
-    may differ in the last bits of a transform; those of the examples are."""
+    """Returns a texture, or a series of them, matched to examples.  The sha of the result is no condition: in
+    arithmetic 1 machines may differ in the last bits of a transform; those of the examples are."""
     members = Fields(thawed(command.arguments), "")
     parameters, source = command.arguments, _known(command, members, around)
     if source is None:

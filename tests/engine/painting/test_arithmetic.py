@@ -4,6 +4,7 @@ import io
 import json
 from dataclasses import replace
 
+import everything
 import numpy as np
 import pytest
 
@@ -16,8 +17,10 @@ from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 from engine.painting import commands as c
 from engine.painting import recording as r
+from engine.painting.grown import settled
 from engine.session.replay import replay
 from engine.session.session import Session
+from engine.strokes.example_textures import exemplar_of
 from engine.studio import requests as q
 from engine.studio.studio import Studio
 from engine.texture.table import KINDS, from_key, instance
@@ -28,9 +31,13 @@ STROKE = {"do": "stroke", "points": [[8, 8], [50, 40]], "brush": ROCK}
 BOOKMARK = {"do": "bookmark", "name": "here", "level": 0, "origin": [0, 0], "size": [64, 48]}
 
 
-def recording(header, *commands):
+def recording(header, *commands, folder=None):
     lines = "\n".join(map(json.dumps, [{**FRAME, **header}, *commands]))
-    return r.read_from(io.BytesIO(lines.encode()), "a.jsonl")
+    return r.read_from(io.BytesIO(lines.encode()), "a.jsonl", folder)
+
+
+def plots(painting):
+    return [plot for layer in layers(painting.root) for plot in layer.growth]
 
 
 def told(found):
@@ -91,6 +98,26 @@ def test_a_painting_keeps_its_arithmetic_whatever_is_done_and_wherever_it_goes(t
     assert np.array_equal(one.data, other.data)
     assert one.inks == other.inks
     assert on.base.arithmetic == version
+
+
+@pytest.mark.parametrize("arithmetic", [LIBRARY, EVERYWHERE])
+def test_what_is_learnt_from_pictures_is_learnt_in_the_paintings_arithmetic(tmp_path, arithmetic):
+    """Also where the painting is opened again, and where its texture was defined anew since."""
+    everything.pictures(tmp_path)
+    grown = {"do": "texture", "name": "t", "maker": "example", "path": "blob.png", "channels": "luminance", "levels": 2}
+    stroke = {"do": "stroke", "points": [[20, 20], [40, 24]], "brush": {"mode": "example", "example": "t", "radius": 7}}
+    matched = {"do": "texture", "name": "m", "maker": "match", "path": "colour.png", "iterations": 1, "levels": 1}
+    header = {"inkfall": 2, "arithmetic": arithmetic}
+    session = replay(recording(header, grown, stroke, matched, {**grown, "channels": "colour"}, folder=tmp_path))
+    whole = settled(session.painting, 1)
+    assert [plot.region.exemplar.arithmetic for plot in plots(whole)] == [arithmetic]
+    save(tmp_path / "a.ora", Snapshot(whole, session.recording()))
+    opened = open_painting(tmp_path / "a.ora").painting
+    assert [plot.region.exemplar.arithmetic for plot in plots(opened)] == [arithmetic]
+    assert exemplar_of(opened.textures["t"]).arithmetic == arithmetic
+    mine, theirs = (painting.textures["m"] for painting in (whole, opened))
+    assert theirs.arithmetic == mine.arithmetic == arithmetic
+    assert np.array_equal(theirs.source.data, mine.source.data)
 
 
 def test_a_new_painting_in_the_window_has_the_newest(tmp_path):
