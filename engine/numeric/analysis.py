@@ -10,7 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+from engine.numeric import real_fourier
+from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.array_functions import array_functions
 from engine.numeric.prediction import Predictor, fit
 from engine.numeric.regions import colour_count, false_colours, packed, region_count
@@ -147,9 +148,9 @@ def _correlated(values: np.ndarray) -> np.ndarray:
 
 
 def _correlated_everywhere(values: np.ndarray) -> np.ndarray:
-    """As `_correlated`, the same on every processor.  The circle is as long as transforms are fast."""
-    height, width = values.shape
-    own, padded = array_functions(EVERYWHERE), np.zeros([1 << (2 * n - 1).bit_length() for n in values.shape])
-    padded[:height, :width] = values
-    found = own.fft2(padded)
-    return own.ifft2(np.square(found.real) + np.square(found.imag)).real
+    """As `_correlated`, in float32, the same on every processor.  The circle is as long as transforms are fast."""
+    padded = np.zeros([real_fourier.fast_length(2 * n) for n in values.shape], np.float32)
+    padded[: values.shape[0], : values.shape[1]] = values
+    found = real_fourier.rfft2(padded)
+    power = np.square(found.real) + np.square(found.imag)
+    return real_fourier.irfft2(power.astype(np.complex64), padded.shape, True)
