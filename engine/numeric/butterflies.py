@@ -19,7 +19,7 @@ from numba.extending import intrinsic
 from engine.numeric.kernel import Low
 
 LANES = 16
-LARGEST = 5  # of the lengths that are transformed in registers
+IN_REGISTERS = 5  # of the lengths that are transformed in registers
 
 _FLOAT, _INT = ir.FloatType(), ir.IntType(32)
 _VECTOR, _PLACES = ir.VectorType(_FLOAT, LANES), ir.VectorType(_INT, LANES)
