@@ -1,7 +1,7 @@
 """Fourier transforms of real pictures, in float32: the same bits on every processor.
 
 Lines are transformed sixteen beside one another (`butterflies`), rows two as the parts of one complex line.  Lengths
-are taken apart as in `fourier`, those with a factor above _AS_IT_STANDS by a convolution.
+are taken apart as in `fourier`, those with a factor above _DIRECT by a convolution.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from engine.numeric.butterflies import (
 )
 from engine.numeric.kernel import Array, Int, inner, kernel
 
-_AS_IT_STANDS = 31  # of the factors that are transformed as they stand
+_DIRECT = 31  # of the factors that are transformed as they stand
 _PARTS = 2 * LANES  # floats of a block's row
 
 
@@ -61,11 +61,11 @@ def fast_length(n: int) -> int:
 @lru_cache(maxsize=32)
 def _plan(n: int) -> tuple[np.ndarray, ...]:
     """Returns what lines of a length are transformed with, all but the first as float32, two for a complex number: the
-    factors, int64, and the waves of that length.  Or, where a factor is above _AS_IT_STANDS, those of the convolution that
+    factors, int64, and the waves of that length.  Or, where a factor is above _DIRECT, those of the convolution that
     does it, the chirp (n), and the transform of its conjugate, scaled."""
     factors, chirp, around = fourier.factors_of(n), np.zeros((0, 2)), np.zeros((0, 2))
     size = n
-    if max(factors, default=1) > _AS_IT_STANDS:
+    if max(factors, default=1) > _DIRECT:
         real, imaginary, *parts = fourier.chirp_of(n)
         chirp, around = np.stack([real, imaginary], axis=-1), np.concatenate(parts, axis=-1)
         size = len(around)
