@@ -27,6 +27,7 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.archive import implied_kernels as kernels
+from engine.canvas.evaluate import TileCache, evaluate_sparse
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
@@ -62,16 +63,21 @@ class Implied:
         """float32 (3, 1 + 2n)."""
         return (np.array(self.terms, np.float64) / ONE).astype(np.float32).reshape(3, 1 + 2 * len(self.inks))
 
+    def is_of(self, data: np.ndarray) -> bool:
+        """Tells whether the data of a tile have the colour that they had."""
+        return bool(isal_zlib.crc32(data[:3].data) == self.crc)
+
 
 Coded = tuple[TileKey, Record, Implied | None]
 
 
 def ordered(tiles: Sequence[Tile]) -> list[Tile]:
     """Returns the tiles from the coarsest level on, those of a square together."""
-    return sorted(tiles, key=lambda tile: (*_square(tile[0]), tile[0].y, tile[0].x))
+    return sorted(tiles, key=lambda tile: (*square_of(tile[0]), tile[0].y, tile[0].x))
 
 
-def _square(key: TileKey) -> tuple[int, int, int]:
+def square_of(key: TileKey) -> tuple[int, int, int]:
+    """Names the square that a tile lies in."""
     return key.level, key.y // SQUARE, key.x // SQUARE
 
 
@@ -81,7 +87,7 @@ def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
     if not values.inked:
         return [(key, record, None) for key, record in tiles]
     out: list[Coded] = []
-    for _, square in groupby(tiles, key=lambda tile: _square(tile[0])):
+    for _, square in groupby(tiles, key=lambda tile: square_of(tile[0])):
         out.extend(_square_without(values, list(square)))
     return out
 
@@ -221,13 +227,13 @@ def _stacked(found: Sequence[np.ndarray], at: Rect) -> np.ndarray:
 def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[Any]] = map) -> int:
     """Puts the colour back into those of `tiles` from which it was taken, all of them in their places in `pyramid`.
 
-    Their records hold views of arrays that are written to here for the last time.  `run` maps a function over a list,
+    `run` maps a function over a list,
     maybe on several threads.  Returns how many tiles have another colour than they had: their texture changed.
     """
-    lacking = sorted((tile for tile in tiles if tile[2] is not None), key=lambda tile: _square(tile[0]))
+    lacking = sorted((tile for tile in tiles if tile[2] is not None), key=lambda tile: square_of(tile[0]))
     values, changed = Cascade(pyramid, needed(lacking)), 0
     for _, found in groupby(lacking, key=lambda tile: tile[0].level):
-        squares = [list(square) for _, square in groupby(found, key=lambda tile: _square(tile[0]))]
+        squares = [list(square) for _, square in groupby(found, key=lambda tile: square_of(tile[0]))]
         changed += sum(run(partial(_square_restored, values), squares))
     return changed
 
@@ -235,14 +241,29 @@ def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterab
 def _square_restored(values: Cascade, square: Sequence[Coded]) -> int:
     rect = _bounds(square).parents().evened()
     above = values.at(square[0][0].level - 1, rect)
+    changed = 0
+    for (_, record, implied), data in zip(square, _restored(square, rect, above), strict=True):
+        record.exchange(data)
+        changed += implied is not None and not implied.is_of(data)
+    return changed
+
+
+def square_restored(pyramid: Pyramid, square: Sequence[Coded], cache: TileCache) -> list[np.ndarray]:
+    """Returns the data of tiles of one square with the colour that was taken out of them, read-only."""
+    rect = _bounds(square).parents().evened()
+    above = evaluate_sparse(pyramid, square[0][0].level - 1, rect, cache)
+    if above is not None:
+        above = Planes(np.ascontiguousarray(above.data), above.inks)
+    return list(_restored(square, rect, above))
+
+
+def _restored(square: Sequence[Coded], rect: Rect, above: Planes | None) -> Iterator[np.ndarray]:
+    """Yields the data of tiles; `above`, what lies on `rect` of the coarser level."""
     tiles = [_Tile(key, record, rect, above) for key, record, _ in square]
     entries = [implied for _, _, implied in square if implied is not None]
     seen = _Seen(tiles, [implied.inks for implied in entries])
-    changed = 0
     for tile, implied in zip(tiles, entries, strict=True):
-        data = tile.record.data.base
-        assert isinstance(data, np.ndarray)
+        data = tile.record.data.copy()
         kernels.exchange(*tile.arguments(implied.inks, seen), implied.factors, np.int32(1), data)
-        changed += isal_zlib.crc32(data[:3].data) != implied.crc
         data.flags.writeable = False
-    return changed
+        yield data

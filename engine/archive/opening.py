@@ -5,12 +5,14 @@ from __future__ import annotations
 import io
 import os
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 from immutables import Map
 
 from engine.archive import grounds, maskpacks, pictures
@@ -21,6 +23,7 @@ from engine.archive.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack,
 from engine.archive.members import LOST, PIECE, WORKERS, Members, Stored
 from engine.archive.packing import unpack
 from engine.archive.plot_files import Mark, Nursery
+from engine.archive.shelf import Shelf, shelved
 from engine.canvas import layers
 from engine.canvas.layers import Group, LayerError
 from engine.canvas.store import Pyramid, Record
@@ -169,10 +172,11 @@ class _Opening:
             try:
                 for layer in list(layers.layers(root)):
                     check_cancelled(self._cancelled)
-                    tiles = list(self._tiles(manifest.packs[layer.id], members, sources))
+                    shelf = Shelf()
+                    tiles = shelved(list(self._tiles(manifest.packs[layer.id], members, sources, at_once=False)), shelf)
                     ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
-                    pyramid = grounds.with_tiles(ground, self._levels(tiles))
-                    coloured.append(colours.submit(restored, pyramid, tiles, squares.map))
+                    pyramid = shelf.laid(grounds.with_tiles(ground, self._levels(tiles)))
+                    coloured.append(colours.submit(_coloured, shelf, pyramid, tiles, squares.map))
                     root = layers.with_pyramid(root, layer.name, pyramid)
                 return root, sum(future.result() for future in coloured)
             finally:
@@ -217,7 +221,9 @@ class _Opening:
         parts = [(key, record) for key, record, _ in self._tiles(entry.packs, members, {})]
         return pictures.assembled(entry.name, entry.sha, entry.size, parts, self._archive.name)
 
-    def _tiles(self, packs: tuple[Pack, ...], members: Members, sources: Mapping[str, ImageSource]) -> Iterator[Coded]:
+    def _tiles(
+        self, packs: tuple[Pack, ...], members: Members, sources: Mapping[str, ImageSource], at_once: bool = True
+    ) -> Iterator[Coded]:
         """Yields all tiles of some packs; the file is read here, unpacking goes on beside."""
         waiting: deque[tuple[Pack, Future[list[Coded]]]] = deque()
         with ThreadPoolExecutor(WORKERS, "open") as pool:
@@ -225,7 +231,7 @@ class _Opening:
                 for pack in packs:
                     check_cancelled(self._cancelled)
                     stored = members.stored(pack.member)
-                    waiting.append((pack, pool.submit(_unpack, pack, stored, sources)))
+                    waiting.append((pack, pool.submit(_unpack, pack, stored, sources, at_once)))
                     if len(waiting) > AHEAD:
                         yield from self._next(waiting)
                 while waiting:
@@ -253,6 +259,12 @@ class _Opening:
         return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent), ()
 
 
-def _unpack(pack: Pack, stored: Stored, sources: Mapping[str, ImageSource]) -> list[Coded]:
+def _coloured(shelf: Shelf, pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[Any]]) -> int:
+    """Puts colour back into tiles that are there, and counts those of another colour than they had."""
+    there = [tile for tile in tiles if isinstance(tile[1].held, np.ndarray)]
+    return restored(pyramid, there, run) + shelf.others()
+
+
+def _unpack(pack: Pack, stored: Stored, sources: Mapping[str, ImageSource], at_once: bool) -> list[Coded]:
     data = stored.checked()
-    return unpack(data, stored.where, lambda key: from_key(key, sources), (pack.tiles, pack.plain))
+    return unpack(data, stored.where, lambda key: from_key(key, sources), (pack.tiles, pack.plain), at_once)

@@ -16,6 +16,7 @@ import struct
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import groupby
 from typing import Any, TypeVar
 
@@ -26,6 +27,7 @@ from engine.archive import tilecode
 from engine.archive.earlier import packs_of_format_1, packs_of_format_2
 from engine.archive.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.archive.packfault import PackFault, need
+from engine.archive.shelf import Block, Filed, block_at, plain_size
 from engine.canvas.store import Record
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
@@ -49,6 +51,7 @@ RESIDUAL_CAP = 1 << 22  # |residual| in units of 2^-16: values lie within 16
 T = TypeVar("T", bound=tuple[Any, ...])
 KINDS: dict[int, Any] = {16: np.int16, 32: np.int32}
 _LEVEL = 1
+_OTHERS = "rows of a block", "others than its tiles have"
 InkOf = Callable[[Any], Instance]  # makes an instance of a key
 _CRC = b',"crc":'
 _ADDRESS = re.compile("-?[0-9a-f]+")
@@ -66,37 +69,50 @@ def _runs(tiles: Sequence[T], most: int, count: int) -> Iterator[Sequence[T]]:
     """Runs of at most `count` tiles whose data take no more than `most` bytes, if they are several."""
     start, size = 0, 0
     for stop, (_, record, *_) in enumerate(tiles):
-        if stop > start and (stop - start >= count or size + record.data.nbytes > most):
+        own = plain_size(record)
+        if stop > start and (stop - start >= count or size + own > most):
             yield tiles[start:stop]
             start, size = stop, 0
-        size += record.data.nbytes
+        size += own
     if tiles:
         yield tiles[start:]
 
 
 def _blocks(tiles: Sequence[Coded]) -> Iterator[Sequence[Coded]]:
-    """Yields the tiles in runs of a block's size, each of one level: a block that is damaged costs no coarser one."""
+    """Yields the tiles in runs of a block's size, each of one level: a block that is damaged costs no coarser one.
+    Those that a file holds as a block stay together."""
     for _, found in groupby(tiles, key=lambda tile: tile[0].level):
-        yield from _runs(list(found), BLOCK, TILES)
+        level, start, stop = list(found), 0, 0
+        while stop < len(level):
+            block = block_at(level, stop)
+            if block is None:
+                stop += 1
+                continue
+            yield from _runs(level[start:stop], BLOCK, TILES)
+            start = stop = stop + block.count
+            yield level[start - block.count : start]
+        yield from _runs(level[start:], BLOCK, TILES)
 
 
 def pack(tiles: Sequence[Coded]) -> bytes:
     """Returns the pack of some tiles: the same tiles in the same order give the same bytes."""
     inks: dict[Instance, int] = {}
-    lines, blocks, bodies = [], [], []
+    lines, blocks = [], []
+    bodies: list[bytes | memoryview] = []
 
     def indices(found: Sequence[Instance]) -> list[int]:
         return [inks.setdefault(ink, len(inks)) for ink in found]
 
     for key, record, implied in tiles:
-        bits = 8 * record.data.itemsize
+        bits = record.held.bits if isinstance(record.held, Filed) else 8 * record.data.itemsize
         line = [key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, bits, indices(record.inks)]
         more = [] if implied is None else [indices(implied.inks), list(implied.terms), implied.crc]
         lines.append([*line, *more])
     for run in _blocks(tiles):
-        plain = tilecode.encoded([record.data for _, record, _ in run])
-        bodies.append(_deflated(plain))
-        blocks.append([len(run), len(plain), len(bodies[-1])])
+        block = block_at(run, 0)
+        plain = tilecode.encoded([record.data for _, record, _ in run]) if block is None else b""
+        bodies.append(_deflated(plain) if block is None else block.stored)
+        blocks.append([len(run), len(plain) if block is None else block.plain, len(bodies[-1])])
     head = _with_crc(dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode())
     return b"".join([_MAGIC, struct.pack("<I", len(head)), head, *bodies])
 
@@ -124,11 +140,13 @@ def _is_proven(data: bytes) -> bool | None:
 @dataclass(frozen=True, slots=True)
 class _Format:
     """How blocks of tiles are read: `decoded` as `tilecode.decoded`; the plain bytes of a tile (planes, h, w) of 16 or
-    32 bits as the manifest counts them; the most that it can take of a block, None where it takes just as many."""
+    32 bits as the manifest counts them; the most that it can take of a block, None where it takes just as many;
+    `places` as `tilecode.places`, None where only decoding tells whether bytes are tiles."""
 
     decoded: Callable[[np.ndarray, Sequence[np.ndarray]], int]
     size: Callable[[tuple[int, int, int], int], int]
     most: Callable[[tuple[int, int, int], int], int] | None = None
+    places: Callable[[np.ndarray, Sequence[tuple[int, int, int]]], np.ndarray | None] | None = None
 
 
 def _data_size(shape: tuple[int, int, int], bits: int) -> int:
@@ -138,18 +156,21 @@ def _data_size(shape: tuple[int, int, int], bits: int) -> int:
 _FORMATS = {
     packs_of_format_1.MAGIC: _Format(packs_of_format_1.decoded, packs_of_format_1.encoded_size),
     packs_of_format_2.SECOND: _Format(packs_of_format_2.rows_decoded, _data_size, packs_of_format_2.most),
-    _MAGIC: _Format(tilecode.decoded, _data_size, lambda shape, bits: tilecode.most(shape)),
+    _MAGIC: _Format(tilecode.decoded, _data_size, lambda shape, bits: tilecode.most(shape), tilecode.places),
 }
 
 
-def unpack(data: bytes, name: str, ink_of: InkOf, announced: tuple[int, int] | None = None) -> list[Coded]:
+def unpack(
+    data: bytes, name: str, ink_of: InkOf, announced: tuple[int, int] | None = None, at_once: bool = True
+) -> list[Coded]:
     """Returns the tiles of a pack, with nothing pending.  `ink_of` makes an instance of a key and may raise ValueError.
 
+    Unless `at_once`, their data are decoded when they are asked for; the pack is kept for that.
     `announced`: the numbers of tiles and of bytes there must be.  FileError if anything is not as it should be, before
     memory is taken for it; `name` is the file's and the member's.
     """
     try:
-        return _unpack(data, ink_of, announced)
+        return _unpack(data, ink_of, announced, _block if at_once else _put_off)
     except (FieldError, PackFault, ValueError) as error:
         raise FileError(name, str(error)) from error
 
@@ -194,13 +215,13 @@ def _whole_block(data: bytes, block: _Block, run: Sequence[_TileHead], form: _Fo
         return None
 
 
-def _unpack(data: bytes, ink_of: InkOf, announced: tuple[int, int] | None) -> list[Coded]:
+def _unpack(data: bytes, ink_of: InkOf, announced: tuple[int, int] | None, read: _Read) -> list[Coded]:
     head = _announced(_head(data, ink_of), announced)
     tiles: list[Coded] = []
     stop = head.start
     for block, run in _by_block(head):
         need(block.stop <= len(data), "stored bytes of a block", block.stop - block.start)
-        tiles.extend(_block(memoryview(data)[block.start : block.stop], block.plain, run, head.form))
+        tiles.extend(read(memoryview(data)[block.start : block.stop], block.plain, run, head.form))
         stop = block.stop
     need(stop == len(data) and len(tiles) == len(head.tiles), "end of a pack", (stop, len(tiles)))
     return tiles
@@ -304,7 +325,37 @@ def _address(text: Any) -> int:
     return int(text, 16)
 
 
+_Read = Callable[[memoryview, int, Sequence[_TileHead], _Format], Iterator[Coded]]
+
+
 def _block(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Format) -> Iterator[Coded]:
+    for head, data in zip(run, _decoded(stored, plain, run, form), strict=True):
+        data.flags.writeable = False
+        yield head.key, Record(head.rect, data, head.inks, 0), head.implied
+
+
+def _put_off(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Format) -> Iterator[Coded]:
+    """As `_block`, but decoded when the data are asked for, if one can tell without that whether they are tiles."""
+    if form.places is None:
+        yield from _block(stored, plain, run, form)
+        return
+    need(form.places(_inflated(stored, plain), [head.shape for head in run]) is not None, *_OTHERS)
+    block = Block(partial(_clipped, stored, plain, run, form), len(run), plain, stored)
+    for number, head in enumerate(run):
+        held = Filed(block, number, form.size(head.shape, head.bits), head.bits)
+        yield head.key, Record(head.rect, held, head.inks, 0), head.implied
+
+
+def _clipped(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Format) -> list[np.ndarray]:
+    """Returns what a block holds that was checked but for the largest residual, within what may be."""
+    tiles = [np.empty(head.shape, KINDS[head.bits]) for head in run]
+    if form.decoded(_inflated(stored, plain), tiles) >= 2 * RESIDUAL_CAP:
+        for data in tiles:
+            np.clip(data, -RESIDUAL_CAP, RESIDUAL_CAP, out=data)
+    return tiles
+
+
+def _inflated(stored: memoryview, plain: int) -> np.ndarray:
     raw = np.empty(plain, np.uint8)
     stream = Inflated(iter([bytes(stored)]))
     try:
@@ -313,12 +364,14 @@ def _block(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Form
     except DeflateError as error:
         raise PackFault(f"block: damaged ({error})") from error
     need(complete, "bytes in a block", filled)
+    return raw
+
+
+def _decoded(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Format) -> list[np.ndarray]:
+    """Returns what a block holds of its tiles."""
+    raw = _inflated(stored, plain)
     tiles = [np.empty(head.shape, KINDS[head.bits]) for head in run]
     largest = form.decoded(raw, tiles)
-    need(largest >= 0, "rows of a block", "others than its tiles have")
+    need(largest >= 0, *_OTHERS)
     need(largest < 2 * RESIDUAL_CAP, "largest residual of a block", largest)
-    for head, data in zip(run, tiles, strict=True):
-        seen = data.view()  # what is implied is still to be put into `data`
-        seen.flags.writeable = False
-        data.flags.writeable = head.implied is not None
-        yield head.key, Record(head.rect, seen, head.inks, 0), head.implied
+    return tiles

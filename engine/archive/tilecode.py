@@ -71,24 +71,32 @@ def encoded(tiles: Sequence[np.ndarray]) -> bytes:
     return b"".join([codes.data, *gains, *(streams[k, : at[k]].data for k in range(kernels.STREAMS))])
 
 
+def places(raw: np.ndarray, shapes: Sequence[tuple[int, int, int]]) -> np.ndarray | None:
+    """Tells where each stream begins in the bytes of a run of tiles, uint8: int64 (7,); None if the bytes are not those
+    of such tiles."""
+    both = sum(code_size(shape) + gain_size(shape) for shape in shapes)
+    if raw.size < both:
+        return None
+    lengths = np.zeros(kernels.STREAMS, np.int64)
+    filled = 0
+    for shape in shapes:
+        size = code_size(shape)
+        if not kernels.lengths_of(raw[filled : filled + size], shape[1], shape[2], lengths):
+            return None
+        filled += size
+    if both + int(lengths.sum()) != raw.size:
+        return None
+    found: np.ndarray = both + np.cumsum(lengths) - lengths
+    return found
+
+
 def decoded(raw: np.ndarray, tiles: Sequence[np.ndarray]) -> int:
     """Fills `tiles`, of known shapes, from the bytes of a run, uint8; gives a bound of |value|, less than twice the
     largest, or -1 if the bytes are not those of such tiles."""
-    count = sum(code_size(data.shape) for data in tiles)
-    both = count + sum(gain_size(data.shape) for data in tiles)
-    if raw.size < both:
+    at = places(raw, [data.shape for data in tiles])
+    if at is None:
         return -1
-    lengths = np.zeros(kernels.STREAMS, np.int64)
-    filled = 0
-    for data in tiles:
-        size = code_size(data.shape)
-        if not kernels.lengths_of(raw[filled : filled + size], data.shape[1], data.shape[2], lengths):
-            return -1
-        filled += size
-    if both + int(lengths.sum()) != raw.size:
-        return -1
-    at = both + np.cumsum(lengths) - lengths
-    filled, place, largest, scratch = 0, count, 0, _scratch(tiles)
+    filled, place, largest, scratch = 0, sum(code_size(data.shape) for data in tiles), 0, _scratch(tiles)
     for data in tiles:
         size, shape = code_size(data.shape), gain_shape(data.shape)
         stop = place + gain_size(data.shape)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+from engine.archive.shelf import DECODED
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.checks.owned import Owned
@@ -39,6 +40,7 @@ class Room(Owned):
         memory.give_back()
         cache, over = self._cache, memory.resident() - most
         if over > 0:
+            DECODED.shrink(over)
             cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()
             over = memory.resident() - most

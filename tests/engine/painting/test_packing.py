@@ -87,7 +87,6 @@ def test_what_is_implied_comes_back(terms, crc):
     back = unpack(pack([one, other]), "a", ink_of)
     assert same(one, back[0])
     assert same(other, back[1])
-    assert back[0][1].data.base.flags.writeable
     assert not back[0][1].data.flags.writeable
 
 

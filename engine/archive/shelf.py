@@ -1,0 +1,221 @@
+"""Tiles of a file that are decoded when somebody looks at them.
+
+An opening checks that the bytes are those that were saved, and that they are tiles; it keeps them.  What a record holds
+is made of them when it is asked for, and what was made of late is kept, so that a painting that is open takes the room
+of its file and of what is looked at.  What ink implies of colour (engine/archive/implied.py) is put back then, too.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
+
+import numpy as np
+
+from engine.archive.implied import Coded, Implied, square_of, square_restored
+from engine.canvas.evaluate import TileCache
+from engine.canvas.store import Pyramid, Record
+from engine.keeping import memory
+from engine.numeric.address import TileKey
+
+_PART = 8  # of the budget of memory: tiles that are kept as they were decoded
+CACHE = 16 << 20  # bytes of a layer's values that are kept while colour is put back
+_TILE_OVERHEAD = 200  # bytes of a tile's own objects, roughly
+Made = TypeVar("Made")
+
+
+class Recent(Generic[Made]):
+    """What was made of late, bounded by bytes: the oldest is forgotten first.  Safe for several threads."""
+
+    def __init__(self, most: Callable[[], int]) -> None:
+        self._most, self._held = most, 0
+        self._made: OrderedDict[Hashable, tuple[Made, int]] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, key: Hashable) -> Made | None:
+        """Returns what was made for a key, None if it is not known any more."""
+        with self._lock:
+            found = self._made.get(key)
+            if found is None:
+                return None
+            self._made.move_to_end(key)
+            return found[0]
+
+    def keep(self, key: Hashable, made: Made, nbytes: int) -> None:
+        """Keeps what was made for a key."""
+        with self._lock:
+            self._drop(key)
+            self._made[key] = made, nbytes
+            self._held += nbytes
+            self._evict(self._most())
+
+    def shrink(self, by: int) -> None:
+        """Forgets so many bytes, as far as there are any."""
+        with self._lock:
+            self._evict(self._held - by)
+
+    def _evict(self, most: int) -> None:
+        while self._held > most and len(self._made) > 1:
+            self._drop(next(iter(self._made)))
+
+    def forget(self, key: Hashable) -> None:
+        """Forgets what nobody asks for any more."""
+        with self._lock:
+            self._drop(key)
+
+    def _drop(self, key: Hashable) -> None:
+        found = self._made.pop(key, None)
+        self._held -= found[1] if found is not None else 0
+
+
+DECODED: Recent[np.ndarray] = Recent(lambda: memory.budget() // _PART)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Block:
+    """A run of so many tiles as a file holds them: `decode` gives their integers, of `stored` bytes, which are `plain`
+    ones deflated."""
+
+    decode: Callable[[], Sequence[np.ndarray]]
+    count: int
+    plain: int
+    stored: memoryview
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Filed:
+    """The data of a record, as they lie in a block at a place: `plain` bytes, of integers of so many `bits`."""
+
+    block: Block
+    number: int
+    plain: int
+    bits: int
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that it takes."""
+        return self.block.stored.nbytes // self.block.count + _TILE_OVERHEAD
+
+    def forget(self) -> None:
+        """Lets the data go, which nobody asks for as they lie in the file."""
+        DECODED.forget((self.block, self.number))
+
+    def made(self) -> np.ndarray:
+        """Returns the data, read-only."""
+        known = DECODED.get((self.block, self.number))
+        if known is None:
+            for number, data in enumerate(self.block.decode()):
+                data.flags.writeable = False
+                DECODED.keep((self.block, number), data, data.nbytes)
+                known = data if number == self.number else known
+        assert known is not None
+        return known
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Lessened:
+    """The data of a record of whose colour the file holds only what its ink does not imply."""
+
+    shelf: Shelf
+    key: TileKey
+    filed: Filed
+    implied: Implied
+
+    @property
+    def nbytes(self) -> int:
+        """Counts the bytes of memory that it takes."""
+        return self.filed.nbytes
+
+    @property
+    def plain(self) -> int:
+        """Counts the bytes of the data."""
+        return self.filed.plain
+
+    def made(self) -> np.ndarray:
+        """Returns the data, read-only."""
+        known = DECODED.get(self)
+        return self.shelf.restored(self) if known is None else known
+
+
+class Shelf:
+    """The tiles of one layer that a file holds.  Safe for several threads once it has its pyramid."""
+
+    def __init__(self) -> None:
+        self.pyramid = Pyramid()
+        self._squares: dict[tuple[int, int, int], list[tuple[TileKey, Record, Implied, Lessened]]] = {}
+        self._values = TileCache(CACHE)
+
+    def record(self, key: TileKey, record: Record, implied: Implied | None) -> Record:
+        """Returns the record of a tile, of which `record` holds what lies in the file."""
+        if implied is None or not isinstance(record.held, Filed):
+            return record
+        held = Lessened(self, key, record.held, implied)
+        self._squares.setdefault(square_of(key), []).append((key, record, implied, held))
+        return Record(record.rect, held, record.inks, record.depth)
+
+    def laid(self, pyramid: Pyramid) -> Pyramid:
+        """Takes the pyramid that the file tells of, on which what is implied stands."""
+        self.pyramid = pyramid
+        return pyramid
+
+    def restored(self, held: Lessened) -> np.ndarray:
+        """Returns the data of a record with the colour that its ink implies, and keeps those of its square."""
+        square = self._squares[square_of(held.key)]
+        found = square_restored(self.pyramid, [tile[:3] for tile in square], self._values)
+        asked: np.ndarray | None = None
+        for (_, _, _, each), data in zip(square, found, strict=True):
+            DECODED.keep(each, data, data.nbytes)
+            each.filed.forget()
+            asked = data if each is held else asked
+        assert asked is not None
+        return asked
+
+    def others(self) -> int:
+        """Counts the tiles of inks whose texture is not what it was, by one tile of each stack of inks."""
+        count, told = 0, dict[tuple[object, ...], bool]()
+        for square in self._squares.values():
+            for key, record, implied, _ in square:
+                if implied.inks not in told:
+                    (data,) = square_restored(self.pyramid, [(key, record, implied)], self._values)
+                    told[implied.inks] = implied.is_of(data)
+                count += not told[implied.inks]
+        return count
+
+
+def plain_size(record: Record) -> int:
+    """Counts the bytes of a record's data, which need not be there for that."""
+    held = record.held
+    return held.plain if isinstance(held, Filed | Lessened) else record.data.nbytes
+
+
+def as_filed(pyramid: Pyramid, tiles: Sequence[tuple[TileKey, Record]]) -> list[Coded] | None:
+    """Returns tiles of a pyramid as the file holds them that it was opened from; None if they have been painted on
+    since, or no ink implies anything of them."""
+    found: list[Coded] = []
+    for key, record in tiles:
+        held = record.held
+        if isinstance(held, Lessened):
+            if held.shelf.pyramid.levels is not pyramid.levels or held.shelf.pyramid.last is not pyramid.last:
+                return None
+            found.append((key, replace(record, held=held.filed), held.implied))
+        else:
+            found.append((key, record, None))
+    return found if any(implied is not None for _, _, implied in found) else None
+
+
+def block_at(tiles: Sequence[Coded], start: int) -> Block | None:
+    """Returns the block that some of the tiles, from a place on, are as a file holds them; None if they are not."""
+    first = tiles[start][1].held
+    if not isinstance(first, Filed) or first.number or start + first.block.count > len(tiles):
+        return None
+    there = [record.held for _, record, _ in tiles[start : start + first.block.count]]
+    same = all(isinstance(h, Filed) and h.block is first.block and h.number == n for n, h in enumerate(there))
+    return first.block if same else None
+
+
+def shelved(tiles: Sequence[Coded], shelf: Shelf) -> list[Coded]:
+    """Returns tiles as a layer has them whose records hold what lies in the file."""
+    return [(key, shelf.record(key, record, implied), implied) for key, record, implied in tiles]

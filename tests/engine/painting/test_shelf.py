@@ -1,0 +1,157 @@
+"""Tiles of a file are decoded when they are looked at, and what nobody painted on is saved as it lay there."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.archive import packing, tilecode
+from engine.archive.opening import open_painting
+from engine.archive.packing import pack, unpack
+from engine.archive.saving import Snapshot, save
+from engine.archive.shelf import Block, Filed, Recent
+from engine.canvas.evaluate import evaluate
+from engine.canvas.layers import layers
+from engine.canvas.store import Record
+from engine.numeric.address import Rect, TileKey
+from engine.painting.commands import parse
+from engine.session.apply import Painting, apply
+
+AREA = Rect(0, 0, 300, 200)
+PLAIN = {"radius": 40, "hardness": 0.4, "colour": "#c06030"}
+ROCK = {"radius": 30, "colour": "#306090", "ink": [{"texture": "rock", "amount": 0.4, "period": 40}]}
+
+
+def painted(*brushes):
+    painting = Painting(AREA, 3)
+    for number, brush in enumerate(brushes):
+        points = [[40, 40 + 60 * number], [250, 90 + 60 * number]]
+        painting = apply(painting, parse({"do": "stroke", "points": points, "brush": brush}))
+    return painting
+
+
+def pyramid_of(painting):
+    return next(layers(painting.root)).pyramid
+
+
+def values(painting, level):
+    return evaluate(pyramid_of(painting), level, AREA.zoomed(level)).data
+
+
+def records(painting):
+    return {key: record.data for key, record in pyramid_of(painting).all_records()}
+
+
+@pytest.fixture
+def decoded(monkeypatch):
+    """The tiles that were decoded, block by block."""
+    counts = []
+    form, whole = packing._FORMATS[packing._MAGIC], tilecode.decoded
+
+    def counting(raw, tiles):
+        counts.append(len(tiles))
+        return whole(raw, tiles)
+
+    monkeypatch.setitem(packing._FORMATS, packing._MAGIC, replace(form, decoded=counting))
+    return counts
+
+
+@pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
+def test_nothing_is_lost_though_the_file_goes_once_it_is_open(tmp_path, brushes, decoded):
+    painting, path = painted(*brushes), tmp_path / "a.ora"
+    save(path, Snapshot(painting))
+    found = open_painting(path).painting
+    path.unlink()
+    before, opened = sum(decoded), pyramid_of(found)
+    assert sum(1 for _ in opened.all_records()) > before  # what ink implies is tried on one tile
+    assert opened.nbytes < pyramid_of(painting).nbytes
+    for level in (-2, 0, 1):
+        assert np.array_equal(values(found, level), values(painting, level))
+    assert sum(decoded) > before
+    mine, theirs = records(painting), records(found)
+    assert mine.keys() == theirs.keys()
+    assert all(np.array_equal(data, theirs[key]) for key, data in mine.items())
+
+
+@pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
+def test_what_nobody_painted_on_is_saved_as_it_lay_there(tmp_path, brushes, monkeypatch):
+    save(tmp_path / "a.ora", Snapshot(painted(*brushes)))
+    found = open_painting(tmp_path / "a.ora").painting
+    monkeypatch.delattr(tilecode, "encoded")
+    save(tmp_path / "b.ora", Snapshot(found))
+    assert (tmp_path / "a.ora").read_bytes() == (tmp_path / "b.ora").read_bytes()
+
+
+@pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
+@pytest.mark.parametrize("level", [-1, 0, 1])
+def test_what_is_painted_on_an_opened_painting_is_saved(tmp_path, brushes, level):
+    painting = painted(*brushes)
+    save(tmp_path / "a.ora", Snapshot(painting))
+    points = [[60 * 2.0**level, 50 * 2.0**level], [90 * 2.0**level, 70 * 2.0**level]]
+    more = parse({"do": "stroke", "points": points, "level": level, "brush": {"radius": 12, "colour": "#ffffff"}})
+    wanted, found = apply(painting, more), apply(open_painting(tmp_path / "a.ora").painting, more)
+    save(tmp_path / "b.ora", Snapshot(found))
+    again = open_painting(tmp_path / "b.ora").painting
+    for k in (-1, 0, 2):
+        assert np.array_equal(values(wanted, k), values(again, k))
+
+
+def tiles_of(count, spread):
+    rng = np.random.default_rng(spread)
+    data = rng.integers(-spread, spread + 1, (count, 4, 9, 11)).astype(np.int32)
+    return [(TileKey(0, i, 0), Record(Rect(0, 0, 11, 9), data[i], (), 0), None) for i in range(count)]
+
+
+def put_off(data):
+    return unpack(data, "a", lambda key: pytest.fail("no ink"), None, at_once=False)
+
+
+def test_a_block_is_kept_together_where_a_tile_before_it_is_painted_anew(monkeypatch):
+    monkeypatch.setattr(packing, "TILES", 4)
+    found = put_off(pack(tiles_of(12, 50)))
+    changed = [(found[1][0], tiles_of(1, 9)[0][1], None), *found[2:]]
+    coded, encoded = [], tilecode.encoded
+    monkeypatch.setattr(tilecode, "encoded", lambda run: coded.append(len(run)) or encoded(run))
+    back = put_off(pack(changed))
+    assert sum(coded) == 3
+    assert all(np.array_equal(a[1].data, b[1].data) for a, b in zip(changed, back, strict=True))
+
+
+def test_a_residual_larger_than_may_be_is_taken_for_the_largest():
+    huge = tiles_of(1, 4 * packing.RESIDUAL_CAP)
+    (tile,) = put_off(pack(huge))
+    wanted = np.clip(huge[0][1].data, -packing.RESIDUAL_CAP, packing.RESIDUAL_CAP)
+    assert np.array_equal(tile[1].data, wanted)
+
+
+@given(st.lists(st.tuples(st.integers(0, 9), st.integers(1, 40)), max_size=60), st.integers(1, 120))
+@settings(deadline=None, max_examples=60)
+def test_what_was_made_of_late_takes_no_more_than_it_may(kept, most):
+    recent = Recent(lambda: most)
+    known = {}
+    for key, size in kept:
+        recent.keep(key, (key, size), size)
+        known = {k: v for k, v in known.items() if k != key} | {key: size}
+        while sum(known.values()) > most and len(known) > 1:
+            del known[next(iter(known))]
+        assert recent._held == sum(known.values())
+    assert {key: recent.get(key) for key in range(10)} == {
+        key: (key, known[key]) if key in known else None for key in range(10)
+    }
+    recent.shrink(1 << 20)
+    assert len(recent._made) <= 1
+
+
+def test_a_block_is_decoded_once_for_all_of_its_tiles():
+    asked = []
+    block = Block(
+        lambda: asked.append(1) or [np.full((4, 2, 2), n, np.int16) for n in range(3)], 3, 96, memoryview(b"x" * 30)
+    )
+    held = [Filed(block, n, 32, 16) for n in range(3)]
+    assert [int(h.made()[0, 0, 0]) for h in held] == [0, 1, 2]
+    assert len(asked) == 1
+    held[1].forget()
+    assert int(held[1].made()[0, 0, 0]) == 1
+    assert len(asked) == 2
