@@ -10,7 +10,6 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from immutables import Map
@@ -259,7 +258,7 @@ class _Opening:
         return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent), ()
 
 
-def _coloured(shelf: Shelf, pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[Any]]) -> int:
+def _coloured(shelf: Shelf, pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[int]]) -> int:
     """Puts colour back into tiles that are there, and counts those of another colour than they had."""
     there = [tile for tile in tiles if isinstance(tile[1].held, np.ndarray)]
     return restored(pyramid, there, run) + shelf.others()
