@@ -125,7 +125,8 @@ def test_what_is_used_is_what_was_seen_and_replays(desk, example):
     assert texture.kind == "matched"
     assert np.abs(texture.source.data[:3].transpose(1, 2, 0) * 255 - seen[..., :3]).max() < 0.51
     (command,) = desk.studio.easel.session.log
-    alone = apply(Painting(), c.DefineTexture("Stone", "match", given)).textures["Stone"]
+    painting = Painting(arithmetic=desk.studio.easel.session.painting.arithmetic)
+    alone = apply(painting, c.DefineTexture("Stone", "match", given)).textures["Stone"]
     assert alone.source.sha == texture.source.sha == command.arguments["sha"]
     assert alone.parameters == texture.parameters.delete("sha")
 
