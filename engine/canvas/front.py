@@ -8,13 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.canvas import kernels
 from engine.canvas.evaluate import TileCache, evaluate_sparse, step
+from engine.canvas.rising import lifting
+from engine.canvas.rising.spans import Marks
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
 
+_NOWHERE = 1 << 30, 0  # columns of a row in which nothing lies
 _CLIMBS = 14  # levels a change usually climbs before it is less than the grid can show
 
 
@@ -24,8 +26,9 @@ class Patch:
 
     `at`: the even rectangle that the arrays cover, within the tile; `dirty`: the one that holds all that changed.
     `old` (None: nothing lay there) and `new` have the same inks; `keep` is A, float32 (h, w).
-    `changed`, uint8 (h, w), is not zero where A != 1 or v' != v; its bit 2 tells where v' != v, but not in the patches
-    of an edit's own level.
+    `marks`: `changed`, uint8 (h, w), is not zero where A != 1 or v' != v; its bit 2 tells where v' != v, but not in the
+    patches of an edit's own level; and `spans`, int32 (h, 2), the columns of each row in which any is marked.  Off
+    them, and off the 2 x 2 pixels that they meet, only patches of an edit's own level have values.
     """
 
     key: TileKey
@@ -34,7 +37,7 @@ class Patch:
     old: Planes | None
     new: Planes
     keep: np.ndarray
-    changed: np.ndarray
+    marks: Marks
     spares_alpha: bool = False  # whether the change leaves alpha alone, at all levels
 
 
@@ -65,17 +68,19 @@ class Around:
             self.moved = np.zeros((self.rect.height, self.rect.width), np.uint8)
         for patch in patches:
             assert self.moved is not None
-            window = patch.at.slices(self.rect)
-            whole.data[:, *window] = widened(patch.new, whole.inks).data
-            self.moved[window] = patch.changed
+            planes, (changed, spans) = plane_map(patch.new.inks, whole.inks), patch.marks
+            top, left = patch.at.y0 - self.rect.y0, patch.at.x0 - self.rect.x0
+            lifting.place_changed(patch.new.data, planes, spans, whole.data, top, left)
+            self.moved[top : top + patch.at.height, left : left + patch.at.width] = changed
 
-    def spread(self, rect: Rect, touched: np.ndarray) -> bool:
-        """Marks the children of changed pixels in `touched`, uint8 over the even `rect`; tells whether any is marked
-        now."""
-        if self.moved is None:
-            return bool(touched.any())
+    def spread(self, rect: Rect, touched: Marks) -> bool:
+        """Marks the children of changed pixels in `touched`, over the even `rect`, and tells the columns of each row
+        with marks; returns whether there is any."""
         corner = rect.parents()
-        out: bool = kernels.spread(self.moved, corner.y0 - self.rect.y0, corner.x0 - self.rect.x0, touched)
+        top, left, moved = corner.y0 - self.rect.y0, corner.x0 - self.rect.x0, self.moved
+        if moved is None:
+            top, left, moved = 0, 0, np.zeros((corner.height, corner.width), np.uint8)
+        out: bool = lifting.spread(moved, top, left, *touched)
         return out
 
 
@@ -139,8 +144,9 @@ def _lifted(key: TileKey, below: Sequence[Patch], around: Rect, held: Planes) ->
     """Rule U on what some patches make of one tile of the level above; `held` has its old values over `around`."""
     at = halved(united(patch.dirty.evened() for patch in below))
     inks, size = held.inks, (at.height, at.width)
-    means = np.zeros((2, len(held.data), *size), np.float32)  # R of the values below, before and after
-    keep, parents = np.ones(size, np.float32), np.zeros(size, np.uint8)
+    keep, parents = np.empty(size, np.float32), np.zeros(size, np.uint8)
+    lowered = np.empty((2, len(held.data), *size), np.float32), keep, parents, np.empty((at.height, 2), np.int32)
+    lowered[3][:] = _NOWHERE
     for patch in below:
         part = patch.dirty.evened()
         maps = _none(len(inks)), plane_map(patch.new.inks, inks)
@@ -151,15 +157,20 @@ def _lifted(key: TileKey, below: Sequence[Patch], around: Rect, held: Planes) ->
             part.y0 - patch.at.y0, part.x0 - patch.at.x0, part.height >> 1, part.width >> 1,
             (part.y0 >> 1) - at.y0, (part.x0 >> 1) - at.x0,
         )  # fmt: skip
-        kernels.lower(sources, maps, patch.keep, patch.changed, window, means, keep, parents)
+        lifting.lower(sources, maps, patch.keep, patch.marks, window, lowered)
     spares = below[0].spares_alpha
-    values, changed = np.empty_like(means), np.empty_like(parents)
+    values, marks = np.empty_like(lowered[0]), blank_marks(*size)
     corner = at.y0 - around.y0, at.x0 - around.x0
-    extent = kernels.climb(means, keep, parents, spares, held.data, corner, values, changed)
+    extent = lifting.climb(lowered, spares, held.data, corner, values, marks)
     dirty = placed_extent(at, extent)
     if dirty.empty:
         return None
-    return Patch(key, at, dirty, Planes(values[0], inks), Planes(values[1], inks), keep, changed, spares)
+    return Patch(key, at, dirty, Planes(values[0], inks), Planes(values[1], inks), keep, marks, spares)
+
+
+def blank_marks(height: int, width: int) -> Marks:
+    """Returns marks of which none is set; their spans are still to be told."""
+    return np.zeros((height, width), np.uint8), np.empty((height, 2), np.int32)
 
 
 @functools.cache

@@ -15,7 +15,8 @@ import immutables
 import numpy as np
 
 from engine.canvas import kernels
-from engine.canvas.compact import compact
+from engine.canvas.compact import blank_found, compact
+from engine.canvas.rising import counting
 from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 
@@ -23,7 +24,7 @@ Tile = Callable[[Rect], np.ndarray]
 _COLOURS = np.arange(4)
 _WHOLE = Rect(0, 0, TILE, TILE)
 _PIXELS = 1 << 16  # reduced at a time, so that all planes of them stay in the cache of the processor
-_TOUCHED = np.ones((TILE, TILE), np.uint8)
+_ALL = np.ones((TILE, TILE), np.uint8), np.full((TILE, 2), (0, TILE), np.int32)
 _BYTES = 4 * TILE * TILE * 2  # of a whole tile's data, as a rule
 
 
@@ -101,27 +102,28 @@ class _Dense(_Picture):
 def _records(below: _Picture, above: _Picture, level: int) -> dict[tuple[int, int], Record]:
     """Returns all residuals of a level: v - expand(v above), where a pixel or a parent of it is painted."""
     records = {}
-    data, used = np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32)
+    data = np.empty((4, TILE, TILE), np.int32)
     put_off = {} if isinstance(below, _Dense) else _spanned(below, above)
     for key in below.rect.grown(2).tiles(level):
         if put_off.get((key.x, key.y)):
             records[key.x, key.y] = _later(below, key)
             continue
-        record = _record(below, above, key, data, used)
+        record = _record(below, above, key, data)
         if record is not None:
             records[key.x, key.y] = record
     return records
 
 
-def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray, used: np.ndarray) -> Record | None:
-    """Returns the residual of a tile; `data` int32 (4, 128, 128) and `used` int32 (4,) are written to."""
+def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray) -> Record | None:
+    """Returns the residual of a tile; `data` int32 (4, 128, 128) is written to."""
     value, at = below.read(key.rect), key.rect.parents()
     if isinstance(above, _Dense) and at.intersect(above.rect) == at:
         coarse, top, left = above.values, at.y0 - above.rect.y0, at.x0 - above.rect.x0
     else:
         coarse, top, left = above.read(at), 0, 0
-    extent = kernels.first_residual(value, (0, 0), coarse, (top, left), _COLOURS, _TOUCHED, data, used)
-    return compact(_WHOLE, data, (), 1, (extent, used))
+    found = blank_found(data)
+    extent = counting.first_residual(value, (0, 0), coarse, (top, left), _COLOURS, _ALL, data, found)
+    return compact(_WHOLE, data, (), 1, (extent, found[0]))
 
 
 # ---- the finest levels ----
@@ -145,7 +147,8 @@ def _reached(below: _Picture, above: _Picture, rect: Rect) -> np.ndarray:
     """Tells where the residual within an even rectangle is not zero: bool (h, w)."""
     value, coarse = below.read(rect), above.read(rect.parents())
     data, touched = np.empty(value.shape, np.int32), np.ones(value.shape[1:], np.uint8)
-    kernels.first_residual(value, (0, 0), coarse, (0, 0), _COLOURS, touched, data, np.empty(4, np.int32))
+    marks = touched, np.full((rect.height, 2), (0, rect.width), np.int32)
+    counting.first_residual(value, (0, 0), coarse, (0, 0), _COLOURS, marks, data, blank_found(data))
     return np.asarray(data.any(axis=0))
 
 
@@ -162,7 +165,7 @@ class _Later(Record):
         whole, key = self.source
         at = key.rect.parents()
         below = _Dense(whole.read(at.zoomed(1)), at.zoomed(1))
-        record = _record(below, below.reduced(at), key, np.empty((4, TILE, TILE), np.int32), np.empty(4, np.int32))
+        record = _record(below, below.reduced(at), key, np.empty((4, TILE, TILE), np.int32))
         assert record is not None
         assert record.rect == self.rect
         self.exchange(record.data)  # two threads may do so at a time: it is the same

@@ -10,7 +10,7 @@ import numpy as np
 from engine.brush.stamp import Edit
 from engine.canvas import kernels
 from engine.canvas.evaluate import TileCache, evaluate_sparse, without_empty_inks
-from engine.canvas.front import Patch, placed_extent, widened
+from engine.canvas.front import Patch, blank_marks, placed_extent, widened
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
@@ -46,15 +46,15 @@ def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Patch | None:
         return None
     inks = merged(() if old is None else old.inks, stamp.inks)
     before = Planes(_zeros(COLOURS + 3 * len(inks)), inks) if old is None else widened(old, inks)
-    new, changed = np.empty_like(before.data), np.empty((TILE, TILE), np.uint8)
+    new, marks = np.empty_like(before.data), blank_marks(TILE, TILE)
     planes, spares = plane_map(stamp.inks, inks), edit.spares_alpha
-    extent = kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, changed)
+    extent = kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, marks)
     at = key.rect
     dirty = placed_extent(at, extent)
     if dirty.empty:
         return None
     there = None if old is None else before
-    return Patch(key, at, dirty, there, Planes(new, inks), stamp.keep, changed, spares)
+    return Patch(key, at, dirty, there, Planes(new, inks), stamp.keep, marks, spares)
 
 
 def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:

@@ -6,32 +6,35 @@ Touched are the pixels that changed, and the children of every parent that chang
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
 
-from engine.canvas import kernels
 from engine.canvas.attenuate import effective, placed
-from engine.canvas.compact import compact
+from engine.canvas.compact import compact, trimmed
 from engine.canvas.evaluate import add_texture, step
-from engine.canvas.front import Around, Patch, widened
+from engine.canvas.front import Around, Patch, blank_marks, widened
+from engine.canvas.rising import counting
+from engine.canvas.rising.spans import Marks
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
-from engine.texture.planes import COLOURS, Planes, merged, plane_map
+from engine.texture.planes import COLOURS, merged, plane_map
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import MANY, SparsePlanes
 
 NewRecords = dict[TileKey, Record | None]
 
 
-class _Same(Enum):
-    """Stands for the record that a tile has: None says that it is to have none."""
+class _Told(Enum):
+    """Told in place of a record: None says that a tile is to have none."""
 
-    SAME = "same"
+    SAME = "the one that it has"
+    LARGE = "one that int16 does not hold"
 
 
-_SAME = _Same.SAME
+_SAME = _Told.SAME
 
 
 def store(
@@ -62,14 +65,14 @@ def store(
             values[key] = Around(level, part, step(pyramid, before, above.rect, level, part))
     above.take(lifted)
     for key, part in parts.items():
-        touched = np.zeros((part.height, part.width), np.uint8)
+        touched = blank_marks(part.height, part.width)
         patch = changed.get(key)
         if patch is not None:
             own = patch.dirty
-            touched[own.slices(part)] = patch.changed[own.slices(patch.at)]
+            touched[0][own.slices(part)] = patch.marks[0][own.slices(patch.at)]
         if above.spread(part, touched):
-            record = _record(pyramid, key, part, values[key], touched, above)
-            if not isinstance(record, _Same):
+            record = _record(pyramid, _Renewed(key, part, touched, values[key], above, pyramid.depth + 1))
+            if not isinstance(record, _Told):
                 records[key] = record
 
 
@@ -86,53 +89,86 @@ def _reached(patches: Sequence[Patch], lifted: Sequence[Patch]) -> dict[TileKey,
     return parts
 
 
-def _record(
-    pyramid: Pyramid, key: TileKey, part: Rect, new: Around, touched: np.ndarray, above: Around
-) -> Record | _Same | None:
-    """Returns the new record of a tile whose values of `part` became those of `new`; `_SAME` if the one it has still
-    holds."""
-    stored = pyramid.levels.get(key.level)
-    old = stored.get((key.x, key.y)) if stored is not None else None
-    value, coarse = new.with_inks(()), above.with_inks(())
-    at, inks = part, merged(value.inks, coarse.inks)
-    if old is None and all(key.level <= ink.base for ink in inks):
-        return _first_record(pyramid, key, part, _read(new, part, inks), touched, above)
+@dataclass(frozen=True, eq=False, slots=True)
+class _Renewed:
+    """What is renewed of a tile: its residual in the even rectangle `part`, where it is `touched`; `new` has the new
+    values there, `above` those of the level above."""
+
+    key: TileKey
+    part: Rect
+    touched: Marks
+    new: Around
+    above: Around
+    depth: int  # of the new record
+
+    def within(self, at: Rect) -> Rect:
+        """Returns a rectangle of the level from the tile's corner."""
+        x, y = self.key.x * TILE, self.key.y * TILE
+        return Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y)
+
+    def textured(self, inks: Sequence[Instance]) -> bool:
+        """Tells whether any ink adds texture."""
+        return any(self.key.level > ink.base for ink in inks)
+
+
+def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
+    """Returns the new record of a tile; `_SAME` if the one it has still holds."""
+    stored = pyramid.levels.get(it.key.level)
+    old = stored.get((it.key.x, it.key.y)) if stored is not None else None
+    inks = merged(it.new.with_inks(()).inks, it.above.with_inks(()).inks)
     if old is not None:
-        old = effective(pyramid, key, old)
+        old = effective(pyramid, it.key, old)
         if isinstance(old.held, SparsePlanes):
-            return _sparse_record(pyramid, key, part, value.cut(*part.slices(new.rect)), touched, above, old.held)
-        at, inks = part.union(placed(key, old.rect)), merged(inks, old.inks)
-    read = _read(new, part, inks)
-    predicted = _predicted(above, part, read, key.level)
-    data = np.zeros((COLOURS + 3 * len(inks), at.height, at.width), np.int32)
-    if old is not None:
-        rows, columns = placed(key, old.rect).slices(at)
-        for c, source in enumerate(plane_map(old.inks, inks)):
-            if source >= 0:
-                data[c, rows, columns] = old.data[source]
-    return _compacted(pyramid, key, at, data, read, predicted, touched, part)
+            return _sparse_record(it, old.held)
+        inks = merged(inks, old.inks)
+    if len(inks) < MANY and not it.textured(inks) and (old is None or old.data.dtype == np.int16):
+        record = _renewed(it, old, inks)
+        if record is not _Told.LARGE:
+            return record
+    return _from_data(it, old, inks)
 
 
-def _compacted(
-    pyramid: Pyramid,
-    key: TileKey,
-    at: Rect,
-    data: np.ndarray,
-    read: Around,
-    predicted: np.ndarray,
-    touched: np.ndarray,
-    part: Rect,
-) -> Record | _Same | None:
-    """Writes the residual of `part` into `data`, which has that of `at`."""
+def _from_data(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> Record | _Told | None:
+    """As `_record`, whatever there is."""
+    at = it.part if old is None else it.part.union(placed(it.key, old.rect))
+    read = _read(it.new, it.part, inks)
+    predicted = _predicted(it.above, it.part, read, it.key.level)
+    data, used = _unpacked(old, it.within(at), inks), np.empty(COLOURS + 3 * len(inks), np.int32)
     assert read.planes is not None
-    used = np.empty(len(data), np.int32)
-    start, corner = _corner(part, read.rect), _corner(part, at)
-    changed, bits, y0, y1, x0, x1 = kernels.residual(read.planes.data, start, predicted, touched, corner, data, used)
+    start, corner = _corner(it.part, read.rect), _corner(it.part, at)
+    changed, *extent = counting.residual(read.planes.data, start, predicted, it.touched[0], corner, data, used)
     if not changed:
         return _SAME
-    x, y = key.x * TILE, key.y * TILE
-    inner = Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y)
-    return compact(inner, data, read.planes.inks, pyramid.depth + 1, ((bits, y0, y1, x0, x1), used))
+    bits, y0, y1, x0, x1 = extent
+    return compact(it.within(at), data, inks, it.depth, ((bits, y0, y1, x0, x1), used))
+
+
+def _unpacked(old: Record | None, at: Rect, inks: tuple[Instance, ...], kind: type = np.int32) -> np.ndarray:
+    """Returns a record's data over a rectangle of its tile, with these inks: new."""
+    if old is not None and old.rect == at and old.inks == inks:
+        return old.data.astype(kind)
+    data: np.ndarray = np.zeros((COLOURS + 3 * len(inks), at.height, at.width), kind)
+    if old is not None:
+        rows, columns = old.rect.slices(at)
+        for c, source in enumerate(plane_map(old.inks, inks).tolist()):
+            if source >= 0:
+                data[c, rows, columns] = old.data[source]
+    return data
+
+
+def _renewed(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> Record | _Told | None:
+    """As `_record` where no ink adds texture and int16 holds what there was; LARGE if it does not hold what is."""
+    at = it.part if old is None else it.part.union(placed(it.key, old.rect))
+    data = _unpacked(old, it.within(at), inks, np.int16)
+    read, coarse = _read(it.new, it.part, inks), it.above.with_inks(())
+    assert read.planes is not None
+    start, corner = _corner(it.part, read.rect), _corner(it.part.parents(), it.above.rect)
+    planes, inner = plane_map(coarse.inks, inks), _corner(it.part, at)
+    row = np.empty(it.part.width, np.int32)
+    changed, bits = counting.renew(read.planes.data, start, coarse.data, corner, planes, it.touched, row, inner, data)
+    if bits >= 1 << 15:
+        return _Told.LARGE
+    return trimmed(it.within(at), data, inks, it.depth) if changed else _SAME
 
 
 def _read(new: Around, part: Rect, inks: tuple[Instance, ...]) -> Around:
@@ -143,40 +179,21 @@ def _read(new: Around, part: Rect, inks: tuple[Instance, ...]) -> Around:
     return Around(new.level, part, widened(planes.cut(*part.slices(new.rect)), inks))
 
 
-def _sparse_record(
-    pyramid: Pyramid, key: TileKey, part: Rect, value: Planes, touched: np.ndarray, above: Around, held: SparsePlanes
-) -> Record | _Same | None:
+def _sparse_record(it: _Renewed, held: SparsePlanes) -> Record | _Told | None:
     """As `_record` where many inks lie in the tile: those that do not meet `part` stay as they are."""
-    x, y = key.x * TILE, key.y * TILE
-    inner = Rect(part.x0 - x, part.y0 - y, part.x1 - x, part.y1 - y)
-    inks = merged(value.inks, above.with_inks(()).inks, held.within(inner))
+    inner, value = it.within(it.part), it.new.with_inks(())
+    value = value.cut(*it.part.slices(it.new.rect))
+    inks = merged(value.inks, it.above.with_inks(()).inks, held.within(inner))
     value, data = widened(value, inks), held.over(inner, inks, np.int32)
-    read, used = Around(key.level, part, value), np.empty(COLOURS + 3 * len(inks), np.int32)
-    predicted = _predicted(above, part, read, key.level)
-    if not kernels.residual(value.data, (0, 0), predicted, touched, (0, 0), data, used)[0]:
+    read, used = Around(it.key.level, it.part, value), np.empty(COLOURS + 3 * len(inks), np.int32)
+    predicted = _predicted(it.above, it.part, read, it.key.level)
+    if not counting.residual(value.data, (0, 0), predicted, it.touched[0], (0, 0), data, used)[0]:
         return _SAME
     new = held.replaced(inner, data, inks)
     if new is None:
         return None
     kept = tuple(new.inks)
-    return Record(new.rect, new if len(kept) >= MANY else new.made(), kept, pyramid.depth + 1)
-
-
-def _first_record(
-    pyramid: Pyramid, key: TileKey, part: Rect, read: Around, touched: np.ndarray, above: Around
-) -> Record | _Same | None:
-    """As `_record` where none was, and where no ink adds texture: nothing has to be made but the residual itself."""
-    value, coarse = read.with_inks(()), above.with_inks(())
-    planes = plane_map(coarse.inks, value.inks)
-    data = np.empty((len(value.data), part.height, part.width), np.int32)
-    used = np.empty(len(data), np.int32)
-    start, corner = _corner(part, read.rect), _corner(part.parents(), above.rect)
-    extent = kernels.first_residual(value.data, start, coarse.data, corner, planes, touched, data, used)
-    if extent[0] == 0:
-        return _SAME
-    x, y = key.x * TILE, key.y * TILE
-    inside = Rect(part.x0 - x, part.y0 - y, part.x1 - x, part.y1 - y)
-    return compact(inside, data, value.inks, pyramid.depth + 1, (extent, used))
+    return Record(new.rect, new if len(kept) >= MANY else new.made(), kept, it.depth)
 
 
 def _corner(rect: Rect, inside: Rect) -> tuple[int, int]:

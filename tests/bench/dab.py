@@ -60,7 +60,7 @@ def _textured(repeats: int) -> Figure:
     ink = resolve(brush, {}, 0, 0)
     old: dict[TileKey, Planes] = {}
     new = np.ones((7, 128, 128), np.float32)
-    changed = np.ones((128, 128), np.uint8)
+    marks = np.ones((128, 128), np.uint8), np.ones((128, 2), np.int32)
     planes = np.arange(7)
 
     def own() -> None:
@@ -71,7 +71,7 @@ def _textured(repeats: int) -> Figure:
             below = old.setdefault(key, Planes(np.full((7, 128, 128), 0.25, np.float32), ink.inks))
             stamp = edit.stamp(key, below)
             if stamp is not None:
-                kernels.apply_stamp(below.data, stamp.keep, stamp.add, planes, stamp.plain, False, new, changed)
+                kernels.apply_stamp(below.data, stamp.keep, stamp.add, planes, stamp.plain, False, new, marks)
 
     own()
     moved = len(old) * 128 * 128 * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

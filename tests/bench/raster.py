@@ -46,7 +46,8 @@ def _dab(name: str, op: dict[str, Any], repeats: int, limit: float) -> Figure:
     read = _reader(_picture())
     scene = Scene(read)
     olds: dict[TileKey, Planes] = {}
-    new, changed = np.ones((7, TILE, TILE), np.float32), np.ones((TILE, TILE), np.uint8)
+    new = np.ones((7, TILE, TILE), np.float32)
+    marks = np.ones((TILE, TILE), np.uint8), np.ones((TILE, 2), np.int32)
 
     def own() -> None:
         mask = StrokeMask(0, (0, 0))
@@ -60,9 +61,7 @@ def _dab(name: str, op: dict[str, Any], repeats: int, limit: float) -> Figure:
             stamp = edit.stamp(key, old)
             if stamp is not None:
                 planes = plane_map(stamp.inks, ink.inks)
-                kernels.apply_stamp(
-                    old.data, stamp.keep, stamp.add, planes, stamp.plain, edit.spares_alpha, new, changed
-                )
+                kernels.apply_stamp(old.data, stamp.keep, stamp.add, planes, stamp.plain, edit.spares_alpha, new, marks)
 
     own()
     moved = len(olds) * TILE * TILE * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

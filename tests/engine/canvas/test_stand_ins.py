@@ -6,7 +6,9 @@ import pytest
 from engine.brush.settings import Brush
 from engine.canvas import kernels
 from engine.canvas.composite import composite
+from engine.canvas.front import blank_marks
 from engine.canvas.reading import layer_planes
+from engine.canvas.rising import counting
 from engine.kernel_cache import NotCompiled
 from engine.numeric import stand_in
 from engine.numeric.address import Rect
@@ -59,7 +61,7 @@ def test_plain_strokes_are_the_same_bits(request):
     plain = painted()
     assert {"walk_points", "as_discs", "list_pairs", "_join", "lay_flat", "lay"} <= called
     assert {"keep_of", "apply_stamp", "place", "expand_into"} <= called
-    assert {"climb", "lower", "spread", "first_residual", "residual"} <= called
+    assert {"climb", "lower", "spread", "place_changed", "renew", "edges"} <= called
     for one, other in zip(compiled, plain, strict=True):
         assert one.dtype == other.dtype
         assert np.array_equal(one, other)
@@ -67,12 +69,12 @@ def test_plain_strokes_are_the_same_bits(request):
 
 def test_extents_of_nothing():
     for keep in (np.ones((6, 9), np.float32), 1.0 - np.eye(6, 9, 2, dtype=np.float32)):
-        old, new, changed = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), np.empty((6, 9), np.uint8)
-        arguments = old, keep, np.zeros_like(old), np.arange(4), True, False, new, changed
+        old, new, marks = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), blank_marks(6, 9)
+        arguments = old, keep, np.zeros_like(old), np.arange(4), True, False, new, marks
         assert kernels.apply_stamp.compiled(*arguments) == kernels.apply_stamp.plain(*arguments)
     for data in (np.zeros((2, 5, 7), np.int32), np.arange(-35, 35, dtype=np.int32).reshape(2, 5, 7)):
         used = np.empty((2, 2), np.int32)
-        assert kernels.extent.compiled(data, used[0]) == kernels.extent.plain(data, used[1])
+        assert counting.extent.compiled(data, used[0]) == counting.extent.plain(data, used[1])
         assert np.array_equal(used[0], used[1])
 
 

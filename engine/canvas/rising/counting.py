@@ -1,0 +1,209 @@
+"""Compiled loops that make residuals, in units of 2^-16, and measure them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.canvas.plain import COUNT, Corner
+from engine.canvas.rising import plain_counting as plainly
+from engine.canvas.rising.spans import Found, Marks, Span
+from engine.numeric.grid import snap
+from engine.numeric.kernel import Array, inlined, inner_uncounted, kernel, uncounted
+from engine.numeric.stand_in import or_plain
+
+_ZERO = np.float32(0.0)
+_THREE, _NINE, _SIXTEENTH = np.float32(3.0), np.float32(9.0), np.float32(1.0 / 16.0)
+
+
+@or_plain(plainly.residual)
+@kernel
+def residual(
+    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array
+) -> tuple[bool, int, int, int, int, int]:
+    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched.
+
+    `value` float32 (C, H, W) is read from `start` on; `predicted` float32 (C, h, w), `touched` uint8 (h, w).
+    Returns whether that changed `out`, and what `extent` tells of it then; `used` (C,) is written as there.
+    """
+    (row, column), (top, left) = start, corner
+    width = touched.shape[1]
+    changed = np.int32(0)
+    for c in range(out.shape[0]):
+        for y in range(touched.shape[0]):
+            v, p, t = value[c, row + y][column : column + width], predicted[c, y], touched[y]
+            o = out[c, top + y][left : left + width]
+            for i in range(width):
+                new = np.int32((v[i] - p[i]) * COUNT) if t[i] else o[i]
+                changed |= new ^ o[i]
+                o[i] = new
+    if changed == 0:
+        return False, 0, 0, 0, 0, 0
+    bits, y0, y1, x0, x1 = _measured(out, used)
+    return True, bits, y0, y1, x0, x1
+
+
+@or_plain(plainly.first_residual)
+@uncounted
+def first_residual(
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, out: Array, found: Found
+) -> Span:
+    """Returns the residual of a tile that had none, and what `extent` tells of it.
+
+    `value` float32 (C, H, W) is read from `start` on; the prediction is expand of `coarse`, placed from `corner` and
+    chosen as by `expand_into`; `marks`: `touched` uint8 (2h, 2w), and its `spans` (2h, 2) as `spread` tells them;
+    `out` int32 (C, 2h, 2w) in units of 2^-16 is written in these columns only.  `found`, int32: `used` (C,), which is
+    written as by `extent`, rows (2h,) and columns (2w,), which are 0 before.
+    """
+    (line, column), (top, left) = start, corner
+    touched, spans = marks
+    used, rows, columns = found
+    for c in range(out.shape[0]):
+        source, whole = planes[c], np.int32(0)
+        for y in range(touched.shape[0]):
+            first, last = spans[y, 0], spans[y, 1]
+            if first >= last:
+                continue
+            n = (last - first) // 2
+            v, k, o = value[c, line + y][column + first : column + last], touched[y][first:last], out[c, y][first:last]
+            _count_row(v, coarse, source, top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, o)
+            edge = columns[first:last]
+            bits = np.int32(0)
+            for i in range(2 * n):
+                new = o[i] if k[i] else np.int32(0)
+                o[i] = new
+                size = abs(new)
+                edge[i] |= size
+                bits |= size
+            rows[y] |= bits
+            whole |= bits
+        used[c] = whole
+    return _span(rows, columns)
+
+
+@inner_uncounted
+def _count_row(v: Array, coarse: Array, source: int, row: int, other: int, left: int, out: Array) -> None:
+    """out (2n,), int32, = v less expand of rows `row` and `row + other` of a plane of `coarse` from `left` on, none of
+    it for -1."""
+    n = out.size // 2
+    if source < 0:
+        for i in range(2 * n):
+            out[i] = np.int32(v[i] * COUNT)
+        return
+    near, far = coarse[source, row][left : left + n + 2], coarse[source, row + other][left : left + n + 2]
+    for i in range(n):
+        here = _NINE * near[i + 1] + _THREE * far[i + 1]
+        even = snap((here + (_THREE * near[i] + far[i])) * _SIXTEENTH)
+        odd = snap((here + (_THREE * near[i + 2] + far[i + 2])) * _SIXTEENTH)
+        out[2 * i] = np.int32((v[2 * i] - even) * COUNT)
+        out[2 * i + 1] = np.int32((v[2 * i + 1] - odd) * COUNT)
+
+
+@or_plain(plainly.crop)
+@uncounted
+def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -> None:
+    """out (D, h, w) = data from `corner` on, where it lies in the columns of each row that `spans` tells; 0 elsewhere.
+    Plane c comes from `data[planes[c]]`."""
+    top, left = corner
+    width = out.shape[2]
+    for c in range(out.shape[0]):
+        for y in range(out.shape[1]):
+            o = out[c, y]
+            first, last = max(spans[top + y, 0] - left, 0), min(spans[top + y, 1] - left, width)
+            o[:] = 0
+            if first < last:
+                d, o = data[planes[c], top + y][left + first : left + last], o[first:last]
+                for i in range(o.size):
+                    o[i] = d[i]
+
+
+@or_plain(plainly.renew)
+@uncounted
+def renew(
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, row: Array, at: Corner,
+    out: Array,
+) -> tuple[bool, int]:  # fmt: skip
+    """As `first_residual` of a tile that has a residual: `out` int16 (C, H, W) from `at` on, which is it, is written
+    where it is touched.  Returns whether that changed it, and the bits of the absolute values that belong there: not
+    below 2^15 where `out` cannot hold them.  `row`, int32 (2w,), is written over."""
+    (line, column), (top, left) = start, corner
+    touched, spans = marks
+    bits, changed = np.int32(0), np.int32(0)
+    for c in range(out.shape[0]):
+        for y in range(touched.shape[0]):
+            first, last = spans[y, 0], spans[y, 1]
+            if first >= last:
+                continue
+            v, k = value[c, line + y][column + first : column + last], touched[y][first:last]
+            o, r = out[c, at[0] + y][at[1] + first : at[1] + last], row[first:last]
+            _count_row(v, coarse, planes[c], top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, r)
+            for i in range(r.size):
+                old = np.int32(o[i])
+                new = r[i] if k[i] else old
+                changed |= new ^ old
+                bits |= abs(new)
+                o[i] = np.int16(new)
+    return changed != 0, bits  # type: ignore[return-value]
+
+
+@or_plain(plainly.extent)
+@kernel
+def extent(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
+    """Of int32 (C, h, w): the bits of all absolute values, and the extent y0, y1, x0, x1 of what is not zero.
+
+    `used`, int32 (C,), gets the bits of each plane.
+    """
+    return _measured(data, used)
+
+
+@inlined
+def _measured(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
+    columns, rows = np.zeros(data.shape[2], np.int32), np.zeros(data.shape[1], np.int32)
+    for c in range(data.shape[0]):
+        found = np.int32(0)
+        for y in range(data.shape[1]):
+            row = data[c, y]
+            bits = np.int32(0)
+            for i in range(row.size):
+                size = abs(row[i])
+                columns[i] |= size
+                bits |= size
+            rows[y] |= bits
+            found |= bits
+        used[c] = found
+    return _span(rows, columns)
+
+
+@inlined
+def _span(rows: np.ndarray, columns: np.ndarray) -> tuple[int, int, int, int, int]:
+    bits = np.int32(0)
+    y0, y1, x0, x1 = rows.size, 0, columns.size, 0
+    for y in range(rows.size):
+        if rows[y]:
+            y0, y1 = min(y0, y), y + 1
+            bits |= rows[y]
+    for x in range(columns.size):
+        if columns[x]:
+            x0, x1 = min(x0, x), x + 1
+    return bits, y0, y1, x0, x1  # type: ignore[return-value]
+
+
+@or_plain(plainly.edges)
+@kernel
+def edges(data: np.ndarray, used: np.ndarray) -> tuple[int, int, int, int, int]:
+    """As `extent`, of int16 (C, h, w)."""
+    columns, rows = np.zeros(data.shape[2], np.int16), np.zeros(data.shape[1], np.int32)
+    for c in range(data.shape[0]):
+        found = np.int32(0)
+        for y in range(data.shape[1]):
+            row = data[c, y]
+            bits = np.int16(0)
+            for i in range(row.size):
+                columns[i] |= row[i]
+                bits |= row[i]
+            rows[y] |= np.int32(bits) & 0xFFFF
+            found |= np.int32(bits) & 0xFFFF
+        used[c] = found
+    wide = np.empty(columns.size, np.int32)
+    for x in range(wide.size):
+        wide[x] = np.int32(columns[x]) & 0xFFFF
+    return _span(rows, wide)

@@ -1,0 +1,86 @@
+"""The kernels of module `counting` in NumPy, with the same bits; their arguments and results are the same."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.canvas.plain import COUNT, Corner
+from engine.canvas.rising.spans import Found, Marks, Span, span, within
+from engine.numeric.kernel import Array
+from engine.numeric.pyramid import expanded_rows
+
+_ZERO = np.float32(0.0)
+
+
+def residual(
+    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array
+) -> tuple[bool, int, int, int, int, int]:
+    """Does what the kernel of that name in `counting` does."""
+    (row, column), (top, left) = start, corner
+    height, width = touched.shape
+    part = out[:, top : top + height, left : left + width]
+    there = value[: len(out), row : row + height, column : column + width]
+    new = np.where(touched != 0, _counted(there, predicted), part)
+    if not (new != part).any():
+        return False, 0, 0, 0, 0, 0
+    part[...] = new
+    return True, *extent(out, used)
+
+
+def _counted(value: Array | np.float32, predicted: Array | np.float32) -> np.ndarray:
+    with np.errstate(invalid="ignore"):  # what is not touched may be anything
+        return np.asarray((value - predicted) * COUNT).astype(np.int32)
+
+
+def first_residual(
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, out: Array, found: Found
+) -> Span:
+    """Does what the kernel of that name in `counting` does."""
+    (line, column), (top, left) = start, corner
+    height, width = marks[0].shape
+    there = value[:, line : line + height, column : column + width]
+    for c, source in enumerate(planes.tolist()):
+        predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
+        out[c] = np.where(marks[0] != 0, _counted(there[c], predicted), 0)
+    return extent(out, found[0])
+
+
+def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -> None:
+    """Does what the kernel of that name in `counting` does."""
+    top, left = corner
+    part = slice(top, top + out.shape[1]), slice(left, left + out.shape[2])
+    inside = within(spans, data.shape[2])
+    for c, source in enumerate(planes.tolist()):
+        out[c] = np.where(inside[part], data[source, *part], 0)
+
+
+def renew(
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, row: Array, at: Corner,
+    out: Array,
+) -> tuple[bool, int]:  # fmt: skip
+    """Does what the kernel of that name in `counting` does."""
+    (line, column), (top, left) = start, corner
+    height, width = marks[0].shape
+    there = value[:, line : line + height, column : column + width]
+    part = out[:, at[0] : at[0] + height, at[1] : at[1] + width]
+    bits, changed = 0, False
+    for c, source in enumerate(planes.tolist()):
+        predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
+        new = np.where(marks[0] != 0, _counted(there[c], predicted), part[c])
+        changed |= bool((new != part[c]).any())
+        bits |= int(np.bitwise_or.reduce(np.abs(new), axis=None, initial=0))
+        part[c] = new.astype(np.int16)
+    return changed, bits
+
+
+def edges(data: np.ndarray, used: np.ndarray) -> Span:
+    """Does what the kernel of that name in `counting` does."""
+    return extent(data.astype(np.int32) & 0xFFFF, used)
+
+
+def extent(data: np.ndarray, used: np.ndarray) -> Span:
+    """Does what the kernel of that name in `counting` does."""
+    sizes = np.abs(data)
+    rows = np.bitwise_or.reduce(sizes, axis=2)
+    used[...] = np.bitwise_or.reduce(rows, axis=1)
+    return span(np.bitwise_or.reduce(rows, axis=0), np.bitwise_or.reduce(sizes, axis=(0, 1)))
