@@ -1,6 +1,6 @@
 """Commit: how an edit changes the pyramid, at its own level, at all coarser ones, and lazily at the finer ones.
 
-An edit gives (A, B) by tile: v' = snap(A v) + B.  Coarser levels follow by rule U (`kernels.climb`), until nothing
+An edit gives (A, B) by tile: v' = snap(A v) + B.  Coarser levels follow by rule U (`lifting.climb`), until nothing
 changes any more; finer levels keep the part A of their residuals, applied when they are next looked at.
 """
 

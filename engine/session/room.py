@@ -8,7 +8,7 @@ from engine.archive.shelf import DECODED
 from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
 from engine.checks.owned import Owned
-from engine.keeping import memory
+from engine.keeping import large_pages, memory
 from engine.session.history import History
 from engine.session.paging import Paging
 
@@ -34,9 +34,12 @@ class Room(Owned):
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
         process takes more than the budget."""
-        most = memory.budget() + memory.PROGRAM - _APART
-        if not self._due(memory.resident(), most):
+        most, held = memory.budget() + memory.PROGRAM - _APART, memory.resident()
+        if not self._due(held, most):
+            if held < most // 2:  # beyond, every small page counts
+                large_pages.prepare(held)
             return
+        large_pages.forgo()
         memory.give_back()
         cache, over = self._cache, memory.resident() - most
         if over > 0:
@@ -73,4 +76,5 @@ class Room(Owned):
             self.history.step()
         else:
             self._evicted = self._cache.evicted
+            large_pages.forgo()
             memory.give_back()
