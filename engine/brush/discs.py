@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from engine.numeric.address import TILE
-from engine.numeric.kernel import Int, Real, inlined, kernel
+from engine.numeric.kernel import Int, Real, inlined, inner_uncounted, kernel, uncounted
 from engine.numeric.stand_in import or_interpreted
 
 CX, CY, ROUT, RIN2, SCALE, CEILING, RATE = range(7)  # a disc's columns; SCALE = 1/(Rout^2 - Rin^2)
@@ -198,6 +198,25 @@ def _lay_whole_row(
     row += np.maximum(_ZERO, ceiling - row) * (rate * (v * v * (_THREE - _TWO * v)))
 
 
+@inner_uncounted
+def _lay_disc(coverage: np.ndarray, disc: np.ndarray, left: Int, top: Int, across: np.ndarray) -> None:
+    """Lays one disc into a tile whose corner lies at `left`, `top`; `across`, float32 (128,), is written over."""
+    cx, cy, outer, scale = disc[CX] - left, disc[CY] - top, disc[ROUT], disc[SCALE]
+    ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
+    left_most = max(0, math.floor(cx - outer - 1.0)) // _LANES * _LANES
+    right_most = min(TILE, math.ceil(cx + outer + 1.0) + _LANES)
+    for x in range(left_most, right_most):
+        across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
+    for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
+        dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)
+        half = math.sqrt(max(0.0, outer * outer - dy2))
+        a = max(0, math.ceil(cx - half - 0.5)) // _LANES * _LANES
+        b = (min(TILE, math.floor(cx + half - 0.5) + 1) + _LANES - 1) // _LANES * _LANES
+        if a < b:
+            down = np.float32((dy2 - disc[RIN2]) * scale)
+            _lay_row(coverage[y, a:b], across[a:b], down, ceiling, rate)
+
+
 @or_interpreted(_lay_row=_lay_whole_row)
 @kernel
 def lay(coverage: np.ndarray, discs: np.ndarray, which: np.ndarray, first: Int, last: Int, left: Int, top: Int) -> None:
@@ -207,21 +226,20 @@ def lay(coverage: np.ndarray, discs: np.ndarray, which: np.ndarray, first: Int, 
     """
     across = np.empty(TILE, np.float32)
     for k in range(first, last):
-        disc = discs[which[k]]
-        cx, cy, outer, scale = disc[CX] - left, disc[CY] - top, disc[ROUT], disc[SCALE]
-        ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
-        left_most = max(0, math.floor(cx - outer - 1.0)) // _LANES * _LANES
-        right_most = min(TILE, math.ceil(cx + outer + 1.0) + _LANES)
-        for x in range(left_most, right_most):
-            across[x] = np.float32((x + 0.5 - cx) * (x + 0.5 - cx) * scale)
-        for y in range(max(0, math.ceil(cy - outer - 0.5)), min(TILE, math.floor(cy + outer - 0.5) + 1)):
-            dy2 = (y + 0.5 - cy) * (y + 0.5 - cy)
-            half = math.sqrt(max(0.0, outer * outer - dy2))
-            a = max(0, math.ceil(cx - half - 0.5)) // _LANES * _LANES
-            b = (min(TILE, math.floor(cx + half - 0.5) + 1) + _LANES - 1) // _LANES * _LANES
-            if a < b:
-                down = np.float32((dy2 - disc[RIN2]) * scale)
-                _lay_row(coverage[y, a:b], across[a:b], down, ceiling, rate)
+        _lay_disc(coverage, discs[which[k]], left, top, across)
+
+
+@or_interpreted(_lay_row=_lay_whole_row)
+@uncounted
+def lay_runs(
+    slab: np.ndarray, slots: np.ndarray, runs: np.ndarray, discs: np.ndarray, which: np.ndarray, across: np.ndarray
+) -> None:
+    """As `lay`, of many tiles: those of `slab`, float32 (n, 128, 128), that `slots` names for each of the `runs` (see
+    `list_runs`); nothing for -1.  `across`, float32 (128,), is written over."""
+    for r in range(runs.shape[0]):
+        if slots[r] >= 0:
+            for k in range(runs[r, 0], runs[r, 1]):
+                _lay_disc(slab[slots[r]], discs[which[k]], runs[r, 2] * TILE, runs[r, 3] * TILE, across)
 
 
 @inlined

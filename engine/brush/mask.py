@@ -17,6 +17,8 @@ from engine.numeric.grid import SNAP
 
 TILES_CAP = 1 << 15  # of one stroke: 2 GiB of coverage if none of them is flat
 _PAIRS = 1 << 17  # (tile, dab) pairs sorted at once
+_SLABS = 4, 64  # tiles of the first slab, and of the largest: of 4 MB
+_FEW = 6  # tiles that are laid one by one
 _PAIRS_OF_ONE = 4608  # more tiles than the largest dab can meet
 
 
@@ -82,6 +84,9 @@ class StrokeMask:
         self._lent: set[TileKey] = set()  # tiles that a Coverage also holds: copied before they are written
         self._bounds = np.array([np.inf, np.inf, -np.inf, -np.inf])
         self._ceiling = 0.0
+        self._slabs: list[np.ndarray] = []  # new tiles, zero before
+        self._free = 0  # of the last slab
+        self._places: dict[tuple[int, int], tuple[int, int, TileKey]] = {}  # slab and slot of tiles that are not lent
         self._lists: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray] | None = None
 
     @property
@@ -96,6 +101,7 @@ class StrokeMask:
     def coverage(self) -> Coverage:
         """Returns what is covered so far, as a value that later dabs do not change."""
         self._lent = set(self._tiles)
+        self._places.clear()
         return Coverage(self.level, dict(self._tiles), self.rect)
 
     def paint(self, dabs: np.ndarray) -> set[TileKey]:
@@ -115,6 +121,8 @@ class StrokeMask:
             if self._tip is not None:  # such dabs fill no tile evenly
                 inside[:], runs[:count, 4] = False, 0
             listed = runs[:count].tolist()
+            if count > _FEW and self._places:
+                listed = self._lay_known(listed, runs[:count], discs, which, touched)
             keys = [TileKey(self.level, self._corner[0] + x, self._corner[1] + y) for _, _, x, y, _ in listed]
             self._make_room(keys)
             for key, run in zip(keys, listed, strict=True):
@@ -151,8 +159,11 @@ class StrokeMask:
             first += laid
             if first == last:
                 self._tiles[key] = float(value)
+                self._places.pop((x, y), None)
                 return isinstance(old, np.ndarray) or value != old
-            tile = np.full((TILE, TILE), value, np.float32)
+            tile = self._new_tile(key, (x, y))
+            if value:
+                tile[...] = value
         else:
             tile = old.copy() if key in self._lent else old
         self._lent.discard(key)
@@ -162,6 +173,38 @@ class StrokeMask:
             self._tip.lay(tile, discs, which[first:last], self._laid, (x * TILE, y * TILE))
         self._tiles[key] = tile
         return True
+
+    def _lay_known(
+        self, listed: list[list[int]], runs: np.ndarray, discs: np.ndarray, which: np.ndarray, touched: set[TileKey]
+    ) -> list[list[int]]:
+        """Lays the runs of tiles whose places are known, all at once; returns the others."""
+        rest: list[list[int]] = []
+        slots: dict[int, np.ndarray] = {}
+        across = np.empty(TILE, np.float32)
+        for i, run in enumerate(listed):
+            place = self._places.get((run[2], run[3]))
+            if place is None or run[4]:
+                rest.append(run)
+                continue
+            number, slot, key = place
+            if number not in slots:
+                slots[number] = np.full(len(listed), -1, np.int64)
+            slots[number][i] = slot
+            touched.add(key)
+        for number, named in slots.items():
+            kernels.lay_runs(self._slabs[number], named, runs, discs, which, across)
+        return rest
+
+    def _new_tile(self, key: TileKey, place: tuple[int, int]) -> np.ndarray:
+        """Returns a tile of zeros; its place is known, unless a tip lays it."""
+        if not self._free:
+            self._free = min(len(self._slabs[-1]) * 2, _SLABS[1]) if self._slabs else _SLABS[0]
+            self._slabs.append(np.zeros((self._free, TILE, TILE), np.float32))
+        self._free -= 1
+        if self._tip is None:
+            self._places[place] = len(self._slabs) - 1, self._free, key
+        tile: np.ndarray = self._slabs[-1][self._free]
+        return tile
 
     def _wiped(self, discs: np.ndarray, which: np.ndarray, inside: np.ndarray) -> bool:
         out: bool = kernels.wiped(discs, which, inside, self._ceiling)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
@@ -220,3 +221,24 @@ def test_more_pairs_than_are_sorted_at_once():
     a, b = whole.coverage(), parts.coverage()
     assert a.keys == b.keys
     assert all(np.array_equal(a.tiles[key], b.tiles[key]) for key in a.keys)
+
+
+@pytest.mark.parametrize("plainly", [False, True])
+def test_scattered_dabs_give_the_same_coverage_whether_they_come_together_or_one_by_one(plainly, monkeypatch):
+    """Together, those of tiles that are known are laid at once; a coverage that was taken in between stays as it is."""
+    if plainly:
+        monkeypatch.setattr(kernels, "lay_runs", kernels.lay_runs.plain)
+    rng = np.random.default_rng(4)
+    dabs = np.column_stack([700 * rng.random((90, 2)) - 200, 1 + 20 * rng.random(90), *rng.random((3, 90))])
+    dabs[70, 2:5] = 400.0, 1.0, 1.0  # it wipes tiles out
+    together, apart = StrokeMask(0, (0, 0)), StrokeMask(0, (0, 0))
+    touched = together.paint(dabs[:30]) | together.paint(dabs[30:60])
+    taken = together.coverage()
+    before = {key: taken.on_grid(key) for key in taken.keys}
+    touched |= together.paint(dabs[60:75]) | together.paint(dabs[75:])
+    for dab in dabs:
+        apart.paint(dab[None])
+    a, b = together.coverage(), apart.coverage()
+    assert a.keys == b.keys == tuple(sorted(touched, key=lambda key: (key.y, key.x)))
+    assert all(np.array_equal(a.on_grid(key), b.on_grid(key)) for key in a.keys)
+    assert all(np.array_equal(taken.on_grid(key), old) for key, old in before.items())
