@@ -185,11 +185,12 @@ def _sparse_record(it: _Renewed, held: SparsePlanes) -> Record | _Told | None:
     value = value.cut(*it.part.slices(it.new.rect))
     inks = merged(value.inks, it.above.with_inks(()).inks, held.within(inner))
     value, data = widened(value, inks), held.over(inner, inks, np.int32)
+    before = data.copy()
     read, used = Around(it.key.level, it.part, value), np.empty(COLOURS + 3 * len(inks), np.int32)
     predicted = _predicted(it.above, it.part, read, it.key.level)
     if not counting.residual(value.data, (0, 0), predicted, it.touched[0], (0, 0), data, used)[0]:
         return _SAME
-    new = held.replaced(inner, data, inks)
+    new = held.replaced(inner, data, inks, before)
     if new is None:
         return None
     kept = tuple(new.inks)

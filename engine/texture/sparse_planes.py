@@ -116,21 +116,28 @@ class SparsePlanes:
         """Returns the inks of which something may lie in a rectangle."""
         return tuple(ink for ink, sheet in self.inks.items() if sheet.rect.meets(rect))
 
-    def replaced(self, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...]) -> SparsePlanes | None:
+    def replaced(
+        self, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], before: np.ndarray
+    ) -> SparsePlanes | None:
         """Returns it with `data`, (4 + 3n, h, w), in place of colour and of some inks in `rect`; None where nothing is
-        left.  What is not replaced is shared."""
-        corner = rect.x0, rect.y0
+        left.  `before`: what it has there.  What is not replaced, or stays the same, is shared."""
+        corner, changed = (rect.x0, rect.y0), (data != before).any(axis=(1, 2)).tolist()
         sheets: dict[Instance, SparseSheet | None] = dict(self.inks)
         for at, ink in _places(inks):
-            old, new = sheets.get(ink), data[at : at + 3]
-            sheets[ink] = SparseSheet.of(new, corner) if old is None else old.replaced(new, rect)
-        new = data[:COLOURS]
-        colours = SparseSheet.of(new, corner) if self.colours is None else self.colours.replaced(new, rect)
+            if any(changed[at : at + 3]):
+                old, new = sheets.get(ink), data[at : at + 3]
+                sheets[ink] = SparseSheet.of(new, corner) if old is None else old.replaced(new, rect)
+        colours = self.colours
+        if any(changed[:COLOURS]):
+            new = data[:COLOURS]
+            colours = SparseSheet.of(new, corner) if colours is None else colours.replaced(new, rect)
         kept = {ink: sheet for ink, sheet in sheets.items() if sheet is not None}
-        whole = Rect(0, 0, 0, 0)
-        for sheet in (*kept.values(), *([colours] if colours is not None else [])):
-            whole = whole.union(sheet.rect)
-        return None if whole.empty else SparsePlanes(whole, colours, _ordered(kept))
+        rects = [sheet.rect for sheet in kept.values()] + ([colours.rect] if colours is not None else [])
+        if not rects:
+            return None
+        lefts, tops, rights, bottoms = zip(*rects, strict=True)
+        whole = Rect(min(lefts), min(tops), max(rights), max(bottoms))
+        return SparsePlanes(whole, colours, kept if len(sheets) == len(self.inks) else _ordered(kept))
 
 
 def _ordered(sheets: dict[Instance, SparseSheet]) -> dict[Instance, SparseSheet]:
