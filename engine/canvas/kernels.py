@@ -6,7 +6,7 @@ import numpy as np
 
 from engine.canvas import plain as plainly
 from engine.canvas.plain import COUNT, QUARTER, UNIT
-from engine.canvas.rising.spans import Extent, Marks, bounds, ends
+from engine.canvas.rising.spans import Extent, Marks, ends, spanned
 from engine.numeric.grid import snap
 from engine.numeric.kernel import Array, inner_uncounted, kernel, uncounted
 from engine.numeric.stand_in import or_plain
@@ -127,7 +127,7 @@ def apply_stamp(
         if not plain:
             first, last = ends(s, found)
         spans[y, 0], spans[y, 1] = first, last
-    return bounds(spans, n)
+    return spanned(spans, n)
 
 
 @inner_uncounted

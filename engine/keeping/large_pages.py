@@ -42,7 +42,7 @@ class _Asked:
 _ASKED = _Asked()
 
 
-def prepare(held: int) -> None:
+def ask_ahead(held: int) -> None:
     """Has what this thread allocates next come in large pages, if the process, which holds so many bytes, grew."""
     library = _library()
     if library is None:

@@ -37,7 +37,7 @@ class Room(Owned):
         most, held = memory.budget() + memory.PROGRAM - _APART, memory.resident()
         if not self._due(held, most):
             if held < most // 2:  # beyond, every small page counts
-                large_pages.prepare(held)
+                large_pages.ask_ahead(held)
             return
         large_pages.forgo()
         memory.give_back()

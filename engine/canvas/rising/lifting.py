@@ -6,7 +6,7 @@ import numpy as np
 
 from engine.canvas.plain import LAG, QUARTER, Corner, Pair, Window
 from engine.canvas.rising import plain_lifting as plainly
-from engine.canvas.rising.spans import Extent, Lowered, Marks, bounds, ends
+from engine.canvas.rising.spans import Extent, Lowered, Marks, ends, spanned
 from engine.numeric.grid import snap
 from engine.numeric.kernel import Array, inner_uncounted, uncounted
 from engine.numeric.stand_in import or_plain
@@ -94,8 +94,7 @@ def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values:
             before, after = means[0, c, y][first:last], means[1, c, y][first:last]
             if c == 3 and spares:
                 for i in range(n):
-                    v[i] = u[i]
-                    w[i] = u[i]
+                    v[i] = w[i] = u[i]
                 continue
             for i in range(n):
                 r = u[i] - before[i]
@@ -115,7 +114,7 @@ def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values:
         if found:
             start, end = ends(m, found)
             spans[y, 0], spans[y, 1] = first + start, first + end
-    return bounds(spans, keep.shape[1])
+    return spanned(spans, keep.shape[1])
 
 
 @or_plain(plainly.place_changed)

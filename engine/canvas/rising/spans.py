@@ -27,7 +27,7 @@ def ends(marks: np.ndarray, found: np.uint8) -> tuple[int, int]:
 
 
 @inner_uncounted
-def bounds(spans: np.ndarray, width: int) -> Extent:
+def spanned(spans: np.ndarray, width: int) -> Extent:
     """Returns the extent y0, y1, x0, x1 of rows' spans, y1 = 0 where all are empty."""
     y0, y1, x0, x1 = spans.shape[0], 0, width, 0
     for y in range(spans.shape[0]):

@@ -22,12 +22,12 @@ def told_large(array):
             return "hg" in line.split()
     raise AssertionError("the array is nowhere")
 
-large_pages.prepare(64 << 20)
+large_pages.ask_ahead(64 << 20)
 held = [np.ones(1 << 16, np.float32) for _ in range(100)]
 assert all(map(told_large, held))
-large_pages.prepare(65 << 20)
+large_pages.ask_ahead(65 << 20)
 assert len(large_pages._ASKED.pieces) == 2
-large_pages.prepare(96 << 20)
+large_pages.ask_ahead(96 << 20)
 assert len(large_pages._ASKED.pieces) == 4
 large_pages.forgo()
 assert not any(map(told_large, held))
