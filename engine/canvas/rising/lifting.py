@@ -96,25 +96,38 @@ def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values:
                 for i in range(n):
                     v[i] = w[i] = u[i]
                 continue
-            for i in range(n):
-                r = u[i] - before[i]
-                r = _ZERO if abs(r) <= LAG else r
-                value = after[i] + snap(a[i] * r)
-                v[i] = u[i]
-                w[i] = value if p[i] else u[i]
+            _lift_row(u, before, after, (a, p), v, w)
             if c == 3:
                 for i in range(n):
                     w[i] = min(max(w[i], _ZERO), _ONE)
             for i in range(n):
                 m[i] |= np.uint8(w[i] != v[i])
-        found = np.uint8(0)
-        for i in range(n):
-            m[i] = np.uint8(2) * m[i] + np.uint8(a[i] != _ONE)
-            found |= m[i]
-        if found:
-            start, end = ends(m, found)
-            spans[y, 0], spans[y, 1] = first + start, first + end
+        _mark_row(m, a, first, spans[y])
     return spanned(spans, keep.shape[1])
+
+
+@inner_uncounted
+def _lift_row(u: Array, before: Array, after: Array, where: Pair, v: Array, w: Array) -> None:
+    """A row of `climb`: v and v' of u, the old values, where A and `parents` are those of `where`."""
+    a, p = where
+    for i in range(u.size):
+        r = u[i] - before[i]
+        r = _ZERO if abs(r) <= LAG else r
+        value = after[i] + snap(a[i] * r)
+        v[i] = u[i]
+        w[i] = value if p[i] else u[i]
+
+
+@inner_uncounted
+def _mark_row(marks: Array, keep: Array, first: int, span: Array) -> None:
+    """The marks of a row of `climb`, 1 where a value changed before, and the columns, which begin at `first`."""
+    found = np.uint8(0)
+    for i in range(marks.size):
+        marks[i] = np.uint8(2) * marks[i] + np.uint8(keep[i] != _ONE)
+        found |= marks[i]
+    if found:
+        start, end = ends(marks, found)
+        span[0], span[1] = first + start, first + end
 
 
 @or_plain(plainly.place_changed)
