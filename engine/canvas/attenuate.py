@@ -7,11 +7,15 @@ record's level by expand, and applied in the order of the commits when the recor
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from engine.canvas import kernels
+from engine.canvas.compact import compact
 from engine.canvas.store import Attenuation, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.column import Column
 from engine.numeric.pyramid import expand
 
 
@@ -42,17 +46,19 @@ def attenuation(waits: Attenuation, level: int, rect: Rect) -> np.ndarray | None
     over."""
     if not waits.change.reach(level).meets(rect):
         return None
-    rects = [rect.evened()]
-    for _ in range(level - waits.change.level):
-        rects.append(rects[-1].parents().evened())
-    keep = _base(waits, rects[-1])
-    for outer, inner in zip(reversed(rects), reversed(rects[:-1]), strict=False):
+    column, up = Column(rect.evened()), level - waits.change.level
+    keep = _base(waits, column.at(up))
+    while up:
         first = keep[0, 0]
         if (keep == first).all():
             return None if first == 1.0 else np.full((rect.height, rect.width), first, np.float32)
-        parents = inner.parents()
-        keep = expand(keep[None, *parents.slices(outer)])[0]
-    keep = keep[rect.slices(rects[0])]
+        before, outer, up = keep[None], column.at(up), up - 1
+        parents = column.at(up).parents()
+        keep = expand(before[:, *parents.slices(outer)])[0]
+        still = column.still(before, keep[None], up, 1) if up > 1 else None
+        if still is not None:
+            keep, up = still[0], 1
+    keep = keep[rect.slices(column.rect)]
     return None if (keep == 1.0).all() else np.ascontiguousarray(keep)
 
 
@@ -65,3 +71,34 @@ def _base(waits: Attenuation, rect: Rect) -> np.ndarray:
             part = key.rect.intersect(rect)
             keep[part.slices(rect)] = tile[part.slices(key.rect)]
     return keep
+
+
+def fold(pyramid: Pyramid) -> Pyramid:
+    """Returns the same values without pending attenuations: what a file stores.  The past of `pyramid` is kept."""
+    levels = pyramid.levels
+    for level, stored in pyramid.levels.items():
+        if not (places := _places(pyramid, level)):
+            continue
+        editable = stored.mutate()
+        for place in places:
+            record = stored[place]
+            settled = effective(pyramid, TileKey(level, *place), record)
+            if settled is record:
+                continue
+            smaller = compact(settled.rect, settled.data.astype(np.int32), settled.inks, pyramid.depth)
+            if smaller is None:
+                editable.pop(place)
+            else:
+                editable.set(place, smaller)
+        finished = editable.finish()
+        levels = levels.set(level, finished) if len(finished) else levels.delete(level)
+    return replace(pyramid, levels=levels, settled=pyramid.depth, waits=None)
+
+
+def _places(pyramid: Pyramid, level: int) -> set[tuple[int, int]]:
+    """Returns the places of a level's records that any attenuation meets."""
+    found: set[tuple[int, int]] = set()
+    for waiting in pyramid.waiting():
+        if waiting.change.level < level:
+            found.update((key.x, key.y) for key, _ in pyramid.records(level, waiting.change.reach(level)))
+    return found

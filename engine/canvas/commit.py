@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from engine.brush.stamp import Edit
+from engine.canvas.attenuate import fold
 from engine.canvas.evaluate import TileCache, evaluate
-from engine.canvas.fold import fold
 from engine.canvas.front import Around, Patch, climbs, lift, united, widened
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store

@@ -7,22 +7,25 @@ pyramid and the place; the cache only shortens it.
 
 from __future__ import annotations
 
-import itertools
 import threading
 from collections import OrderedDict
 from collections.abc import Iterable
+from functools import partial
 
 import numpy as np
 
 from engine.canvas import kernels
 from engine.canvas.attenuate import effective, placed
+from engine.canvas.descent import from_afar
 from engine.canvas.store import Change, Pyramid, Record, changes_between
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.column import Window
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import SparsePlanes
 
+_CLOSE = 8  # levels above a rectangle that are gone through one by one
 _NEAR = 1  # levels from the one that is looked at: farther ones are left behind
 _BEHIND = 128 << 20  # bytes
 _TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
@@ -53,7 +56,7 @@ class TileCache:
                 self.level = level
                 self._evict()
 
-    def get(self, pyramid: Pyramid, key: TileKey) -> tuple[bool, Planes | None]:
+    def get(self, pyramid: Pyramid, key: TileKey | Window) -> tuple[bool, Planes | None]:
         """(known, value) of a tile; a value of None is an empty tile."""
         place = (pyramid.uid, key)
         with self._lock:
@@ -62,9 +65,7 @@ class TileCache:
             if there is None or kept is None:
                 return False, None
             if kept.since is not pyramid.last:
-                rect = key.rect
-                since = list(itertools.islice(changes_between(kept.since, pyramid.last), _MOST_SINCE + 1))
-                if len(since) > _MOST_SINCE or any(c.reach(key.level).meets(rect) for c in since):
+                if _touched(kept.since, pyramid.last, key):
                     return False, None
                 kept.since = pyramid.last
             there.tiles.move_to_end(place)
@@ -76,7 +77,7 @@ class TileCache:
         """Keep a copy of a tile's value; None is an empty tile."""
         self.adopt(pyramid, key, None if value is None else Planes(value.data.copy(), value.inks))
 
-    def adopt(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
+    def adopt(self, pyramid: Pyramid, key: TileKey | Window, value: Planes | None) -> None:
         """Keep a tile's value itself: nobody may write to it any more."""
         if value is not None:
             value = without_empty_inks(value)
@@ -114,13 +115,13 @@ class TileCache:
     def _evict(self) -> None:
         while self._held > self.budget and self._levels:
             self._evict_from(self._farthest(self._levels))
-        if self.level is not None:
-            behind = [level for level in self._levels if abs(level - self.level) > _NEAR]
-            while behind and sum(self._levels[level].held for level in behind) > min(self.budget // 8, _BEHIND):
-                level = self._farthest(behind)
-                self._evict_from(level)
-                if level not in self._levels:
-                    behind.remove(level)
+        if self.level is None:
+            return
+        near = (self._levels.get(self.level + n) for n in range(-_NEAR, _NEAR + 1))
+        behind = self._held - sum(there.held for there in near if there is not None)
+        while behind > min(self.budget // 8, _BEHIND):
+            level = self._farthest(level for level in self._levels if abs(level - self.level) > _NEAR)
+            behind -= self._evict_from(level)
 
     def _farthest(self, levels: Iterable[int]) -> int:
         """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""
@@ -131,13 +132,23 @@ class TileCache:
 
         return min(levels, key=rank)
 
-    def _evict_from(self, level: int) -> None:
+    def _evict_from(self, level: int) -> int:
+        """Evicts a level's least recently used tile; returns its bytes."""
         there = self._levels[level]
         _, kept = there.tiles.popitem(last=False)
         self._count(there, -kept.nbytes)
         self.evicted += kept.nbytes
         if not there.tiles:
             del self._levels[level]
+        return kept.nbytes
+
+
+def _touched(since: Change | None, last: Change | None, key: TileKey | Window) -> bool:
+    """Tells whether a commit between two states may have changed a tile, or whether they are too many to be asked."""
+    for n, change in enumerate(changes_between(since, last)):
+        if n == _MOST_SINCE or change.reach(key.level).meets(key.rect):
+            return True
+    return False
 
 
 class _Kept:
@@ -156,7 +167,7 @@ class _LevelTiles:
     __slots__ = ("held", "tiles")
 
     def __init__(self) -> None:
-        self.tiles: OrderedDict[tuple[int, TileKey], _Kept] = OrderedDict()
+        self.tiles: OrderedDict[tuple[int, TileKey | Window], _Kept] = OrderedDict()
         self.held = 0
 
     @property
@@ -182,10 +193,14 @@ def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
     if start is None or level < start:
         return None
     rects = [rect.evened()]
-    for _ in range(level - start):
+    for _ in range(level - start if bare is not None else min(level - start, _CLOSE)):
         rects.append(rects[-1].parents().evened())
     above = rects[-1]
-    known, value = _of_ground(pyramid, start, above)
+    if level - start > _CLOSE and bare is None:
+        start = level - _CLOSE
+        known, value = True, from_afar(pyramid, start, above, None, partial(step, pyramid, finest=level))
+    else:
+        known, value = _of_ground(pyramid, start, above)
     for k in range(start + known, level + 1):
         inner = rects[level - k]
         value = step(pyramid, value, above, k, inner, level)
@@ -206,6 +221,8 @@ def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache |
         start -= 1
         rects.append(rects[-1].parents().evened())
         known, value = _known(pyramid, start, rects[-1], cache)
+        if not known and len(rects) > _CLOSE:
+            known, value = True, from_afar(pyramid, start, rects[-1], cache, partial(step, pyramid))
         if known:
             rects.pop()
             break

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 
 from engine.canvas import growth, layers
+from engine.canvas.attenuate import fold
 from engine.canvas.composite import Read, composite
-from engine.canvas.fold import fold
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import covered, layer_planes
 from engine.files.fault import Cancelled

@@ -5,9 +5,9 @@ import pytest
 from dense import Dense
 from strokes import ArrayEdit, Grain, as_raster_op, random_stroke, spread_planes
 
+from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit, preview
 from engine.canvas.evaluate import TileCache, evaluate
-from engine.canvas.fold import fold
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
 from engine.texture.planes import merged

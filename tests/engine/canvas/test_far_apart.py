@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strokes import ArrayEdit, Grain, fill, random_stroke
 
+from engine.canvas import attenuate as folding
 from engine.canvas import evaluate as evaluating
-from engine.canvas import fold as folding
+from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import TileCache, evaluate
-from engine.canvas.fold import fold
 from engine.canvas.store import Pyramid, changed_rects
 from engine.numeric.address import Rect, TileKey
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from strokes import ArrayEdit, fill
 
+from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import TileCache, evaluate, shown
-from engine.canvas.fold import fold
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect

@@ -10,9 +10,9 @@ from engine.brush.edits import edit as edit_of
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
+from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
 from engine.canvas.evaluate import TileCache, evaluate, shown
-from engine.canvas.fold import fold
 from engine.canvas.kernels import attenuate
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect, TileKey

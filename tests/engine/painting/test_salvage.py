@@ -27,8 +27,8 @@ from engine.archive.opening import open_painting
 from engine.archive.salvage.ways import IN_PART
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
+from engine.canvas.attenuate import fold
 from engine.canvas.evaluate import TileCache, evaluate
-from engine.canvas.fold import fold
 from engine.canvas.reading import layer_planes
 from engine.files.fault import Cancelled, FileError, TooMuch
 from engine.numeric.address import Rect
