@@ -86,14 +86,17 @@ class LayersPanel:
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(4 * desk.scale, 3 * desk.scale))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(3 * desk.scale, 3 * desk.scale))
         imgui.begin_child("list", ImVec2(0, height), imgui.ChildFlags_.always_use_window_padding)
-        hidden_below: int | None = None
-        for row in rows:
-            if hidden_below is not None and row.depth > hidden_below:
-                continue
-            hidden_below = row.depth if row.group and row.name in self._folded else None
-            imgui.push_id(row.name)
-            self._row(desk, row)
-            imgui.pop_id()
+        unfolded = self._unfolded(rows)
+        clipper = imgui.ListClipper()
+        clipper.begin(len(unfolded), imgui.get_frame_height_with_spacing())
+        for n, row in enumerate(unfolded):
+            if row.name == self._editing:
+                clipper.include_item_by_index(n)
+        while clipper.step():
+            for row in unfolded[clipper.display_start : clipper.display_end]:
+                imgui.push_id(row.name)
+                self._row(desk, row)
+                imgui.pop_id()
         if not rows:
             imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET))
             imgui.text_wrapped(" No layer yet: the first stroke makes one.")
@@ -101,6 +104,18 @@ class LayersPanel:
         imgui.end_child()
         imgui.pop_style_var(2)
         imgui.pop_style_color()
+
+    def _unfolded(self, rows: tuple[LayerRow, ...]) -> list[LayerRow]:
+        """Returns the rows that no folded group holds."""
+        if not self._folded:
+            return list(rows)
+        found: list[LayerRow] = []
+        hidden_below: int | None = None
+        for row in rows:
+            if hidden_below is None or row.depth <= hidden_below:
+                hidden_below = row.depth if row.group and row.name in self._folded else None
+                found.append(row)
+        return found
 
     def _row(self, desk: Desk, row: LayerRow) -> None:
         side = imgui.get_frame_height()
