@@ -1,0 +1,20 @@
+"""The scripts that paint for long run, and tell what they measured.  Their times are nobody's test."""
+
+import pytest
+
+from bench import extremes, soak
+
+
+@pytest.mark.parametrize("kind", ["places", "levels"])
+def test_strokes_far_apart_are_painted_and_undone(kind):
+    told = extremes.paint(kind, 12)
+    assert len(told["strokes"]) == extremes.TENTHS
+    assert told["steps"] == 12
+
+
+def test_a_short_soak_ends_where_it_began():
+    rows = list(soak.main(24, 12, 1))
+    assert [row["strokes"] for row in rows[:2]] == [12, 24]
+    assert rows[3]["bytes"] > 0
+    assert rows[-1]["empty"]
+    assert rows[-1]["undone"] + rows[-1]["left to replay"] == rows[1]["all steps"]
