@@ -7,25 +7,29 @@ from typing import Protocol
 from engine.canvas.attenuate import placed
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect, TileKey
-from engine.numeric.column import Column, Window
+from engine.numeric.column import Clip, Column
 from engine.texture.planes import Planes
 
 
-class Step(Protocol):
+class LevelDown(Protocol):
     """Returns one level down: the values of an even rectangle from its parents, which lie at `parent_at`."""
 
     def __call__(self, parent: Planes | None, parent_at: Rect, level: int, rect: Rect) -> Planes | None: ...
 
 
 class Kept(Protocol):
-    """Keeps values of windows: `engine.canvas.evaluate.TileCache`."""
+    """Keeps values of clips: `engine.canvas.evaluate.TileCache`."""
 
-    def get(self, pyramid: Pyramid, key: TileKey | Window) -> tuple[bool, Planes | None]: ...
+    def get(self, pyramid: Pyramid, key: TileKey | Clip) -> tuple[bool, Planes | None]:
+        """Returns whether the values are known, and them."""
+        ...
 
-    def adopt(self, pyramid: Pyramid, key: TileKey | Window, value: Planes | None) -> None: ...
+    def adopt(self, pyramid: Pyramid, key: TileKey | Clip, value: Planes | None) -> None:
+        """Keeps values; nobody may write to them any more."""
+        ...
 
 
-def from_afar(pyramid: Pyramid, level: int, rect: Rect, kept: Kept | None, step: Step) -> Planes | None:
+def from_afar(pyramid: Pyramid, level: int, rect: Rect, kept: Kept | None, step: LevelDown) -> Planes | None:
     """Returns the values of an even rectangle, None where nothing lies, from the coarsest level on, or from what was
     kept the last time.
 
@@ -38,7 +42,7 @@ def from_afar(pyramid: Pyramid, level: int, rect: Rect, kept: Kept | None, step:
         value = step(value, column.at(level - k + 1), k, column.at(level - k))
         here = k
         if kept is not None and k < level:
-            kept.adopt(pyramid, Window(k, column.at(level - k)), value)
+            kept.adopt(pyramid, Clip(k, column.at(level - k)), value)
     if here == level:
         return value
     value = _sunk(value, column, level, (here, level - 1), step)
@@ -54,14 +58,14 @@ def _begin(pyramid: Pyramid, level: int, column: Column, kept: Kept | None) -> t
         if not any(placed(key, record.rect).meets(rect) for key, record in pyramid.records(k, rect)):
             continue
         if kept is not None and k < level:
-            known, value = kept.get(pyramid, Window(k, rect))
+            known, value = kept.get(pyramid, Clip(k, rect))
             if known:
                 return k, value, stops[::-1]
         stops.append(k)
     return min(stops, default=level) - 1, None, stops[::-1]
 
 
-def _sunk(value: Planes | None, column: Column, level: int, span: tuple[int, int], step: Step) -> Planes | None:
+def _sunk(value: Planes | None, column: Column, level: int, span: tuple[int, int], step: LevelDown) -> Planes | None:
     """Returns what values of the first level of a span come to at its last, where none of the others holds anything;
     `column` begins at `level`, below all of these."""
     first, last = span

@@ -19,7 +19,7 @@ from engine.canvas.attenuate import effective, placed
 from engine.canvas.descent import from_afar
 from engine.canvas.store import Change, Pyramid, Record, changes_between
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.column import Window
+from engine.numeric.column import Clip
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
@@ -56,7 +56,7 @@ class TileCache:
                 self.level = level
                 self._evict()
 
-    def get(self, pyramid: Pyramid, key: TileKey | Window) -> tuple[bool, Planes | None]:
+    def get(self, pyramid: Pyramid, key: TileKey | Clip) -> tuple[bool, Planes | None]:
         """(known, value) of a tile; a value of None is an empty tile."""
         place = (pyramid.uid, key)
         with self._lock:
@@ -77,7 +77,7 @@ class TileCache:
         """Keep a copy of a tile's value; None is an empty tile."""
         self.adopt(pyramid, key, None if value is None else Planes(value.data.copy(), value.inks))
 
-    def adopt(self, pyramid: Pyramid, key: TileKey | Window, value: Planes | None) -> None:
+    def adopt(self, pyramid: Pyramid, key: TileKey | Clip, value: Planes | None) -> None:
         """Keep a tile's value itself: nobody may write to it any more."""
         if value is not None:
             value = without_empty_inks(value)
@@ -143,7 +143,7 @@ class TileCache:
         return kept.nbytes
 
 
-def _touched(since: Change | None, last: Change | None, key: TileKey | Window) -> bool:
+def _touched(since: Change | None, last: Change | None, key: TileKey | Clip) -> bool:
     """Tells whether a commit between two states may have changed a tile, or whether they are too many to be asked."""
     for n, change in enumerate(changes_between(since, last)):
         if n == _MOST_SINCE or change.reach(key.level).meets(key.rect):
@@ -167,7 +167,7 @@ class _LevelTiles:
     __slots__ = ("held", "tiles")
 
     def __init__(self) -> None:
-        self.tiles: OrderedDict[tuple[int, TileKey | Window], _Kept] = OrderedDict()
+        self.tiles: OrderedDict[tuple[int, TileKey | Clip], _Kept] = OrderedDict()
         self.held = 0
 
     @property

@@ -10,7 +10,7 @@ import numpy as np
 from engine.numeric.address import Rect
 
 
-class Window(NamedTuple):
+class Clip(NamedTuple):
     """A rectangle of a level, for what is kept of it."""
 
     level: int

@@ -333,6 +333,11 @@ def test_history_counts_what_settling_many_strokes_replaced():
         now = {id(r) for layer in layers.layers(session.painting.root) for _, r in layer.pyramid.all_records()}
         old = [r for layer in layers.layers(before) for _, r in layer.pyramid.all_records()]
         real += sum(r.nbytes for r in old if id(r) not in now)
+        waits, still = (
+            {id(a): a.nbytes for sheet in layers.layers(root) for a in sheet.pyramid.waiting()}
+            for root in (before, session.painting.root)
+        )
+        real += sum(size for number, size in waits.items() if number not in still)
         counted += session.history.held - held - STEP_OVERHEAD
     assert counted == real
 
