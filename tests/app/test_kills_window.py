@@ -203,7 +203,8 @@ def test_a_kill_loses_nothing_that_was_finished(display, tmp_path, lake, meets, 
     for picture in tmp_path.glob("*.png"):
         with Image.open(picture) as opened:
             opened.load()
-    whole = documents.opened(tmp_path / "lake.ora") if words else None
+    file = tmp_path / (words[0] if words else "untitled.ora")
+    whole = documents.opened(file) if file.exists() else None
     assert whole is None or not whole.notes, whole.notes
     entries = [entry for entry in listed(tmp_path / "state" / "inkfall" / "paintings") if not entry.in_bin]
     assert len(entries) <= 1
