@@ -133,7 +133,7 @@ class RandomHand:
 
     def _layer(self) -> Rests:
         rng, desk, scene = self._rng, self._desk, self._desk.known.scene
-        if scene is not None:
+        if scene is not None and scene.layers:
             name = scene.layers[rng.integers(len(scene.layers))].name
             what = rng.random()
             if what < 0.3 and len(scene.layers) < LAYERS:
