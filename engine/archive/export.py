@@ -19,7 +19,7 @@ from engine.files.tiff_writer import write_tiff
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.grown import settled_root
-from engine.painting.rendering import Progress, folded_layers, strips
+from engine.painting.rendering import Progress, folded_layers, rows_of
 from engine.painting.value import Painting
 
 PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
@@ -89,9 +89,9 @@ def export(
 
     def rows() -> Iterator[np.ndarray]:
         done = 0
-        for strip in strips(root, picture.level, area, cancelled):
-            yield to_pixels(strip)
-            done += strip.shape[1]
+        for strip in rows_of(root, picture.level, area, to_pixels, cancelled):
+            yield strip
+            done += len(strip)
             if progress is not None:
                 progress(done / area.height)
 

@@ -42,7 +42,7 @@ class Cascade:
             self._rects[level - 1] = above.union(self._rects[level].parents().evened())
         self._held: dict[int, Held] = {}
         self._next = self._coarsest
-        self._lock = threading.Lock()
+        self._lock, self._parts = threading.Lock(), threading.Lock()
 
     def at(self, level: int, rect: Rect) -> Planes | None:
         """Returns what the even `rect` of `level` shows, None where nothing lies."""
@@ -58,6 +58,16 @@ class Cascade:
                     self._held[k] = rect, self._at(k, rect)
                 self._held.pop(k - _KEPT, None)
             self._next = max(self._next, level + 1)
+
+    def hold_part(self, level: int, rect: Rect) -> None:
+        """Evaluates a part of a level that is too large to be held as a whole, and holds it in place of another one;
+        for what is asked for next; unless it takes more room than a whole level may."""
+        if level <= self._coarsest or self._planes(level) * rect.area > _PLANES * self._most:
+            return
+        with self._parts:
+            held = self._held.get(level)
+            if held is None or held[0].union(rect) != held[0]:
+                self._held[level] = rect, self.at(level, rect)
 
     def _planes(self, level: int) -> int:
         """Tells how many planes lie on a pixel of a level, at most: never less than may be held without thinking."""

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import os
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
 
@@ -16,9 +19,10 @@ from engine.numeric.address import Rect
 from engine.painting.cascade import Cascade
 
 _STRIP = 1 << 22  # pixels of a strip, about
-ROWS = 256
+ROWS, _SHEET_ROWS = 64, 256
 _HELD, _HELD_OF_ALL = 1 << 19, 1 << 22  # pixels of a coarser level up to which it is held: of a layer, of all of them
-_COLUMNS = 1024  # of the pieces in which layers are evaluated
+_COLUMNS = 1024  # of the pieces in which layers are evaluated: see `_Pieces`
+_SHARING, _COARSER = 512, 3  # rows whose pieces are evaluated from one part of a level, so many levels coarser
 TOGETHER = 1 << 23  # pixels of all layers' parts of a band, about: 128 MB
 HELD = 64  # layers for which a piece has that size; for more it is narrower
 
@@ -45,20 +49,74 @@ def bands(rect: Rect) -> Iterator[Rect]:
 def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Iterator[np.ndarray]:
     """Yields the composited picture of `rect` from the top: float32 (4, n, w) premultiplied, clamped for display;
     the same array every time.  Cancelled is raised between pieces."""
-    count = sum(1 for _ in layers.layers(root))
-    columns = max(128, _COLUMNS * HELD // max(HELD, count))
+    pieces = _Pieces(root, level, rect, cancelled)
     out: np.ndarray | None = None
-    evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
     for band in bands(rect):
         if out is None:
             out = np.empty((4, band.height, band.width), np.float32)
         strip = out[:, : band.height]
-        for x in range(band.x0, band.x1, columns):
-            check_cancelled(cancelled)
-            piece = Rect(x, band.y0, min(x + columns, band.x1), band.y1)
+        for piece in pieces.of(band):
             rows, across = piece.slices(band)
-            strip[:, rows, across] = composite(root, level, piece, piece_reader(piece, evaluated.planes))
+            strip[:, rows, across] = pieces.composited(piece)
         yield strip
+
+
+def rows_of(
+    root: Group, level: int, rect: Rect, convert: Callable[[np.ndarray], np.ndarray], cancelled: Stop = None
+) -> Iterator[np.ndarray]:
+    """As `strips`, but pixels as `convert` makes them of planes: (n, w, channels), a new array every time.  On all
+    cores; each strip is evaluated while the one before is worked with."""
+    pieces = _Pieces(root, level, rect, cancelled)
+
+    def made(piece: Rect) -> tuple[Rect, np.ndarray]:
+        return piece, convert(pieces.composited(piece))
+
+    pool = ThreadPoolExecutor(os.cpu_count() or 1, "inkfall rows")
+    try:
+        before: np.ndarray | None = None
+        for band in bands(rect):
+            begun = [pool.submit(made, piece) for piece in pieces.of(band)]
+            if before is not None:
+                yield before
+            before = _joined(band, begun)
+        if before is not None:
+            yield before
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _joined(band: Rect, begun: Sequence[Future[tuple[Rect, np.ndarray]]]) -> np.ndarray:
+    """Returns the pixels of a band from those of its pieces."""
+    out: np.ndarray | None = None
+    for one in begun:
+        piece, pixels = one.result()
+        if out is None:
+            out = np.empty((band.height, band.width, pixels.shape[2]), pixels.dtype)
+        out[piece.slices(band)] = pixels
+    assert out is not None
+    return out
+
+
+class _Pieces:
+    """The pieces in which a rectangle of a level is composited: with all that belongs to one, they fit into a
+    processor's caches.  Safe for several threads."""
+
+    def __init__(self, root: Group, level: int, rect: Rect, cancelled: Stop) -> None:
+        count = sum(1 for _ in layers.layers(root))
+        self._root, self._level, self._cancelled = root, level, cancelled
+        self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
+        self._evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
+
+    def of(self, band: Rect) -> list[Rect]:
+        """Returns the pieces of a band, from the left."""
+        return [
+            Rect(x, band.y0, min(x + self._columns, band.x1), band.y1) for x in range(band.x0, band.x1, self._columns)
+        ]
+
+    def composited(self, piece: Rect) -> np.ndarray:
+        """Returns the picture of a piece: float32 (4, h, w).  Cancelled, if the one who asked says so."""
+        check_cancelled(self._cancelled)
+        return composite(self._root, self._level, piece, piece_reader(piece, self._evaluated.planes))
 
 
 def sheets(
@@ -70,7 +128,7 @@ def sheets(
     where that is empty.  All float32 (4, n, w), premultiplied; the composited ones clamped for display.
     """
     all_layers = list(layers.layers(root))
-    rows = max(16, min(ROWS, TOGETHER // (len(all_layers) + 1) // frame.width))
+    rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width))
     for y in range(frame.y0, frame.y1, rows):
         band = Rect(frame.x0, y, frame.x1, min(y + rows, frame.y1))
         known: dict[int, np.ndarray] = {}
@@ -139,17 +197,29 @@ class _Evaluated:
     """
 
     def __init__(self, level: int, frame: Rect, held: int) -> None:
+        self._frame = frame
         self._needed, self._held = {level: frame.evened()}, held
         self._cascades: dict[int, Cascade] = {}
+        self._lock = threading.Lock()
+
+    def _row_of(self, rect: Rect) -> Rect:
+        """Returns the part of the frame, of its whole width, that is evaluated from the same part of a coarser level as
+        a piece."""
+        y = rect.y0 - (rect.y0 - self._frame.y0) % _SHARING
+        return Rect(self._frame.x0, y, self._frame.x1, max(y + _SHARING, rect.y1)).intersect(self._frame).evened()
 
     def planes(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         """Returns a layer's pixels of a piece, as `layer_planes`."""
         if layer.pyramid.bare is not None:
             return layer_planes(layer, level, rect)
-        cascade = self._cascades.get(layer.id)
-        if cascade is None:
-            cascade = self._cascades[layer.id] = Cascade(layer.pyramid, self._needed, self._held, level)
-        around = rect.evened()
+        with self._lock:
+            cascade = self._cascades.get(layer.id)
+            if cascade is None:
+                cascade = self._cascades[layer.id] = Cascade(layer.pyramid, self._needed, self._held, level)
+        around, above = rect.evened(), self._row_of(rect)
+        for _ in range(_COARSER):
+            above = above.parents().evened()
+        cascade.hold_part(level - _COARSER, above)
         found = cascade.at(level, around)
         return covered(None if found is None else found.rgba[:, *rect.slices(around)], layer.growth, level, rect)
 

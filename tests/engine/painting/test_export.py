@@ -17,7 +17,7 @@ from engine.files.images import read_image
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting import commands as c
-from engine.painting.rendering import bands, reach, strips
+from engine.painting.rendering import bands, reach, rows_of, strips
 from engine.session.apply import Painting
 from engine.session.session import Session
 
@@ -77,6 +77,15 @@ def test_strips_are_cut_from_one_picture(painting, width):
     pieces = np.concatenate([s.copy() for s in strips(painting.root, 0, rect)], axis=1)
     assert np.array_equal(pieces, whole(painting.root, 0, rect))
     assert [b.height for b in bands(rect)] == [s.shape[1] for s in strips(painting.root, 0, rect)]
+
+
+@pytest.mark.parametrize("cores", [1, 2, 5])
+def test_rows_are_the_same_on_any_number_of_cores(painting, monkeypatch, cores):
+    monkeypatch.setattr("engine.painting.rendering.os.cpu_count", lambda: cores)
+    monkeypatch.setattr("engine.painting.rendering._HELD", 1 << 12)  # coarser levels are held in parts
+    rect = Rect.at(-100, -37, 2500, 700)
+    found = np.concatenate(list(rows_of(painting.root, 3, rect, to_rgba8)))
+    assert np.array_equal(found, to_rgba8(whole(painting.root, 3, rect)))
 
 
 def test_one_layer(painting, tmp_path):
