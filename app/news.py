@@ -80,7 +80,11 @@ class News:
 
     def take(self, now: float) -> bool:
         """Takes in all results; True if there were any."""
-        came = [result for source in self._sources for result in source()]
+        return self.take_from(self._sources, now)
+
+    def take_from(self, sources: Sequence[Source], now: float) -> bool:
+        """Takes in what some sources have; True if that was anything."""
+        came = [result for source in sources for result in source()]
         for result in came:
             with self._guard.spare("on a result"):
                 self._hear(result, now)

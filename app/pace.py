@@ -87,12 +87,14 @@ class Pace:
         self._by_turns = self._shared and growing and (moving or now - self._moved < AT_HAND)
 
     def wait(self, moving: bool, painting: bool = False, typing: bool = False) -> None:
-        """Sleeps until an event, at most one frame while something moves or is about to."""
+        """Sleeps until an event, at most one frame while something moves or is about to; while the pen paints, until
+        the engine has more of the paint."""
         now = time.monotonic()
         if moving or self._by_turns or now < self._busy_until:
             calm = not (moving or painting or self._drawn or self._by_turns) and now >= self._calm_from
             until = self._last + (CALM if calm else PACE if moving and not self._by_turns else self._still(painting))
-            self._doze(until - now) if calm and until > now else self.rest(until - now)
+            wakes = calm or (painting and not self._by_turns)
+            self._doze(until - now) if wakes and until > now else self.rest(until - now)
         else:
             self._doze(BLINK if typing else IDLE)
             self._last = min(self._last + IDLE, time.monotonic() - PACE)

@@ -141,6 +141,8 @@ class Window:
             if desk.known.ready:
                 self.tiles.wants(desk)
                 self.layout.wants(desk, now)
+        if desk.painting and self.news.take_from((self.engine.paint,), now):  # what came of this frame's points
+            self.pace.news(now)
         with spare("drawing the picture"):
             self._decoration.show(desk, self.router.panning_key)
             exposed, self._callbacks.exposed = self._callbacks.exposed, False

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from engine.studio.requests import Look, Request, Swatch
-from engine.studio.results import Note, Pending, Result, Stopped
+from engine.studio.results import Note, Patch, Pending, Result, Same, Stopped
 
 if TYPE_CHECKING:
     from engine.studio.journalled.posts import Posts
@@ -165,10 +165,11 @@ class Worker:
         """Returns the folder that keeps what is painted; None if there is none."""
         return None if self._posts is None else self._posts.journal.entry.folder
 
-    def results(self) -> list[Result]:
-        """Returns what came since the last call, in order."""
+    def results(self, seen: bool = False) -> list[Result]:
+        """Returns what came since the last call, in order; `seen`: only what is to be seen of the painting, as far as
+        nothing else came before it."""
         out: list[Result] = []
-        while self._results:
+        while self._results and not (seen and not isinstance(self._results[0], Patch | Same | Pending)):
             out.append(self._results.popleft())
         return out
 

@@ -190,3 +190,15 @@ def test_news_wakes_a_window_that_rests(events, monkeypatch):
     monkeypatch.setattr(events, "wait_events_timeout", lambda seconds: one.told())
     one.wait(False)
     assert events.woken == 1
+
+
+def test_while_the_pen_paints_more_of_the_paint_wakes_a_frame(events, clock):
+    one = paced(SOFTWARE)
+    woken = []
+    events.wait_events_timeout = lambda seconds: (one.told(), woken.append(events.woken))
+    for painting in (False, True):
+        one.event()
+        one.begin(clock.now)
+        one.end(True, False, False)
+        one.wait(False, painting)
+    assert woken == [0, 1]

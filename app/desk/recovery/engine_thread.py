@@ -34,6 +34,10 @@ class EngineThread:
         """Returns what came since the last call, in order."""
         return self.worker.results()
 
+    def paint(self) -> list[Result]:
+        """Returns what came to be seen of the painting, as far as nothing else came before."""
+        return self.worker.results(seen=True)
+
     def _post(self, request: Request) -> None:
         self.worker.post(at_time(request, round(time.time(), 3)))
 

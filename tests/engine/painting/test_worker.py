@@ -311,3 +311,14 @@ def test_closing_waits_as_long_as_it_takes(worker):
     assert "closed" not in worker.bench.did
     worker.close(None)
     assert worker.bench.did[-1] == "closed"
+
+
+def test_what_is_seen_is_taken_alone_only_where_nothing_came_before_it(worker):
+    one, bench = worker, worker.bench
+    one.results()
+    same, note = results.Same(((0, 0, 0),), 1), results.Note("a note")
+    for result in (same, note, same):
+        bench.send(result)
+    assert one.results(seen=True) == [same]
+    assert one.results(seen=True) == []
+    assert one.results()[:2] == [note, same]
