@@ -21,6 +21,7 @@ QUICK = (
     "example",
     "stroke",
     "exporting",
+    "looking",
     "memory",
 )  # the others open windows and other programs
 

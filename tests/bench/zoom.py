@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from app.canvas.screen import cells
 from app.canvas.view import Place, View, place_of_pixel
 from bench import Figure, Skipped
 from bench.display import NEEDED, ROOT, available, display, python
@@ -19,7 +20,7 @@ from engine.painting.recording import read
 from engine.session.apply import Painting, apply
 from engine.session.replay import replay
 from engine.session.session import Session
-from engine.studio.requests import SCREEN_TILE, Look
+from engine.studio.requests import Look
 from engine.studio.results import Patch
 from engine.studio.studio import Studio
 
@@ -84,11 +85,7 @@ def engine(painting: Painting, place: Place, levels: int) -> list[float]:
     studio.easel.show(Session(painting), None)
     times = []
     for level in range(levels + 1):
-        seen = View(place, level, 0.0, WIDTH, HEIGHT).visible(level)
-        columns, rows = (
-            range(a // SCREEN_TILE, (b - 1) // SCREEN_TILE + 1) for a, b in ((seen.x0, seen.x1), (seen.y0, seen.y1))
-        )
-        wanted = tuple((level, x, y, -1) for y in rows for x in columns)
+        wanted = tuple((*tile, -1) for tile in cells(View(place, level, 0.0, WIDTH, HEIGHT), level))
         patches = 0
         start = time.perf_counter()
         studio.look(Look(wanted))
