@@ -27,8 +27,9 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.archive import implied_kernels as kernels
-from engine.canvas.evaluate import TileCache, evaluate_sparse
+from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.store import Pyramid, Record
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import reduce
 from engine.painting.cascade import Cascade

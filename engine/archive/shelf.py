@@ -16,8 +16,8 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from engine.archive.implied import Coded, Implied, square_of, square_restored
-from engine.canvas.evaluate import TileCache
 from engine.canvas.store import Pyramid, Record
+from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.numeric.address import TileKey
 

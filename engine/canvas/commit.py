@@ -14,11 +14,12 @@ import numpy as np
 
 from engine.brush.stamp import Edit
 from engine.canvas.attenuate import fold
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
 from engine.canvas.front import Around, Patch, climbs, lift, united, widened
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
 from engine.canvas.store import Attenuation, Change, Level, Pyramid, Record
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import Planes, merged
 

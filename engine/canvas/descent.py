@@ -18,7 +18,7 @@ class LevelDown(Protocol):
 
 
 class Kept(Protocol):
-    """Keeps values of clips: `engine.canvas.evaluate.TileCache`."""
+    """Keeps values of clips: `engine.canvas.tile_cache.TileCache`."""
 
     def get(self, pyramid: Pyramid, key: TileKey | Clip) -> tuple[bool, Planes | None]:
         """Returns whether the values are known, and them."""

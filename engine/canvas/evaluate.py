@@ -7,9 +7,6 @@ pyramid and the place; the cache only shortens it.
 
 from __future__ import annotations
 
-import threading
-from collections import OrderedDict
-from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
@@ -17,163 +14,19 @@ import numpy as np
 from engine.canvas import kernels
 from engine.canvas.attenuate import effective, placed
 from engine.canvas.descent import from_afar
-from engine.canvas.store import Change, Pyramid, Record, changes_between
+from engine.canvas.store import Pyramid, Record
+from engine.canvas.tile_cache import Square, TileCache, parted, without_empty_inks
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.column import Clip
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import SparsePlanes
 
 _CLOSE = 8  # levels above a rectangle that are gone through one by one
-_NEAR = 1  # levels from the one that is looked at: farther ones are left behind
-_BEHIND = 128 << 20  # bytes
-_TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
-_MOST_SINCE = 256  # commits to look through for one that meets a tile: a tile is sooner made again than after more
+_CLIMB = 3  # levels up to what is kept of a coarse level for all that lies below it
+_SQUARES = 6  # of these above one another: from there on what is kept is sparser (`from_afar`)
+_LENT = 4  # tiles that the cache holds as parts of one array, at most
 _BAND = 64  # rows worked on at a time, so that a band of all planes stays in the cache of the processor
-
-
-class TileCache:
-    """Evaluated tiles, bounded by bytes.  Safe for several threads.
-
-    Those of levels that were left behind are evicted first, of one level the least recently used; and however much room
-    there is, all that were left behind together take an eighth of it, and at most `_BEHIND`.
-    """
-
-    def __init__(self, budget: int) -> None:
-        self.budget = budget
-        self._held = 0
-        self.evicted = 0  # bytes, in all
-        self._levels: dict[int, _LevelTiles] = {}
-        self.level: int | None = None  # that is looked at
-        self._uses = 0
-        self._lock = threading.Lock()
-
-    def look_at(self, level: int) -> None:
-        """Tells which level is seen from now on."""
-        if level != self.level:
-            with self._lock:
-                self.level = level
-                self._evict()
-
-    def get(self, pyramid: Pyramid, key: TileKey | Clip) -> tuple[bool, Planes | None]:
-        """(known, value) of a tile; a value of None is an empty tile."""
-        place = (pyramid.uid, key)
-        with self._lock:
-            there = self._levels.get(key.level)
-            kept = there.tiles.get(place) if there is not None else None
-            if there is None or kept is None:
-                return False, None
-            if kept.since is not pyramid.last:
-                if _touched(kept.since, pyramid.last, key):
-                    return False, None
-                kept.since = pyramid.last
-            there.tiles.move_to_end(place)
-            self._uses += 1
-            kept.used = self._uses
-            return True, kept.value
-
-    def keep(self, pyramid: Pyramid, key: TileKey, value: Planes | None) -> None:
-        """Keep a copy of a tile's value; None is an empty tile."""
-        self.adopt(pyramid, key, None if value is None else Planes(value.data.copy(), value.inks))
-
-    def adopt(self, pyramid: Pyramid, key: TileKey | Clip, value: Planes | None) -> None:
-        """Keep a tile's value itself: nobody may write to it any more."""
-        if value is not None:
-            value = without_empty_inks(value)
-        place = (pyramid.uid, key)
-        with self._lock:
-            there = self._levels.setdefault(key.level, _LevelTiles())
-            old = there.tiles.pop(place, None)
-            self._count(there, -old.nbytes if old is not None else 0)
-            self._uses += 1
-            kept = there.tiles[place] = _Kept(pyramid.last, value, self._uses)
-            self._count(there, kept.nbytes)
-            self._evict()
-
-    def clear(self) -> None:
-        """Forgets all tiles."""
-        with self._lock:
-            self._levels.clear()
-            self._held = 0
-
-    def shrink(self, to: int) -> None:
-        """Evicts tiles until at most so many bytes are held."""
-        with self._lock:
-            while self._held > to and self._levels:
-                self._evict_from(self._farthest(self._levels))
-
-    @property
-    def held(self) -> int:
-        """Returns bytes held now."""
-        return self._held
-
-    def _count(self, there: _LevelTiles, more: int) -> None:
-        there.held += more
-        self._held += more
-
-    def _evict(self) -> None:
-        while self._held > self.budget and self._levels:
-            self._evict_from(self._farthest(self._levels))
-        if self.level is None:
-            return
-        near = (self._levels.get(self.level + n) for n in range(-_NEAR, _NEAR + 1))
-        behind = self._held - sum(there.held for there in near if there is not None)
-        while behind > min(self.budget // 8, _BEHIND):
-            level = self._farthest(level for level in self._levels if abs(level - self.level) > _NEAR)
-            behind -= self._evict_from(level)
-
-    def _farthest(self, levels: Iterable[int]) -> int:
-        """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""
-        seen = self.level
-
-        def rank(level: int) -> tuple[int, int]:
-            return 0 if seen is None else -abs(level - seen), self._levels[level].oldest
-
-        return min(levels, key=rank)
-
-    def _evict_from(self, level: int) -> int:
-        """Evicts a level's least recently used tile; returns its bytes."""
-        there = self._levels[level]
-        _, kept = there.tiles.popitem(last=False)
-        self._count(there, -kept.nbytes)
-        self.evicted += kept.nbytes
-        if not there.tiles:
-            del self._levels[level]
-        return kept.nbytes
-
-
-def _touched(since: Change | None, last: Change | None, key: TileKey | Clip) -> bool:
-    """Tells whether a commit between two states may have changed a tile, or whether they are too many to be asked."""
-    for n, change in enumerate(changes_between(since, last)):
-        if n == _MOST_SINCE or change.reach(key.level).meets(key.rect):
-            return True
-    return False
-
-
-class _Kept:
-    """A tile's value as it was after the commit `since`; `used` orders tiles by when they were last asked for."""
-
-    __slots__ = ("nbytes", "since", "used", "value")
-
-    def __init__(self, since: Change | None, value: Planes | None, used: int) -> None:
-        self.since, self.value, self.used = since, value, used
-        self.nbytes = _TILE_OVERHEAD + (value.data.nbytes if value is not None else 0)
-
-
-class _LevelTiles:
-    """The tiles of one level, the least recently used first, and the bytes that they hold."""
-
-    __slots__ = ("held", "tiles")
-
-    def __init__(self) -> None:
-        self.tiles: OrderedDict[tuple[int, TileKey | Clip], _Kept] = OrderedDict()
-        self.held = 0
-
-    @property
-    def oldest(self) -> int:
-        """Tells when the least recently used tile was used."""
-        return next(iter(self.tiles.values())).used
 
 
 def evaluate(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None = None) -> Planes:
@@ -208,36 +61,54 @@ def shown(pyramid: Pyramid, level: int, rect: Rect) -> np.ndarray | None:
     return None if value is None else value.rgba[:, *rect.slices(rects[0])]
 
 
-def evaluate_sparse(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> Planes | None:
-    """As `evaluate`, but None where nothing lies."""
+def evaluate_sparse(
+    pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None, lent: bool = False
+) -> Planes | None:
+    """As `evaluate`, but None where nothing lies.  `lent`: the cache holds the same array, nobody writes to it."""
+    return _evaluated(pyramid, level, rect, cache, lent, _SQUARES)
+
+
+def _evaluated(
+    pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None, lent: bool, squares: int
+) -> Planes | None:
+    """As `evaluate_sparse`; `squares`: so many may be kept above one another."""
     known, value = _known(pyramid, level, rect, cache)
     if known:
         return value
-    rects = [rect.evened()]
-    start = level
-    value = None
-    coarsest = pyramid.coarsest
-    while coarsest is not None and start > coarsest:
-        start -= 1
-        rects.append(rects[-1].parents().evened())
-        known, value = _known(pyramid, start, rects[-1], cache)
-        if not known and len(rects) > _CLOSE:
-            known, value = True, from_afar(pyramid, start, rects[-1], cache, partial(step, pyramid))
-        if known:
-            rects.pop()
-            break
-    if coarsest is None or level < coarsest:
+    if pyramid.coarsest is None or level < pyramid.coarsest:
         return None
-    inner = None
-    above = rects[-1] if not known else rects[-1].parents().evened()
-    for k in range(level - len(rects) + 1, level + 1):
-        inner = rects[level - k]
+    rects = [rect.evened()]
+    above, value = rects[0].parents(), None
+    for k in range(level - 1, pyramid.coarsest - 1, -1):
+        parents = rects[-1].parents().evened()
+        above = parents
+        known, value = _known(pyramid, k, parents, cache)
+        if known:
+            break
+        around = Square.of(k, parents) if cache is not None and squares and level - k >= _CLIMB else None
+        if cache is not None and around is not None:
+            above, value = around.rect, _square(pyramid, around, cache, squares - 1)
+            break
+        if level - k >= _CLOSE:
+            value = from_afar(pyramid, k, parents, cache, partial(step, pyramid))
+            break
+        rects.append(parents)
+        above = parents.parents()
+    for k, inner in zip(range(level - len(rects) + 1, level + 1), reversed(rects), strict=True):
         value = step(pyramid, value, above, k, inner)
         above = inner
-    assert inner is not None
     if cache is not None:
-        _keep_tiles(pyramid, level, inner, value, cache)
-    return None if value is None else value.cut(*rect.slices(inner))
+        _keep_tiles(pyramid, level, above, value, cache, lent)
+    return None if value is None else value.cut(*rect.slices(above))
+
+
+def _square(pyramid: Pyramid, around: Square, cache: TileCache, squares: int) -> Planes | None:
+    """Returns the values of all of it, from the cache or for the cache."""
+    known, value = cache.get(pyramid, around)
+    if not known:
+        value = _evaluated(pyramid, around.level, around.rect, cache, False, squares)
+        cache.adopt(pyramid, around, value)
+    return value
 
 
 def step(
@@ -325,19 +196,6 @@ def _add_texture_band(
             kernels.add_texture(out, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first)
 
 
-def without_empty_inks(planes: Planes) -> Planes | None:
-    """Returns planes of ink that are zero all over are dropped; a stack that is zero all over is None."""
-    data, inks = planes.data, planes.inks
-    height = data.shape[1]
-    kept = [i for i in range(len(inks)) if kernels.any_nonzero(data, COLOURS + 3 * i, COLOURS + 3 * i + 3, 0, height)]
-    if not kept and not kernels.any_nonzero(data, 0, COLOURS, 0, height):
-        return None
-    if len(kept) == len(inks):
-        return planes
-    wanted = [*range(COLOURS), *(COLOURS + 3 * i + c for i in kept for c in range(3))]
-    return Planes(data[wanted], tuple(inks[i] for i in kept))
-
-
 def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:
     """(known, value) of what need not be worked out."""
     known, value = _of_ground(pyramid, level, rect)
@@ -354,17 +212,20 @@ def _of_ground(pyramid: Pyramid, level: int, rect: Rect) -> tuple[bool, Planes |
 def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:
     if cache is None:
         return False, None
-    tiles = []
+    tiles, count = [], 0
     for key in rect.tiles(level):
-        known, value = cache.get(pyramid, key)
+        known, value = cache.view(pyramid, key)
         if not known:
             return False, None
+        count += 1
         if value is not None:
             tiles.append((key, value))
     if not tiles:
         return True, None
     inks = merged(*(value.inks for _, value in tiles))
-    out = np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), np.float32)
+    shape = COLOURS + 3 * len(inks), rect.height, rect.width
+    whole = len(tiles) == count and all(value.inks == inks for _, value in tiles)
+    out = np.empty(shape, np.float32) if whole else np.zeros(shape, np.float32)
     for key, value in tiles:
         part = key.rect.intersect(rect)
         source = value.data[:, *part.slices(key.rect)]
@@ -378,8 +239,11 @@ def _from_cache(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | Non
     return True, Planes(out, inks)
 
 
-def _keep_tiles(pyramid: Pyramid, level: int, rect: Rect, value: Planes | None, cache: TileCache) -> None:
-    for key in rect.tiles(level):
-        at = key.rect
-        if rect.intersect(at) == at:
-            cache.keep(pyramid, key, None if value is None else value.cut(*at.slices(rect)))
+def _keep_tiles(pyramid: Pyramid, level: int, rect: Rect, value: Planes | None, cache: TileCache, lent: bool) -> None:
+    keys = [key for key in rect.tiles(level) if rect.intersect(key.rect) == key.rect]
+    if value is None or not lent or rect.area != len(keys) * TILE * TILE or len(keys) > _LENT:
+        for key in keys:
+            cache.keep(pyramid, key, None if value is None else value.cut(*key.rect.slices(rect)))
+        return
+    for key, part in zip(keys, parted(value, [key.rect.slices(rect) for key in keys]), strict=True):
+        cache.lend(pyramid, key, part)

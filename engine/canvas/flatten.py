@@ -11,9 +11,9 @@ import numpy as np
 from engine.brush.stamp import Stamp
 from engine.canvas import growth as growths
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache
 from engine.canvas.growth import Plot
 from engine.canvas.layers import Layer
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import Planes
 

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.canvas.evaluate import TileCache, evaluate_sparse, step
+from engine.canvas.evaluate import evaluate_sparse, step
 from engine.canvas.rising import lifting
 from engine.canvas.rising.spans import Marks
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance

@@ -17,10 +17,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from engine.canvas import shown as pixels
-from engine.canvas.carry import carried
-from engine.canvas.closer import BEYOND
-from engine.canvas.shown import Shown
+from engine.canvas.grown import shown as pixels
+from engine.canvas.grown.carry import carried
+from engine.canvas.grown.closer import BEYOND
+from engine.canvas.grown.shown import Shown
 from engine.numeric.address import Rect
 from engine.texture.example import region as regions
 from engine.texture.example import tiles

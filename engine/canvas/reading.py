@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.canvas.evaluate import TileCache, evaluate, evaluate_sparse, shown
+from engine.canvas.evaluate import evaluate, evaluate_sparse, shown
 from engine.canvas.growth import Growth, meets, over
 from engine.canvas.layers import Layer
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.texture.planes import Planes
 
@@ -20,7 +21,7 @@ def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None =
     if cache is None:
         paint = shown(layer.pyramid, level, rect)
     else:
-        found = evaluate_sparse(layer.pyramid, level, rect, cache)
+        found = evaluate_sparse(layer.pyramid, level, rect, cache, lent=True)
         paint = None if found is None else found.rgba
     return covered(paint, layer.growth, level, rect)
 

@@ -11,7 +11,7 @@ import numpy as np
 from engine.brush.dynamics import evaluate
 from engine.brush.settings import Brush
 from engine.canvas import growth as growths
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import FileError
 from engine.film.beats import Beat
 from engine.painting import commands as c

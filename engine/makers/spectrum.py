@@ -16,9 +16,9 @@ from immutables import Map
 
 from engine.brush.checks import thawed
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
 from engine.canvas.ground import laid
 from engine.canvas.layers import Layer
+from engine.canvas.tile_cache import TileCache
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
 from engine.files.strict_json import Fields

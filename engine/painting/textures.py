@@ -10,7 +10,7 @@ from typing import Any
 
 from immutables import Map
 
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.arithmetic import LIBRARY
 from engine.painting.commands import DefineTexture
 from engine.texture.image import ImageSource

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import layer_planes
+from engine.canvas.tile_cache import TileCache
 from engine.makers.definitions import kind_of
 from engine.numeric.address import Rect
 from engine.painting import commands as c

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from immutables import Map
 
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import FileError
 from engine.keeping import memory
 from engine.painting import commands as c

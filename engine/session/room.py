@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 
 from engine.archive.shelf import DECODED
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
+from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import large_pages, memory
 from engine.session.history import History

@@ -15,7 +15,7 @@ from immutables import Map
 
 from engine.brush.settings import Brush
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.painting import commands as c

@@ -15,9 +15,9 @@ from engine.brush.checks import BrushError
 from engine.brush.footprint import Footprint
 from engine.canvas import growth as growths
 from engine.canvas import layers
+from engine.canvas.grown.shown import keys_within
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
-from engine.canvas.shown import keys_within
 from engine.numeric.address import Rect
 from engine.numeric.elementary import log2
 from engine.texture.example import tiles

@@ -10,8 +10,8 @@ from immutables import Map
 
 from engine.brush import edits
 from engine.brush.settings import Brush
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.prediction import Predictor
 from engine.painting.commands import Stroke

@@ -14,10 +14,10 @@ from engine.brush.foretell import AREA_CAP
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
 from engine.canvas.growth import is_settled, settled
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import layer_ink
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.prediction import Predictor
 from engine.texture.planes import Planes

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from immutables import Map
 
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Group
+from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.makers import spectrum
 from engine.makers.spectrum import Design, Sheets

@@ -18,8 +18,8 @@ from bench.display import children, python
 from engine.brush.dabs import Stroker
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import layers
+from engine.canvas.tile_cache import TileCache
 from engine.keeping.memory import resident
 from engine.painting.commands import Stroke
 from engine.session.history import History

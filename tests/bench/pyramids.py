@@ -14,7 +14,7 @@ from bench.clock import seconds
 from engine.archive.export import Picture
 from engine.archive.ladder.ladder_files import FOLDERS, ladder_of, write_folder
 from engine.archive.saving import Snapshot, save
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import parse
 from engine.session.apply import Painting

@@ -11,7 +11,7 @@ from typing import Protocol
 
 from engine.archive import export, saving
 from engine.archive.imports import open_image
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import FileError
 from engine.journal.heads import FileStamp
 from engine.keeping import memory

@@ -9,7 +9,7 @@ import time
 from collections.abc import Sequence
 from itertools import pairwise
 
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import undo_reach

@@ -8,10 +8,10 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import Layer
 from engine.canvas.reading import layer_planes
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c

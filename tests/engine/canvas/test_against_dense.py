@@ -7,8 +7,9 @@ from strokes import ArrayEdit, Grain, as_raster_op, random_stroke, spread_planes
 
 from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit, preview
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.texture.planes import merged
 from engine.texture.table import instance

@@ -8,8 +8,9 @@ from strokes import ArrayEdit, Grain, fill, random_stroke, spread_planes
 from engine.canvas import evaluate as evaluating
 from engine.canvas.attenuate import attenuation
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache, evaluate, shown, step
+from engine.canvas.evaluate import evaluate, shown, step
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.column import Column
 from engine.numeric.pyramid import expand

@@ -7,11 +7,12 @@ from hypothesis import strategies as st
 from strokes import ArrayEdit, Grain, fill, random_stroke
 
 from engine.canvas import attenuate as folding
-from engine.canvas import evaluate as evaluating
+from engine.canvas import tile_cache as caching
 from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
 from engine.canvas.store import Pyramid, changed_rects
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
 
 INKS = (Grain(0, 1),)
@@ -49,9 +50,9 @@ def test_a_tile_far_above_stays_in_the_cache_while_small_strokes_follow_below():
 
 def test_a_cached_tile_is_made_again_sooner_than_compared_with_thousands_of_commits(monkeypatch):
     asked = []
-    plain = evaluating.changes_between
-    monkeypatch.setattr(evaluating, "_MOST_SINCE", 8)
-    monkeypatch.setattr(evaluating, "changes_between", lambda a, b: (asked.append(c) or c for c in plain(a, b)))
+    plain = caching.changes_between
+    monkeypatch.setattr(caching, "_MOST_SINCE", 8)
+    monkeypatch.setattr(caching, "changes_between", lambda a, b: (asked.append(c) or c for c in plain(a, b)))
     cache, key = TileCache(1 << 24), TileKey(0, 0, 0)
     pyramid = commit(Pyramid(), fill(0, 10, 10, 90, 90), cache)
     evaluate(pyramid, 0, key.rect, cache)

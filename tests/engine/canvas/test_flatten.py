@@ -7,11 +7,12 @@ from strokes import ArrayEdit, Grain, fill, random_stroke
 
 from engine.canvas import growth as growths
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Layer
 from engine.canvas.reading import layer_ink, layer_planes
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 
 WHOLE = Rect.at(-96, -96, 192, 192)

@@ -6,9 +6,10 @@ from strokes import ArrayEdit, fill
 
 from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache, evaluate, shown
+from engine.canvas.evaluate import evaluate, shown
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.colour import from_rgba8
 

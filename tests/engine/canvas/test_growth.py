@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from planted import around, bitten, blob, dense, disc, example, masked, means, planted, same, stacked
 
 from engine.canvas import growth as growths
-from engine.canvas import shown
-from engine.canvas.carry import carried
+from engine.canvas.grown import shown
+from engine.canvas.grown.carry import carried
 from engine.numeric.address import Rect
 from engine.numeric.grid import Q, snapped
 from engine.texture.example import region as regions

@@ -12,9 +12,10 @@ from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
 from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
-from engine.canvas.evaluate import TileCache, evaluate, shown
+from engine.canvas.evaluate import evaluate, shown
 from engine.canvas.kernels import attenuate
 from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.pyramid import reduce
 from engine.texture.sparse_planes import SparsePlanes

@@ -4,7 +4,8 @@ import numpy as np
 from PIL import Image
 
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.session.apply import Painting

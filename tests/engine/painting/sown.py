@@ -13,8 +13,8 @@ from PIL import Image
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
 from engine.canvas.reading import layer_planes
+from engine.canvas.tile_cache import TileCache
 from engine.files.limits import LIMITS
 from engine.numeric.address import Rect
 from engine.painting import commands as c

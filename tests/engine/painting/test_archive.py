@@ -19,7 +19,8 @@ from engine.archive.saving import Snapshot, save, shown_level
 from engine.canvas import layers
 from engine.canvas.attenuate import fold
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
+from engine.canvas.tile_cache import TileCache
 from engine.files.stack_xml import parse_stack
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8

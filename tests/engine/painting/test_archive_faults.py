@@ -13,7 +13,7 @@ from sown import opened, rewritten
 from engine.archive import jobs
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, FileError, WriteError
 from engine.files.zip_writer import MemberSink
 from engine.painting import commands as c

@@ -13,7 +13,7 @@ from engine.archive.ladder.ladder_files import write_folder
 from engine.archive.ladder.on_workers import Order, version, write_block
 from engine.archive.ladder.rungs import Ladder
 from engine.archive.saving import Snapshot, save
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, WriteError
 from engine.numeric.address import Rect
 from engine.painting import commands as c

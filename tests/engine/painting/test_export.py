@@ -10,8 +10,9 @@ from PIL import Image
 from engine.archive.export import Picture, export
 from engine.canvas import layers
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import TileCache, evaluate_sparse
+from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.layers import LayerError
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, WriteError
 from engine.files.images import read_image
 from engine.numeric.address import Rect

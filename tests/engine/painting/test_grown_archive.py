@@ -40,8 +40,8 @@ from engine.archive.export import Picture, export
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
 from engine.canvas.reading import layer_planes
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c

@@ -17,8 +17,8 @@ from engine.archive.ladder import deepzoom, ladder_files
 from engine.archive.ladder.ladder_files import write_folder, write_tiff_ladder
 from engine.archive.ladder.rungs import Ladder
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import TileCache
 from engine.canvas.layers import LayerError
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, WriteError
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16

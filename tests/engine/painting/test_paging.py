@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.keeping.spill import Spill
 from engine.numeric.address import Rect

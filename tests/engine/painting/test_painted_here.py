@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import TileCache
 from engine.canvas.reading import layer_planes
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r

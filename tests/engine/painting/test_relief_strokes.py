@@ -9,7 +9,8 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.settings import from_json
 from engine.canvas import layers
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import parse, to_json
 from engine.session.apply import Around, Painting, apply

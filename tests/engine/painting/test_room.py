@@ -2,7 +2,7 @@
 
 import pytest
 
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.painting.value import Painting
 from engine.session import room as rooms

@@ -28,8 +28,9 @@ from engine.archive.salvage.ways import IN_PART
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.attenuate import fold
-from engine.canvas.evaluate import TileCache, evaluate
+from engine.canvas.evaluate import evaluate
 from engine.canvas.reading import layer_planes
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, FileError, TooMuch
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8

@@ -11,7 +11,8 @@ from engine.brush.checks import BrushError
 from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.composite import composite
-from engine.canvas.evaluate import TileCache, evaluate, evaluate_sparse
+from engine.canvas.evaluate import evaluate, evaluate_sparse
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import FileError
 from engine.numeric.address import Rect
 from engine.painting import commands as c

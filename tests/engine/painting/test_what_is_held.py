@@ -8,7 +8,7 @@ import numpy as np
 from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.commit import _MOST_WAITING
-from engine.canvas.evaluate import TileCache
+from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting

@@ -13,7 +13,7 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 
-from engine.canvas import closer
+from engine.canvas.grown import closer
 from engine.numeric.address import Rect
 from engine.numeric.grid import snap
 from engine.numeric.kernel import kernel

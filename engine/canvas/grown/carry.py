@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from engine.canvas.shown import keys_within
+from engine.canvas.grown.shown import keys_within
 from engine.numeric.address import Rect
 from engine.texture.example import tiles
 from engine.texture.example.tiles import TILE_SIDE, Tiles

@@ -1,0 +1,1 @@
+"""What was painted with examples, as other levels than its own show it."""

@@ -1,0 +1,86 @@
+"""Evaluated tiles that are kept: the same values as without them, whoever asked before, and only what they hold."""
+
+import numpy as np
+import pytest
+from strokes import ArrayEdit, random_stroke
+
+from engine.canvas.commit import commit
+from engine.canvas.evaluate import evaluate, evaluate_sparse
+from engine.canvas.store import Pyramid
+from engine.canvas.tile_cache import Square, TileCache, occupied, parted, without_empty_inks
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.texture.planes import Planes, merged
+from engine.texture.table import instance
+
+INKS = merged(
+    (instance("rock", {"period": 8}, 0, 3), instance("squares", {"period": 3}, 1, 3)),
+)
+
+
+def edit(rng):
+    level, x, y, keep, add = random_stroke(rng, 0, 100, INKS)
+    return ArrayEdit(level, x, y, keep, add, INKS)
+
+
+def painted(count):
+    """A pyramid of some strokes of two inks near the place (0, 0)."""
+    rng, pyramid = np.random.default_rng(5), Pyramid()
+    for _ in range(count):
+        pyramid = commit(pyramid, edit(rng))
+    return pyramid
+
+
+def test_what_is_lent_is_what_is_evaluated_also_after_more_was_painted():
+    cache, rng, pyramid = TileCache(64 << 20), np.random.default_rng(6), painted(8)
+    whole = Rect(-256, 0, 0, 256)
+    for level in (3, 0, 2, 1):
+        seen = evaluate_sparse(pyramid, level, whole, cache, lent=True)
+        again = evaluate_sparse(pyramid, level, whole, cache, lent=True)
+        plain = evaluate(pyramid, level, whole)
+        for found in (seen, again):
+            assert found is not None
+            assert np.array_equal(found.rgba, plain.rgba)
+    before = evaluate(pyramid, 0, whole, cache).rgba.copy()
+    after = commit(pyramid, edit(rng), cache)
+    assert np.array_equal(evaluate(pyramid, 0, whole, cache).rgba, before)
+    for level in (-4, 0, 3):
+        assert np.array_equal(evaluate(after, level, whole, cache).rgba, evaluate(after, level, whole).rgba)
+
+
+def test_tiles_are_contiguous_wherever_they_come_from():
+    cache, pyramid = TileCache(64 << 20), painted(8)
+    evaluate_sparse(pyramid, 1, Rect(-256, 0, 0, 256), cache, lent=True)
+    known, value = cache.get(pyramid, TileKey(1, -1, 0))
+    assert known
+    assert value is not None
+    assert value.data.flags.c_contiguous
+    assert np.array_equal(value.rgba, evaluate(pyramid, 1, Rect.at(-TILE, 0, TILE, TILE)).rgba)
+
+
+@pytest.mark.parametrize("corner", [(0, 0), (-3, 40), (1 << 40, -5)])
+def test_a_square_around_holds_what_lies_above_any_tile_of_the_screen(corner):
+    for n in range(8):
+        rect = Rect.at((corner[0] + n) * 256, corner[1] * 256, 256, 256)
+        for _ in range(3):
+            rect = rect.parents().evened()
+        around = Square.of(-3, rect)
+        assert around is not None
+        assert around.rect.union(rect) == around.rect
+    assert Square.of(0, Rect.at(0, 0, 100, 10)) is None
+
+
+def test_planes_that_hold_nothing_are_found_and_left_out():
+    data = np.zeros((10, 8, 8), np.float32)
+    assert without_empty_inks(Planes(data, INKS)) is None
+    data[9, 6, 7] = 1
+    assert occupied(data, 0, 0, 8, 8) == occupied.plain(data, 0, 0, 8, 8) == 4
+    assert occupied(data, 0, 0, 8, 7) == occupied.plain(data, 0, 0, 8, 7) == 0
+    left, right = parted(Planes(data, INKS), [(slice(0, 8), slice(0, 4)), (slice(0, 8), slice(4, 8))])
+    assert left is None
+    assert right is not None
+    assert right.inks == INKS[1:]
+    assert np.array_equal(right.data[4:], data[7:, :, 4:])
+    data[0], data[5] = 1, 2
+    both = parted(Planes(data, INKS), [(slice(0, 8), slice(4, 8))])
+    assert both[0] is not None
+    assert both[0].data.base is data
