@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -72,9 +71,9 @@ def _drawn(painting: Painting, brush: Brush, origin: tuple[int, int]) -> Paintin
     for row in points:
         live.add(row[None])
         live.bed.follow()
-    with ThreadPoolExecutor(1) as pool:
-        for growth in settling(live.bed.growth, (0, Rect.at(0, 0, 64, 64)), pool):
-            live.bed.follow(growth)
+    # On this thread alone: one more could not be begun any longer while the program ends.
+    for growth in settling(live.bed.growth, (0, Rect.at(0, 0, 64, 64))):
+        live.bed.follow(growth)
     done = live.commit()
     for level in (-1, 0, 1, 2):
         composite(done.root, level, Rect.at(-32, -32, 64, 64), layer_planes)

@@ -6,12 +6,20 @@ import subprocess
 import sys
 from pathlib import Path
 
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.warming import Warming
+
 ROOT = Path(__file__).parents[3]
 # Of files: they are not read or written while the pen waits.
 ELSEWHERE = ("engine.files.png_reader", "engine.archive.tilecode_kernels", "engine.numeric.colour")
 PROGRAM = """
 import json, sys, time
 from pathlib import Path
+
+from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.warming import Warming
 sys.path.insert(0, sys.argv[1])
 import numpy as np
 import platformdirs
@@ -88,3 +96,12 @@ def test_nothing_is_compiled_by_the_first_stroke(tmp_path):
     assert not [kernel for kernel in missing if kernel[0] not in ELSEWHERE]
     assert not told
     assert count == 1
+
+
+def test_a_program_that_ends_meanwhile_tells_no_fault(monkeypatch):
+    sent = []
+    monkeypatch.setattr("concurrent.futures.thread._shutdown", True)  # as when the interpreter ends
+    warming = Warming(sent.append)
+    warming.handlers[q.GetReady](q.GetReady())
+    warming._thread.join(60.0)
+    assert sent == [results.GotReady()]
