@@ -16,10 +16,6 @@ ELSEWHERE = ("engine.files.png_reader", "engine.archive.tilecode_kernels", "engi
 PROGRAM = """
 import json, sys, time
 from pathlib import Path
-
-from engine.studio import requests as q
-from engine.studio import results
-from engine.studio.warming import Warming
 sys.path.insert(0, sys.argv[1])
 import numpy as np
 import platformdirs
