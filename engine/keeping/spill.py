@@ -12,6 +12,7 @@ from collections import deque
 from functools import cache
 from pathlib import Path
 from typing import IO
+from weakref import ReferenceType
 
 from engine.keeping.state_folder import state_folder
 
@@ -22,7 +23,7 @@ _LEAST = 512  # bytes that a piece takes of the file
 class Spilled:
     """A piece that was put away; its place is free for others when nobody holds it any more."""
 
-    __slots__ = ("_at", "_crc", "_spill", "size")
+    __slots__ = ("__weakref__", "_at", "_crc", "_spill", "size")
 
     def __init__(self, spill: Spill, at: int, piece: bytes) -> None:
         self._spill, self._at = spill, at
@@ -35,8 +36,14 @@ class Spilled:
             raise OSError(f"what was put away on disk: found other bytes than the {self.size} that were written")
         return piece
 
-    def __del__(self) -> None:
-        self._spill.free(self._at, self.size)
+
+class _Place(ReferenceType[Spilled]):
+    """Where a piece lies, and whether anybody holds it: what is told when nobody does is a function of the
+    interpreter's own, in which no interrupt of the program can get lost."""
+
+    __slots__ = ("at", "size")
+    at: int
+    size: int
 
 
 class Spill:
@@ -50,7 +57,8 @@ class Spill:
         self._file: IO[bytes] | None = None
         self._lock = threading.Lock()
         self._room: dict[int, list[int]] = {}  # by size: places that are free
-        self._freed: deque[tuple[int, int]] = deque()  # places and sizes that are to be added to them
+        self._places: dict[int, _Place] = {}  # of the pieces
+        self._freed: deque[ReferenceType[Spilled]] = deque()  # places that are to be added to those that are free
         self.held = self.length = 0
 
     def put(self, piece: bytes) -> Spilled | None:
@@ -72,7 +80,10 @@ class Spill:
             else:
                 self.length += size
             self.held += len(piece)
-        return Spilled(self, at, piece)
+            spilled = Spilled(self, at, piece)
+            place = self._places[at] = _Place(spilled, self._freed.append)
+            place.at, place.size = at, len(piece)
+        return spilled
 
     def piece(self, at: int, size: int) -> bytes:
         """Returns what lies at a place.  OSError if it cannot be read."""
@@ -80,10 +91,6 @@ class Spill:
             file = self._opened()
             file.seek(at)
             return file.read(size)
-
-    def free(self, at: int, size: int) -> None:
-        """Frees a place.  It may be told at any moment, on any thread: nothing is waited for."""
-        self._freed.append((at, size))
 
     def close(self) -> None:
         """Deletes the file."""
@@ -93,9 +100,11 @@ class Spill:
 
     def _collect(self) -> None:
         while self._freed:
-            at, size = self._freed.popleft()
-            self._room.setdefault(_rounded(size), []).append(at)
-            self.held -= size
+            place = self._freed.popleft()
+            assert isinstance(place, _Place)
+            del self._places[place.at]
+            self._room.setdefault(_rounded(place.size), []).append(place.at)
+            self.held -= place.size
 
     def _opened(self) -> IO[bytes]:
         if self._file is None:
