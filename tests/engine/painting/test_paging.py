@@ -69,6 +69,8 @@ def test_whatever_is_paged_meanwhile_the_painting_is_the_same(acts):
     plain, paged, paging = begun(), begun(), Paging()
     for act in (stroke(0), stroke(1, ink=ROCK), *acts, 1 << 20):
         if isinstance(act, int):
+            if act == 1 << 20:
+                paging = Paging()  # goes through all anew, also what was read since another painting came and went
             paging.want(paged.painting.root, 0, act)
             while paging.wanted > 0:
                 paging.step(1 << 16)
