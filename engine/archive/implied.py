@@ -228,8 +228,8 @@ def _stacked(found: Sequence[np.ndarray], at: Rect) -> np.ndarray:
 def restored(pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[Any]] = map) -> int:
     """Puts the colour back into those of `tiles` from which it was taken, all of them in their places in `pyramid`.
 
-    `run` maps a function over a list,
-    maybe on several threads.  Returns how many tiles have another colour than they had: their texture changed.
+    `run` maps a function over a list, maybe on several threads.  Returns how many tiles have another colour than they
+    had: their texture changed.
     """
     lacking = sorted((tile for tile in tiles if tile[2] is not None), key=lambda tile: square_of(tile[0]))
     values, changed = Cascade(pyramid, needed(lacking)), 0

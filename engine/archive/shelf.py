@@ -7,11 +7,8 @@ of its file and of what is looked at.  What ink implies of colour (engine/archiv
 
 from __future__ import annotations
 
-import threading
-from collections import OrderedDict
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -19,56 +16,12 @@ from engine.archive.implied import Coded, Implied, square_of, square_restored
 from engine.canvas.store import Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
+from engine.keeping.recent import Recent
 from engine.numeric.address import TileKey
 
 _PART = 8  # of the budget of memory: tiles that are kept as they were decoded
 CACHE = 16 << 20  # bytes of a layer's values that are kept while colour is put back
 _TILE_OVERHEAD = 200  # bytes of a tile's own objects, roughly
-Made = TypeVar("Made")
-
-
-class Recent(Generic[Made]):
-    """What was made of late, bounded by bytes: the oldest is forgotten first.  Safe for several threads."""
-
-    def __init__(self, most: Callable[[], int]) -> None:
-        self._most, self._held = most, 0
-        self._made: OrderedDict[Hashable, tuple[Made, int]] = OrderedDict()
-        self._lock = threading.Lock()
-
-    def get(self, key: Hashable) -> Made | None:
-        """Returns what was made for a key, None if it is not known any more."""
-        with self._lock:
-            found = self._made.get(key)
-            if found is None:
-                return None
-            self._made.move_to_end(key)
-            return found[0]
-
-    def keep(self, key: Hashable, made: Made, nbytes: int) -> None:
-        """Keeps what was made for a key."""
-        with self._lock:
-            self._drop(key)
-            self._made[key] = made, nbytes
-            self._held += nbytes
-            self._evict(self._most())
-
-    def shrink(self, by: int) -> None:
-        """Forgets so many bytes, as far as there are any."""
-        with self._lock:
-            self._evict(self._held - by)
-
-    def _evict(self, most: int) -> None:
-        while self._held > most and len(self._made) > 1:
-            self._drop(next(iter(self._made)))
-
-    def forget(self, key: Hashable) -> None:
-        """Forgets what nobody asks for any more."""
-        with self._lock:
-            self._drop(key)
-
-    def _drop(self, key: Hashable) -> None:
-        found = self._made.pop(key, None)
-        self._held -= found[1] if found is not None else 0
 
 
 DECODED: Recent[np.ndarray] = Recent(lambda: memory.budget() // _PART)

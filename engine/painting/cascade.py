@@ -70,7 +70,7 @@ class Cascade:
                 self._held[level] = rect, self.at(level, rect)
 
     def _planes(self, level: int) -> int:
-        """Tells how many planes lie on a pixel of a level, at most: never less than may be held without thinking."""
+        """Returns the planes that a pixel of a level is counted for: of all inks down to it, at least `_PLANES`."""
         inks = max((count for k, count in self._inks.items() if k <= level), default=0)
         return max(_PLANES, COLOURS + 3 * inks)
 

@@ -5,8 +5,6 @@ A record keeps its value and its identity; the data of a coded one are made when
 
 from __future__ import annotations
 
-import threading
-from collections import OrderedDict
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -14,6 +12,7 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.canvas.store import Record
+from engine.keeping.recent import Recent
 from engine.keeping.spill import Spilled, spill
 from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS, plane_map
@@ -66,7 +65,7 @@ class CodedData:
             alike = coded.rect == before.rect and coded.inks == before.inks and coded.dtype == before.dtype
             data = coded._added(data if alike else coded._predicted(data))
         data.flags.writeable = False
-        _KEPT.keep(self, data)
+        _KEPT.keep(self, data, data.nbytes)
         return data
 
     def _predicted(self, data: np.ndarray | None) -> np.ndarray:
@@ -82,35 +81,7 @@ class CodedData:
         return out
 
 
-class _Made:
-    """Data that were made of late.  Safe for several threads."""
-
-    def __init__(self) -> None:
-        self._made: OrderedDict[CodedData, np.ndarray] = OrderedDict()
-        self._held = 0
-        self._lock = threading.Lock()
-
-    def get(self, coded: CodedData) -> np.ndarray | None:
-        """Returns the data of a coded record, if they are there."""
-        with self._lock:
-            return self._made.get(coded)
-
-    def keep(self, coded: CodedData, data: np.ndarray) -> None:
-        """Keeps data, and forgets the oldest."""
-        with self._lock:
-            self._held += data.nbytes if coded not in self._made else 0
-            self._made[coded] = data
-            while self._held > _MADE and len(self._made) > 1:
-                self._held -= self._made.popitem(last=False)[1].nbytes
-
-    def forget(self, coded: CodedData) -> None:
-        """Forgets what nobody asks for any more."""
-        with self._lock:
-            data = self._made.pop(coded, None)
-            self._held -= data.nbytes if data is not None else 0
-
-
-_KEPT = _Made()
+_KEPT: Recent[np.ndarray] = Recent(lambda: _MADE)
 
 
 class Ways:

@@ -9,29 +9,10 @@ import ctypes as ct
 import select
 import time
 
+from app.input.drops import CLIENT_MESSAGE, Event
+
 _Handler = ct.CFUNCTYPE(ct.c_int, ct.c_void_p, ct.c_void_p)
-CLIENT_MESSAGE, SUBSTRUCTURE_NOTIFY, LATEST = 33, 1 << 19, 10.0  # seconds after which a window is taken to hang
-
-
-class _Message(ct.Structure):
-    """XClientMessageEvent."""
-
-    _fields_ = (
-        ("type", ct.c_int),
-        ("serial", ct.c_ulong),
-        ("send_event", ct.c_int),
-        ("display", ct.c_void_p),
-        ("window", ct.c_ulong),
-        ("message_type", ct.c_ulong),
-        ("format", ct.c_int),
-        ("data", ct.c_long * 5),
-    )
-
-
-class _Event(ct.Union):
-    """XEvent."""
-
-    _fields_ = (("type", ct.c_int), ("message", _Message), ("pad", ct.c_long * 24))
+SUBSTRUCTURE_NOTIFY, LATEST = 1 << 19, 10.0  # seconds after which a window is taken to hang
 
 
 class Pinger:
@@ -53,7 +34,7 @@ class Pinger:
     def ping(self) -> float:
         """Seconds until the window has answered; LATEST if it has not by then."""
         self._serial += 1
-        event = _Event()
+        event = Event()
         told = event.message
         told.type, told.window, told.message_type, told.format = CLIENT_MESSAGE, self._window, self._protocols, 32
         told.data[:3] = self._ping, self._serial, self._window
@@ -65,7 +46,7 @@ class Pinger:
                 select.select([self._x.XConnectionNumber(self._display)], [], [], LATEST - taken)
             while self._x.XPending(self._display):
                 self._x.XNextEvent(self._display, ct.byref(event))
-                if event.type == CLIENT_MESSAGE and event.message.data[:2] == [self._ping, self._serial]:
+                if event.message.type == CLIENT_MESSAGE and event.message.data[:2] == [self._ping, self._serial]:
                     return time.perf_counter() - began
         return LATEST
 

@@ -8,6 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from engine.canvas import layers
+from engine.keeping.recent import Recent
 from engine.keeping.spill import Spill, Spilled
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -133,7 +134,7 @@ def test_what_steps_had_on_disk_is_free_when_they_are_gone(disk, monkeypatch):
     studio.close()
     del studio
     gc.collect()
-    monkeypatch.setattr(coded_records, "_KEPT", coded_records._Made())  # of what was asked for of late, nothing
+    monkeypatch.setattr(coded_records, "_KEPT", Recent(lambda: 0))  # of what was asked for of late, nothing
     disk.put(b"")
     assert disk.held == 0
 

@@ -1,0 +1,59 @@
+"""What was made of something smaller, and is kept for a while in case that it is asked for again."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from typing import Generic, TypeVar
+
+Made = TypeVar("Made")
+
+
+class Recent(Generic[Made]):
+    """What was made of late, bounded by bytes: the oldest is forgotten first.  Safe for several threads."""
+
+    def __init__(self, most: Callable[[], int]) -> None:
+        self._most, self._held = most, 0
+        self._made: OrderedDict[Hashable, tuple[Made, int]] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, key: Hashable) -> Made | None:
+        """Returns what was made for a key, None if it is not known any more."""
+        with self._lock:
+            found = self._made.get(key)
+            if found is None:
+                return None
+            self._made.move_to_end(key)
+            return found[0]
+
+    def keep(self, key: Hashable, made: Made, nbytes: int) -> None:
+        """Keeps what was made for a key."""
+        with self._lock:
+            self._drop(key)
+            self._made[key] = made, nbytes
+            self._held += nbytes
+            self._evict(self._most())
+
+    def shrink(self, by: int) -> None:
+        """Forgets so many bytes, as far as there are any."""
+        with self._lock:
+            self._evict(self._held - by)
+
+    @property
+    def held(self) -> int:
+        """Returns the bytes that are held now."""
+        return self._held
+
+    def _evict(self, most: int) -> None:
+        while self._held > most and len(self._made) > 1:
+            self._drop(next(iter(self._made)))
+
+    def forget(self, key: Hashable) -> None:
+        """Forgets what nobody asks for any more."""
+        with self._lock:
+            self._drop(key)
+
+    def _drop(self, key: Hashable) -> None:
+        found = self._made.pop(key, None)
+        self._held -= found[1] if found is not None else 0
