@@ -170,10 +170,10 @@ class _Line:
 class History(Owned):
     """The steps done and the steps undone.  It belongs to the thread that made it.
 
-    `bytes_cap`: None for no limit; `keep`: steps never forgotten; `steps`: those that are there already.  Steps beyond
-    the newest are coded while nothing else is to be done (`pending`, `step`), and at once where they take a quarter of
-    the limit; beyond it they go to disk, and are forgotten only where that has no room.  `forgotten`: steps that were
-    done and are not there any more.
+    `bytes_cap`: None for no limit, 0 for no step beside those of `keep`, which are never forgotten; `steps`: those that
+    are there already.  Steps beyond the newest are coded while nothing else is to be done (`pending`, `step`), and at
+    once where they take a quarter of the limit; beyond it they go to disk, and are forgotten only where that has no
+    room.  `forgotten`: steps that were done and are not there any more.
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
@@ -274,11 +274,14 @@ class History(Owned):
     def _forget(self) -> None:
         """Puts the oldest steps beyond the limit away on disk, or drops them; never for the sake of the newest alone,
         which is not coded yet."""
-        self._make_room()
         done, cap = self._done, self._bytes_cap
-        while cap is not None and done.in_memory and done.beyond > cap:
+        while cap == 0 and len(done) > self._keep:  # a replay's: nobody goes back to them, so nobody codes them
+            done.forget()
+            self.forgotten += 1
+        self._make_room()
+        while cap and done.in_memory and done.beyond > cap:
             done.put_away()
-        while cap is not None and len(done) > self._keep and done.beyond > cap:
+        while cap and len(done) > self._keep and done.beyond > cap:
             done.forget()
             self.forgotten += 1
 
