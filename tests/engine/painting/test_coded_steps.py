@@ -13,8 +13,10 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import coded_records
-from engine.session.coded_records import WAY, CodedData, decode, encode
+from engine.session import history as histories
+from engine.session.coded_records import WAY, CodedData, Ways, decode, encode
 from engine.session.history import History, difference
+from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.studio import Studio
@@ -55,6 +57,16 @@ def code_all(history):
             line.code()
 
 
+def pieces(history, count):
+    """Some of it, a record at a time."""
+    while history._mixed is not None:
+        history.step()
+    for _ in range(count):
+        line = max(history._done, history._undone, key=lambda line: line.plain)
+        if line.plain:
+            line.code(1)
+
+
 def way(record):
     """The records from whose data those of one are made."""
     out = []
@@ -84,6 +96,7 @@ ACTS = st.one_of(
     st.integers(1, 6).map(c.Redo),
     st.sampled_from([c.AddLayer("Above"), c.DuplicateLayer("Layer 1", "Copy"), c.RemoveLayer("Layer 1")]),
     st.just(None),
+    st.integers(1, 12),  # pieces of what is done while nothing else is to be done
 )
 
 
@@ -95,6 +108,9 @@ def test_whatever_is_done_coded_states_are_what_they_were(acts):
     for act in (stroke(0), stroke(1, ink=ROCK), *acts):
         if act is None:
             code_all(session.history)
+            continue
+        if isinstance(act, int):
+            pieces(session.history, act)
             continue
         try:
             session.do(act)
@@ -166,15 +182,50 @@ def test_a_long_way_makes_no_data_but_those_that_are_looked_at(monkeypatch):
     assert len(made) >= len(wayside) > 0
 
 
+def test_a_step_codes_some_of_the_others_only_where_they_take_much_and_nobody_rests(monkeypatch):
+    coded, plain = [], Ways.encode
+    monkeypatch.setattr(Ways, "encode", lambda w, one, other: (coded.append(one.held.nbytes), plain(w, one, other))[1])
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History(8 << 20))
+    some = 0
+    for n in range(70):
+        before = session.history.held
+        coded.clear()
+        session.do(stroke(n, radius=60.0 if n % 9 == 0 else 5.0))
+        brought = session.history.steps.done[-1].lost
+        assert sum(coded) <= 2 * brought + max(coded, default=0) + 4000
+        assert not coded or before + brought > 4 << 20
+        some += len(coded)
+    assert some
+    assert session.history.undo_count == 70
+    coded.clear()
+    replayed = replay(session.recording())
+    assert not coded
+    assert contents(replayed.painting) == contents(session.painting)
+
+
+def test_what_is_coded_at_a_time_is_little(monkeypatch):
+    monkeypatch.setattr(histories, "_AT_ONCE", 1)
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History(256 << 20))
+    for n in range(30):
+        session.do(stroke(n))
+    coded, plain = [], Ways.encode
+    monkeypatch.setattr(Ways, "encode", lambda *given: (coded.append(given), plain(*given))[1])
+    while session.history.pending:
+        before = len(coded)
+        session.history.step()
+        assert len(coded) <= before + 1
+    assert len(coded) > 30
+
+
 def test_steps_are_coded_at_once_where_they_take_too_much():
     plain = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History())
-    tight = Session(plain.painting, TileCache(16 << 20), history=History(4 << 20))
+    tight = Session(plain.painting, TileCache(16 << 20), history=History(2 << 20))
     for n in range(60):
         plain.do(stroke(n))
         tight.do(stroke(n))
     assert plain.history.held > 2 * tight.history.held
     assert tight.history.undo_count == 60
-    assert tight.history.held < 4 << 20
+    assert tight.history.held < 2 << 20
 
 
 def test_no_record_is_made_of_itself():

@@ -1,0 +1,176 @@
+"""The steps on one side of the present, of which those far from it are made smaller, piece by piece."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from engine.canvas import layers
+from engine.canvas.layers import Group
+from engine.canvas.store import Pyramid, Record
+from engine.numeric.address import TileKey
+from engine.painting.value import Painting
+from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
+from engine.session.differing import changed, difference
+
+STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Undoable:
+    """`lost`, `gained`: bytes held only by the painting before, and only by the one after."""
+
+    before: Painting
+    after: Painting
+    lost: int
+    gained: int
+
+
+@dataclass(eq=False, slots=True)
+class Entry:
+    """A step in a line; `held`: bytes that its far end alone takes now; `coded`: whether these are coded."""
+
+    step: Undoable
+    held: int
+    coded: bool = False
+
+
+class Line:
+    """The steps on one side of the present, the farthest first.  Of each, the far end is the painting that it leads to
+    from the present; what that alone holds is coded, and put away on disk, from the farthest step on.
+
+    `undone`: they are those undone.
+    """
+
+    def __init__(self, undone: bool, steps: Iterable[Undoable]) -> None:
+        self._undone, self._ways = undone, Ways()
+        self.entries = deque(Entry(step, self._alone(step)) for step in steps)
+        self.held = sum(entry.held for entry in self.entries)
+        self._coded = self._away = 0  # of them
+        self._begun: Iterator[int] | None = None  # what is still to be coded of the next one
+
+    def __len__(self) -> int:
+        return len(self.entries)
+
+    @property
+    def steps(self) -> tuple[Undoable, ...]:
+        """Gives the steps, as values."""
+        return tuple(entry.step for entry in self.entries)
+
+    @property
+    def plain(self) -> int:
+        """Counts the steps that could still be coded: never the nearest to the present, beside which it is made."""
+        return max(0, len(self.entries) - 1 - self._coded)
+
+    @property
+    def in_memory(self) -> int:
+        """Counts the coded steps that could still be put away on disk."""
+        return self._coded - self._away
+
+    @property
+    def beyond(self) -> int:
+        """Returns the bytes that the steps beyond the nearest hold."""
+        return self.held - self.entries[-1].held if self.entries else 0
+
+    def push(self, step: Undoable, part: float = 1.0) -> None:
+        """Adds the nearest step; `part`: of its bytes, that it takes, as far as that is known before it is coded."""
+        self.entries.append(Entry(step, STEP_OVERHEAD + int(part * (self._alone(step) - STEP_OVERHEAD))))
+        self.held += self.entries[-1].held
+
+    def pop(self) -> tuple[Undoable, float]:
+        """Takes away the nearest step, as it is, and tells which part of its bytes it takes; IndexError if there is
+        none."""
+        entry = self.entries.pop()
+        self.held -= entry.held
+        begun = self._begun is not None and len(self.entries) == self._coded
+        if not (entry.coded or begun):
+            return entry.step, 1.0
+        self._coded -= entry.coded
+        self._away = min(self._away, self._coded)
+        self._begin_anew()
+        held = self._held_now(entry.step) if begun else entry.held
+        return entry.step, (held - STEP_OVERHEAD) / max(self._alone(entry.step) - STEP_OVERHEAD, 1)
+
+    def forget(self) -> None:
+        """Forgets the farthest step."""
+        entry = self.entries.popleft()
+        self.held -= entry.held
+        if not entry.coded:
+            self._begun = None
+        self._coded -= entry.coded
+        self._away -= min(self._away, 1)
+
+    def clear(self) -> None:
+        """Forgets all steps."""
+        self.entries.clear()
+        self._begin_anew()
+        self.held = self._coded = self._away = 0
+
+    def code(self, size: float = math.inf) -> None:
+        """Codes the farthest step that is not coded yet: so many bytes of its data, or all that is left of them."""
+        entry = self.entries[self._coded]
+        if self._begun is None:
+            self._begun = self._pieces(entry.step)
+        for done in self._begun:
+            size -= done
+            if size <= 0.0:
+                return
+        self._begun = None
+        held = self._held_now(entry.step)
+        self.held += held - entry.held
+        entry.held, entry.coded = held, True
+        self._coded += 1
+
+    def put_away(self) -> None:
+        """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
+        entry = self.entries[self._away]
+        coded = (record.held for _, record, _ in changed(*self._ends(entry.step)))
+        saved = sum(put_away(held) for held in coded if isinstance(held, CodedData))
+        entry.held -= saved
+        self.held -= saved
+        self._away += 1
+
+    def _pieces(self, step: Undoable) -> Iterator[int]:
+        """Codes one record of a step's far end after the other; yields the bytes of data that were looked at."""
+        far, near = self._ends(step)
+        elsewhere = [layer.pyramid for layer in layers.layers(near)]
+        for key, record, other in changed(far, near):
+            if not any(_holds(pyramid, key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
+                size = record.held.nbytes
+                self._code(record, other)
+                yield size
+
+    def _begin_anew(self) -> None:
+        """Holds none of the records any more."""
+        self._begun = None
+        self._ways.forget()
+
+    def _held_now(self, step: Undoable) -> int:
+        """Counts the bytes that a step's far end alone takes."""
+        lost, gained = difference(step.before.root, step.after.root)
+        return (gained if self._undone else lost) + STEP_OVERHEAD
+
+    def _code(self, record: Record, other: Record | None) -> None:
+        """Codes a record of a far end by the one in its place; of the steps that are done, which are forgotten one by
+        one, never by one that is farther."""
+        if not self._undone and other is not None:
+            if isinstance(record.held, CodedData) and record.held.other not in (None, other):
+                decode(record)
+            if leads_to(other, record):
+                decode(other)
+        self._ways.encode(record, other)
+
+    def _ends(self, step: Undoable) -> tuple[Group, Group]:
+        """Returns the layers at the far end, and at the near one."""
+        ends = step.before.root, step.after.root
+        return ends[::-1] if self._undone else ends
+
+    def _alone(self, step: Undoable) -> int:
+        return (step.gained if self._undone else step.lost) + STEP_OVERHEAD
+
+
+def _holds(pyramid: Pyramid, key: TileKey, record: Record) -> bool:
+    stored = pyramid.levels.get(key.level)
+    return stored is not None and stored.get((key.x, key.y)) is record
