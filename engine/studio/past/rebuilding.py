@@ -15,7 +15,8 @@ from engine.painting import commands as c
 from engine.painting.recording import undo_reach
 from engine.painting.value import Painting
 from engine.session.apply import STEPS
-from engine.session.history import History, difference
+from engine.session.differing import difference
+from engine.session.history import History
 from engine.session.replay import stays_within
 from engine.session.session import Session
 

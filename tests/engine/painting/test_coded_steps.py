@@ -15,7 +15,8 @@ from engine.painting.value import Painting
 from engine.session import coded_records
 from engine.session import history as histories
 from engine.session.coded_records import WAY, CodedData, Ways, decode, encode
-from engine.session.history import History, difference
+from engine.session.differing import difference
+from engine.session.history import History
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q

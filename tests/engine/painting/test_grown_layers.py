@@ -20,7 +20,7 @@ from engine.painting.difference import areas
 from engine.painting.grown import settled
 from engine.painting.rendering import folded_layers, reach, sheets, strips
 from engine.session.apply import Around, Painting, apply
-from engine.session.history import difference
+from engine.session.differing import difference
 from engine.strokes.scenery import reader
 
 

@@ -15,7 +15,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
-from engine.session.history import difference
+from engine.session.differing import difference
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q

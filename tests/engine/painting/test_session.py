@@ -18,7 +18,8 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.session.apply import Painting, Refusal
-from engine.session.history import History, difference
+from engine.session.differing import difference
+from engine.session.history import History
 from engine.session.line import STEP_OVERHEAD, Line
 from engine.session.replay import replay
 from engine.session.session import Session
