@@ -13,7 +13,7 @@ from engine.numeric.address import TileKey
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
-Only = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
+OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
 def difference(old: Group, new: Group) -> tuple[int, int]:
@@ -59,7 +59,7 @@ def _regrown(old: Growth, new: Growth) -> tuple[int, int]:
     return sum(n for k, n in before.items() if k not in after), sum(n for k, n in after.items() if k not in before)
 
 
-def changed(far: Group, near: Group) -> Iterator[Only]:
+def changed_records(far: Group, near: Group) -> Iterator[OnlyHere]:
     """Yields the records that one of two states of the layers has and the other has not, of layers that both have."""
     there = {layer.id: layer.pyramid for layer in layers.layers(near)}
     for layer in layers.layers(far):
@@ -68,16 +68,16 @@ def changed(far: Group, near: Group) -> Iterator[Only]:
             yield from _only(layer.pyramid, other)
 
 
-def lost(old: Group, new: Group) -> Iterator[Record]:
+def lost_records(old: Group, new: Group) -> Iterator[Record]:
     """Yields the records that one state of the layers has and a later one has not."""
     there = {layer.id for layer in layers.layers(new)}
     for layer in layers.layers(old):
         if layer.id not in there:
             yield from (record for _, record in layer.pyramid.all_records())
-    yield from (record for _, record, _ in changed(old, new))
+    yield from (record for _, record, _ in changed_records(old, new))
 
 
-def _only(one: Pyramid, other: Pyramid) -> Iterator[Only]:
+def _only(one: Pyramid, other: Pyramid) -> Iterator[OnlyHere]:
     """Yields the records of one state that another of the same line of history does not share, and what that has in
     their places."""
     for level, stored in one.levels.items():

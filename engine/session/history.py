@@ -22,8 +22,8 @@ from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, decode
-from engine.session.differing import difference, lost
-from engine.session.line import Line, Undoable
+from engine.session.differing import difference, lost_records
+from engine.session.line import StepLine, Undoable
 
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
 _AT_ONCE = 256 << 10  # bytes of data that are coded in one piece of work
@@ -47,8 +47,10 @@ class History(Owned):
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
-        self._done, self._undone = Line(False, steps.done), Line(True, steps.undone)
+        self._done, self._undone = StepLine(False, steps.done), StepLine(True, steps.undone)
         self._bytes_cap, self._keep = bytes_cap, keep
+        # Those that a replay keeps, because it takes them back, may take as much as any.
+        self._limit = math.inf if bytes_cap is None else bytes_cap or memory.history_share()
         self._mixed: Iterator[Record] | None = None  # records of the present of which some are coded
         self.forgotten = 0
 
@@ -76,7 +78,7 @@ class History(Owned):
         """A step was done: nothing that was undone can be redone any more."""
         self._undone.clear()
         if self._mixed is not None:  # what is coded by records that are forgotten now would keep them
-            for record in lost(before.root, after.root):
+            for record in lost_records(before.root, after.root):
                 decode(record)
         self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
@@ -89,7 +91,7 @@ class History(Owned):
         """Returns the painting after the step undone last; IndexError if there is none."""
         return self._cross(self._undone, self._done).after
 
-    def _cross(self, one: Line, other: Line) -> Undoable:
+    def _cross(self, one: StepLine, other: StepLine) -> Undoable:
         """Takes the nearest step from one side of the present to the other."""
         step, part = one.pop()
         other.push(step, part)
@@ -118,22 +120,13 @@ class History(Owned):
         """Counts the steps to be coded, or put away on disk, and whether the present is to be looked through, while
         nothing else is to be done."""
         coding = sum(max(0, line.plain - self._at_hand) for line in (self._done, self._undone))
-        return coding + int(self._mixed is not None) + int(self._crowded and self._done.in_memory > 0)
+        crowded = self._done.in_memory > 0 and self._done.beyond > 0.75 * self._limit
+        return coding + int(self._mixed is not None) + int(crowded)
 
     @property
     def _at_hand(self) -> int:
         """Counts the steps nearest to the present that are not to be coded."""
         return _AT_HAND if self.held <= self._limit / 4 else 0
-
-    @property
-    def _limit(self) -> float:
-        """Returns the bytes that steps may take; those that a replay keeps, because it takes them back, may, too."""
-        return math.inf if self._bytes_cap is None else self._bytes_cap or memory.history_share()
-
-    @property
-    def _crowded(self) -> bool:
-        """Tells whether the steps are near the limit though they are coded."""
-        return self._done.beyond > 0.75 * self._limit
 
     def step(self) -> None:
         """Makes a record of the present that is made of others plain, or codes some records of a step, or puts a step
@@ -152,23 +145,18 @@ class History(Owned):
         else:
             decode(record)
 
-    def _make_room(self) -> None:
-        """Codes as much again as the newest step brought where nobody rested for long, so that each costs the same; and
-        all that is needed beyond the limit.  Steps that were crossed since are many, and wait for their turn."""
-        done, limit = self._done, self._limit
+    def _forget(self) -> None:
+        """Codes as much again as the newest step brought where nobody rested for long, so that each costs the same, and
+        all that is needed beyond the limit; then puts the oldest steps away on disk, or drops them, never for the sake
+        of the newest alone.  Steps that were crossed since are many, and wait for their turn."""
+        done, cap, limit = self._done, self._bytes_cap, self._limit
+        while cap == 0 and len(done) > self._keep:  # a replay's: nobody goes back to them, so nobody codes them
+            done.forget()
+            self.forgotten += 1
         if done.plain and self.held > limit / 2:
             done.code(_SHARE * done.entries[-1].held)
         while done.plain and self.held > limit:
             done.code()
-
-    def _forget(self) -> None:
-        """Puts the oldest steps beyond the limit away on disk, or drops them; never for the sake of the newest alone,
-        which is not coded yet."""
-        done, cap = self._done, self._bytes_cap
-        while cap == 0 and len(done) > self._keep:  # a replay's: nobody goes back to them, so nobody codes them
-            done.forget()
-            self.forgotten += 1
-        self._make_room()
         while cap and done.in_memory and done.beyond > cap:
             done.put_away()
         while cap and len(done) > self._keep and done.beyond > cap:

@@ -13,7 +13,7 @@ from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
-from engine.session.differing import changed, difference
+from engine.session.differing import changed_records, difference
 
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 
@@ -29,7 +29,7 @@ class Undoable:
 
 
 @dataclass(eq=False, slots=True)
-class Entry:
+class StepEntry:
     """A step in a line; `held`: bytes that its far end alone takes now; `coded`: whether these are coded."""
 
     step: Undoable
@@ -37,7 +37,7 @@ class Entry:
     coded: bool = False
 
 
-class Line:
+class StepLine:
     """The steps on one side of the present, the farthest first.  Of each, the far end is the painting that it leads to
     from the present; what that alone holds is coded, and put away on disk, from the farthest step on.
 
@@ -46,7 +46,7 @@ class Line:
 
     def __init__(self, undone: bool, steps: Iterable[Undoable]) -> None:
         self._undone, self._ways = undone, Ways()
-        self.entries = deque(Entry(step, self._alone(step)) for step in steps)
+        self.entries = deque(StepEntry(step, _alone(step, self._undone)) for step in steps)
         self.held = sum(entry.held for entry in self.entries)
         self._coded = self._away = 0  # of them
         self._begun: Iterator[int] | None = None  # what is still to be coded of the next one
@@ -76,7 +76,7 @@ class Line:
 
     def push(self, step: Undoable, part: float = 1.0) -> None:
         """Adds the nearest step; `part`: of its bytes, that it takes, as far as that is known before it is coded."""
-        self.entries.append(Entry(step, STEP_OVERHEAD + int(part * (self._alone(step) - STEP_OVERHEAD))))
+        self.entries.append(StepEntry(step, STEP_OVERHEAD + int(part * (_alone(step, self._undone) - STEP_OVERHEAD))))
         self.held += self.entries[-1].held
 
     def pop(self) -> tuple[Undoable, float]:
@@ -89,9 +89,10 @@ class Line:
             return entry.step, 1.0
         self._coded -= entry.coded
         self._away = min(self._away, self._coded)
-        self._begin_anew()
-        held = self._held_now(entry.step) if begun else entry.held
-        return entry.step, (held - STEP_OVERHEAD) / max(self._alone(entry.step) - STEP_OVERHEAD, 1)
+        self._begun = None
+        self._ways.forget()
+        held = _held_now(entry.step, self._undone) if begun else entry.held
+        return entry.step, (held - STEP_OVERHEAD) / max(_alone(entry.step, self._undone) - STEP_OVERHEAD, 1)
 
     def forget(self) -> None:
         """Forgets the farthest step."""
@@ -105,7 +106,8 @@ class Line:
     def clear(self) -> None:
         """Forgets all steps."""
         self.entries.clear()
-        self._begin_anew()
+        self._begun = None
+        self._ways.forget()
         self.held = self._coded = self._away = 0
 
     def code(self, size: float = math.inf) -> None:
@@ -118,7 +120,7 @@ class Line:
             if size <= 0.0:
                 return
         self._begun = None
-        held = self._held_now(entry.step)
+        held = _held_now(entry.step, self._undone)
         self.held += held - entry.held
         entry.held, entry.coded = held, True
         self._coded += 1
@@ -126,7 +128,7 @@ class Line:
     def put_away(self) -> None:
         """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
         entry = self.entries[self._away]
-        coded = (record.held for _, record, _ in changed(*self._ends(entry.step)))
+        coded = (record.held for _, record, _ in changed_records(*_ends(entry.step, self._undone)))
         saved = sum(put_away(held) for held in coded if isinstance(held, CodedData))
         entry.held -= saved
         self.held -= saved
@@ -134,23 +136,13 @@ class Line:
 
     def _pieces(self, step: Undoable) -> Iterator[int]:
         """Codes one record of a step's far end after the other; yields the bytes of data that were looked at."""
-        far, near = self._ends(step)
+        far, near = _ends(step, self._undone)
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
-        for key, record, other in changed(far, near):
+        for key, record, other in changed_records(far, near):
             if not any(_holds(pyramid, key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes
                 self._code(record, other)
                 yield size
-
-    def _begin_anew(self) -> None:
-        """Holds none of the records any more."""
-        self._begun = None
-        self._ways.forget()
-
-    def _held_now(self, step: Undoable) -> int:
-        """Counts the bytes that a step's far end alone takes."""
-        lost, gained = difference(step.before.root, step.after.root)
-        return (gained if self._undone else lost) + STEP_OVERHEAD
 
     def _code(self, record: Record, other: Record | None) -> None:
         """Codes a record of a far end by the one in its place; of the steps that are done, which are forgotten one by
@@ -162,13 +154,22 @@ class Line:
                 decode(other)
         self._ways.encode(record, other)
 
-    def _ends(self, step: Undoable) -> tuple[Group, Group]:
-        """Returns the layers at the far end, and at the near one."""
-        ends = step.before.root, step.after.root
-        return ends[::-1] if self._undone else ends
 
-    def _alone(self, step: Undoable) -> int:
-        return (step.gained if self._undone else step.lost) + STEP_OVERHEAD
+def _ends(step: Undoable, undone: bool) -> tuple[Group, Group]:
+    """Returns the layers at the far end of a step, and at the near one."""
+    ends = step.before.root, step.after.root
+    return ends[::-1] if undone else ends
+
+
+def _alone(step: Undoable, undone: bool) -> int:
+    """Returns the bytes that the far end of a step alone takes, not coded."""
+    return (step.gained if undone else step.lost) + STEP_OVERHEAD
+
+
+def _held_now(step: Undoable, undone: bool) -> int:
+    """Counts the bytes that it takes now."""
+    lost, gained = difference(step.before.root, step.after.root)
+    return (gained if undone else lost) + STEP_OVERHEAD
 
 
 def _holds(pyramid: Pyramid, key: TileKey, record: Record) -> bool:

@@ -20,7 +20,7 @@ from engine.painting import recording as r
 from engine.session.apply import Painting, Refusal
 from engine.session.differing import difference
 from engine.session.history import History
-from engine.session.line import STEP_OVERHEAD, Line
+from engine.session.line import STEP_OVERHEAD, StepLine
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.strokes.paint_stroke import LiveStroke
@@ -285,7 +285,7 @@ def test_a_replay_remembers_only_as_many_steps_as_it_needs():
 
 
 def test_a_replay_codes_no_step_that_it_does_not_take_back(monkeypatch):
-    monkeypatch.setattr(Line, "code", lambda *given: pytest.fail("a step was coded"))
+    monkeypatch.setattr(StepLine, "code", lambda *given: pytest.fail("a step was coded"))
     commands = tuple(stroke(at=(8 * i, 8), to=(8 * i + 4, 30), **ROCK) for i in range(6))
     session = replay(r.Recording(r.Header(FRAME, 7), commands))
     assert session.history.undo_count == 0
