@@ -20,7 +20,6 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
 from engine.texture.planes import COLOURS, Planes, merged, plane_map
 from engine.texture.record import Instance
-from engine.texture.sparse_planes import SparsePlanes
 
 _CLOSE = 8  # levels above a rectangle that are gone through one by one
 _CLIMB = 3  # levels up to what is kept of a coarse level for all that lies below it
@@ -146,8 +145,8 @@ def step(
 
 def _within(key: TileKey, record: Record, rect: Rect) -> Record | None:
     """Returns a record, of one of many inks only the part that lies in a rectangle: most of them do not."""
-    held = record.held
-    if not isinstance(held, SparsePlanes):
+    held = record.sheets
+    if held is None:
         return record
     x, y = key.x * TILE, key.y * TILE
     inner = Rect(rect.x0 - x, rect.y0 - y, rect.x1 - x, rect.y1 - y).intersect(record.rect)

@@ -118,8 +118,9 @@ def _record(pyramid: Pyramid, it: _Renewed) -> Record | _Told | None:
     inks = merged(it.new.with_inks(()).inks, it.above.with_inks(()).inks)
     if old is not None:
         old = effective(pyramid, it.key, old)
-        if isinstance(old.held, SparsePlanes):
-            return _sparse_record(it, old.held)
+        sheets = old.sheets
+        if sheets is not None:
+            return _sparse_record(it, sheets)
         inks = merged(inks, old.inks)
     if len(inks) < MANY and not it.textured(inks) and (old is None or old.data.dtype == np.int16):
         record = _renewed(it, old, inks)

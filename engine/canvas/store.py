@@ -21,6 +21,7 @@ import numpy as np
 
 from engine.numeric.address import Rect, TileKey
 from engine.texture.record import Instance
+from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
 RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
 _NOWHERE = Rect(0, 0, 0, 0)
@@ -59,6 +60,14 @@ class Record:
         """Gives int16 or int32 (4 + 3n, h, w) in units of 2^-16, read-only."""
         held = self.held
         return held if isinstance(held, np.ndarray) else held.made()
+
+    @property
+    def sheets(self) -> SparsePlanes | None:
+        """Gives what is held of many inks; None for others."""
+        held = self.held
+        if isinstance(held, OfSheets):
+            return held.plain()
+        return held if isinstance(held, SparsePlanes) else None
 
     def exchange(self, held: np.ndarray | Coded) -> None:
         """Holds the same data in another form.  Other threads may read them meanwhile."""

@@ -17,6 +17,7 @@ from engine.keeping.spill import Spilled, spill
 from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
+from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
 WAY = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
@@ -43,11 +44,9 @@ class CodedData:
         """Counts the bytes of memory that it takes."""
         return _OVERHEAD + (len(self.packed) if isinstance(self.packed, bytes) else 0)
 
-    @property
-    def spared(self) -> int:
-        """Counts the bytes that the data would take beside these."""
-        size = (COLOURS + 3 * len(self.inks)) * self.rect.height * self.rect.width * self.dtype.itemsize
-        return size - self.nbytes
+    def plain(self) -> np.ndarray | SparsePlanes:
+        """Returns what the record held."""
+        return self.made()
 
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
@@ -56,7 +55,7 @@ class CodedData:
             return known
         way = [self]  # to the nearest record whose data are there
         while (other := way[-1].other) is not None and isinstance(held := other.held, CodedData):
-            if _KEPT.get(held) is not None:
+            if isinstance(held, CodedSheets) or _KEPT.get(held) is not None:
                 break
             way.append(held)
         first = way.pop()
@@ -81,7 +80,36 @@ class CodedData:
         return out
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class CodedSheets(CodedData, OfSheets):
+    """The same of the sheets of many inks, the record's `stack`: of colour where `coloured`, and of those `inks` whose
+    sheets are not the very ones that the other record has."""
+
+    coloured: bool
+    stack: tuple[Instance, ...]
+
+    def plain(self) -> SparsePlanes:
+        """Returns the sheets."""
+        known = _SHEETS.get(self)
+        if known is not None:
+            return known
+        base = _sheets(self.other) if self.other is not None else None
+        out = self._added(_sheets_over(base, self.rect, self.inks, self.dtype, self.coloured))
+        new = SparsePlanes.of(self.rect, out, self.inks)
+        shared = base.inks if base is not None else {}
+        inks = {ink: new.inks[ink] if ink in new.inks else shared[ink] for ink in self.stack}
+        colours = new.colours if self.coloured or base is None else base.colours
+        made = SparsePlanes(self.rect, colours, inks)
+        _SHEETS.keep(self, made, new.nbytes)
+        return made
+
+    def made(self) -> np.ndarray:
+        """Returns the data, read-only."""
+        return self.plain().made()
+
+
 _KEPT: Recent[np.ndarray] = Recent(lambda: _MADE)
+_SHEETS: Recent[SparsePlanes] = Recent(lambda: _MADE)
 
 
 class Ways:
@@ -105,16 +133,20 @@ class Ways:
 
 def encode(record: Record, other: Record | None) -> int:
     """Makes a record smaller; `other`: the one that took its place, None for none.  Returns the bytes that it takes
-    less than before: 0 if it is coded already."""
-    if not isinstance(record.held, np.ndarray):
+    less than before, and would not share with the other: 0 if it is coded already, or not worth it."""
+    held = record.held
+    if not isinstance(held, np.ndarray | SparsePlanes):
         return 0
     if other is not None and leads_to(other, record):
         other = None
-    coded = _coded(record, other)
-    if coded.spared <= 0:
+    if isinstance(held, np.ndarray):
+        coded, taken = _coded(record, other), held.nbytes
+    else:
+        coded, taken = _coded_sheets(record, held, other)
+    if coded.nbytes >= held.nbytes:
         return 0
     record.exchange(coded)
-    return coded.spared
+    return max(taken - coded.nbytes, 1)
 
 
 def put_away(coded: CodedData) -> int:
@@ -132,8 +164,9 @@ def decode(record: Record) -> None:
     """Makes a record as it was."""
     held = record.held
     if isinstance(held, CodedData):
-        record.exchange(held.made())
+        record.exchange(held.plain())
         _KEPT.forget(held)
+        _SHEETS.forget(held)
 
 
 def _coded(record: Record, other: Record | None) -> CodedData:
@@ -142,14 +175,48 @@ def _coded(record: Record, other: Record | None) -> CodedData:
     left = data - _predicted(
         wanted, other, None if other is None else other.data
     )  # wraps round, and back when it is added
-    marked = left.any(axis=0)
-    rows, columns = (np.flatnonzero(marked.any(axis=axis)) for axis in (1, 0))
+    return CodedData(record.rect, record.inks, data.dtype, other, *_packed(left))
+
+
+def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> tuple[CodedSheets, int]:
+    """Returns many inks coded, and the bytes of the sheets that are not shared with the other record."""
+    base = None if other is None else _sheets(other)
+    shared, rect = {} if base is None else base.inks, record.rect
+    inks = tuple(ink for ink in record.inks if held.inks[ink] is not shared.get(ink))
+    coloured = base is None or held.colours is not base.colours
+    sheets = [held.inks[ink] for ink in inks] + ([held.colours] if coloured and held.colours is not None else [])
+    dtype = np.dtype(np.int16 if all(sheet.most < 1 << 15 for sheet in sheets) else np.int32)
+    # wraps round, and back when it is added
+    left = _sheets_over(held, rect, inks, dtype, coloured) - _sheets_over(base, rect, inks, dtype, coloured)
+    coded = CodedSheets(rect, inks, dtype, other, *_packed(left), coloured, record.inks)
+    return coded, sum(sheet.nbytes for sheet in sheets)
+
+
+def _sheets(record: Record) -> SparsePlanes:
+    """Returns what a record holds as sheets."""
+    found = record.sheets
+    return SparsePlanes.of(record.rect, record.data, record.inks) if found is None else found
+
+
+def _sheets_over(
+    sheets: SparsePlanes | None, rect: Rect, inks: tuple[Instance, ...], dtype: np.dtype, coloured: bool
+) -> np.ndarray:
+    """Returns planes of some inks over a rectangle, those of colour zero where they are not asked for: new."""
+    if sheets is None:
+        return np.zeros((COLOURS + 3 * len(inks), rect.height, rect.width), dtype)
+    some = {ink: sheet for ink in inks if (sheet := sheets.inks.get(ink)) is not None}
+    return SparsePlanes(rect, sheets.colours if coloured else None, some).over(rect, inks, dtype.type)
+
+
+def _packed(left: np.ndarray) -> tuple[tuple[slice, slice], bytes]:
+    """Returns the rows and columns in which planes of integers tell anything, and these, packed."""
+    marked = np.asarray(left.any(axis=0))
+    rows, columns = np.flatnonzero(marked.any(axis=1)), np.flatnonzero(marked.any(axis=0))
     if not len(rows):
-        return CodedData(record.rect, record.inks, data.dtype, other, (slice(0, 0), slice(0, 0)), b"")
+        return (slice(0, 0), slice(0, 0)), b""
     window = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
-    raw = np.ascontiguousarray(left[:, *window]).view(np.uint8).reshape(-1, data.itemsize)
-    packed = isal_zlib.compress(np.ascontiguousarray(raw.T).data, 1)
-    return CodedData(record.rect, record.inks, data.dtype, other, window, packed)
+    raw = np.ascontiguousarray(left[:, *window]).view(np.uint8).reshape(-1, left.itemsize)
+    return window, isal_zlib.compress(np.ascontiguousarray(raw.T).data, 1)
 
 
 def _predicted(

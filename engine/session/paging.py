@@ -12,6 +12,7 @@ import numpy as np
 from engine.canvas.layers import Group, layers
 from engine.canvas.store import Pyramid, Record
 from engine.session.coded_records import CodedData, encode, put_away
+from engine.texture.sparse_planes import SparsePlanes
 
 _SMALL = 2 << 10  # bytes of data that are not worth it
 _OF_LATE = 32  # commits: what these stored is most likely read next
@@ -51,7 +52,8 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
         for pyramid in pyramids:
             for record in _records(pyramid, level):
                 old = record.depth <= pyramid.depth - _OF_LATE
-                if (late or old) and isinstance(record.held, np.ndarray) and record.held.nbytes >= _SMALL:
+                plain = isinstance(record.held, np.ndarray | SparsePlanes)
+                if (late or old) and plain and record.held.nbytes >= _SMALL:
                     yield encode(record, None)
     for pyramid in pyramids:
         for record in _records(pyramid, level):

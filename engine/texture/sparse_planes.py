@@ -140,6 +140,16 @@ class SparsePlanes:
         return SparsePlanes(whole, colours, kept if len(sheets) == len(self.inks) else _ordered(kept))
 
 
+class OfSheets:
+    """What such planes are made of, in fewer bytes."""
+
+    __slots__ = ()
+
+    def plain(self) -> SparsePlanes:
+        """Returns the planes."""
+        raise NotImplementedError
+
+
 def _ordered(sheets: dict[Instance, SparseSheet]) -> dict[Instance, SparseSheet]:
     """Returns the same sheets in the order in which a stack has its inks."""
     return {ink: sheets[ink] for ink in sorted(sheets, key=lambda ink: sort_key(ink.key))}

@@ -3,6 +3,7 @@
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -21,6 +22,7 @@ from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.studio import Studio
+from engine.texture.sparse_planes import SparsePlanes
 
 ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
 
@@ -159,6 +161,50 @@ def test_a_small_stroke_over_paint_costs_a_tenth_and_undo_comes_to_the_first_ste
     session.do(c.Redo(44))
     code_all(session.history)
     assert 0.8 * held < session.history.held < 1.02 * held  # the next one stays coded
+
+
+@pytest.mark.parametrize("spread", [False, True])
+def test_steps_over_many_inks_are_coded_too(spread):
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History())
+    for n in range(12):  # some of which the last strokes do not meet
+        ink = [{"texture": "rock", "colour": "#ffffff", "period": 8 + n}]
+        session.do(stroke(n if spread else 0, radius=9.0, ink=ink))
+    for n in range(24):
+        session.do(stroke(n, radius=3.0, ink=[{"texture": "rock", "colour": "#ffffff", "period": 8 + n % 12}]))
+    states = [session.history.at(-n) for n in range(1, 37)]
+    wanted, sheets = list(map(contents, states)), [list(map(sparse, records(state))) for state in states]
+    plain = session.history.held
+    assert sum(sum(each) for each in sheets) > 100
+    code_all(session.history)
+    there = [record for state in states[1:] for record in lost(state, states[0])]
+    assert session.history.held < plain / 2.5
+    assert not any(isinstance(record.held, SparsePlanes) for record in there)
+    assert list(map(contents, states)) == wanted
+    check_what_is_held(session)
+    session.do(c.Undo(30))
+    rest(session.history)
+    assert [list(map(sparse, records(state))) for state in states] == sheets
+    assert list(map(contents, states)) == wanted
+    session.do(c.Redo(30))
+    rest(session.history)
+    check_what_is_held(session)
+    assert list(map(contents, states)) == wanted
+    for record in records(session.painting):
+        encode(record, None)
+    assert contents(session.painting) != wanted[0]
+    session.cache.clear()
+    session.do(stroke(5, radius=9.0))
+    fresh = replay(session.recording())
+    assert contents(session.painting) == contents(fresh.painting)
+
+
+def sparse(record):
+    return record.sheets is not None
+
+
+def lost(old, new):
+    there = set(records(new))
+    return [record for record in records(old) if record not in there]
 
 
 def test_a_long_way_makes_no_data_but_those_that_are_looked_at(monkeypatch):
