@@ -11,6 +11,7 @@ from pathlib import Path
 import platformdirs
 
 _KEPT = 256 << 20  # bytes of freed memory the process may hold on to
+_HEAPS = 2  # for threads: what one that has ended left free is there for others
 _BY_ITSELF = 32 << 20  # bytes from which an array is mapped by itself (the largest value the C library takes)
 
 
@@ -26,7 +27,8 @@ def _keep_freed_memory() -> None:
         mallopt = ctypes.CDLL(None).mallopt
     except (OSError, AttributeError):
         return
-    trim_threshold, top_pad, mmap_threshold = -1, -2, -3
+    trim_threshold, top_pad, mmap_threshold, arena_max = -1, -2, -3, -8
+    mallopt(arena_max, _HEAPS)
     mallopt(trim_threshold, _KEPT)
     mallopt(top_pad, _KEPT // 8)
     mallopt(mmap_threshold, _BY_ITSELF)

@@ -92,6 +92,12 @@ def _most_resident() -> int:
     return most if sys.platform == "darwin" else most * 1024
 
 
+def settle() -> None:
+    """Gives free pages back where the process takes more than the budget: what took many has ended."""
+    if resident() > budget():
+        give_back()
+
+
 def give_back() -> None:
     """Returns free pages to the system: glibc keeps those between blocks that are in use."""
     trim = _trim()

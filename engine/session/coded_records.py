@@ -169,6 +169,12 @@ def decode(record: Record) -> None:
         _SHEETS.forget(held)
 
 
+def forget_made(by: int) -> None:
+    """Forgets so many bytes of data that were asked for of late, as far as there are any."""
+    _SHEETS.shrink(by)
+    _KEPT.shrink(by)
+
+
 def _coded(record: Record, other: Record | None) -> CodedData:
     data = record.data
     wanted = record.rect, record.inks, data.dtype

@@ -43,7 +43,8 @@ class History(Owned):
     `bytes_cap`: None for no limit, 0 for no step beside those of `keep`, which are never forgotten; `steps`: those that
     are there already.  Steps beyond the newest are coded while nothing else is to be done (`pending`, `step`), and from
     half of the limit on each step has some of the others coded, too.  Near the limit they go to disk, and are forgotten
-    only where that has no room.  `forgotten`: steps that were done and are not there any more.
+    only where that has no room.  `forgotten`: steps that were done and are not there any more;
+    `tight`: whether all are to be coded and put away on disk.
     """
 
     def __init__(self, bytes_cap: int | None = None, keep: int = 1, steps: HeldSteps = HeldSteps()) -> None:  # noqa: B008
@@ -52,7 +53,7 @@ class History(Owned):
         # Those that a replay keeps, because it takes them back, may take as much as any.
         self._limit = math.inf if bytes_cap is None else bytes_cap or memory.history_share()
         self._mixed: Iterator[Record] | None = None  # records of the present of which some are coded
-        self.forgotten = 0
+        self.forgotten, self.tight = 0, False
 
     @property
     def held(self) -> int:
@@ -120,13 +121,13 @@ class History(Owned):
         """Counts the steps to be coded, or put away on disk, and whether the present is to be looked through, while
         nothing else is to be done."""
         coding = sum(max(0, line.plain - self._at_hand) for line in (self._done, self._undone))
-        crowded = self._done.in_memory > 0 and self._done.beyond > 0.75 * self._limit
+        crowded = self._done.in_memory > 0 and (self.tight or self._done.beyond > 0.75 * self._limit)
         return coding + int(self._mixed is not None) + int(crowded)
 
     @property
     def _at_hand(self) -> int:
         """Counts the steps nearest to the present that are not to be coded."""
-        return _AT_HAND if self.held <= self._limit / 4 else 0
+        return _AT_HAND if self.held <= self._limit / 4 and not self.tight else 0
 
     def step(self) -> None:
         """Makes a record of the present that is made of others plain, or codes some records of a step, or puts a step

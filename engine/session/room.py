@@ -9,13 +9,22 @@ from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import large_pages, memory
+from engine.session import coded_records
 from engine.session.history import History
 from engine.session.paging import Paging
 
 SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than the room they take
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
+_PASSING = 128 << 20  # bytes that come and go at once, as a save takes them, for which there is room: at most these
+_PASSING_PART = 8  # and of the budget such a part
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _AGAIN = 2.0  # seconds after which it is, at the latest: giving back takes a hundredth of that
+
+
+def _most() -> int:
+    """Returns the bytes that the process may take before it is looked after."""
+    passing = min(_PASSING, memory.budget() // _PASSING_PART)
+    return memory.budget() + memory.PROGRAM - _APART - passing
 
 
 class Room(Owned):
@@ -34,7 +43,9 @@ class Room(Owned):
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
         process takes more than the budget."""
-        most, held = memory.budget() + memory.PROGRAM - _APART, memory.resident()
+        most, held = _most(), memory.resident()
+        if held <= most:
+            self.history.tight = False
         if not self._due(held, most):
             if held < most // 2:  # beyond, every small page counts
                 large_pages.ask_ahead(held)
@@ -42,8 +53,10 @@ class Room(Owned):
         large_pages.forgo()
         memory.give_back()
         cache, over = self._cache, memory.resident() - most
+        self.history.tight = over > 0
         if over > 0:
             DECODED.shrink(over)
+            coded_records.forget_made(over)
             cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()
             over = memory.resident() - most

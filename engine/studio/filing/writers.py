@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from engine.checks.owned import Owned
+from engine.keeping import memory
 from engine.painting.grown import settled
 from engine.painting.value import Painting
 from engine.studio import faults, results
@@ -94,3 +95,4 @@ def _run(file: int, write: Write, painting: Painting, post: Post, about: str) ->
         post(q.Written(file, faults.told(error, "while a file was written", about)))
     else:
         post(q.Written(file, told=outcome))
+    memory.settle()

@@ -18,7 +18,7 @@ class Process:
     def __init__(self, monkeypatch):
         self.used = self.free = self.now = self.given = 0
         monkeypatch.setattr(memory, "budget", lambda: 100 * MEGABYTE)
-        monkeypatch.setattr(memory, "PROGRAM", rooms._APART)
+        monkeypatch.setattr(memory, "PROGRAM", rooms._APART + 100 * MEGABYTE // rooms._PASSING_PART)
         monkeypatch.setattr(memory, "resident", lambda: (self.used + self.free) * MEGABYTE)
         monkeypatch.setattr(memory, "give_back", self.give_back)
         monkeypatch.setattr(rooms.time, "monotonic", lambda: self.now)
@@ -62,3 +62,14 @@ def test_what_is_always_too_much_is_seldom_looked_after(process):
         room.keep_within(Painting().root)
         process.now += rooms._AGAIN / 10
     assert 5 <= process.given <= 15
+
+
+def test_old_steps_are_all_coded_and_put_away_where_the_process_takes_too_much(process):
+    history = History()
+    room = Room(TileCache(MEGABYTE), history)
+    process.used = 500
+    room.keep_within(Painting().root)
+    assert history.tight
+    process.used = 90
+    room.keep_within(Painting().root)
+    assert not history.tight
