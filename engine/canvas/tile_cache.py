@@ -19,6 +19,7 @@ from engine.texture.planes import COLOURS, Planes
 
 _NEAR = 1  # levels from the one that is looked at: farther ones are left behind
 _BEHIND = 128 << 20  # bytes
+_BESIDE = 176 << 20  # bytes of all levels but the one that is looked at
 _TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
 _MOST_SINCE = 256  # commits to look through for one that meets a tile: a tile is sooner made again than after more
 _MOST = 60  # inks that are told apart in one number
@@ -53,7 +54,8 @@ class TileCache:
     """Evaluated tiles, bounded by bytes.  Safe for several threads.
 
     Those of levels that were left behind are evicted first, of one level the least recently used; and however much room
-    there is, all that were left behind together take an eighth of it, and at most `_BEHIND`.
+    there is, all that were left behind together take an eighth of it, and at most `_BEHIND`; with those next to the one
+    that is looked at half of it, and at most `_BESIDE`.
     """
 
     def __init__(self, budget: int) -> None:
@@ -154,6 +156,11 @@ class TileCache:
         while behind > min(self.budget // 8, _BEHIND):
             level = self._farthest(level for level in self._levels if abs(level - self.level) > _NEAR)
             behind -= self._evict_from(level)
+        there = self._levels.get(self.level)
+        beside = self._held - (there.held if there is not None else 0)
+        while beside > min(self.budget // 2, _BESIDE):
+            others = (level for level in self._levels if level != self.level)
+            beside -= self._evict_from(min(others, key=lambda level: self._levels[level].oldest))
 
     def _farthest(self, levels: Iterable[int]) -> int:
         """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""

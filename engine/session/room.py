@@ -17,6 +17,7 @@ SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than t
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
 _PASSING = 128 << 20  # bytes that come and go at once, as a save takes them, for which there is room: at most these
 _PASSING_PART = 8  # and of the budget such a part
+_GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _AGAIN = 2.0  # seconds after which it is, at the latest: giving back takes a hundredth of that
 
@@ -38,12 +39,16 @@ class Room(Owned):
         self._paging = Paging()
         self._left = 0  # bytes resident when it was looked after last
         self._looked = -_AGAIN  # when that was
-        self._evicted = 0  # bytes that the cache had evicted then
+        self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
+        self._settled = 0  # bytes resident then, or fewer since
+        self._grown = False  # whether it is time for that again
 
     def keep_within(self, root: Group) -> None:
         """Gives free pages back, lets evaluated tiles go, and makes records of the layers `root` smaller, where the
         process takes more than the budget."""
         most, held = _most(), memory.resident()
+        self._settled = min(self._settled, held)
+        self._grown = held - self._settled > _GROWN
         if held <= most:
             self.history.tight = False
         if not self._due(held, most):
@@ -78,8 +83,8 @@ class Room(Owned):
     @property
     def pending(self) -> int:
         """Counts what is to be made smaller, or given back, while nothing else is to be done."""
-        given = int(self._cache.evicted - self._evicted > _APART)
-        return self.history.pending + int(self._paging.wanted > 0) + given
+        free = self._grown or self._cache.evicted - self._evicted > _APART
+        return self.history.pending + int(self._paging.wanted > 0) + int(free)
 
     def step(self) -> None:
         """Does the next piece of it."""
@@ -91,3 +96,4 @@ class Room(Owned):
             self._evicted = self._cache.evicted
             large_pages.forgo()
             memory.give_back()
+            self._settled, self._grown = memory.resident(), False

@@ -73,3 +73,22 @@ def test_old_steps_are_all_coded_and_put_away_where_the_process_takes_too_much(p
     process.used = 90
     room.keep_within(Painting().root)
     assert not history.tight
+
+
+def test_what_came_and_went_is_given_back_at_rest_however_little_is_taken(process):
+    room = Room(TileCache(MEGABYTE), History())
+    process.used = 10
+    room.keep_within(Painting().root)
+    assert not room.pending
+    process.used, process.free = 30, 60
+    room.keep_within(Painting().root)
+    assert room.pending
+    room.step()
+    assert not room.pending
+    assert (process.used, process.free) == (30, 0)
+    process.used, process.free = 20, 20
+    room.keep_within(Painting().root)
+    assert not room.pending
+    process.free = 80
+    room.keep_within(Painting().root)
+    assert room.pending
