@@ -15,13 +15,13 @@ import numpy as np
 from engine.brush.stamp import Edit
 from engine.canvas.attenuate import fold
 from engine.canvas.evaluate import evaluate
-from engine.canvas.front import Around, Patch, climbs, lift, united, widened
+from engine.canvas.front import Around, Patch, climbs, lift, united
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
 from engine.canvas.store import Attenuation, Change, Level, Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.texture.planes import Planes, merged
+from engine.texture.planes import Planes, merged, widened
 
 if TYPE_CHECKING:
     from immutables._protocols import MapMutation
@@ -55,18 +55,20 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
     keeps: Keeps | None = {} if _stored_below(pyramid, edit.level, tile_bounds(keys)) else None
     records: NewRecords = {}
     painted: list[Patch] = []
+    lifted: list[Patch] = []
     if tile_bounds(keys).area <= _AT_ONCE:
         painted = paint(pyramid, edit, keys, cache)
         changed = _noted(painted, keeps)
         if painted:
             levels = climbs(pyramid, edit.level, tile_bounds([patch.key for patch in painted]), cache)
-            _climb_to_the_top(pyramid, painted, None, levels, records)
+            lifted = _climb_to_the_top(pyramid, painted, None, levels, records)
     else:
         changed = _by_slabs(pyramid, edit, keys, records, keeps, cache)
     if not records and not keeps:
         return pyramid
     after = _with_records(pyramid, edit, changed, keeps or None, records)
-    if cache is not None:
+    if cache is not None and painted and after.last is not None:
+        cache.raised(after.last, [*painted, *lifted])
         for tile in painted:  # they are on the screen
             cache.adopt(after, tile.key, tile.new)
     return after
@@ -81,16 +83,20 @@ def _noted(painted: Sequence[Patch], keeps: Keeps | None) -> Rect:
 
 def _climb_to_the_top(
     pyramid: Pyramid, patches: Sequence[Patch], here: Around | None, levels: Iterator[Around], records: NewRecords
-) -> None:
-    """Stores this level's residuals and all coarser ones', up to where nothing changes any more.
+) -> list[Patch]:
+    """Stores this level's residuals and all coarser ones', up to where nothing changes any more.  Returns the patches
+    of these.
 
     `here` has the level's new values; None if the patches are the edit's own.
     """
+    coarser: list[Patch] = []
     while patches:
         above = next(levels)
         lifted = lift(patches, above)
         store(pyramid, patches, here, lifted, above, None, records)
+        coarser += lifted
         patches, here = lifted, above
+    return coarser
 
 
 def _by_slabs(

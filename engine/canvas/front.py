@@ -14,7 +14,7 @@ from engine.canvas.rising.spans import Marks
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
-from engine.texture.planes import COLOURS, Planes, merged, plane_map
+from engine.texture.planes import COLOURS, Planes, merged, plane_map, widened
 from engine.texture.record import Instance
 
 _NOWHERE = 1 << 30, 0  # columns of a row in which nothing lies
@@ -83,17 +83,6 @@ class Around:
             top, left, moved = 0, 0, np.zeros((corner.height, corner.width), np.uint8)
         out: bool = lifting.spread(moved, top, left, *touched)
         return out
-
-
-def widened(planes: Planes, inks: tuple[Instance, ...]) -> Planes:
-    """Returns the same values in a stack that has room for more inks, contiguous."""
-    if planes.inks == inks:
-        return Planes(np.ascontiguousarray(planes.data), inks)
-    out = np.zeros((COLOURS + 3 * len(inks), *planes.data.shape[1:]), np.float32)
-    for c, source in enumerate(plane_map(planes.inks, inks)):
-        if source >= 0:
-            out[c] = planes.data[source]
-    return Planes(out, inks)
 
 
 def halved(rect: Rect) -> Rect:

@@ -10,11 +10,11 @@ import numpy as np
 from engine.brush.stamp import Edit
 from engine.canvas import kernels
 from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.front import Patch, blank_marks, placed_extent, widened
+from engine.canvas.front import Patch, blank_marks, placed_extent
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache, without_empty_inks
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.texture.planes import COLOURS, Planes, merged, plane_map
+from engine.texture.planes import COLOURS, Planes, merged, plane_map, widened
 
 
 @cache

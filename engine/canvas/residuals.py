@@ -14,13 +14,13 @@ import numpy as np
 from engine.canvas.attenuate import effective, placed
 from engine.canvas.compact import compact, trimmed
 from engine.canvas.evaluate import add_texture, step
-from engine.canvas.front import Around, Patch, blank_marks, widened
+from engine.canvas.front import Around, Patch, blank_marks
 from engine.canvas.rising import counting
 from engine.canvas.rising.spans import Marks
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.pyramid import expand_into
-from engine.texture.planes import COLOURS, merged, plane_map
+from engine.texture.planes import COLOURS, merged, plane_map, widened
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import MANY, SparsePlanes
 

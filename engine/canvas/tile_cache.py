@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections import OrderedDict
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from engine.canvas import kernels
+from engine.canvas.rising import raised
+from engine.canvas.rising.raised import Raised, RaisedPatch, brought_up
 from engine.canvas.store import Change, Pyramid, changes_between
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.column import Clip
@@ -21,7 +23,7 @@ _NEAR = 1  # levels from the one that is looked at: farther ones are left behind
 _BEHIND = 128 << 20  # bytes
 _BESIDE = 176 << 20  # bytes of all levels but the one that is looked at
 _TILE_OVERHEAD = 300  # bytes of a tile's own objects, roughly
-_MOST_SINCE = 256  # commits to look through for one that meets a tile: a tile is sooner made again than after more
+_RAISED = 16 << 20  # bytes of what commits made of coarser levels, at most
 _MOST = 60  # inks that are told apart in one number
 _ZERO = np.float32(0.0)
 _SQUARE, _MARGIN = 64, 8  # pixels of the side of what is kept of coarse levels, and around it
@@ -65,6 +67,7 @@ class TileCache:
         self._levels: dict[int, _LevelTiles] = {}
         self.level: int | None = None  # that is looked at
         self._uses = 0
+        self._raised = Raised(min(budget // 8, _RAISED))
         self._lock = threading.Lock()
 
     def look_at(self, level: int) -> None:
@@ -97,7 +100,12 @@ class TileCache:
             if there is None or kept is None:
                 return None
             if kept.since is not pyramid.last:
-                if _touched(kept.since, pyramid.last, key):
+                written = self._raised.since(kept.since, pyramid.last, key.level, key.rect)
+                if written:
+                    self._count(there, -kept.nbytes)
+                    kept.exchange(brought_up(kept.value, key.rect, written))
+                    self._count(there, kept.nbytes)
+                elif written is None and _touched(kept.since, pyramid.last, key):
                     return None
                 kept.since = pyramid.last
             there.tiles.move_to_end(place)
@@ -125,51 +133,52 @@ class TileCache:
             self._count(there, kept.nbytes)
             self._evict()
 
+    def raised(self, change: Change, patches: Sequence[RaisedPatch]) -> None:
+        """Takes what a commit made of its own level and of all coarser ones: tiles kept from before it stay good."""
+        with self._lock:
+            self._raised.note(change, patches)
+            self._evict()
+
     def clear(self) -> None:
         """Forgets all tiles."""
         with self._lock:
             self._levels.clear()
+            self._raised.clear()
             self._held = 0
 
     def shrink(self, to: int) -> None:
         """Evicts tiles until at most so many bytes are held."""
         with self._lock:
+            if self.held > to:
+                self._raised.clear()
             while self._held > to and self._levels:
-                self._evict_from(self._farthest(self._levels))
+                self._evict_from(_farthest(self._levels, self.level))
 
     @property
     def held(self) -> int:
         """Returns bytes held now."""
-        return self._held
+        return self._held + self._raised.held
 
     def _count(self, there: _LevelTiles, more: int) -> None:
         there.held += more
         self._held += more
 
     def _evict(self) -> None:
-        while self._held > self.budget and self._levels:
-            self._evict_from(self._farthest(self._levels))
+        while self.held > self.budget and self._levels:
+            self._evict_from(_farthest(self._levels, self.level))
         if self.level is None:
             return
         near = (self._levels.get(self.level + n) for n in range(-_NEAR, _NEAR + 1))
         behind = self._held - sum(there.held for there in near if there is not None)
         while behind > min(self.budget // 8, _BEHIND):
-            level = self._farthest(level for level in self._levels if abs(level - self.level) > _NEAR)
+            farther = {k: there for k, there in self._levels.items() if abs(k - self.level) > _NEAR}
+            level = _farthest(farther, self.level)
             behind -= self._evict_from(level)
         there = self._levels.get(self.level)
         beside = self._held - (there.held if there is not None else 0)
         while beside > min(self.budget // 2, _BESIDE):
             others = (level for level in self._levels if level != self.level)
             beside -= self._evict_from(min(others, key=lambda level: self._levels[level].oldest))
-
-    def _farthest(self, levels: Iterable[int]) -> int:
-        """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""
-        seen = self.level
-
-        def rank(level: int) -> tuple[int, int]:
-            return 0 if seen is None else -abs(level - seen), self._levels[level].oldest
-
-        return min(levels, key=rank)
 
     def _evict_from(self, level: int) -> int:
         """Evicts a level's least recently used tile; returns its bytes."""
@@ -185,7 +194,7 @@ class TileCache:
 def _touched(since: Change | None, last: Change | None, key: CacheKey) -> bool:
     """Tells whether a commit between two states may have changed a tile, or whether they are too many to be asked."""
     for n, change in enumerate(changes_between(since, last)):
-        if n == _MOST_SINCE or change.reach(key.level).meets(key.rect):
+        if n == raised.MOST or change.reach(key.level).meets(key.rect):
             return True
     return False
 
@@ -196,7 +205,12 @@ class _Kept:
     __slots__ = ("nbytes", "since", "used", "value")
 
     def __init__(self, since: Change | None, value: Planes | None, used: int) -> None:
-        self.since, self.value, self.used = since, value, used
+        self.since, self.used = since, used
+        self.exchange(value)
+
+    def exchange(self, value: Planes | None) -> None:
+        """Holds another value."""
+        self.value = value
         self.nbytes = _TILE_OVERHEAD + (value.data.nbytes if value is not None else 0)
 
 
@@ -213,6 +227,11 @@ class _LevelTiles:
     def oldest(self) -> int:
         """Tells when the least recently used tile was used."""
         return next(iter(self.tiles.values())).used
+
+
+def _farthest(levels: Mapping[int, _LevelTiles], seen: int | None) -> int:
+    """Returns the level to evict from: the one farthest from what is looked at, else that of the oldest tile."""
+    return min(levels, key=lambda k: (0 if seen is None else -abs(k - seen), levels[k].oldest))
 
 
 # --- planes in which nothing lies

@@ -74,3 +74,14 @@ def plane_map(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndar
         at = places.get(ink)
         planes.extend((-1, -1, -1) if at is None else (at, at + 1, at + 2))
     return np.array(planes, np.int64)
+
+
+def widened(planes: Planes, inks: tuple[Instance, ...]) -> Planes:
+    """Returns the same values in a stack that has room for more inks, contiguous."""
+    if planes.inks == inks:
+        return Planes(np.ascontiguousarray(planes.data), inks)
+    out = np.zeros((COLOURS + 3 * len(inks), *planes.data.shape[1:]), np.float32)
+    for c, source in enumerate(plane_map(planes.inks, inks)):
+        if source >= 0:
+            out[c] = planes.data[source]
+    return Planes(out, inks)

@@ -55,5 +55,6 @@ BENCHES = {
     "exporting": "a picture of 33 megapixels of four layers as a PNG, against deflating its rows alone",
     "start": "from the command to the first frame of the window",
     "first_start": "with no kernel compiled: to the first dab, and to all brushes",
+    "past": "small pictures of steps on random layers",
     "memory": "what the process and its history hold after 1,000 strokes",
 }

@@ -37,15 +37,20 @@ class StepPainter:
 
         def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
             if layer.id not in known:  # once for all blocks
-                # Of a layer that stays, whole tiles are kept for the next picture.
-                stays = self._before.get(layer.id) is layer.pyramid and not layer.growth
-                around = _tiled(whole) if stays else whole
+                around = whole if self._at_hand(layer, level, whole, cache) else _tiled(whole)
                 known[layer.id] = around, layer_planes(layer, level, around, cache)
                 self._before[layer.id] = layer.pyramid
             around, planes = known[layer.id]
             return None if planes is None else planes[:, *rect.slices(around)]
 
         return to_premul8(composite(painting.root, level, whole, read))
+
+    def _at_hand(self, layer: Layer, level: int, rect: Rect, cache: TileCache | None) -> bool:
+        """Tells whether a rectangle of a layer is soon read, or of a layer that changes.  If not, whole tiles are kept
+        for the next picture."""
+        if cache is None or layer.growth or self._before.get(layer.id) is not layer.pyramid:
+            return True
+        return all(cache.view(layer.pyramid, key)[0] for key in rect.tiles(level))
 
 
 def _tiled(rect: Rect) -> Rect:

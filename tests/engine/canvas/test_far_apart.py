@@ -51,7 +51,7 @@ def test_a_tile_far_above_stays_in_the_cache_while_small_strokes_follow_below():
 def test_a_cached_tile_is_made_again_sooner_than_compared_with_thousands_of_commits(monkeypatch):
     asked = []
     plain = caching.changes_between
-    monkeypatch.setattr(caching, "_MOST_SINCE", 8)
+    monkeypatch.setattr("engine.canvas.rising.raised.MOST", 8)
     monkeypatch.setattr(caching, "changes_between", lambda a, b: (asked.append(c) or c for c in plain(a, b)))
     cache, key = TileCache(1 << 24), TileKey(0, 0, 0)
     pyramid = commit(Pyramid(), fill(0, 10, 10, 90, 90), cache)

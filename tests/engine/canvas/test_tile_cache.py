@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from strokes import ArrayEdit, random_stroke
 
 from engine.canvas.commit import commit
@@ -17,8 +19,8 @@ INKS = merged(
 )
 
 
-def edit(rng):
-    level, x, y, keep, add = random_stroke(rng, 0, 100, INKS)
+def edit(rng, finest=0):
+    level, x, y, keep, add = random_stroke(rng, finest, 100, INKS)
     return ArrayEdit(level, x, y, keep, add, INKS)
 
 
@@ -84,3 +86,35 @@ def test_planes_that_hold_nothing_are_found_and_left_out():
     both = parted(Planes(data, INKS), [(slice(0, 8), slice(4, 8))])
     assert both[0] is not None
     assert both[0].data.base is data
+
+
+@settings(deadline=None, max_examples=12)
+@given(st.integers(0, 2**16), st.lists(st.tuples(st.integers(-6, 3), st.integers(-2, 1)), min_size=4, max_size=24))
+def test_what_is_kept_while_one_paints_is_what_is_evaluated(seed, visits):
+    rng, pyramid, cache, states = np.random.default_rng(seed), Pyramid(), TileCache(64 << 20), []
+    for n, (level, corner) in enumerate(visits):
+        states.append(pyramid)
+        pyramid = commit(pyramid, edit(rng, 2), cache)
+        # Now and then an older state: one goes back, and paints on from there.
+        pyramid = states[n // 2] if n % 7 == 6 else pyramid
+        rect = Rect.at(corner * TILE, 0, 2 * TILE, TILE) if n % 2 else Rect.at(corner * 50, -30, 90, 70)
+        found, wanted = evaluate(pyramid, level, rect, cache), evaluate(pyramid, level, rect)
+        assert np.array_equal(found.rgba, wanted.rgba)
+        for ink in wanted.inks:
+            assert np.array_equal(*(p.data[p.inks.index(ink) * 3 + 4 :][:3] for p in (found, wanted)))
+
+
+def test_what_a_commit_makes_of_coarser_levels_is_not_evaluated_again(monkeypatch):
+    cache, pyramid = TileCache(64 << 20), painted(8)
+    tiles = [TileKey(level, x, y) for level in (-2, -1) for x in (-1, 0) for y in (-1, 0)]
+    for key in tiles:
+        evaluate(pyramid, key.level, key.rect, cache)
+    rng = np.random.default_rng(9)
+    after = pyramid
+    for _ in range(5):
+        after = commit(after, edit(rng), cache)
+    wanted = [evaluate(after, key.level, key.rect).rgba for key in tiles]
+    assert not np.array_equal(wanted[-1], evaluate(pyramid, -1, tiles[-1].rect).rgba)
+    monkeypatch.setattr("engine.canvas.evaluate.step", None)
+    for key, pixels in zip(tiles, wanted, strict=True):
+        assert np.array_equal(evaluate(after, key.level, key.rect, cache).rgba, pixels)
