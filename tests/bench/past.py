@@ -1,4 +1,4 @@
-"""The past of a painting: small pictures of its steps, each of whose strokes falls on another layer than the one before.
+"""The past of a painting: small pictures of its steps, each of whose strokes falls on another layer than that before.
 
 Processor time of the engine's thread.
 """
