@@ -246,7 +246,7 @@ class SavePlan:
         read = strips(self._painting.root, level, frame, self._cancelled)
         planes = np.concatenate([planes.copy() for planes in read], axis=1)
         png = _Png(Rect(0, 0, *size), 1)
-        png.rows(box_reduce(planes, *size))
+        png.rows(to_rgba8(box_reduce(planes, *size)))
         return png
 
     def _entry(self, node: Node) -> StackEntry | LayerEntry:
@@ -364,8 +364,8 @@ class _Png:
         self.file: IO[bytes] = tempfile.SpooledTemporaryFile(max(1 << 16, IN_MEMORY // count))  # noqa: SIM115
         self._writer = PngWriter(self.file, place.width, place.height, small=small)  # type: ignore[arg-type]
 
-    def rows(self, planes: np.ndarray) -> None:
-        self._writer.rows(to_rgba8(planes))
+    def rows(self, pixels: np.ndarray) -> None:
+        self._writer.rows(pixels)
 
     def finished(self) -> IO[bytes]:
         self._writer.close()

@@ -2,8 +2,8 @@
 
 The tree is flattened once to a list of steps; then each block of `BLOCK` x `BLOCK` pixels runs through all of them
 while it stays in the processor's cache.  Blocks lie on the grid of tiles, so a reader that keeps tiles hands them out
-without a copy.  A rectangle no larger than a tile of the screen is one block, and is drawn where it is wanted.  A block
-is read from the top layer down, and reading stops at a layer that hides all below it.
+without a copy.  A rectangle no larger than two tiles of the screen is one block, and is drawn where it is wanted.  A
+block is read from the top layer down, and reading stops at a layer that hides all below it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
 
 BLOCK = TILE
-AT_ONCE = 4 * BLOCK * BLOCK  # pixels of a rectangle up to which it is one block
+AT_ONCE = 8 * BLOCK * BLOCK  # pixels of a rectangle up to which it is one block
 
 
 class Read(Protocol):

@@ -16,14 +16,16 @@ from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import covered, layer_planes
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8
 from engine.painting.cascade import Cascade
 
 _STRIP = 1 << 22  # pixels of a strip, about
-ROWS, _SHEET_ROWS = 64, 256
+ROWS = 64
+_SHEET_ROWS, _SHEET_COLUMNS = 256, 512  # of the pieces of sheets: those of all layers fit into a processor's caches
 _HELD, _HELD_OF_ALL = 1 << 19, 1 << 22  # pixels of a coarser level up to which it is held: of a layer, of all of them
 _COLUMNS = 1024  # of the pieces in which layers are evaluated: see `_Pieces`
 _SHARING, _COARSER = 512, 3  # rows whose pieces are evaluated from one part of a level, so many levels coarser
-TOGETHER = 1 << 23  # pixels of all layers' parts of a band, about: 128 MB
+TOGETHER = 1 << 23  # pixels of all layers' parts of a band, about: 32 MB
 HELD = 64  # layers for which a piece has that size; for more it is narrower
 
 Stop = Callable[[], bool] | None
@@ -122,50 +124,40 @@ class _Pieces:
 def sheets(
     root: Group, level: int, frame: Rect, places: Mapping[int, Rect], cancelled: Stop = None
 ) -> Iterator[tuple[dict[int, np.ndarray], np.ndarray]]:
-    """Yields the frame from the top, in bands, each layer evaluated once: (planes of each layer by its id, composited).
+    """Yields the frame from the top, in bands, each layer evaluated once: (pixels of each layer by its id, composited).
 
-    `places`: where each layer is to be seen (`reach`); its planes cover the part of the band there, and are left out
-    where that is empty.  All float32 (4, n, w), premultiplied; the composited ones clamped for display.
+    `places`: where each layer is to be seen (`reach`); its pixels cover the part of the band there, and are left out
+    where that is empty.  All uint8 (n, w, 4) of straight alpha.
     """
     all_layers = list(layers.layers(root))
-    rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width))
+    evaluated = _Evaluated(level, frame, min(_HELD, _HELD_OF_ALL // max(1, len(all_layers))))
+    rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width) & ~1)
     for y in range(frame.y0, frame.y1, rows):
         band = Rect(frame.x0, y, frame.x1, min(y + rows, frame.y1))
-        known: dict[int, np.ndarray] = {}
-        for layer in all_layers:
-            check_cancelled(cancelled)
-            part = places[layer.id].intersect(band)
-            if not part.empty:
-                found = layer_planes(layer, level, part)
-                known[layer.id] = np.zeros((4, part.height, part.width), np.float32) if found is None else found
-        yield known, composite(root, level, band, _parts(known, places, band))
+        parts = {layer.id: places[layer.id].intersect(band) for layer in all_layers}
+        known = {id: _clear(part) for id, part in parts.items() if not part.empty}
+        merged = _clear(band)
+        for x in range(band.x0, band.x1, _SHEET_COLUMNS):
+            piece = Rect(x, band.y0, min(x + _SHEET_COLUMNS, band.x1), band.y1)
+            found: dict[int, np.ndarray] = {}
+            for layer in all_layers:
+                check_cancelled(cancelled)
+                part = parts[layer.id].intersect(piece)
+                planes = None if part.empty else evaluated.planes(layer, level, piece)
+                if planes is not None:
+                    found[layer.id] = planes
+                    known[layer.id][part.slices(parts[layer.id])] = to_rgba8(planes[:, *part.slices(piece)])
+            merged[piece.slices(band)] = to_rgba8(composite(root, level, piece, _known(found, piece)))
+        yield known, merged
 
 
-def _parts(known: Mapping[int, np.ndarray], places: Mapping[int, Rect], band: Rect) -> Read:
-    """Hands out blocks of what is known of each layer, empty elsewhere."""
-
-    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-        whole = places[layer.id].intersect(band)
-        part = whole.intersect(rect)
-        if part.empty or layer.id not in known:
-            return None
-        rows, columns = part.slices(whole)
-        planes = known[layer.id][:, rows, columns]
-        if _nothing(planes):
-            return None  # much of most layers: cheaper to see than to composite
-        if part == rect:
-            return planes
-        out = np.zeros((4, rect.height, rect.width), np.float32)
-        rows, columns = part.slices(rect)
-        out[:, rows, columns] = planes
-        return out
-
-    return read
+def _known(found: Mapping[int, np.ndarray], piece: Rect) -> Read:
+    """Hands out blocks of the planes of a piece, by the ids of layers."""
+    return piece_reader(piece, lambda layer, level, rect: found.get(layer.id))
 
 
-def _nothing(planes: np.ndarray) -> bool:
-    """Tells whether all of (4, h, w) is zero; alpha is not below that."""
-    return not planes[3].max() and not planes[:3].max() and not planes[:3].min()
+def _clear(rect: Rect) -> np.ndarray:
+    return np.zeros((rect.height, rect.width, 4), np.uint8)
 
 
 def check_cancelled(cancelled: Stop) -> None:

@@ -18,7 +18,7 @@ from engine.files.images import read_image
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting import commands as c
-from engine.painting.rendering import bands, reach, rows_of, strips
+from engine.painting.rendering import bands, reach, rows_of, sheets, strips
 from engine.session.apply import Painting
 from engine.session.session import Session
 
@@ -87,6 +87,23 @@ def test_rows_are_the_same_on_any_number_of_cores(painting, monkeypatch, cores):
     rect = Rect.at(-100, -37, 2500, 700)
     found = np.concatenate(list(rows_of(painting.root, 3, rect, to_rgba8)))
     assert np.array_equal(found, to_rgba8(whole(painting.root, 3, rect)))
+
+
+@pytest.mark.parametrize("columns", [34, 512])
+@pytest.mark.parametrize("together", [1, 1 << 23])
+def test_sheets_are_cut_from_the_pictures_of_the_layers(painting, monkeypatch, columns, together):
+    monkeypatch.setattr("engine.painting.rendering._SHEET_COLUMNS", columns)
+    monkeypatch.setattr("engine.painting.rendering.TOGETHER", together)
+    frame = Rect.at(-21, -7, 401, 295)
+    names = {layer.id: layer.name for layer in layers.layers(painting.root)}
+    places = {id: reach(layers.find(painting.root, name), 0, frame) for id, name in names.items()}
+    bands_of = list(sheets(painting.root, 0, frame, places))
+    merged = np.concatenate([merged for _, merged in bands_of])
+    assert np.array_equal(merged, to_rgba8(whole(painting.root, 0, frame)))
+    for id, name in names.items():
+        parts = [known[id] for known, _ in bands_of if id in known]
+        alone = whole(layers.alone(layers.find(painting.root, name)), 0, places[id])
+        assert np.array_equal(np.concatenate(parts), to_rgba8(alone)) if parts else places[id].empty
 
 
 def test_one_layer(painting, tmp_path):
