@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import os
 import tempfile
+import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -38,11 +39,12 @@ from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, stack_tex
 from engine.files.strict_json import dumps
 from engine.files.zip_reader import ZipArchive
 from engine.files.zip_writer import ZipWriter
+from engine.keeping import memory
 from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted_size
-from engine.painting.cascade import Cascade
+from engine.painting.cascade import PIXEL, SMALL, Cascade
 from engine.painting.grown import settled_root
 from engine.painting.recording import Recording
 from engine.painting.rendering import Progress, Stop, check_cancelled, folded_layers, reach, sheets, strips
@@ -56,6 +58,8 @@ MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
 IN_MEMORY = 256 << 20  # bytes of all pictures that are kept in memory before they go into the file
 WORKERS = 2
 WAITING = 4  # finished jobs that may wait for their turn
+_HELD_PART = 32  # of the budget of memory, that one level may take while finer ones are evaluated
+_TURNS = threading.BoundedSemaphore(WORKERS)  # a save and a checkpoint may run at once, and take as much as one of them
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -115,7 +119,7 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
             try:
                 while plan.jobs:
                     job = plan.jobs.popleft()  # with the last of a layer's goes what was evaluated for them
-                    waiting.append((job, pool.submit(job.make)))
+                    waiting.append((job, pool.submit(_in_turn, job.make)))
                     if len(waiting) >= WAITING:
                         yield _next(waiting, cancelled)
                 while waiting:
@@ -128,6 +132,11 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
         if shown is not None and not shown.cancelled() and shown.exception() is None:
             for _, product in shown.result():
                 product.close()
+
+
+def _in_turn(make: Callable[[], Product]) -> Product:
+    with _TURNS:
+        return make()
 
 
 def _next(waiting: deque[tuple[Job, Future[Product]]], cancelled: Stop) -> tuple[Job, Product]:
@@ -292,9 +301,8 @@ class SavePlan:
     def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
         tiles = ordered(grounds.painted_since(layer.pyramid))
         self._packs[layer.id] = []
-        yield from pack_jobs(
-            f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], Cascade(layer.pyramid, needed(tiles))
-        )
+        values = Cascade(layer.pyramid, needed(tiles), min(SMALL, memory.budget() // (_HELD_PART * PIXEL)))
+        yield from pack_jobs(f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], values)
 
     def _growth_jobs(self, layer: Layer) -> Iterator[Job]:
         self._plots[layer.id] = []

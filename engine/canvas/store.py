@@ -199,6 +199,11 @@ class Pyramid:
             if record is not None:
                 yield key, record
 
+    def holds(self, key: TileKey, record: Record) -> bool:
+        """Tells whether a record is the one of its tile."""
+        stored = self.levels.get(key.level)
+        return stored is not None and stored.get((key.x, key.y)) is record
+
     def has_records(self, level: int, rect: Rect) -> bool:
         """Tells whether a stored tile of a level meets a rectangle."""
         stored, places = self.levels.get(level), rect.within_tiles()

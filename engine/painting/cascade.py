@@ -12,7 +12,8 @@ from engine.texture.planes import COLOURS, Planes
 from engine.texture.record import Instance
 
 SMALL = 1 << 21  # pixels of a level up to which it is held as a whole
-_PLANES = 16  # for each of these pixels: where more ink lies, there are fewer pixels
+PIXEL = 64  # bytes that each is counted for
+_PLANES = PIXEL // 4  # for each of these pixels: where more ink lies, there are fewer pixels
 _KEPT = 16  # levels held at a time: between them and the coarsest there may be many
 
 Held = tuple[Rect, Planes | None]

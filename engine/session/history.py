@@ -11,7 +11,7 @@ made plain while nothing else is to be done.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections import deque
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -20,9 +20,10 @@ from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.checks.owned import Owned
 from engine.keeping import memory
+from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, decode
-from engine.session.differing import difference, lost_records
+from engine.session.differing import changed_records, difference, lost_records
 from engine.session.line import StepLine, Undoable
 
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
@@ -52,7 +53,8 @@ class History(Owned):
         self._bytes_cap, self._keep = bytes_cap, keep
         # Those that a replay keeps, because it takes them back, may take as much as any.
         self._limit = math.inf if bytes_cap is None else bytes_cap or memory.history_share()
-        self._mixed: Iterator[Record] | None = None  # records of the present of which some are coded
+        self._mixed: deque[tuple[TileKey, Record]] = deque()  # of the present or another state, of which some are coded
+        self._root: Group | None = None  # the present, where it was another before
         self.forgotten, self.tight = 0, False
 
     @property
@@ -78,9 +80,10 @@ class History(Owned):
     def push(self, before: Painting, after: Painting) -> None:
         """A step was done: nothing that was undone can be redone any more."""
         self._undone.clear()
-        if self._mixed is not None:  # what is coded by records that are forgotten now would keep them
+        if self._mixed:  # what is coded by records that are forgotten now would keep them
             for record in lost_records(before.root, after.root):
                 decode(record)
+        self._root = after.root
         self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
 
@@ -96,7 +99,11 @@ class History(Owned):
         """Takes the nearest step from one side of the present to the other."""
         step, part = one.pop()
         other.push(step, part)
-        self._mixed = _records((step.before if other is self._undone else step.after).root)
+        left, self._root = step.after.root, step.before.root
+        if other is self._done:
+            left, self._root = self._root, left
+        # What else the present holds it held before.
+        self._mixed.extend((key, record) for key, record, _ in changed_records(self._root, left))
         return step
 
     def at(self, by: int) -> Painting | None:
@@ -107,6 +114,7 @@ class History(Owned):
 
     def amend(self, root: Group) -> None:
         """The layers as they are now, further refined, are `root`."""
+        self._root = root
         if self._done:
             step, _ = self._done.pop()
             after = replace(step.after, root=root)
@@ -122,7 +130,7 @@ class History(Owned):
         nothing else is to be done."""
         coding = sum(max(0, line.plain - self._at_hand) for line in (self._done, self._undone))
         crowded = self._done.in_memory > 0 and (self.tight or self._done.beyond > 0.75 * self._limit)
-        return coding + int(self._mixed is not None) + int(crowded)
+        return coding + int(len(self._mixed) > 0) + int(crowded)
 
     @property
     def _at_hand(self) -> int:
@@ -132,19 +140,17 @@ class History(Owned):
     def step(self) -> None:
         """Makes a record of the present that is made of others plain, or codes some records of a step, or puts a step
         away on disk: a piece of work of some milliseconds."""
-        if self._mixed is None:
-            line = max(self._done, self._undone, key=lambda line: line.plain)
-            if line.plain > self._at_hand:
-                line.code(_AT_ONCE)
-            elif self._done.in_memory:
-                self._done.put_away()
-            return
         # What is coded by itself may be so because there is no room for more (`Paging`), and holds nothing else.
-        record = next((record for record in self._mixed if _made_of_others(record)), None)
-        if record is None:
-            self._mixed = None
-        else:
-            decode(record)
+        while self._mixed:
+            key, record = self._mixed.popleft()
+            if _made_of_others(record) and _has(self._root, key, record):
+                decode(record)
+                return
+        line = max(self._done, self._undone, key=lambda line: line.plain)
+        if line.plain > self._at_hand:
+            line.code(_AT_ONCE)
+        elif self._done.in_memory:
+            self._done.put_away()
 
     def _forget(self) -> None:
         """Codes as much again as the newest step brought where nobody rested for long, so that each costs the same, and
@@ -165,11 +171,9 @@ class History(Owned):
             self.forgotten += 1
 
 
-def _records(root: Group) -> Iterator[Record]:
-    """Yields all records of a state of the layers."""
-    for layer in layers.layers(root):
-        for stored in layer.pyramid.levels.values():
-            yield from stored.values()
+def _has(root: Group | None, key: TileKey, record: Record) -> bool:
+    """Tells whether a state of the layers has a record."""
+    return root is not None and any(layer.pyramid.holds(key, record) for layer in layers.layers(root))
 
 
 def _made_of_others(record: Record) -> bool:

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 from engine.canvas import layers
 from engine.canvas.layers import Group
-from engine.canvas.store import Pyramid, Record
-from engine.numeric.address import TileKey
+from engine.canvas.store import Record
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
 from engine.session.differing import changed_records, difference
@@ -139,7 +138,7 @@ class StepLine:
         far, near = _ends(step, self._undone)
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
         for key, record, other in changed_records(far, near):
-            if not any(_holds(pyramid, key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
+            if not any(pyramid.holds(key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes
                 self._code(record, other)
                 yield size
@@ -170,8 +169,3 @@ def _held_now(step: Undoable, undone: bool) -> int:
     """Counts the bytes that it takes now."""
     lost, gained = difference(step.before.root, step.after.root)
     return (gained if undone else lost) + STEP_OVERHEAD
-
-
-def _holds(pyramid: Pyramid, key: TileKey, record: Record) -> bool:
-    stored = pyramid.levels.get(key.level)
-    return stored is not None and stored.get((key.x, key.y)) is record

@@ -62,7 +62,7 @@ def code_all(history):
 
 def pieces(history, count):
     """Some of it, a record at a time."""
-    while history._mixed is not None:
+    while history._mixed:
         history.step()
     for _ in range(count):
         line = max(history._done, history._undone, key=lambda line: line.plain)
