@@ -7,7 +7,8 @@ than the strokes' the pixel is looked at in parts, so that strokes side by side 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import heapq
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -31,8 +32,11 @@ LEAST_SHARE = 1.0 / 255.0  # of a pixel that is seen
 _PARTS = 4  # levels finer than the pixel at which it is looked at in parts
 _KEPT = 64  # sets of definitions whose textures are kept
 _ALPHA = 3
-_AT_FIRST = 64  # strokes that are looked at at once, then twice as many: few may hide the others
+_AT_FIRST, _EFFORT = 64, 1024  # plain strokes that are looked at at once, then twice as many: few may hide the others
+_OWN_MASK = 32  # times as long as at a plain stroke is looked at one that goes through a mask of its own
+_BOUND_AT_ONCE = 512  # strokes
 _UNBOUND: tuple[c.Stroke | None, Rect] = None, Rect(0, 0, 0, 0)
+Search = Iterator[tuple["ShownStroke", ...]]
 
 
 class CanvasPixel(NamedTuple):
@@ -65,6 +69,36 @@ class ShownStroke:
     layer: str
 
 
+@dataclass(eq=False, slots=True)
+class _Ground:
+    """A layer that is seen at a place: its alpha, the parts that the place is looked at in, how much of each is `left`
+    to be seen, float32 (h, w), and the strokes there, the newest first."""
+
+    name: str
+    alpha: float
+    fine: CanvasParts
+    left: np.ndarray
+    candidates: list[_Candidate]
+
+    @classmethod
+    def of(
+        cls, name: str, alpha: float, weight: float, place: CanvasPixel, strokes: Sequence[tuple[LoggedStep, c.Stroke]]
+    ) -> _Ground:
+        finer = min(max(max(stroke.level for _, stroke in strokes) - place.level, 0), _PARTS)
+        fine = CanvasParts(place.level + finer, place.rect.zoomed(finer))
+        ground = cls(name, alpha, fine, np.full((fine.rect.height, fine.rect.width), weight, np.float32), [])
+        ground.candidates += [_Candidate(step, stroke, ground) for step, stroke in strokes]
+        return ground
+
+
+class _Candidate(NamedTuple):
+    """A stroke near a place."""
+
+    step: LoggedStep
+    stroke: c.Stroke
+    ground: _Ground
+
+
 class PaintedHere:
     """Finds the strokes that show at places of one painting; what is learnt of its strokes is kept for the next place.
 
@@ -79,48 +113,60 @@ class PaintedHere:
 
     def at(self, place: CanvasPixel, painting: Painting, steps: Steps) -> tuple[ShownStroke, ...]:
         """Returns the strokes that show at a place, the newest first; `steps` are those that led to the painting."""
-        found: list[ShownStroke] = []
+        return tuple(shown for some in self.search(place, painting, steps) for shown in some)
+
+    def search(self, place: CanvasPixel, painting: Painting, steps: Steps) -> Search:
+        """Yields the same as they are found, the newest first: a few at a time, or none, after some milliseconds each.
+        The steps may go on meanwhile."""
+        grounds = yield from self._grounds(place, painting, steps)
+        strokes = heapq.merge(*(ground.candidates for ground in grounds), key=lambda one: -one.step.index)
+        open_ones = (one for one in strokes if one.ground.left.max() >= LEAST_SHARE)
+        effort = _AT_FIRST
+        while some := _next(open_ones, effort, place.level):
+            effort = min(2 * effort, _EFFORT)
+            found = [shown for ground in grounds for shown in self._shown(ground, some, place, painting)]
+            yield tuple(sorted(found, key=lambda shown: -shown.step.index))
+
+    def _grounds(
+        self, place: CanvasPixel, painting: Painting, steps: Steps
+    ) -> Generator[tuple[ShownStroke, ...], None, list[_Ground]]:
+        """Returns the layers that are seen at a place, from the topmost on, with their strokes there."""
+        grounds: list[_Ground] = []
         seen = 1.0
+        bare = {layer.name: layer for layer in layers.layers(steps.root)}
+        laid = {name: list(steps.strokes(layer)) for name, layer in bare.items()}
         for sheet, weight, plain in _sheets(painting.root, 1.0, True):
-            bare = next((layer for layer in layers.layers(steps.root) if layer.name == sheet.name), None)
             alpha = self._alpha(sheet, place)
-            if bare is not None:
-                found += self._on_layer(bare, place, (seen * weight, alpha), painting, steps)
+            yield ()
+            near = yield from self._near(laid.get(sheet.name, []), place)
+            if near:
+                grounds.append(_Ground.of(sheet.name, alpha, seen * weight, place, near))
             seen *= 1.0 - alpha * weight if plain else 1.0
             if seen < LEAST_SHARE:
                 break
-        return tuple(sorted(found, key=lambda shown: -shown.step.index))
+        return grounds
 
     def _alpha(self, sheet: Layer, place: CanvasPixel) -> float:
         planes = layer_planes(sheet, place.level, place.rect, self._cache)
         return 0.0 if planes is None else float(planes[_ALPHA, 0, 0])
 
-    def _on_layer(
-        self, bare: Layer, place: CanvasPixel, through: tuple[float, float], painting: Painting, steps: Steps
-    ) -> list[ShownStroke]:
-        """`through`: how much of the layer is seen, and its alpha."""
-        weight, alpha = through
-        candidates = self._near(bare, place, steps)
-        finest = max((stroke.level for _, stroke in candidates), default=place.level)
-        finer = min(max(finest - place.level, 0), _PARTS)
-        fine = CanvasParts(place.level + finer, place.rect.zoomed(finer))
-        left = np.full((fine.rect.height, fine.rect.width), weight, np.float32)
-        found: list[ShownStroke] = []
-        start, count = 0, _AT_FIRST
-        while start < len(candidates) and left.max() >= LEAST_SHARE:
-            some = candidates[start : start + count]
-            start, count = start + count, 2 * count
-            covered = self._covered(some, place, fine, painting)
-            leave = np.array([hides(stroke.brush) for _, stroke in some], np.float32)[:, None, None]
-            seen = np.multiply.accumulate(np.concatenate([left[None], 1.0 - covered * leave]))
-            shares = (covered * seen[:-1]).mean(axis=(1, 2))
-            left = seen[-1]
-            for n in np.flatnonzero(shares >= LEAST_SHARE).tolist():
-                step, stroke = some[n]
-                share = float(shares[n]) * (alpha if step.locked else 1.0)
-                if share >= LEAST_SHARE:
-                    found.append(ShownStroke(step, stroke, share, bare.name))
-        return found
+    def _shown(
+        self, ground: _Ground, among: Sequence[_Candidate], place: CanvasPixel, painting: Painting
+    ) -> Iterator[ShownStroke]:
+        """Yields the strokes on a layer that show, of some, and takes from what is left of it what they hide."""
+        some = [(one.step, one.stroke) for one in among if one.ground is ground]
+        if not some:
+            return
+        covered = self._covered(some, place, ground.fine, painting)
+        leave = np.array([hides(stroke.brush) for _, stroke in some], np.float32)[:, None, None]
+        seen = np.multiply.accumulate(np.concatenate([ground.left[None], 1.0 - covered * leave]))
+        shares = (covered * seen[:-1]).mean(axis=(1, 2))
+        for n in np.flatnonzero(shares >= LEAST_SHARE).tolist():
+            step, stroke = some[n]
+            share = float(shares[n]) * (ground.alpha if step.locked else 1.0)
+            if share >= LEAST_SHARE:
+                yield ShownStroke(step, stroke, share, ground.name)
+        ground.left = seen[-1]
 
     def _covered(
         self, some: Sequence[tuple[LoggedStep, c.Stroke]], place: CanvasPixel, fine: CanvasParts, painting: Painting
@@ -142,18 +188,22 @@ class PaintedHere:
             out[places] = plain_over([some[n][1] for n in places], level, rect)
         return out
 
-    def _near(self, bare: Layer, place: CanvasPixel, steps: Steps) -> list[tuple[LoggedStep, c.Stroke]]:
+    def _near(
+        self, strokes: Sequence[LoggedStep], place: CanvasPixel
+    ) -> Generator[tuple[ShownStroke, ...], None, list[tuple[LoggedStep, c.Stroke]]]:
         """Returns the strokes whose bounds meet the place, the newest first."""
         there: dict[int, Rect] = {}
-        strokes = list(steps.strokes(bare))
-        self._bound([step for step in strokes if self._bounds.get(step.index, _UNBOUND)[0] is not step.command])
         out: list[tuple[LoggedStep, c.Stroke]] = []
-        for step in strokes:
-            stroke, around = self._bounds[step.index]
-            if stroke.level not in there:
-                there[stroke.level] = near(stroke.level, place.level, place.rect)
-            if there[stroke.level].meets(around):
-                out.append((step, stroke))
+        for start in range(0, len(strokes), _BOUND_AT_ONCE):
+            some = strokes[start : start + _BOUND_AT_ONCE]
+            self._bound([step for step in some if self._bounds.get(step.index, _UNBOUND)[0] is not step.command])
+            for step in some:
+                stroke, around = self._bounds[step.index]
+                if stroke.level not in there:
+                    there[stroke.level] = near(stroke.level, place.level, place.rect)
+                if there[stroke.level].meets(around):
+                    out.append((step, stroke))
+            yield ()
         return out
 
     def _bound(self, steps: Sequence[LoggedStep]) -> None:
@@ -179,6 +229,15 @@ class PaintedHere:
                 self._made.clear()
             self._made[id(definitions)] = definitions, made
         return self._made[id(definitions)][1]
+
+
+def _next(strokes: Iterator[_Candidate], effort: int, level: int) -> list[_Candidate]:
+    """Takes the next strokes, as many as are looked at with some effort, or one; none where there are no more."""
+    some: list[_Candidate] = []
+    while effort > 0 and (one := next(strokes, None)) is not None:
+        some.append(one)
+        effort -= 1 if plainly(one.stroke, level) else _OWN_MASK
+    return some
 
 
 def _sheets(group: Group, weight: float, plain: bool) -> Iterator[tuple[Layer, float, bool]]:

@@ -101,6 +101,7 @@ class Studio(Owned):
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
             _of(travels),
+            _of(HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
             _of(Matcher(easel)),
             _of(Examiner(easel)),
@@ -118,7 +119,6 @@ class Studio(Owned):
             Tend: lambda r: None,
             **self.filing.handlers,
             **Warming(send).handlers,
-            **HereFinder(trail).handlers,
         }
         for row in self._rows:
             self._handlers |= row.handlers

@@ -56,6 +56,12 @@ class PastState:
         self.asking, self.listing, self.here = False, "here", None
         post(AskHere(level, x, y))
 
+    def take(self, found: Here) -> None:
+        """Shows the strokes at a place; of those shown already, none goes away while they are looked for anew."""
+        now = self.here
+        if now is None or now.place != found.place or not found.more or len(found.strokes) >= len(now.strokes):
+            self.here = found
+
     def jump(self, post: Post, number: int) -> None:
         """Makes a step the last one that is done."""
         post(Jump(number))

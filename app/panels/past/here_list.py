@@ -11,12 +11,14 @@ from app import icons
 from app.desk.colours import from_hex
 from app.desk.desk import Desk
 from app.desk.hand import LARGEST, SMALLEST
-from app.desk.past.past_state import brush_name, when
+from app.desk.past.past_state import PastState, brush_name, when
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
 from app.panels.past import step_card
 from app.panels.past.step_card import Look
 from engine.studio.past.past_records import HereStroke
+
+_LOOKING = f"{icons.WAIT} looking…"
 
 
 class HereList:
@@ -31,8 +33,7 @@ class HereList:
         found = desk.past.here
         if found is None or not found.strokes:
             imgui.spacing()
-            text = f"{icons.WAIT} looking…" if found is None and not desk.past.asking else "Click a place on the canvas"
-            imgui.text_disabled(text if found is None else "No stroke shows there, or it is not known which")
+            imgui.text_disabled(_instead(desk.past))
             return
         imgui.begin_child("strokes", ImVec2(0, 0))
         tall = step_card.size(desk.scale, 0)[1] + imgui.get_style().item_spacing.y
@@ -41,6 +42,8 @@ class HereList:
         while clipper.step():
             for n in range(clipper.display_start, clipper.display_end):
                 self._row(desk, n, found.strokes[n])
+        if found.more:
+            imgui.text_disabled(_LOOKING)
         imgui.end_child()
 
     def _row(self, desk: Desk, n: int, stroke: HereStroke) -> None:
@@ -70,6 +73,13 @@ class HereList:
         w.swatch(f"colour {n}", from_hex(brush.colour), brush.colour, (imgui.get_frame_height(),) * 2)
         imgui.end_group()
         imgui.pop_id()
+
+
+def _instead(past: PastState) -> str:
+    """Returns what stands where there are no strokes."""
+    if past.here is None:
+        return "Click a place on the canvas" if past.asking else _LOOKING
+    return _LOOKING if past.here.more else "No stroke shows there, or it is not known which"
 
 
 def _about(stroke: HereStroke) -> str:

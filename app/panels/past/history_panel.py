@@ -114,7 +114,7 @@ class HistoryPanel(Panel):
             desk.post(AskHere(*desk.past.here.place))  # others may show there now
 
     def _found(self, desk: Desk, here: Here, _now: float) -> None:
-        desk.past.here = here
+        desk.past.take(here)
 
 
 def _short(place: int) -> str:

@@ -92,7 +92,8 @@ class HereStroke:
 
 @dataclass(frozen=True, slots=True)
 class Here:
-    """The strokes that show at a pixel (level, x, y), the newest first."""
+    """The strokes that show at a pixel (level, x, y), the newest first; `more`: older ones are still looked for."""
 
     place: tuple[int, int, int]
     strokes: tuple[HereStroke, ...]
+    more: bool = False

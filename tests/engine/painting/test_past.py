@@ -2,12 +2,14 @@
 
 import time
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.desk.past.past_state import PastState
 from engine.canvas.composite import composite
 from engine.canvas.layers import layers
 from engine.canvas.reading import layer_planes
@@ -16,6 +18,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.session.differing import difference
+from engine.session.painted_here import CanvasPixel, PaintedHere
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
@@ -315,3 +318,59 @@ def test_kept_states_are_bounded_and_each_leads_on():
     at, painting = states.nearest(session.log, len(session.log))
     assert at <= 36, "what is undone later cannot be begun with"
     assert painting in (*kept.values(), states._states[0])
+
+
+def test_strokes_that_show_are_told_piece_by_piece_the_newest_first(monkeypatch):
+    monkeypatch.setattr("engine.studio.past.here._PIECE", 0.0)
+    monkeypatch.setattr("engine.session.painted_here._AT_FIRST", 8)
+    stack = [c.AddLayer("Below"), c.AddLayer("Above")]
+    for n in range(60):
+        told = {"do": "stroke", "layer": ("Below", "Above")[n % 2], "points": [[20, 20], [30, 20 + n % 3]]}
+        stack.append(c.parse({**told, "brush": {"radius": 6, "opacity": 0.02, "colour": f"#{n:06x}"}}))
+    asker = Asker()
+    asker.ask(q.New(FRAME), *map(q.Do, stack))
+    asker.studio.do(p.AskHere(0, 25, 20))
+    while asker.studio.pending:
+        asker.studio.step()
+    told = [result for result in asker.sent if isinstance(result, p.Here)]
+    assert len(told) > 2
+    assert [here.more for here in told] == [True] * (len(told) - 1) + [False]
+    for one, other in pairwise(told):
+        assert other.strokes[: len(one.strokes)] == one.strokes
+    numbers = [stroke.step.number for stroke in told[-1].strokes]
+    assert numbers == sorted(numbers, reverse=True)
+    session = asker.session
+    wanted = PaintedHere().at(CanvasPixel(0, 25, 20), session.painting, session.steps)
+    assert [(one.step.number, one.share) for one in wanted] == [(s.step.number, s.share) for s in told[-1].strokes]
+
+
+def test_a_search_ends_where_another_begins_or_the_painting_goes(monkeypatch):
+    monkeypatch.setattr("engine.studio.past.here._PIECE", 0.0)
+    asker = Asker()
+    asker.ask(q.New(FRAME), *map(q.Do, STROKES))
+    asker.studio.do(p.AskHere(0, 4, 4))
+    asker.ask(p.AskHere(0, 9, 6))
+    assert asker.last(p.Here).place == (0, 9, 6)
+    assert not asker.last(p.Here).more
+    asker.studio.do(p.AskHere(0, 4, 4))
+    count = len(asker.sent)
+    asker.easel.show(opened(), None)
+    asker.work()
+    assert not any(isinstance(result, p.Here) for result in asker.sent[count:])
+
+
+def test_the_list_keeps_what_it_shows_while_the_same_place_is_looked_at_anew():
+    step = p.PastStep(0, 1, "", "")
+    row = p.HereStroke(step, "Layer 1", 1.0, 0, ())
+    state, place = PastState(), (0, 3, 4)
+    for here, shown in (
+        (p.Here(place, (row,), True), 1),
+        (p.Here(place, (row, row)), 2),
+        (p.Here(place, (), True), 2),
+        (p.Here(place, (row,), True), 2),
+        (p.Here(place, (row,)), 1),
+        (p.Here((0, 9, 9), (), True), 0),
+    ):
+        state.take(here)
+        assert state.here is not None
+        assert len(state.here.strokes) == shown
