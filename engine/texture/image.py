@@ -9,6 +9,7 @@ import hashlib
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import ClassVar
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from engine.numeric.resample import resampled
 _STRIP = 64  # narrower images are repeated to this width before they are laid out
 _KEPT = 8  # pyramids held in memory
 _WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece by piece
+_HELD: WeakValueDictionary[str, np.ndarray] = WeakValueDictionary()  # the pixels of pictures, by their hash
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +38,18 @@ class ImageSource:
 
     @classmethod
     def of(cls, name: str, data: np.ndarray) -> ImageSource:
-        """Makes the source of float32 (4, h, w), premultiplied, named by the hash of its pixels.  ValueError for other
-        arrays."""
+        """Makes the source of float32 (4, h, w), premultiplied, named by the hash of its pixels; those that are there
+        already are shared.  ValueError for other arrays."""
         if data.ndim != 3 or data.shape[0] != 4 or data.dtype != np.float32 or not data.size:
             raise ValueError(f"image: found {data.dtype} {data.shape}, expected float32 (4, h, w)")
         data = np.ascontiguousarray(data)
         digest = hashlib.sha256(repr(data.shape).encode())
         digest.update(data.astype("<f4", copy=False).tobytes())
-        return cls(name, digest.hexdigest(), data)
+        sha = digest.hexdigest()
+        held = _HELD.get(sha)
+        if held is None:
+            held = _HELD[sha] = data
+        return cls(name, sha, held)
 
     @property
     def opaque(self) -> bool:

@@ -1,5 +1,8 @@
 """Conversions between planes and pixels."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -93,3 +96,11 @@ def test_wrong_shapes_are_named():
         colour.to_rgba8(np.zeros((3, 2, 2), np.float32))
     with pytest.raises(ValueError, match=r"found uint8 of shape \(2, 2, 4\), expected uint16 \(h, w, 4\)"):
         colour.from_rgba16(np.zeros((2, 2, 4), np.uint8))
+
+
+def test_the_first_kernel_loads_no_linear_algebra():
+    """Which takes 24 MB, and its time."""
+    told = "import sys, numpy as np; from engine.numeric.colour import to_premul8; "
+    told += "to_premul8(np.zeros((4, 8, 8), np.float32)); print('scipy.linalg' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"

@@ -1,6 +1,8 @@
 """Pictures as textures: their pyramid is exact, they tile, and they stop where their pixels stop."""
 
+import gc
 import itertools
+import weakref
 
 import numpy as np
 import pytest
@@ -176,3 +178,14 @@ def test_a_lost_picture_is_transparent():
 def test_sources_of_another_form_are_refused(data):
     with pytest.raises(ValueError, match=r"expected float32 \(4, h, w\)"):
         ImageSource.of("bad", data)
+
+
+def test_pictures_with_the_same_pixels_share_them_as_long_as_one_is_there():
+    pixels = np.random.default_rng(3).random((4, 9, 7), np.float32)
+    one, other = ImageSource.of("one", pixels), ImageSource.of("other", pixels.copy())
+    assert other.data is one.data
+    assert (one.name, other.name) == ("one", "other")
+    held = weakref.ref(one.data)
+    del one, other, pixels
+    gc.collect()
+    assert held() is None
