@@ -7,6 +7,7 @@ record's level by expand, and applied in the order of the commits when the recor
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,21 +19,29 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.column import Column
 from engine.numeric.pyramid import expand
 
+_NEAR, _APART = 3, 16  # levels below a stroke, and below one another, at which what it leaves of detail is noted,
+_HIGH = 4  # no fewer levels than that above a tile: some pixels, which tiles of many levels have in common
+_MOST_NOTED = 1 << 14
+_NOTED: dict[tuple[int, int, Rect], np.ndarray] = {}  # by a stroke's serial, a level and a place there
+
 
 def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     """Returns the record as it is now: every attenuation since it was stored applied, oldest first."""
     pending = [waits for waits in pyramid.waiting(record.depth) if waits.change.level < key.level]
-    if not pending:
-        return record
-    data = first = record.data
-    at = placed(key, record.rect)
+    data = _weakened(pending, key, record) if pending else None
+    return record if data is None else Record(record.rect, data, record.inks, pyramid.depth)
+
+
+def _weakened(pending: Sequence[Attenuation], key: TileKey, record: Record) -> np.ndarray | None:
+    """Returns what attenuations, newest first, leave of a record's data: int32; None where they leave all of it."""
+    out, at = None, placed(key, record.rect)
     for waits in reversed(pending):
         keep = attenuation(waits, key.level, at)
         if keep is not None:
+            data = record.data if out is None else out
             out = np.empty(data.shape, np.int32)
             kernels.attenuate(data, keep, waits.spares_alpha, out)
-            data = out
-    return record if data is first else Record(record.rect, data, record.inks, pyramid.depth)
+    return out
 
 
 def placed(key: TileKey, inner: Rect) -> Rect:
@@ -46,20 +55,44 @@ def attenuation(waits: Attenuation, level: int, rect: Rect) -> np.ndarray | None
     over."""
     if not waits.change.reach(level).meets(rect):
         return None
-    column, up = Column(rect.evened()), level - waits.change.level
-    keep = _base(waits, column.at(up))
-    while up:
-        first = keep[0, 0]
-        if (keep == first).all():
-            return None if first == 1.0 else np.full((rect.height, rect.width), first, np.float32)
-        before, outer, up = keep[None], column.at(up), up - 1
-        parents = column.at(up).parents()
-        keep = expand(before[:, *parents.slices(outer)])[0]
-        still = column.still(before, keep[None], up, 1) if up > 1 else None
-        if still is not None:
-            keep, up = still[0], 1
+    column, here = Column(rect.evened()), level - waits.change.level
+    keep: np.ndarray | None = None
+    for stop in (*range(here - _NEAR, _HIGH - 1, -_APART), 0):
+        place = waits.change.serial, level - stop, column.at(stop)
+        found = _NOTED.get(place) if stop else None
+        if found is None:
+            found = _carried(_base(waits, column.at(here)) if keep is None else keep, column, here, stop)
+            if stop:
+                _note(place, found)
+        keep, here = found, stop
+        if (keep == keep[0, 0]).all():
+            return None if keep[0, 0] == 1.0 else np.full((rect.height, rect.width), keep[0, 0], np.float32)
+    assert keep is not None
     keep = keep[rect.slices(column.rect)]
     return None if (keep == 1.0).all() else np.ascontiguousarray(keep)
+
+
+def _note(place: tuple[int, int, Rect], keep: np.ndarray) -> None:
+    if len(_NOTED) >= _MOST_NOTED:
+        _NOTED.clear()
+    _NOTED[place] = keep
+
+
+def _carried(keep: np.ndarray, column: Column, here: int, there: int) -> np.ndarray:
+    """Returns a over what lies `there` levels above the foot of a column, from what it is `here` levels above."""
+    last = max(there, 1)
+    while here > there:
+        first = keep[0, 0]
+        if (keep == first).all():
+            at = column.at(there)
+            return np.full((at.height, at.width), first, np.float32)
+        before, outer, here = keep[None], column.at(here), here - 1
+        parents = column.at(here).parents()
+        keep = expand(before[:, *parents.slices(outer)])[0]
+        still = column.still(before, keep[None], here, last) if here > last else None
+        if still is not None:
+            keep, here = still[0], last
+    return keep
 
 
 def _base(waits: Attenuation, rect: Rect) -> np.ndarray:
@@ -73,32 +106,46 @@ def _base(waits: Attenuation, rect: Rect) -> np.ndarray:
     return keep
 
 
-def fold(pyramid: Pyramid) -> Pyramid:
-    """Returns the same values without pending attenuations: what a file stores.  The past of `pyramid` is kept."""
+def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
+    """Returns the same values without pending attenuations, or without those of the commits up to a `depth`: what a
+    file stores.  The past of `pyramid` is kept."""
+    until = pyramid.depth if depth is None else depth
+    folded = [waits for waits in pyramid.waiting() if waits.change.depth <= until]
     levels = pyramid.levels
     for level, stored in pyramid.levels.items():
-        if not (places := _places(pyramid, level)):
+        if not (places := _places(pyramid, level, folded)):
             continue
-        editable = stored.mutate()
+        editable, changed = stored.mutate(), False
         for place in places:
             record = stored[place]
-            settled = effective(pyramid, TileKey(level, *place), record)
-            if settled is record:
+            pending = [waits for waits in folded if record.depth < waits.change.depth and waits.change.level < level]
+            data = _weakened(pending, TileKey(level, *place), record)
+            if data is None:
                 continue
-            smaller = compact(settled.rect, settled.data.astype(np.int32), settled.inks, pyramid.depth)
+            changed = True
+            smaller = compact(record.rect, data, record.inks, until)
             if smaller is None:
                 editable.pop(place)
             else:
                 editable.set(place, smaller)
         finished = editable.finish()
-        levels = levels.set(level, finished) if len(finished) else levels.delete(level)
-    return replace(pyramid, levels=levels, settled=pyramid.depth, waits=None)
+        if changed:
+            levels = levels.set(level, finished) if len(finished) else levels.delete(level)
+    return replace(pyramid, levels=levels, settled=until, waits=_left(pyramid, until))
 
 
-def _places(pyramid: Pyramid, level: int) -> set[tuple[int, int]]:
-    """Returns the places of a level's records that any attenuation meets."""
+def _left(pyramid: Pyramid, depth: int) -> Attenuation | None:
+    """Returns the attenuations of the commits since one."""
+    left = None
+    for waits in reversed(list(pyramid.waiting(depth))):
+        left = replace(waits, before=left)
+    return left
+
+
+def _places(pyramid: Pyramid, level: int, folded: Sequence[Attenuation]) -> set[tuple[int, int]]:
+    """Returns the places of a level's records that any of some attenuations meets."""
     found: set[tuple[int, int]] = set()
-    for waiting in pyramid.waiting():
+    for waiting in folded:
         if waiting.change.level < level:
             found.update((key.x, key.y) for key, _ in pyramid.records(level, waiting.change.reach(level)))
     return found

@@ -199,7 +199,8 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
     after = replace(pyramid, levels=levels, last=change, waits=waits)
-    return fold(after) if keeps and sum(1 for _ in after.waiting()) > _MOST_WAITING else after
+    waiting = list(after.waiting()) if keeps else []
+    return fold(after, waiting[_MOST_WAITING].change.depth) if len(waiting) > _MOST_WAITING else after
 
 
 def _write(editable: MapMutation[tuple[int, int], Record], keys: Iterable[TileKey], records: NewRecords) -> None:

@@ -47,8 +47,8 @@ def _alone(record: Record, beside: Record | None) -> int:
 
 def _waiting(one: Pyramid, other: Pyramid) -> int:
     """Returns the bytes of attenuations that wait in one state and not in another."""
-    there = {id(waits) for waits in other.waiting()}
-    return sum(waits.nbytes for waits in one.waiting() if id(waits) not in there)
+    there = {waits.change.serial for waits in other.waiting()}
+    return sum(waits.nbytes for waits in one.waiting() if waits.change.serial not in there)
 
 
 def _regrown(old: Growth, new: Growth) -> tuple[int, int]:

@@ -14,6 +14,7 @@ from engine.canvas.evaluate import evaluate
 from engine.canvas.store import Pyramid, changed_rects
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.pyramid import expand
 
 INKS = (Grain(0, 1),)
 
@@ -78,13 +79,13 @@ def spread():
 
 def test_folding_looks_only_at_records_that_an_attenuation_meets(spread, monkeypatch):
     looked = []
-    plain = folding.effective
+    plain = folding._weakened
 
-    def effective(pyramid, key, record):
+    def weakened(pending, key, record):
         looked.append(key)
-        return plain(pyramid, key, record)
+        return plain(pending, key, record)
 
-    monkeypatch.setattr(folding, "effective", effective)
+    monkeypatch.setattr(folding, "_weakened", weakened)
     folded = fold(spread)
     assert looked
     assert all(key.rect.meets(spread.last.reach(key.level)) for key in looked)
@@ -94,6 +95,61 @@ def test_folding_looks_only_at_records_that_an_attenuation_meets(spread, monkeyp
             view = Rect(x - 4, -4, x + 30, 30)
             assert np.array_equal(evaluate(folded, level, view).data, evaluate(spread, level, view).data)
     assert all(folded.levels[level] is spread.levels[level] for level in spread.levels if level <= 0)
+
+
+def carried_plainly(waits, level, rect):
+    """A of a stroke over a rectangle of a finer level, by one expand after the other from all that it follows from."""
+    rects = [rect.evened()]
+    for _ in range(level - waits.change.level):
+        rects.append(rects[-1].parents().evened())
+    at = rects.pop()
+    keep = folding._base(waits, at)
+    while rects:
+        inner = rects.pop()
+        top, left = (inner.y0 >> 1) - 1 - at.y0, (inner.x0 >> 1) - 1 - at.x0
+        keep = expand(keep[None, top : top + inner.height // 2 + 2, left : left + inner.width // 2 + 2])[0]
+        at = inner
+    return keep[rect.slices(at)]
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(1, 60), st.integers(-12, 40), st.integers(-6, 6), st.integers(0, 1 << 60), st.floats(0.05, 1.0))
+def test_what_a_stroke_leaves_of_detail_is_the_same_by_whatever_stops(up, x, y, below, alpha):
+    """However deep the detail lies, and whatever was noted of the stroke before."""
+    alpha = round(alpha * 65536) / 65536
+    base = commit(Pyramid(), fill(up, 0, 0, 4, 4))
+    pyramid = commit(base, fill(0, 0, 0, 24, 9, alpha=alpha))
+    (waits,) = pyramid.waiting() if pyramid.waits is not None else (None,)
+    if waits is None:
+        return
+    offset = below & ((1 << up) - 1)
+    for wide, level in ((7, up), (90, up), (7, max(up - 1, 1))):
+        rect = Rect.at((x << level) + offset, (y << level) + offset, wide, 5)
+        expected = carried_plainly(waits, level, rect)
+        found = folding.attenuation(waits, level, rect)
+        assert np.array_equal(np.ones_like(expected) if found is None else found, expected)
+
+
+def test_folding_the_oldest_strokes_changes_no_value_and_leaves_the_others_waiting():
+    pyramid = commit(Pyramid(), fill(6, 0, 0, 300, 200))
+    for n in range(12):
+        pyramid = commit(pyramid, fill(1 + n % 3, n % 5, n % 4, 6, 5, alpha=0.125 * (1 + n % 7)))
+        if n % 4 == 3:
+            pyramid = commit(pyramid, fill(7, 40 * n, 10, 30, 30, alpha=0.5))  # a record since some of them
+    waiting = [waits.change.serial for waits in pyramid.waiting()]
+    for left in (9, 5, 5, 1, 0):
+        depth = list(pyramid.waiting())[left].change.depth if left < len(list(pyramid.waiting())) else pyramid.settled
+        folded = fold(pyramid, depth)
+        assert [waits.change.serial for waits in folded.waiting()] == waiting[:left]
+        assert folded.settled == depth
+        for level in (5, 6, 7, 8):
+            view = Rect(-20, -20, 340 << max(level - 6, 0), 240 << max(level - 6, 0))
+            assert np.array_equal(evaluate(folded, level, view).data, evaluate(pyramid, level, view).data)
+        pyramid = folded
+    assert all(
+        (a.data == b.data).all()
+        for (_, a), (_, b) in zip(pyramid.all_records(), fold(pyramid).all_records(), strict=True)
+    )
 
 
 @settings(max_examples=60, deadline=None)
