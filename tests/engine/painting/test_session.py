@@ -333,7 +333,7 @@ def test_deep_and_far_places_are_painted_and_undone_exactly():
 
 
 def test_history_counts_what_settling_many_strokes_replaced():
-    """Every so often the attenuation of earlier strokes is applied everywhere at once, not only under the last one."""
+    """The attenuation of the oldest strokes that wait is applied everywhere, not only under the last one."""
     session = Session(cache=TileCache(16 << 20))
     session.do(c.parse(FINE))
     counted = real = 0
@@ -345,7 +345,7 @@ def test_history_counts_what_settling_many_strokes_replaced():
         old = [r for layer in layers.layers(before) for _, r in layer.pyramid.all_records()]
         real += sum(r.nbytes for r in old if id(r) not in now)
         waits, still = (
-            {id(a): a.nbytes for sheet in layers.layers(root) for a in sheet.pyramid.waiting()}
+            {id(a.keep): a.nbytes for sheet in layers.layers(root) for a in sheet.pyramid.waiting()}
             for root in (before, session.painting.root)
         )
         real += sum(size for number, size in waits.items() if number not in still)
