@@ -1,24 +1,40 @@
-"""The past of a painting: small pictures of its steps, each of whose strokes falls on another layer than that before.
+"""The past of a painting: small pictures of its steps, each of whose strokes falls on another layer than that before;
+and the strokes that show at a pixel which thousands of faint ones cover.
 
 Processor time of the engine's thread.
 """
 
 from __future__ import annotations
 
+import gc
 import random
 import time
 from collections.abc import Iterator
+from itertools import pairwise
 from statistics import mean
+from typing import Any
 
 from bench import Figure
 from engine.canvas.tile_cache import TileCache
 from engine.painting import commands as c
 from engine.session.session import Session
+from engine.studio import results
+from engine.studio.past import past_records as p
 from engine.studio.past.step_pictures import StepPainter, StepPictures
+from engine.studio.studio import Studio
 
 CACHE = 256 << 20  # bytes
 LAYERS, STROKES, SIDE = (1, 4, 10), 300, 400  # strokes on random ones of so many layers, over so many pixels
 PICTURE = 1e-3  # seconds, at most
+FAINT, HERE = 5000, (0, 455, 455)  # strokes; pixel that they all cover
+FIRST = 0.05  # seconds until the newest strokes that show are told
+LOOKS: dict[str, dict[str, Any]] = {
+    "plain": {},
+    "grain": {"opacity": 0.1, "grain": {"texture": "rock", "period": 32, "amount": 0.2}},
+    "tip": {"tip": {"texture": "rock", "source": "window", "period": 8}},
+    "wet edge": {"edge": "wet"},
+    "raster with ink": {"mode": "raster", "op": "multiply", "ink": [{"texture": "rock", "period": 16}]},
+}
 
 
 def measure(small: bool = False) -> Iterator[Figure]:
@@ -26,6 +42,12 @@ def measure(small: bool = False) -> Iterator[Figure]:
         taken = _pictures(count, 6 if small else STROKES)
         name = f"a step's picture, {count} layer{'s' if count > 1 else ''}"
         yield Figure(name, taken * 1e3, "ms", f"{PICTURE * 1e3:.0f} ms", taken / PICTURE, 1.0)
+    for look, brush in LOOKS.items():
+        count = 20 if small else FAINT
+        first, longest, whole = min(_asked(_faint(count, brush)) for _ in range(2))
+        note = f"all after {whole * 1e3:.0f} ms, in pieces of at most {longest * 1e3:.0f} ms"
+        name, bound = f"painted here, {count:,} x {look}, first told", f"{FIRST * 1e3:.0f} ms"
+        yield Figure(name, first * 1e3, "ms", bound, first / FIRST, 1.0, note=note)
 
 
 def _pictures(count: int, strokes: int) -> float:
@@ -54,3 +76,39 @@ def _stroke(rng: random.Random, layer: str) -> c.Command:
     brush = {"radius": 12, "opacity": 0.7, "colour": f"#{rng.randrange(1 << 24):06x}"}
     told = {"do": "stroke", "layer": layer, "level": rng.randrange(3), "points": points, "brush": brush}
     return c.parse(told)
+
+
+def _faint(count: int, brush: dict[str, Any]) -> Session:
+    """Strokes that all cover a pixel, and leave nearly all of it to be seen; only one is painted."""
+    rng, commands = random.Random(1), []
+    for _ in range(count):
+        points = [[HERE[1] + rng.uniform(-40, 40), HERE[2] + rng.uniform(-40, 40), 0.8] for _ in range(20)]
+        points[10] = [HERE[1], HERE[2], 0.8]
+        told = {"do": "stroke", "points": points, "brush": {"radius": 12, "opacity": 0.02, **brush}}
+        commands.append(c.parse(told))
+    session = Session(cache=TileCache(CACHE))
+    session.do(commands[0])
+    session.log += commands[1:]
+    return session
+
+
+def _asked(session: Session) -> tuple[float, float, float]:
+    """Seconds until the first strokes are told, of the longest piece of work, and until all are."""
+    told: list[float] = []
+
+    def send(result: results.Result) -> None:
+        if isinstance(result, p.Here):
+            told.append(time.thread_time())
+
+    studio = Studio(send, lambda request: None)
+    studio.easel.show(session, None)
+    while studio.step():
+        pass
+    gc.collect()
+    pieces = [time.thread_time()]
+    studio.do(p.AskHere(*HERE))
+    pieces.append(time.thread_time())
+    while studio.step():
+        pieces.append(time.thread_time())
+    studio.close()
+    return told[0] - pieces[0], max(b - a for a, b in pairwise(pieces)), told[-1] - pieces[0]

@@ -22,6 +22,7 @@ QUICK = (
     "stroke",
     "exporting",
     "looking",
+    "playing",
     "past",
     "memory",
 )  # the others open windows and other programs

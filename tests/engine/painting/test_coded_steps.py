@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from stepped import ROCK, contents, records, stroke
 
 from engine.canvas import layers
 from engine.canvas.tile_cache import TileCache
@@ -23,28 +24,6 @@ from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.studio import Studio
 from engine.texture.sparse_planes import SparsePlanes
-
-ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
-
-
-def stroke(n, level=0, radius=5.0, ink=()):
-    at = [float(17 * n % 90), float(29 * n % 70)]
-    brush = {"radius": radius, "opacity": 0.6, "colour": f"#{40 * n % 256:02x}6080", "ink": list(ink)}
-    points = [[v * 2.0**level for v in at], [v * 2.0**level + 12 for v in at]]
-    return c.parse({"do": "stroke", "level": level, "points": points, "brush": brush})
-
-
-def contents(painting):
-    """All that is stored of a painting, copied."""
-    return [
-        (sheet.id, key, record.rect, record.inks, record.depth, record.data.dtype, record.data.tobytes())
-        for sheet in layers.layers(painting.root)
-        for key, record in sheet.pyramid.all_records()
-    ]
-
-
-def records(painting):
-    return [record for sheet in layers.layers(painting.root) for _, record in sheet.pyramid.all_records()]
 
 
 def rest(history):

@@ -1,13 +1,15 @@
 """Records made smaller and put away on disk: the painting is what it was, and goes on as it would have."""
 
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 import pytest
+import stepped
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from stepped import ROCK, contents, records
 
-from engine.canvas import layers
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.keeping.spill import Spill
@@ -19,7 +21,7 @@ from engine.session.coded_records import CodedData
 from engine.session.paging import Paging
 from engine.session.session import Session
 
-ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
+stroke = partial(stepped.stroke, radius=9.0)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -31,32 +33,12 @@ def disk(tmp_path_factory):
     spill.close()
 
 
-def stroke(n, level=0, ink=()):
-    at = [float(17 * n % 90), float(29 * n % 70)]
-    brush = {"radius": 9.0, "opacity": 0.6, "colour": f"#{40 * n % 256:02x}6080", "ink": list(ink)}
-    points = [[v * 2.0**level for v in at], [v * 2.0**level + 12 for v in at]]
-    return c.parse({"do": "stroke", "level": level, "points": points, "brush": brush})
-
-
-def contents(painting):
-    """All that is stored of a painting, copied."""
-    return [
-        (sheet.id, key, record.rect, record.inks, record.depth, record.data.dtype, record.data.tobytes())
-        for sheet in layers.layers(painting.root)
-        for key, record in sheet.pyramid.all_records()
-    ]
-
-
-def records(painting):
-    return [record for sheet in layers.layers(painting.root) for _, record in sheet.pyramid.all_records()]
-
-
 def begun():
     return Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(1 << 20))
 
 
 ACTS = st.one_of(
-    st.builds(stroke, st.integers(0, 9), st.integers(-2, 2), st.sampled_from([(), ROCK])),
+    st.builds(stroke, st.integers(0, 9), st.integers(-2, 2), ink=st.sampled_from([(), ROCK])),
     st.integers(1, 3).map(c.Undo),
     st.integers(1, 3).map(c.Redo),
     st.integers(0, 1 << 18),

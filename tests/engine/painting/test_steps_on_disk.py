@@ -1,11 +1,14 @@
 """Steps beyond what memory and disk hold: undo comes to the first all the same, and redo to the last."""
 
 import gc
+from functools import partial
 
 import numpy as np
 import pytest
+import stepped
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from stepped import ROCK, contents
 
 from engine.canvas import layers
 from engine.keeping.recent import Recent
@@ -18,7 +21,8 @@ from engine.session.history import History
 from engine.studio import requests as q
 from engine.studio.studio import Studio
 
-ROCK = [{"texture": "rock", "colour": "#ffffff", "period": 16}]
+stroke = partial(stepped.stroke, radius=2.0)
+
 LIMIT = 160_000  # bytes of steps in memory: each holds some thousand beside what is coded
 
 
@@ -39,22 +43,6 @@ def disk(tmp_path, monkeypatch):
     monkeypatch.setattr(coded_records, "spill", lambda: spill)
     yield spill
     spill.close()
-
-
-def stroke(n, level=0, ink=()):
-    at = [float(17 * n % 90), float(29 * n % 70)]
-    brush = {"radius": 2.0, "opacity": 0.6, "colour": f"#{40 * n % 256:02x}6080", "ink": list(ink)}
-    points = [[v * 2.0**level for v in at], [v * 2.0**level + 12 for v in at]]
-    return c.parse({"do": "stroke", "level": level, "points": points, "brush": brush})
-
-
-def contents(painting):
-    """All that is stored of a painting, copied; when it was stored is another number when it is played anew."""
-    return [
-        (sheet.id, key, record.rect, record.inks, record.data.dtype, record.data.tobytes())
-        for sheet in layers.layers(painting.root)
-        for key, record in sheet.pyramid.all_records()
-    ]
 
 
 def begun():
@@ -84,28 +72,28 @@ def ways(history):
     return sum(isinstance(h, np.ndarray) for h in held), len(coded) - away, away
 
 
-STROKES = st.builds(stroke, st.integers(0, 9), st.integers(-1, 1), st.sampled_from([(), ROCK]))
+STROKES = st.builds(stroke, st.integers(0, 9), st.integers(-1, 1), ink=st.sampled_from([(), ROCK]))
 
 
 def there_and_back(strokes):
     """Paints, goes back to the first step and on to the last."""
     studio = begun()
     session = studio.easel.session
-    states = [contents(session.painting)]
+    states = [contents(session.painting, depth=False)]
     for command in strokes:
         do(studio, command)
-        states.append(contents(session.painting))
+        states.append(contents(session.painting, depth=False))
     assert session.history.forgotten > 0
     assert all(ways(session.history)), ways(session.history)
     for wanted in states[-2::-1]:
         assert session.can_undo
         do(studio, c.Undo())
-        assert contents(session.painting) == wanted
+        assert contents(session.painting, depth=False) == wanted
     assert not session.can_undo
     for wanted in states[1:]:
         assert session.can_redo
         do(studio, c.Redo())
-        assert contents(session.painting) == wanted
+        assert contents(session.painting, depth=False) == wanted
     assert not session.can_redo
     studio.close()
 
