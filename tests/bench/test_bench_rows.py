@@ -22,10 +22,8 @@ QUICK = (
     "stroke",
     "exporting",
     "looking",
-    "playing",
-    "past",
     "memory",
-)  # the others open windows and other programs
+)  # the others open windows and other programs, or take seconds however small
 
 
 def checked(row):
