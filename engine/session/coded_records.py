@@ -76,7 +76,7 @@ class CodedData:
         if packed:
             part = out[:, *self.window]
             raw = np.frombuffer(isal_zlib.decompress(packed), np.uint8).reshape(self.dtype.itemsize, part.size)
-            part += np.ascontiguousarray(raw.T).view(self.dtype).reshape(part.shape)
+            part += joined_bytes(raw, self.dtype).reshape(part.shape)
         return out
 
 
@@ -221,8 +221,25 @@ def _packed(left: np.ndarray) -> tuple[tuple[slice, slice], bytes]:
     if not len(rows):
         return (slice(0, 0), slice(0, 0)), b""
     window = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
-    raw = np.ascontiguousarray(left[:, *window]).view(np.uint8).reshape(-1, left.itemsize)
-    return window, isal_zlib.compress(np.ascontiguousarray(raw.T).data, 1)
+    return window, isal_zlib.compress(split_bytes(left[:, *window]).data, 1)
+
+
+def split_bytes(values: np.ndarray) -> np.ndarray:
+    """Returns the bytes of integers, the lowest of all of them first: uint8 (bytes, n)."""
+    bits = np.ascontiguousarray(values).reshape(-1).view(f"u{values.itemsize}")
+    out = np.empty((values.itemsize, bits.size), np.uint8)
+    for n, row in enumerate(out):  # several times as fast as to transpose them
+        np.copyto(row, bits >> np.uint8(8 * n) if n else bits, casting="unsafe")
+    return out
+
+
+def joined_bytes(parts: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """Returns the integers of which `split_bytes` made bytes: (n,)."""
+    bits: np.ndarray = parts[-1].astype(f"u{dtype.itemsize}")
+    for row in parts[-2::-1]:
+        bits <<= np.uint8(8)
+        bits |= row
+    return bits.view(dtype)
 
 
 def _predicted(

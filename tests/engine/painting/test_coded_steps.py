@@ -16,7 +16,7 @@ from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import coded_records
 from engine.session import history as histories
-from engine.session.coded_records import WAY, CodedData, Ways, decode, encode
+from engine.session.coded_records import WAY, CodedData, Ways, decode, encode, joined_bytes, split_bytes
 from engine.session.differing import difference
 from engine.session.history import History
 from engine.session.replay import replay
@@ -304,3 +304,15 @@ def test_old_steps_are_coded_beside_the_painting_and_forgotten_ones_are_played_a
         assert [row[:4] + row[5:] for row in mine] == [row[:4] + row[5:] for row in wanted]
     assert not session.can_undo
     studio.close()
+
+
+@given(st.sampled_from([np.int16, np.int32]), st.integers(0, 2**32 - 1))
+def test_bytes_of_integers_are_told_apart_and_put_together(kind, seed):
+    bounds = np.iinfo(kind)
+    whole = np.random.default_rng(seed).integers(bounds.min, bounds.max, (3, 5, 7), kind, endpoint=True)
+    values = whole[:, 1:4, 2:]
+    apart = split_bytes(values)
+    assert np.array_equal(apart, np.ascontiguousarray(values).view(np.uint8).reshape(-1, values.itemsize).T)
+    together = joined_bytes(apart, values.dtype).reshape(values.shape)
+    assert together.dtype == kind
+    assert np.array_equal(together, values)
