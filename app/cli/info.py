@@ -59,7 +59,7 @@ def strokes_at(
 
     Failed if the painting does not say how it was made.
     """
-    from engine.painting.value import Painting
+    from engine.painting.value import blank
     from engine.session.painted_here import CanvasPixel, PaintedHere
     from engine.session.steps import Steps
 
@@ -67,7 +67,7 @@ def strokes_at(
     if found.recording is None:
         raise Failed(f"{path}: found no recording, expected one: what was painted where is not known")
     painting = grown(path, found)
-    steps = Steps(Painting(painting.frame, painting.seed), found.recording.commands)
+    steps = Steps(blank(painting), found.recording.commands)
     return painting.seed, PaintedHere().at(CanvasPixel(*at), painting, steps)
 
 
@@ -104,6 +104,7 @@ def facts(found: Opened) -> dict[str, Any]:
         "native": found.native,
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
+        "grid": painting.grid,
         "active": painting.active,
         "layers": rows,
         "inks": [list(key) for key in inks],
@@ -200,7 +201,7 @@ def _print(told: dict[str, Any]) -> None:
     print(f"{told['file']}: {told['file_bytes']:,} bytes, frame {frame[2]} x {frame[3]} at {frame[0]}, {frame[1]}")
     levels = told["levels"]
     span = f"{levels[0]} to {levels[-1]}" if levels else "none"
-    print(f"levels {span}; {told['bytes']:,} bytes of paint in memory; seed {told['seed']}")
+    print(f"levels {span}; {told['bytes']:,} bytes of paint in memory; seed {told['seed']}; grid 2^-{told['grid']}")
     print("layers, from the top:")
     for row in reversed(told["layers"]):
         print("  " + _line(row))

@@ -104,7 +104,7 @@ def needed(tiles: Sequence[Tile] | Sequence[Coded]) -> dict[int, Rect]:
 def _square_without(values: Cascade, group: list[Tile]) -> Iterator[Coded]:
     rect = _bounds(group).parents().evened()
     above = values.at(group[0][0].level - 1, rect)
-    tiles = [_Tile(key, record, rect, above) for key, record in group]
+    tiles = [_Tile(key, record, rect, above, values.pyramid.step) for key, record in group]
     inks = [tile.inks() for tile in tiles]
     seen = _Seen(tiles, inks)
     for tile, there in zip(tiles, inks, strict=True):
@@ -120,14 +120,17 @@ def _at(key: TileKey, record: Record) -> Rect:
     return Rect(x + r.x0, y + r.y0, x + r.x1, y + r.y1)
 
 
-_Arguments = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+_Arguments = tuple[
+    np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.float32
+]  # fmt: skip
 
 
 class _Tile:
-    """A tile on its parents: `above`, what lies on `rect` of the level above, None for nothing."""
+    """A tile on its parents: `above`, what lies on `rect` of the level above, None for nothing; all of a grid of this
+    `step`."""
 
-    def __init__(self, key: TileKey, record: Record, rect: Rect, above: Planes | None) -> None:
-        self.key, self.record = key, record
+    def __init__(self, key: TileKey, record: Record, rect: Rect, above: Planes | None, step: np.float32) -> None:
+        self.key, self.record, self._step = key, record, step
         self.at = _at(key, record)
         self._above = Planes.empty(rect.height, rect.width) if above is None else above
         self._corner = self.at.evened().parents()
@@ -155,7 +158,7 @@ class _Tile:
         place = np.array(self._place, np.int64)
         planes, start = seen.at(inks, self.at)
         detail = _detail(inks, self.key.level, self.at)
-        return self.record.data, self._above.data, place, sources, own, planes, start, detail
+        return self.record.data, self._above.data, place, sources, own, planes, start, detail, self._step
 
 
 def _tile_without(tile: _Tile, inks: tuple[Instance, ...], seen: _Seen) -> Coded:
@@ -243,7 +246,7 @@ def _square_restored(values: Cascade, square: Sequence[Coded]) -> int:
     rect = _bounds(square).parents().evened()
     above = values.at(square[0][0].level - 1, rect)
     changed = 0
-    for (_, record, implied), data in zip(square, _restored(square, rect, above), strict=True):
+    for (_, record, implied), data in zip(square, _restored(values.pyramid.step, square, rect, above), strict=True):
         record.exchange(data)
         changed += implied is not None and not implied.is_of(data)
     return changed
@@ -255,12 +258,12 @@ def square_restored(pyramid: Pyramid, square: Sequence[Coded], cache: TileCache)
     above = evaluate_sparse(pyramid, square[0][0].level - 1, rect, cache)
     if above is not None:
         above = Planes(np.ascontiguousarray(above.data), above.inks)
-    return list(_restored(square, rect, above))
+    return list(_restored(pyramid.step, square, rect, above))
 
 
-def _restored(square: Sequence[Coded], rect: Rect, above: Planes | None) -> Iterator[np.ndarray]:
-    """Yields the data of tiles; `above`, what lies on `rect` of the coarser level."""
-    tiles = [_Tile(key, record, rect, above) for key, record, _ in square]
+def _restored(step: np.float32, square: Sequence[Coded], rect: Rect, above: Planes | None) -> Iterator[np.ndarray]:
+    """Yields the data of tiles, in units of `step`; `above`, what lies on `rect` of the coarser level."""
+    tiles = [_Tile(key, record, rect, above, step) for key, record, _ in square]
     entries = [implied for _, _, implied in square if implied is not None]
     seen = _Seen(tiles, [implied.inks for implied in entries])
     for tile, implied in zip(tiles, entries, strict=True):

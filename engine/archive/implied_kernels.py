@@ -1,27 +1,27 @@
 """Compiled loops of what ink implies of colour (engine/archive/implied.py).
 
-A tile, w x h, is its residuals `data`, int16 or int32 (4 + 3m, h, w) in units of 2^-16, on the expanded `parents`,
-float32 (C, H, W).  `place`, int64 (4,): the row and the column of `parents` above and left of the first pixel's parent,
-and 1 where the tile begins on an odd row, on an odd column.  `sources` and `own`, int64 (n,): where the amplitudes of
-each ink begin in `parents` and in `data`, -1 for nowhere.  `seen` is float32 (n, 1 or 3, H', W'), the tile's first
-pixel at `start`, int64 (2,); `factors`, float32 (3, 1 + 2n), are p, then q and s of each ink; `detail`, float32
-(n or 0, 1 or 3, h, w), is what texture adds at this level of itself, all zero for inks of this level and coarser ones.
+A tile, w x h, is its residuals `data`, int16 or int32 (4 + 3m, h, w) in units of `step`, the grid's, on the expanded
+`parents`, float32 (C, H, W).  `place`, int64 (4,): the row and the column of `parents` above and left of the first
+pixel's parent, and 1 where the tile begins on an odd row, on an odd column.  `sources` and `own`, int64 (n,): where the
+amplitudes of each ink begin in `parents` and in `data`, -1 for nowhere.  `seen` is float32 (n, 1 or 3, H', W'), the
+tile's first pixel at `start`, int64 (2,); `factors`, float32 (3, 1 + 2n), are p, then q and s of each ink; `detail`,
+float32 (n or 0, 1 or 3, h, w), is what texture adds at this level of itself, all zero for inks of this level and
+coarser ones.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from engine.numeric.grid import snap
+from engine.numeric.grid import snap_to
 from engine.numeric.kernel import Array, Int, Real, inner, kernel
 from engine.numeric.pyramid import blend_rows, expand_row
 
-_UNIT = np.float32(2.0**-16)
-_COUNT = np.float32(2.0**16)
+_ONE = np.float32(1.0)
 _THREE = np.float32(3.0)
 _ALPHA = np.int64(3)  # no plain 3: numba would compile what it is given to once more, for that number alone
 _SIXTEENTH = np.float32(1.0 / 16.0)
-_FAR = 21  # bits of what is implied, in units of 2^-16: snap holds below 64
+_FAR = 21  # bits of what is implied, in steps: snap_to holds below 22
 _RIDGE = 1e-10  # of the normal equations' trace: of terms that do the same, both get a part
 
 
@@ -41,7 +41,7 @@ def lies(values: np.ndarray, plane: Int, top: Int, left: Int, height: Int, width
 
 @inner
 def _expanded(
-    flat: np.ndarray, height: Int, width: Int, plane: Int, place: np.ndarray, y: Int, t: np.ndarray, line: np.ndarray
+    flat: Array, height: Int, width: Int, plane: Int, place: Array, y: Int, t: Array, line: Array, step: np.float32
 ) -> None:
     """Writes row `y` of a plane of the expanded parents, from the even column on; `flat`, all parents of height x
     width.
@@ -55,17 +55,17 @@ def _expanded(
     near = (plane * height + place[0] + 1 + even // 2) * width + place[1]
     far = near + (2 * (even & 1) - 1) * width
     blend_rows(flat[near : near + t.size], flat[far : far + t.size], t)
-    expand_row(t, line)
+    expand_row(t, line, step)
 
 
 @inner
-def _refined(line: np.ndarray, flat: np.ndarray, height: Int, plane: Int, y: Int) -> None:
+def _refined(line: np.ndarray, flat: np.ndarray, height: Int, plane: Int, y: Int, step: np.float32) -> None:
     """line += row `y` of a plane of residuals, if there is one; `flat`, all planes of `height` rows."""
     if plane >= 0:
         start = (plane * height + y) * line.size
         d = flat[start : start + line.size]
         for i in range(line.size):
-            line[i] += np.float32(d[i]) * _UNIT
+            line[i] += np.float32(d[i]) * step
 
 
 @inner
@@ -75,10 +75,10 @@ def _clamped(line: np.ndarray) -> None:
 
 
 @kernel
-def _textured(line: np.ndarray, amplitude: np.ndarray, detail: np.ndarray) -> None:
+def _textured(line: np.ndarray, amplitude: np.ndarray, detail: np.ndarray, step: np.float32) -> None:
     """line += what an ink adds, as the canvas does."""
     for i in range(detail.size):
-        line[i] += snap(amplitude[i] * detail[i])
+        line[i] += snap_to(amplitude[i] * detail[i], step)
 
 
 @inner
@@ -98,7 +98,9 @@ def _solve(a: np.ndarray, b: np.ndarray) -> None:
 
 
 @inner
-def _sampled(parents: Array, plane: Int, data: Array, own: Int, place: Array, y: Int, stride: Int, line: Array) -> None:
+def _sampled(
+    parents: Array, plane: Int, data: Array, own: Int, place: Array, y: Int, stride: Int, line: Array, step: np.float32
+) -> None:
     """Writes every `stride`-th pixel of a row, the parents expanded and the residual added, into `line` float32."""
     if plane < 0:
         line[:] = np.float32(0.0)
@@ -111,11 +113,11 @@ def _sampled(parents: Array, plane: Int, data: Array, own: Int, place: Array, y:
             j = 1 + x // 2
             k = j + 2 * (x & 1) - 1
             t = _THREE * (_THREE * near[j] + far[j]) + (_THREE * near[k] + far[k])
-            line[i] = snap(t * _SIXTEENTH)
+            line[i] = snap_to(t * _SIXTEENTH, step)
     if own >= 0:
         d = data[own, y]
         for i in range(line.size):
-            line[i] += np.float32(d[stride * i]) * _UNIT
+            line[i] += np.float32(d[stride * i]) * step
 
 
 @inner
@@ -162,6 +164,7 @@ def fit(
     seen: Array,
     start: Array,
     detail: Array,
+    step: np.float32,
     stride: Int,
 ) -> Array:
     """Returns the factors, float64, that leave the smallest squares on every `stride`-th pixel of every such row."""
@@ -170,17 +173,17 @@ def fit(
     sums, x = np.zeros((3, m * (m + 3) // 2, width), np.float64), np.empty((m + 1, width), np.float64)
     alpha, line, target = np.empty((3, width), np.float32)
     for y in range(0, data.shape[1], stride):
-        _sampled(parents, _ALPHA, data, _ALPHA, place, y, stride, alpha)
+        _sampled(parents, _ALPHA, data, _ALPHA, place, y, stride, alpha, step)
         for i in range(width):
             x[0, i] = min(max(alpha[i], np.float32(0.0)), np.float32(1.0))
         for c in range(3):
-            _sampled(parents, c, data, c, place, y, stride, target)
+            _sampled(parents, c, data, c, place, y, stride, target, step)
             rest = x[m]
             for i in range(width):
                 rest[i] = target[i]
             for k in range(n):
                 plane = sources[k] + c if sources[k] >= 0 else -1
-                _sampled(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, stride, line)
+                _sampled(parents, plane, data, own[k] + c if own[k] >= 0 else -1, place, y, stride, line, step)
                 s = seen[k, c % seen.shape[1], start[0] + y][start[1] :]
                 for i in range(width):
                     value = np.float64(s[stride * i])
@@ -190,7 +193,7 @@ def fit(
                 if detail.shape[0]:
                     d = detail[k, c % detail.shape[1], y]
                     for i in range(width):
-                        rest[i] += snap(line[i] * d[stride * i])
+                        rest[i] += snap_to(line[i] * d[stride * i], step)
             _gather(sums[c], x)
     b = np.empty((3, m), np.float64)
     for c in range(3):
@@ -213,18 +216,18 @@ def _add(line: Array, alpha: Array, amplitude: Array, s: Array, p: Real, q: Real
 
 @inner
 def _exchanged(
-    row: np.ndarray, implied: np.ndarray, below: np.ndarray, sign: Int, whole: np.ndarray
+    row: np.ndarray, implied: np.ndarray, below: np.ndarray, sign: Int, whole: np.ndarray, step: np.float32
 ) -> tuple[Int, Int, Int]:
     """Returns a row of `exchange`, into `whole` int32: all bits of what is implied, of the row before and after.
 
     Every sum is cast: int32 added to int32 is int64 otherwise, and half as many fit into a register.
     """
-    shift = np.int32(31)
+    shift, count = np.int32(31), _ONE / step
     far, old, new = np.int32(0), np.int32(0), np.int32(0)
     for i in range(row.size):
         here = np.int32(row[i])
-        given = np.int32(snap(implied[i]) * _COUNT)
-        there = np.int32(here + np.int32(sign * np.int32(given - np.int32(below[i] * _COUNT))))
+        given = np.int32(snap_to(implied[i], step) * count)
+        there = np.int32(here + np.int32(sign * np.int32(given - np.int32(below[i] * count))))
         far = np.int32(far | np.int32(given ^ np.int32(given >> shift)))
         old = np.int32(old | np.int32(here ^ np.int32(here >> shift)))
         new = np.int32(new | np.int32(there ^ np.int32(there >> shift)))
@@ -242,6 +245,7 @@ def exchange(
     seen: Array,
     start: Array,
     detail: Array,
+    step: np.float32,
     factors: Array,
     sign: Int,
     out: Array,
@@ -261,21 +265,21 @@ def exchange(
     implied, whole = np.empty(width, np.float32), np.empty(width, np.int32)
     saved, widest, far = np.int64(0), np.int32(0), np.int32(0)
     for y in range(height):
-        _expanded(above, high, wide, _ALPHA, place, y, t, over)
-        _refined(alpha, old, height, _ALPHA, y)
+        _expanded(above, high, wide, _ALPHA, place, y, t, over, step)
+        _refined(alpha, old, height, _ALPHA, y, step)
         _clamped(alpha)
         for c in range(3):
-            _expanded(above, high, wide, c, place, y, t, first)
+            _expanded(above, high, wide, c, place, y, t, first, step)
             for k in range(sources.size):
-                _expanded(above, high, wide, sources[k] + c if sources[k] >= 0 else -1, place, y, t, under)
-                _refined(amplitude, old, height, own[k] + c if own[k] >= 0 else -1, y)
+                _expanded(above, high, wide, sources[k] + c if sources[k] >= 0 else -1, place, y, t, under, step)
+                _refined(amplitude, old, height, own[k] + c if own[k] >= 0 else -1, y, step)
                 p = factors[c, 0] if k == 0 else np.float32(0.0)
                 s = seen[k, c % seen.shape[1], start[0] + y][start[1] : start[1] + width]
                 _add(implied, alpha, amplitude, s, p, factors[c, 1 + 2 * k], factors[c, 2 + 2 * k], k == 0)
                 if detail.shape[0]:
-                    _textured(below, amplitude, detail[k, c % detail.shape[1], y])
+                    _textured(below, amplitude, detail[k, c % detail.shape[1], y], step)
             place_of = (c * height + y) * width
-            most, before, after = _exchanged(old[place_of : place_of + width], implied, below, sign, whole)
+            most, before, after = _exchanged(old[place_of : place_of + width], implied, below, sign, whole, step)
             row = kept[place_of : place_of + width]
             for i in range(width):
                 row[i] = whole[i]

@@ -1,6 +1,7 @@
 """inkfall/manifest.json: what a painting's file holds, in words, and how its tree is told.
 
-All numbers in our members are little-endian, pixel values whole multiples of 2^-16, premultiplied and sRGB-encoded.
+All numbers in our members are little-endian, pixel values whole multiples of 2^-16, or 2^-12 in layers of a painting of
+that grid, premultiplied and sRGB-encoded.
 """
 
 from __future__ import annotations
@@ -22,22 +23,24 @@ from engine.canvas.store import Pyramid
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
-from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+from engine.numeric.arithmetic import EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
-from engine.painting.recording import SIDE_LIMIT
+from engine.painting.recording import SIDE_LIMIT, read_grid
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
 from engine.texture.table import TextureError
 
-FORMAT = 4  # 3: packs of the second format; 2: nothing of examples; 1: no tile without the colour of its ink
+FORMAT = 5  # of paintings of the grid of 2^-12
+FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
 MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
 RECORDING = "inkfall/recording.jsonl"
 _MOST_NOTES = 20  # lines about bookmarks
-_CONSTANTS = {"byteorder": "little", "unit": "2^-16", "tile": TILE, "space": "srgb-premultiplied"}
+_CONSTANTS = {"byteorder": "little", "tile": TILE, "space": "srgb-premultiplied"}
+_UNIT = "2^-{}"
 
 
 @dataclass(frozen=True)
@@ -83,6 +86,7 @@ class Manifest:
     bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
     notes: tuple[str, ...] = ()
     arithmetic: int = LIBRARY
+    grid: int = FINE
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -98,6 +102,10 @@ class Manifest:
             except TextureError as error:
                 raise FieldError(f"textures.{name}.{error.place}", error.found, error.expected) from None
         return Map(made)
+
+    def painting(self, root: Group, textures: Map[str, Texture]) -> Painting:
+        """Returns the painting of layers and textures."""
+        return Painting(self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid)
 
     def grown_bytes(self) -> int:
         """Returns what all that was painted with examples takes in memory, about; FieldError if an example cannot
@@ -121,9 +129,11 @@ def manifest_json(
     frame = painting.frame
     examples = plot_files.entries(painting.root)
     return {
-        "inkfall": FORMAT,
+        "inkfall": format_of(painting),
         "texture": TEXTURES,
         **_CONSTANTS,
+        "unit": _UNIT.format(painting.grid),
+        **({"grid": painting.grid} if painting.grid != FINE else {}),
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
         **({"arithmetic": painting.arithmetic} if painting.arithmetic != LIBRARY else {}),
@@ -145,6 +155,11 @@ def manifest_json(
         },
         "members": {name: list(entry) for name, entry in members.items()},
     }
+
+
+def format_of(painting: Painting) -> int:
+    """Returns the oldest format that knows all that the file of a painting tells."""
+    return FINE_FORMAT if painting.grid == FINE else FORMAT
 
 
 def _pack_json(pack: Pack) -> list[Any]:
@@ -169,7 +184,9 @@ def _node_json(
         stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
         ground = {"ground": grounds.to_json(laid[node.id])} if node.id in laid else {}
         grown = {"plots": [plot_files.plot_json(plot) for plot in plots[node.id]]} if plots.get(node.id) else {}
-        return {"kind": "layer", **common, "alpha_locked": node.alpha_locked, "packs": stored, **ground, **grown}
+        commits = {"commits": node.pyramid.commits} if node.pyramid.grid != FINE else {}
+        own = {"alpha_locked": node.alpha_locked, "packs": stored, **commits}
+        return {"kind": "layer", **common, **own, **ground, **grown}
     children = [_node_json(child, packs, laid, plots) for child in node.children]
     return {"kind": "group", **common, "isolated": node.isolated, "children": children}
 
@@ -189,7 +206,9 @@ def parse_manifest(value: Any) -> Manifest:
     x, y, width, height = members.integers("frame", 4, limit=PLACE_LIMIT)
     if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
         raise members.fault("frame", "a width and height from 1 to 2^40")
-    held = _Held()
+    held = _Held(read_grid(members) if version > FINE_FORMAT else FINE)
+    if members.take("unit", expected="a value") != _UNIT.format(held.grid):
+        raise members.fault("unit", repr(_UNIT.format(held.grid)))
     nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
     root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
     active = members.take("active", None)
@@ -211,13 +230,15 @@ def parse_manifest(value: Any) -> Manifest:
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
         *_bookmarks(members.take("bookmarks", [])),
         members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
+        held.grid,
     )
 
 
 @dataclass(frozen=True)
 class _Held:
-    """What layers hold, by their ids."""
+    """What layers hold, by their ids; `grid`: on which it lies."""
 
+    grid: int
     packs: dict[int, tuple[Pack, ...]] = field(default_factory=dict)
     grounds: dict[int, GroundEntry] = field(default_factory=dict)
     plots: dict[int, tuple[PlotEntry, ...]] = field(default_factory=dict)
@@ -260,7 +281,9 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
             held.plots[common["id"]] = tuple(
                 plot_files.parse_plot(v, f"{where}.plots[{i}]") for i, v in enumerate(plots)
             )
-        return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=Pyramid())
+        commits = members.integer("commits", lo=0, hi=1 << 62) if held.grid != FINE else 0
+        pyramid = Pyramid(grid=held.grid, commits=commits)
+        return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=pyramid)
     inside = _list(members, "children")
     children = tuple(_node(v, f"{where}.children[{i}]", held, depth + 1) for i, v in enumerate(inside))
     return Group(**common, isolated=members.flag("isolated"), children=children)

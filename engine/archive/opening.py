@@ -34,7 +34,6 @@ from engine.files.strict_json import loads
 from engine.files.zip_reader import ZipArchive
 from engine.painting.recording import Recording, read_from
 from engine.painting.rendering import Progress, Stop, check_cancelled
-from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
 from engine.texture.example.tiles import Tiles
 from engine.texture.image import ImageSource
@@ -140,9 +139,7 @@ class _Opening:
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
-        painting = Painting(
-            manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks, manifest.arithmetic
-        )
+        painting = manifest.painting(root, textures)
         recording, lost = self._recording()
         notes = (*manifest.notes, *lost)
         if other:
@@ -173,7 +170,7 @@ class _Opening:
                     check_cancelled(self._cancelled)
                     shelf = Shelf()
                     tiles = shelved(list(self._tiles(manifest.packs[layer.id], members, sources, at_once=False)), shelf)
-                    ground = laid.pop(layer.id).result() if layer.id in laid else Pyramid()
+                    ground = laid.pop(layer.id).result() if layer.id in laid else layer.pyramid
                     pyramid = shelf.laid(grounds.with_tiles(ground, self._levels(tiles)))
                     coloured.append(colours.submit(_coloured, shelf, pyramid, tiles, squares.map))
                     root = layers.with_pyramid(root, layer.name, pyramid)

@@ -26,7 +26,7 @@ from engine.archive import grounds, pictures, plot_files
 from engine.archive.grounds import GroundEntry
 from engine.archive.implied import needed, ordered
 from engine.archive.jobs import Job, pack_jobs
-from engine.archive.manifest import FORMAT, MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, manifest_json
+from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.plot_files import PlotEntry
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node, isolation
@@ -330,7 +330,7 @@ class SavePlan:
         root = self._entry(self._painting.root)
         assert isinstance(root, StackEntry)
         root = _with_sums(root, {name: entry.sha256 for name, entry in writer.written.items()})
-        attributes = {"format": str(FORMAT), "manifest": MANIFEST}
+        attributes = {"format": str(format_of(self._painting)), "manifest": MANIFEST}
         text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
         writer.add("stack.xml", text, deflate=True)
         written = [writer.written[name] for name in self.told]

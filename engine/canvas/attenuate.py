@@ -14,6 +14,7 @@ import numpy as np
 
 from engine.canvas import kernels
 from engine.canvas.compact import compact
+from engine.canvas.dither import dithering
 from engine.canvas.store import Attenuation, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.column import Column
@@ -28,19 +29,23 @@ _NOTED: dict[tuple[int, int, Rect], np.ndarray] = {}  # by a stroke's serial, a 
 def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     """Returns the record as it is now: every attenuation since it was stored applied, oldest first."""
     pending = [waits for waits in pyramid.waiting(record.depth) if waits.change.level < key.level]
-    data = _weakened(pending, key, record) if pending else None
+    data = _weakened(pyramid.step, pending, key, record) if pending else None
     return record if data is None else Record(record.rect, data, record.inks, pyramid.depth)
 
 
-def _weakened(pending: Sequence[Attenuation], key: TileKey, record: Record) -> np.ndarray | None:
-    """Returns what attenuations, newest first, leave of a record's data: int32; None where they leave all of it."""
+def _weakened(
+    step: np.float32, pending: Sequence[Attenuation], key: TileKey, record: Record
+) -> np.ndarray | None:
+    """Returns what attenuations, newest first, leave of a record's data in units of `step`: int32; None where they leave
+    all of it."""
     out, at = None, placed(key, record.rect)
     for waits in reversed(pending):
         keep = attenuation(waits, key.level, at)
         if keep is not None:
             data = record.data if out is None else out
             out = np.empty(data.shape, np.int32)
-            kernels.attenuate(data, keep, waits.spares_alpha, out)
+            dither = dithering(step, waits.number, key, record.rect, keep)
+            kernels.attenuate(data, keep, waits.spares_alpha, out, step, dither)
     return out
 
 
@@ -119,7 +124,7 @@ def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
         for place in places:
             record = stored[place]
             pending = [waits for waits in folded if record.depth < waits.change.depth and waits.change.level < level]
-            data = _weakened(pending, TileKey(level, *place), record)
+            data = _weakened(pyramid.step, pending, TileKey(level, *place), record)
             if data is None:
                 continue
             changed = True

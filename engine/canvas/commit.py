@@ -1,7 +1,8 @@
 """Commit: how an edit changes the pyramid, at its own level, at all coarser ones, and lazily at the finer ones.
 
-An edit gives (A, B) by tile: v' = snap(A v) + B.  Coarser levels follow by rule U (`lifting.climb`), until nothing
-changes any more; finer levels keep the part A of their residuals, applied when they are next looked at.
+An edit gives (A, B) by tile: v' = snap(A v) + B, or on the coarse grid what module `dither` tells.  Coarser levels
+follow by rule U (`lifting.climb`), until nothing changes any more; finer levels keep the part A of their residuals,
+applied when they are next looked at.
 """
 
 from __future__ import annotations
@@ -92,7 +93,7 @@ def _climb_to_the_top(
     coarser: list[Patch] = []
     while patches:
         above = next(levels)
-        lifted = lift(patches, above)
+        lifted = lift(pyramid, patches, above)
         store(pyramid, patches, here, lifted, above, None, records)
         coarser += lifted
         patches, here = lifted, above
@@ -158,7 +159,7 @@ def _climb_slab(
     are left for all together."""
     for j in range(_SLAB_LEVELS):
         above = next(levels)
-        lifted = lift(patches, above)
+        lifted = lift(pyramid, patches, above)
         store(pyramid, patches, here, lifted, above, slab.zoomed(-j), records)
         if not lifted:
             return []
@@ -187,7 +188,8 @@ def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:
 def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None, records: NewRecords) -> Pyramid:
     coarsest = min((key.level for key in records), default=edit.level)
     change = Change(edit.level, rect, pyramid.last, depth=pyramid.depth + 1, coarsest=coarsest)
-    waits = Attenuation(change, keeps, pyramid.waits, edit.spares_alpha) if keeps else pyramid.waits
+    number = pyramid.commits + 1
+    waits = Attenuation(change, keeps, pyramid.waits, edit.spares_alpha, number) if keeps else pyramid.waits
     by_level: dict[int, list[TileKey]] = {}
     for key in records:
         by_level.setdefault(key.level, []).append(key)
@@ -198,7 +200,7 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
         _write(editable, keys, records)
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
-    after = replace(pyramid, levels=levels, last=change, waits=waits)
+    after = replace(pyramid, levels=levels, last=change, waits=waits, commits=number)
     waiting = list(after.waiting()) if keeps else []
     return fold(after, waiting[_MOST_WAITING].change.depth) if len(waiting) > _MOST_WAITING else after
 

@@ -29,7 +29,7 @@ def compact(
     measured: tuple[Extent, np.ndarray] | None = None,
     spans: np.ndarray | None = None,
 ) -> Record | None:
-    """Returns a residual in int32 units of 2^-16 (4 + 3n, h, w) over `rect` of its tile, as a record: cropped to
+    """Returns a residual in int32 steps of the grid (4 + 3n, h, w) over `rect` of its tile, as a record: cropped to
     what is not zero, without empty inks, in the smaller integer that holds it.  None where all is zero.
 
     `measured`: what `counting.extent` tells of `data`, where that is known; `spans`, int32 (h, 2): the columns of each

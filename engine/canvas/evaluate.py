@@ -133,12 +133,12 @@ def step(
     for first in range(0, rect.height, _BAND):
         last = min(first + _BAND, rect.height)
         if parent is not None:
-            expand_into(parent.data, top, left, sources, out, first, last)
+            expand_into(parent.data, top, left, sources, out, first, last, pyramid.step)
         band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
         for at, record, planes in laid:
             if at.y0 < band.y1 and band.y0 < at.y1:
-                _add_record(out, rect, band, at, record, planes)
-        _add_texture_band(out, inks, level, rect, band)
+                _add_record(out, rect, band, at, record, planes, pyramid.step)
+        _add_texture_band(out, inks, level, rect, band, pyramid.step)
         kernels.clamp_alpha(out, first, last)
     return without_empty_inks(Planes(out, inks))
 
@@ -158,21 +158,23 @@ def _within(key: TileKey, record: Record, rect: Rect) -> Record | None:
     return Record(inner, data, inks, record.depth)
 
 
-def _add_record(out: np.ndarray, rect: Rect, band: Rect, at: Rect, record: Record, planes: np.ndarray) -> None:
+def _add_record(
+    out: np.ndarray, rect: Rect, band: Rect, at: Rect, record: Record, planes: np.ndarray, unit: np.float32
+) -> None:
     part = at.intersect(band)
     if not part.empty:
         kernels.add_residual(
             out, part.y0 - rect.y0, part.x0 - rect.x0,
-            record.data, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width, planes,
+            record.data, part.y0 - at.y0, part.x0 - at.x0, part.height, part.width, planes, unit,
         )  # fmt: skip
 
 
-def add_texture(out: np.ndarray, ink: Planes, level: int, rect: Rect) -> None:
-    """Add to the colour planes of `out` what the ink lying on `rect` adds at this level."""
+def add_texture(out: np.ndarray, ink: Planes, level: int, rect: Rect, unit: np.float32) -> None:
+    """Add to the colour planes of `out` what the ink lying on `rect` adds at this level, on the grid of this step."""
     for first in range(0, rect.height, _BAND):
         last = min(first + _BAND, rect.height)
         band = Rect(rect.x0, rect.y0 + first, rect.x1, rect.y0 + last)
-        _add_texture_band(out, ink.inks, level, rect, band, ink.data)
+        _add_texture_band(out, ink.inks, level, rect, band, unit, ink.data)
 
 
 def _add_texture_band(
@@ -181,6 +183,7 @@ def _add_texture_band(
     level: int,
     rect: Rect,
     band: Rect,
+    unit: np.float32,
     ink_planes: np.ndarray | None = None,
 ) -> None:
     """colour += snap(ink amplitude * bandpass) for every instance (Perlin & Velho 1995, section 5.2)."""
@@ -192,7 +195,7 @@ def _add_texture_band(
             continue
         detail = ink.bandpass(level, band)
         if detail is not None:
-            kernels.add_texture(out, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first)
+            kernels.add_texture(out, amplitudes, plane, np.ascontiguousarray(detail, np.float32), first, unit)
 
 
 def _known(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) -> tuple[bool, Planes | None]:

@@ -53,7 +53,7 @@ def flattened(layer: Layer, cache: TileCache | None = None, threads: Executor | 
     """Returns the layer with all that was painted with examples as paint, settled first if it is not.
 
     Plot by plot, the bottom one first, at the finest level at which its example has detail; there, with one plot or
-    with several of that level, no pixel changes.
+    with several of that level, no pixel changes; on the coarse grid none by more than half a step of it.
     """
     pyramid = layer.pyramid
     for plot in growths.settled(layer.growth, threads):

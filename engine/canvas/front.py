@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from engine.canvas.dither import dithering
 from engine.canvas.evaluate import evaluate_sparse, step
 from engine.canvas.rising import lifting
 from engine.canvas.rising.spans import Marks
@@ -120,20 +121,21 @@ def climbs(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) ->
         level -= _CLIMBS
 
 
-def lift(patches: Sequence[Patch], above: Around) -> list[Patch]:
+def lift(pyramid: Pyramid, patches: Sequence[Patch], above: Around) -> list[Patch]:
     """Rule U: the patches of the level above, whose old values `above` holds; none where nothing changes there."""
     groups: dict[tuple[int, int], list[Patch]] = {}
     for patch in patches:
         groups.setdefault((patch.key.x >> 1, patch.key.y >> 1), []).append(patch)
     held = above.with_inks(merged(*(patch.new.inks for patch in patches)))
-    lifted = (_lifted(TileKey(above.level, *place), group, above.rect, held) for place, group in groups.items())
+    keys = ((TileKey(above.level, *place), group) for place, group in groups.items())
+    lifted = (_lifted(pyramid, key, group, above.rect, held) for key, group in keys)
     return [patch for patch in lifted if patch is not None]
 
 
-def _lifted(key: TileKey, below: Sequence[Patch], around: Rect, held: Planes) -> Patch | None:
+def _lifted(pyramid: Pyramid, key: TileKey, below: Sequence[Patch], around: Rect, held: Planes) -> Patch | None:
     """Rule U on what some patches make of one tile of the level above; `held` has its old values over `around`."""
     at = halved(united(patch.dirty.evened() for patch in below))
-    inks, size = held.inks, (at.height, at.width)
+    inks, size, unit = held.inks, (at.height, at.width), pyramid.step
     keep, parents = np.empty(size, np.float32), np.zeros(size, np.uint8)
     lowered = np.empty((2, len(held.data), *size), np.float32), keep, parents, np.empty((at.height, 2), np.int32)
     lowered[3][:] = _NOWHERE
@@ -147,11 +149,13 @@ def _lifted(key: TileKey, below: Sequence[Patch], around: Rect, held: Planes) ->
             part.y0 - patch.at.y0, part.x0 - patch.at.x0, part.height >> 1, part.width >> 1,
             (part.y0 >> 1) - at.y0, (part.x0 >> 1) - at.x0,
         )  # fmt: skip
-        lifting.lower(sources, maps, patch.keep, patch.marks, window, lowered)
+        lifting.lower(sources, maps, patch.keep, patch.marks, window, lowered, unit)
     spares = below[0].spares_alpha
     values, marks = np.empty_like(lowered[0]), blank_marks(*size)
     corner = at.y0 - around.y0, at.x0 - around.x0
-    extent = lifting.climb(lowered, spares, held.data, corner, values, marks)
+    x, y = key.rect.x0, key.rect.y0
+    dither = dithering(unit, pyramid.commits + 1, key, Rect(at.x0 - x, at.y0 - y, at.x1 - x, at.y1 - y), keep)
+    extent = lifting.climb(lowered, spares, held.data, corner, values, marks, unit, dither)
     dirty = placed_extent(at, extent)
     if dirty.empty:
         return None

@@ -19,6 +19,7 @@ from engine.canvas.compact import blank_found, compact
 from engine.canvas.rising import counting
 from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.grid import FINE_STEP
 
 Tile = Callable[[Rect], np.ndarray]
 _COLOURS = np.arange(4)
@@ -80,7 +81,7 @@ class _Picture:
         rows = max(_PIXELS // (2 * rect.width), 1)
         for y in range(rect.y0, rect.y1, rows):
             part = Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1)).zoomed(1)
-            kernels.halve(self.read(part), _COLOURS, values, y - rect.y0, 0)
+            kernels.halve(self.read(part), _COLOURS, values, y - rect.y0, 0, FINE_STEP)
         return _Dense(values, rect)
 
 
@@ -122,7 +123,7 @@ def _record(below: _Picture, above: _Picture, key: TileKey, data: np.ndarray) ->
     else:
         coarse, top, left = above.read(at), 0, 0
     found = blank_found(data)
-    extent = counting.first_residual(value, (0, 0), coarse, (top, left), _COLOURS, _ALL, data, found)
+    extent = counting.first_residual(value, (0, 0), coarse, (top, left), _COLOURS, _ALL, data, found, FINE_STEP)
     return compact(_WHOLE, data, (), 1, (extent, found[0]))
 
 
@@ -148,7 +149,7 @@ def _reached(below: _Picture, above: _Picture, rect: Rect) -> np.ndarray:
     value, coarse = below.read(rect), above.read(rect.parents())
     data, touched = np.empty(value.shape, np.int32), np.ones(value.shape[1:], np.uint8)
     marks = touched, np.full((rect.height, 2), (0, rect.width), np.int32)
-    counting.first_residual(value, (0, 0), coarse, (0, 0), _COLOURS, marks, data, blank_found(data))
+    counting.first_residual(value, (0, 0), coarse, (0, 0), _COLOURS, marks, data, blank_found(data), FINE_STEP)
     return np.asarray(data.any(axis=0))
 
 

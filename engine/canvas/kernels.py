@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from engine.canvas import plain as plainly
-from engine.canvas.plain import COUNT, QUARTER, UNIT
+from engine.canvas.plain import QUARTER
 from engine.canvas.rising.spans import Extent, Marks, ends, spanned
-from engine.numeric.grid import snap
+from engine.numeric.grid import snap, snap_to
 from engine.numeric.kernel import Array, inner_uncounted, kernel, uncounted
 from engine.numeric.stand_in import or_plain
 
@@ -44,9 +44,10 @@ def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
 @or_plain(plainly.add_residual)
 @kernel
 def add_residual(
-    out: Array, top: int, left: int, data: Array, row: int, column: int, height: int, width: int, planes: Array
-) -> None:
-    """out[:, top:, left:] += data * 2^-16 over height x width; plane c comes from `data[planes[c]]`, -1 for none."""
+    out: Array, top: int, left: int, data: Array, row: int, column: int, height: int, width: int, planes: Array,
+    step: np.float32,
+) -> None:  # fmt: skip
+    """out[:, top:, left:] += data * step over height x width; plane c comes from `data[planes[c]]`, -1 for none."""
     for c in range(out.shape[0]):
         source = planes[c]
         if source < 0:
@@ -55,13 +56,15 @@ def add_residual(
             a = out[c, top + y][left : left + width]
             b = data[source, row + y][column : column + width]
             for i in range(width):
-                a[i] += np.float32(b[i]) * UNIT
+                a[i] += np.float32(b[i]) * step
 
 
 @kernel
-def add_texture(out: np.ndarray, amplitudes: np.ndarray, plane: int, detail: np.ndarray, first: int) -> None:
-    """Colour rows of `out` (C, h, w) from row `first` += snap(ink * detail); `detail` float32 (1 or 3, rows, w), the
-    ink's planes are those of `amplitudes` from `plane` (it may be `out` itself)."""
+def add_texture(
+    out: np.ndarray, amplitudes: np.ndarray, plane: int, detail: np.ndarray, first: int, step: np.float32
+) -> None:
+    """Colour rows of `out` (C, h, w) from row `first` += ink * detail, rounded to the grid of `step`; `detail` float32
+    (1 or 3, rows, w), the ink's planes are those of `amplitudes` from `plane` (it may be `out` itself)."""
     for c in range(3):
         source = c if detail.shape[0] == 3 else 0
         for y in range(detail.shape[1]):
@@ -69,29 +72,35 @@ def add_texture(out: np.ndarray, amplitudes: np.ndarray, plane: int, detail: np.
             ink = amplitudes[plane + c, first + y]
             d = detail[source, y]
             for i in range(a.size):
-                a[i] += snap(ink[i] * d[i])
+                a[i] += snap_to(ink[i] * d[i], step)
 
 
 @kernel
-def attenuate(data: np.ndarray, keep: np.ndarray, spares_alpha: bool, out: np.ndarray) -> None:
-    """out = snap(data * keep), within +-8, in units of 2^-16; alpha as it is if `spares_alpha`.
+def attenuate(data: Array, keep: Array, spares_alpha: bool, out: Array, step: np.float32, noise: Array) -> None:
+    """out = data * keep, rounded to whole steps, within +-8 of values; alpha as it is if `spares_alpha`.
 
-    `data` int (C, h, w), `keep` float32 (h, w), `out` int32 (C, h, w).
+    `data` int (C, h, w), `keep` float32 (h, w), `out` int32 (C, h, w); `noise`, float32 (h, w), is added before what
+    `keep` weakens is rounded, none where it is empty.
     """
+    count = _ONE / step
     for c in range(data.shape[0]):
         spared = spares_alpha and c == 3
         for y in range(data.shape[1]):
             for x in range(data.shape[2]):
-                value = snap(np.float32(data[c, y, x]) * UNIT * (_ONE if spared else keep[y, x]))
-                out[c, y, x] = np.int32(min(max(value, -_STEEPEST), _STEEPEST) * COUNT)
+                value = np.float32(data[c, y, x]) * step * (_ONE if spared else keep[y, x])
+                if noise.size:
+                    value += noise[y, x]
+                out[c, y, x] = np.int32(min(max(snap_to(value, step), -_STEEPEST), _STEEPEST) * count)
 
 
 @or_plain(plainly.apply_stamp)
 @uncounted
 def apply_stamp(
-    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, marks: Marks
-) -> Extent:
-    """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`.
+    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, marks: Marks,
+    step: np.float32, noise: Array,
+) -> Extent:  # fmt: skip
+    """v' = snap(A v) + B over one tile, alpha clamped to [0, 1], or as it is if `spares_alpha`; where there is `noise`,
+    float32 (n, n), v' = A v + B + noise, rounded to the grid of `step`.
 
     Writes `new` (C, n, n) and `marks`: `changed` (n, n) uint8, 1 where A != 1 or v' != v, and `spans` (n, 2) int32,
     the columns of each row in which any is marked.  Returns the extent y0, y1, x0, x1 of what is marked, y1 = 0 where
@@ -116,7 +125,8 @@ def apply_stamp(
             for i in range(n):
                 after[i] = before[i]
             if first < last and not (c == 3 and spares_alpha):
-                _stamp_row(a[first:last], before[first:last], add, planes[c], y, first, after[first:last])
+                where = planes[c], y, first
+                _stamp_row(a[first:last], before[first:last], add, where, noise, step, after[first:last])
             if c == 3 and not spares_alpha:
                 for i in range(n):
                     after[i] = min(max(after[i], _ZERO), _ONE)
@@ -131,8 +141,14 @@ def apply_stamp(
 
 
 @inner_uncounted
-def _stamp_row(a: Array, before: Array, add: Array, source: int, y: int, first: int, after: Array) -> None:
-    if source < 0:
+def _stamp_row(
+    a: Array, before: Array, add: Array, where: tuple[int, int, int], noise: Array, step: np.float32, after: Array
+) -> None:
+    """A row of `apply_stamp` from a column on; `where`: the plane of B, -1 for none, the row and the column."""
+    source, y, first = where
+    if noise.size:
+        _stamp_row_coarsely(a, before, add, where, noise[y, first : first + a.size], step, after)
+    elif source < 0:
         for i in range(a.size):
             after[i] = snap(a[i] * before[i])
     else:
@@ -141,10 +157,25 @@ def _stamp_row(a: Array, before: Array, add: Array, source: int, y: int, first: 
             after[i] = snap(a[i] * before[i]) + b[i]
 
 
+@inner_uncounted
+def _stamp_row_coarsely(
+    a: Array, before: Array, add: Array, where: tuple[int, int, int], noise: Array, step: np.float32, after: Array
+) -> None:
+    """As `_stamp_row`, rounded once, with a row of noise."""
+    source, y, first = where
+    if source < 0:
+        for i in range(a.size):
+            after[i] = snap_to(a[i] * before[i] + noise[i], step)
+    else:
+        b = add[source, y][first : first + a.size]
+        for i in range(a.size):
+            after[i] = snap_to((a[i] * before[i] + b[i]) + noise[i], step)
+
+
 @or_plain(plainly.halve)
 @kernel
-def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
-    """out[:, top:, left:] = snapped means of 2 x 2 pixels of `fine` (D, 2h, 2w); plane c of `out` takes
+def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int, step: np.float32) -> None:
+    """out[:, top:, left:] = means of 2 x 2 pixels of `fine` (D, 2h, 2w), rounded to the grid of `step`; plane c takes
     `fine[planes[c]]`, zero for -1."""
     height, width = fine.shape[1] // 2, fine.shape[2] // 2
     for c in range(out.shape[0]):
@@ -157,4 +188,4 @@ def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left:
             upper, lower = fine[source, 2 * y], fine[source, 2 * y + 1]
             for i in range(width):
                 total = (upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])
-                row[i] = snap(total * QUARTER)
+                row[i] = snap_to(total * QUARTER, step)

@@ -9,6 +9,7 @@ import numpy as np
 
 from engine.brush.stamp import Edit
 from engine.canvas import kernels
+from engine.canvas.dither import dithering
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.front import Patch, blank_marks, placed_extent
 from engine.canvas.store import Pyramid
@@ -23,7 +24,7 @@ def _zeros(planes: int) -> np.ndarray:
     return np.zeros((planes, TILE, TILE), np.float32)
 
 
-_BLANK = Planes(_zeros(COLOURS))
+_BLANK, _TILE = Planes(_zeros(COLOURS)), Rect(0, 0, TILE, TILE)
 
 
 def tile_bounds(keys: Collection[TileKey]) -> Rect:
@@ -37,19 +38,22 @@ def tile_bounds(keys: Collection[TileKey]) -> Rect:
 def paint(pyramid: Pyramid, edit: Edit, keys: Sequence[TileKey], cache: TileCache | None) -> list[Patch]:
     """(A, B) of an edit applied to some of its tiles: patches of whole tiles, of those in which a pixel changes."""
     before = _tiles(pyramid, keys, cache)
-    painted = (_painted(edit, key, before[key]) for key in keys)
+    painted = (_painted(pyramid, edit, key, before[key]) for key in keys)
     return [tile for tile in painted if tile is not None]
 
 
-def _painted(edit: Edit, key: TileKey, old: Planes | None) -> Patch | None:
+def _painted(pyramid: Pyramid, edit: Edit, key: TileKey, old: Planes | None) -> Patch | None:
     stamp = edit.stamp(key, _BLANK if old is None else old)
     if stamp is None:
         return None
     inks = merged(() if old is None else old.inks, stamp.inks)
     before = Planes(_zeros(COLOURS + 3 * len(inks)), inks) if old is None else widened(old, inks)
     new, marks = np.empty_like(before.data), blank_marks(TILE, TILE)
-    planes, spares = plane_map(stamp.inks, inks), edit.spares_alpha
-    extent = kernels.apply_stamp(before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, marks)
+    planes, spares, step = plane_map(stamp.inks, inks), edit.spares_alpha, pyramid.step
+    dither = dithering(step, pyramid.commits + 1, key, _TILE, stamp.keep)
+    extent = kernels.apply_stamp(
+        before.data, stamp.keep, stamp.add, planes, stamp.plain, spares, new, marks, step, dither
+    )
     at = key.rect
     dirty = placed_extent(at, extent)
     if dirty.empty:

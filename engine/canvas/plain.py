@@ -8,14 +8,13 @@ from __future__ import annotations
 import numpy as np
 
 from engine.canvas.rising.spans import Extent, Marks, extent_of, spans_of
-from engine.numeric.grid import SNAP
+from engine.numeric.grid import SNAP, snapped_to
 from engine.numeric.kernel import Array
 
-UNIT, COUNT = np.float32(2.0**-16), np.float32(2.0**16)
 _ZERO, _ONE, QUARTER = np.float32(0.0), np.float32(1.0), np.float32(0.25)
-# A coarse pixel that differs from the mean of its children by no more than this is taken to equal it: the rounding
-# lag of many strokes, each below the grid at the coarse level, heals instead of adding up.
-LAG = np.float32(2.0 * 2.0**-16)
+# A coarse pixel that differs from the mean of its children by no more steps of the grid than this is taken to equal it:
+# the rounding lag of many strokes, each below the grid at the coarse level, heals instead of adding up.
+LAG = np.float32(2.0)
 
 Pair = tuple[Array, Array]
 Corner = tuple[int, int]
@@ -33,23 +32,28 @@ def clamp_alpha(out: np.ndarray, first: int, last: int) -> None:
 
 
 def add_residual(
-    out: Array, top: int, left: int, data: Array, row: int, column: int, height: int, width: int, planes: Array
-) -> None:
+    out: Array, top: int, left: int, data: Array, row: int, column: int, height: int, width: int, planes: Array,
+    step: np.float32,
+) -> None:  # fmt: skip
     """Does what the kernel of that name in `kernels` does."""
     for c, source in enumerate(planes.tolist()):
         if source >= 0:
             part = data[source, row : row + height, column : column + width]
-            out[c, top : top + height, left : left + width] += part.astype(np.float32) * UNIT
+            out[c, top : top + height, left : left + width] += part.astype(np.float32) * step
 
 
 def apply_stamp(
-    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, marks: Marks
-) -> Extent:
+    old: Array, keep: Array, add: Array, planes: Array, plain: bool, spares_alpha: bool, new: Array, marks: Marks,
+    step: np.float32, noise: Array,
+) -> Extent:  # fmt: skip
     """Does what the kernel of that name in `kernels` does."""
     changed, spans = marks
     for c, source in enumerate(planes.tolist()):
         if c == 3 and spares_alpha:
             new[c] = old[c]
+        elif noise.size:
+            whole = keep * old[c] + add[source] if source >= 0 else keep * old[c]
+            new[c] = snapped_to(whole + noise, step)
         else:
             new[c] = (keep * old[c] + SNAP) - SNAP
             if source >= 0:
@@ -63,7 +67,7 @@ def apply_stamp(
     return extent_of(changed)
 
 
-def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int) -> None:
+def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left: int, step: np.float32) -> None:
     """Does what the kernel of that name in `kernels` does."""
     height, width = fine.shape[1] // 2, fine.shape[2] // 2
     for c, source in enumerate(planes.tolist()):
@@ -73,4 +77,4 @@ def halve(fine: np.ndarray, planes: np.ndarray, out: np.ndarray, top: int, left:
             continue
         upper, lower = fine[source, 0 : 2 * height : 2], fine[source, 1 : 2 * height : 2]
         total = (upper[:, : 2 * width : 2] + upper[:, 1::2]) + (lower[:, : 2 * width : 2] + lower[:, 1::2])
-        part[...] = (total * QUARTER + SNAP) - SNAP
+        part[...] = snapped_to(total * QUARTER, step)

@@ -71,7 +71,7 @@ def store(
             own = patch.dirty
             touched[0][own.slices(part)] = patch.marks[0][own.slices(patch.at)]
         if above.spread(part, touched):
-            record = _record(pyramid, _Renewed(key, part, touched, values[key], above, pyramid.depth + 1))
+            record = _record(pyramid, _Renewed(key, part, touched, values[key], above, pyramid.depth + 1, pyramid.step))
             if not isinstance(record, _Told):
                 records[key] = record
 
@@ -100,6 +100,7 @@ class _Renewed:
     new: Around
     above: Around
     depth: int  # of the new record
+    unit: np.float32  # the step of the values' grid
 
     def within(self, at: Rect) -> Rect:
         """Returns a rectangle of the level from the tile's corner."""
@@ -133,11 +134,11 @@ def _from_data(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> 
     """As `_record`, whatever there is."""
     at = it.part if old is None else it.part.union(placed(it.key, old.rect))
     read = _read(it.new, it.part, inks)
-    predicted = _predicted(it.above, it.part, read, it.key.level)
+    predicted = _predicted(it, read)
     data, used = _unpacked(old, it.within(at), inks), np.empty(COLOURS + 3 * len(inks), np.int32)
     assert read.planes is not None
     start, corner = _corner(it.part, read.rect), _corner(it.part, at)
-    changed, *extent = counting.residual(read.planes.data, start, predicted, it.touched[0], corner, data, used)
+    changed, *extent = counting.residual(read.planes.data, start, predicted, it.touched[0], corner, data, used, it.unit)
     if not changed:
         return _SAME
     bits, y0, y1, x0, x1 = extent
@@ -166,7 +167,9 @@ def _renewed(it: _Renewed, old: Record | None, inks: tuple[Instance, ...]) -> Re
     start, corner = _corner(it.part, read.rect), _corner(it.part.parents(), it.above.rect)
     planes, inner = plane_map(coarse.inks, inks), _corner(it.part, at)
     row = np.empty(it.part.width, np.int32)
-    changed, bits = counting.renew(read.planes.data, start, coarse.data, corner, planes, it.touched, row, inner, data)
+    changed, bits = counting.renew(
+        read.planes.data, start, coarse.data, corner, planes, it.touched, row, inner, data, it.unit
+    )
     if bits >= 1 << 15:
         return _Told.LARGE
     return trimmed(it.within(at), data, inks, it.depth) if changed else _SAME
@@ -188,8 +191,8 @@ def _sparse_record(it: _Renewed, held: SparsePlanes) -> Record | _Told | None:
     value, data = widened(value, inks), held.over(inner, inks, np.int32)
     before = data.copy()
     read, used = Around(it.key.level, it.part, value), np.empty(COLOURS + 3 * len(inks), np.int32)
-    predicted = _predicted(it.above, it.part, read, it.key.level)
-    if not counting.residual(value.data, (0, 0), predicted, it.touched[0], (0, 0), data, used)[0]:
+    predicted = _predicted(it, read)
+    if not counting.residual(value.data, (0, 0), predicted, it.touched[0], (0, 0), data, used, it.unit)[0]:
         return _SAME
     new = held.replaced(inner, data, inks, before)
     if new is None:
@@ -203,14 +206,15 @@ def _corner(rect: Rect, inside: Rect) -> tuple[int, int]:
     return rect.y0 - inside.y0, rect.x0 - inside.x0
 
 
-def _predicted(above: Around, part: Rect, read: Around, level: int) -> np.ndarray:
-    """Returns what expand and the ink make of `part` without a residual: float32 (4 + 3n, h, w)."""
-    value, coarse = read.with_inks(()), above.with_inks(())
-    top, left = _corner(part.parents(), above.rect)
+def _predicted(it: _Renewed, read: Around) -> np.ndarray:
+    """Returns what expand and the ink make of the part without a residual: float32 (4 + 3n, h, w)."""
+    part, level = it.part, it.key.level
+    value, coarse = read.with_inks(()), it.above.with_inks(())
+    top, left = _corner(part.parents(), it.above.rect)
     out = np.empty((len(value.data), part.height, part.width), np.float32)
     planes = plane_map(coarse.inks, value.inks)
-    expand_into(coarse.data, top, left, planes, out, 0, part.height)
+    expand_into(coarse.data, top, left, planes, out, 0, part.height, it.unit)
     if any(level > ink.base for ink in value.inks):
         ink = widened(value.cut(*part.slices(read.rect)), value.inks)
-        add_texture(out, ink, level, part)
+        add_texture(out, ink, level, part, it.unit)
     return out

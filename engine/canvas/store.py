@@ -20,6 +20,8 @@ import immutables
 import numpy as np
 
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.arithmetic import FINE
+from engine.numeric.grid import step_of
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
@@ -57,7 +59,7 @@ class Record:
 
     @property
     def data(self) -> np.ndarray:
-        """Gives int16 or int32 (4 + 3n, h, w) in units of 2^-16, read-only."""
+        """Gives int16 or int32 (4 + 3n, h, w) in steps of the grid, read-only."""
         held = self.held
         return held if isinstance(held, np.ndarray) else held.made()
 
@@ -107,13 +109,15 @@ class Change:
 class Attenuation:
     """What a commit leaves of finer detail, waiting to be applied; linked to the one before.
 
-    `keep`: A at the commit's level by tile, float32 (128, 128), 1 elsewhere; `spares_alpha`: alpha keeps all of itself.
+    `keep`: A at the commit's level by tile, float32 (128, 128), 1 elsewhere; `spares_alpha`: alpha keeps all of itself;
+    `number`: of the commit (`Pyramid.commits`).
     """
 
     change: Change
     keep: Mapping[tuple[int, int], np.ndarray]
     before: Attenuation | None
     spares_alpha: bool = False
+    number: int = 0
 
     @property
     def nbytes(self) -> int:
@@ -142,7 +146,8 @@ class Pyramid:
 
     `uid` names the layer's line of history, for caches.  `waits`: the newest attenuation that was not applied to the
     records; `settled`: those of the commits up to this depth have been.  `ground`: the picture that the layer began
-    with, if it began with one.
+    with, if it began with one.  `grid`: on which all values lie, by its bits; `commits`: how many there were in all the
+    layer's life, which counts where the grid is coarse.
     """
 
     levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
@@ -151,6 +156,13 @@ class Pyramid:
     settled: int = 0
     ground: Ground | None = None
     waits: Attenuation | None = None
+    grid: int = FINE
+    commits: int = 0
+
+    @property
+    def step(self) -> np.float32:
+        """Gives the step of the grid, 2^-16 or 2^-12."""
+        return step_of(self.grid)
 
     @property
     def depth(self) -> int:

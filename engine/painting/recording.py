@@ -20,11 +20,12 @@ from engine.files.atomic import replacing
 from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, Fields, dumps, loads
 from engine.numeric.address import Rect
-from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
+from engine.numeric.arithmetic import COARSE, EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Redo, Undo, parse, to_json
 from engine.painting.places import BookmarkCommand
 
 VERSION = 2  # that is read; older ones too
+VERSION_OF_GRIDS = 2  # from which on the header tells the grid
 TOTAL_CAP = 2 << 30  # bytes of a recording
 COMMANDS_CAP = 4_000_000
 BLANK_CAP = 1_000_000  # blank lines
@@ -39,21 +40,25 @@ T = TypeVar("T")
 @dataclass(frozen=True, slots=True)
 class Header:
     """`frame`: level-0 pixels; `seed`: of every texture that is not given its own; `arithmetic`: in which pixels are
-    worked out, for as long as the painting lives."""
+    worked out, `grid`: on which their values lie, both for as long as the painting lives."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
     extra: Map[str, Any] = field(default_factory=Map)
     arithmetic: int = LIBRARY
+    grid: int = FINE
 
     def to_json(self, version: int = 1) -> dict[str, Any]:
         """Tells the header as the first line of a recording of `version` or later does; `parse_header` is the inverse.
 
-        The arithmetic is that of the version, unless it says another one.
+        The arithmetic is that of the version, unless it says another one.  The grid is told where it is not the usual
+        one, and where a member of that name, which says nothing in version 1, would be taken for it.
         """
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
-        version = max(version, self.arithmetic)
+        version = max(version, self.arithmetic, VERSION_OF_GRIDS if self.grid != FINE else 1)
         other = {"arithmetic": self.arithmetic} if self.arithmetic < version else {}
+        if self.grid != FINE or (version >= VERSION_OF_GRIDS and "grid" in self.extra):
+            other["grid"] = self.grid
         return {"inkfall": version, "frame": frame, "seed": self.seed, **thawed(self.extra), **other}
 
 
@@ -192,7 +197,16 @@ def parse_header(value: Any) -> Header:
         raise members.fault("frame", "a width and height from 1 to 2^40")
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
     arithmetic = members.integer("arithmetic", EVERYWHERE, lo=LIBRARY, hi=EVERYWHERE) if version > 1 else LIBRARY
-    return Header(Rect.at(x, y, width, height), seed, members.rest(), arithmetic)
+    grid = read_grid(members) if version >= VERSION_OF_GRIDS else FINE
+    return Header(Rect.at(x, y, width, height), seed, members.rest(), arithmetic, grid)
+
+
+def read_grid(members: Fields) -> int:
+    """Returns the member `grid` of a header or a manifest."""
+    grid: object = members.take("grid", FINE)
+    if type(grid) is not int or grid not in (COARSE, FINE):
+        raise members.fault("grid", f"{FINE} or {COARSE}")
+    return grid
 
 
 def write(recording: Recording, path: str | os.PathLike[str]) -> None:

@@ -8,8 +8,9 @@ from immutables import Map
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
-from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.arithmetic import FINE, LIBRARY
 from engine.painting.commands import Same
 from engine.painting.places import NO_BOOKMARKS, Bookmarks
 from engine.painting.recording import DEFAULT_FRAME, Header
@@ -24,7 +25,8 @@ class Refusal(ValueError):
 class Painting:
     """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;
     `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name;
-    `arithmetic`: in which its pixels are worked out, that of its recording."""
+    `arithmetic`: in which its pixels are worked out, that of its recording; `grid`: on which the values of its layers
+    lie, by its bits, for as long as it lives."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
@@ -33,6 +35,7 @@ class Painting:
     textures: Map[str, Texture] = field(default_factory=Map)
     bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
     arithmetic: int = LIBRARY
+    grid: int = FINE
 
     @property
     def known_textures(self) -> Map[str, Texture]:
@@ -43,7 +46,17 @@ class Painting:
 
 def first_painting(header: Header) -> Painting:
     """Returns the painting that a recording begins with."""
-    return Painting(header.frame, header.seed, arithmetic=header.arithmetic)
+    return Painting(header.frame, header.seed, arithmetic=header.arithmetic, grid=header.grid)
+
+
+def header_for(painting: Painting) -> Header:
+    """Returns the header of the recording of a painting."""
+    return Header(painting.frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid)
+
+
+def blank(painting: Painting) -> Painting:
+    """Returns the painting that its recording begins with."""
+    return first_painting(header_for(painting))
 
 
 def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SAME, to: int | None = None) -> Painting:
@@ -57,13 +70,18 @@ def with_node(painting: Painting, node: Node, group: str | Same | None = Same.SA
     return replace(painting, root=root, active=node.name if isinstance(node, Layer) else painting.active)
 
 
+def new_layer(painting: Painting, name: str) -> Layer:
+    """Returns a layer of a painting in which nothing lies yet."""
+    return Layer(layers.next_id(painting.root), name, pyramid=Pyramid(grid=painting.grid))
+
+
 def layer_for(painting: Painting, name: str | None, what: str = "stroke") -> tuple[Painting, Layer]:
     """Returns the layer that a stroke, or `what` else, goes to: the one named, else the active one; a first one is
     made where there is none."""
     wanted = painting.active if name is None else name
     if wanted is None:
         wanted = layers.unique_name(painting.root)
-        painting = with_node(painting, Layer(layers.next_id(painting.root), wanted))
+        painting = with_node(painting, new_layer(painting, wanted))
     node = layers.find(painting.root, wanted)
     if not isinstance(node, Layer):
         raise Refusal(f"{what}: found {wanted!r}, which is a group, expected a layer")

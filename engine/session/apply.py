@@ -16,7 +16,7 @@ from engine.makers.makers import define
 from engine.painting import commands as c
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
-from engine.painting.value import Painting, Refusal, with_node
+from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.strokes.example_stroke import kind_of, swapped
 
 __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
@@ -53,8 +53,8 @@ def _swap(painting: Painting, command: c.Swap, around: Around) -> Painting:
 
 
 def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
-    make = Layer if command.kind == "layer" else Group
-    node = make(layers.next_id(painting.root), command.name)
+    plain = command.kind == "layer"
+    node = new_layer(painting, command.name) if plain else Group(layers.next_id(painting.root), command.name)
     return with_node(painting, node, command.group, command.to)
 
 

@@ -19,9 +19,9 @@ from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.painting import commands as c
-from engine.painting.recording import Header, Recording
+from engine.painting.recording import Recording
 from engine.painting.textures import Around, recorded
-from engine.painting.value import Painting
+from engine.painting.value import Painting, blank, header_for
 from engine.session.apply import STEPS, apply
 from engine.session.history import History
 from engine.session.room import Room
@@ -62,7 +62,7 @@ class Session(Owned):
         self._history = history if history is not None else History(memory.history_share())
         self._extra = extra if extra is not None else Map()
         given = self.painting
-        self.base = Painting(given.frame, given.seed, arithmetic=given.arithmetic) if self.log else given
+        self.base = blank(given) if self.log else given
         self.leapt = False
         self._steps: Steps | None = None
         self.heard: Heard = lambda command, live: None
@@ -119,8 +119,7 @@ class Session(Owned):
 
     def recording(self) -> Recording:
         """Returns all that was done, as a recording that gives this painting."""
-        told = self.painting
-        header = Header(told.frame, told.seed, self._extra, told.arithmetic)
+        header = replace(header_for(self.painting), extra=self._extra)
         return Recording(header, tuple(self.log), folder=self.folder)
 
     def around(self, lent: ImageSource | None = None) -> Around:

@@ -14,6 +14,7 @@ import numpy as np
 from immutables import Map
 
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import FINE
 from engine.studio.filing.film_requests import FilmGrew, MakeFilm, PreviewFilm, StopFilm
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
@@ -32,10 +33,11 @@ SCREEN_TILE = 256  # pixels along a side of a screen tile
 
 @dataclass(frozen=True, slots=True)
 class New:
-    """A new painting with a frame in level-0 pixels."""
+    """A new painting with a frame in level-0 pixels, its values on a grid of so many bits."""
 
     frame: Rect
     seed: int = 0
+    grid: int = FINE
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +88,7 @@ class Do:
 
 @dataclass(frozen=True, slots=True)
 class Begin:
-    """The pen touches down.  `radius` of the brush is in pixels of `level`; points come relative to `origin`; `time`:
-    of posting, seconds since 1970."""
+    """The pen touches down: `radius` in pixels of `level`, points relative to `origin`, `time`, seconds since 1970."""
 
     level: int
     origin: tuple[int, int]

@@ -15,7 +15,9 @@ from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush, Component
 from engine.canvas import kernels
+from engine.canvas.dither import NO_DITHER
 from engine.numeric.address import TileKey
+from engine.numeric.grid import FINE_STEP
 from engine.texture.planes import Planes
 
 REPEATS = 15
@@ -86,7 +88,8 @@ def _textured(repeats: int) -> Figure:
             below = old.setdefault(key, Planes(np.full((7, 128, 128), 0.25, np.float32), ink.inks))
             stamp = edit.stamp(key, below)
             if stamp is not None:
-                kernels.apply_stamp(below.data, stamp.keep, stamp.add, planes, stamp.plain, False, new, marks)
+                how = planes, stamp.plain, False, new, marks, FINE_STEP, NO_DITHER
+                kernels.apply_stamp(below.data, stamp.keep, stamp.add, *how)
 
     own()
     moved = len(old) * 128 * 128 * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

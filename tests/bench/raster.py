@@ -17,8 +17,9 @@ from engine.brush.mixture import mixture
 from engine.brush.ops import OPS
 from engine.brush.settings import from_json
 from engine.canvas import kernels
+from engine.canvas.dither import NO_DITHER
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.grid import snapped
+from engine.numeric.grid import FINE_STEP, snapped
 from engine.texture.planes import Planes, plane_map
 
 REPEATS = 9
@@ -61,7 +62,8 @@ def _dab(name: str, op: dict[str, Any], repeats: int, limit: float) -> Figure:
             stamp = edit.stamp(key, old)
             if stamp is not None:
                 planes = plane_map(stamp.inks, ink.inks)
-                kernels.apply_stamp(old.data, stamp.keep, stamp.add, planes, stamp.plain, edit.spares_alpha, new, marks)
+                how = planes, stamp.plain, edit.spares_alpha, new, marks, FINE_STEP, NO_DITHER
+                kernels.apply_stamp(old.data, stamp.keep, stamp.add, *how)
 
     own()
     moved = len(olds) * TILE * TILE * (2 * 4 + 2 * 7 * 4)  # coverage and seven planes, read and written

@@ -17,6 +17,7 @@ from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import COARSE, FINE
 from engine.studio.requests import New
 
 MOST_SIDE = 1 << 20
@@ -80,6 +81,7 @@ class NewPainting:
 
     def __init__(self) -> None:
         self._width, self._height = 1280, 800
+        self._small = False
 
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window."""
@@ -95,9 +97,11 @@ class NewPainting:
         imgui.same_line()
         self._height = _side("Height", self._height, "Of the frame, in pixels of level 0", column)
         good = 1 <= self._width <= MOST_SIDE and 1 <= self._height <= MOST_SIDE
+        hint = "Colours of 12 bits in place of 16, for good: enough to paint and print; not for relief or height maps"
+        _, self._small = w.tick("Smaller files", self._small, hint)
         imgui.spacing()
         if w.default_button("Start", "Start the new painting", enabled=good, width=column):
-            desk.post(New(Rect(0, 0, self._width, self._height)))
+            desk.post(New(Rect(0, 0, self._width, self._height), grid=COARSE if self._small else FINE))
             return False
         imgui.same_line()
         return not w.text_button("Cancel", "Go back", width=column)

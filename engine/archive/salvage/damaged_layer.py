@@ -40,7 +40,7 @@ def rebuilt(ground: Pyramid, rest: Rest, growth: Growth = (), shown: Shown | Non
     if shown is None:
         return _with(ground, rest.tiles)
     if rest.first is None and ground.ground is None and not meets(growth, shown.level, shown.frame):
-        ground = shown.laid()
+        ground = shown.laid(ground.grid)
     pyramid, tiles, gone = ground, _by_level(rest.tiles), _by_level([(key,) for key in rest.gone])
     coarsest = min({*tiles, *gone, *ground.levels, shown.level})
     untold: list[TileKey] = []

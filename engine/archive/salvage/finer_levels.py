@@ -18,7 +18,7 @@ from engine.archive.implied import Coded
 from engine.canvas.evaluate import evaluate, step
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.numeric.grid import Q, snapped
+from engine.numeric.grid import snapped, snapped_to
 from engine.numeric.pyramid import reduce
 from engine.texture.planes import COLOURS, Planes
 
@@ -77,7 +77,7 @@ class _Told:
             new = reduce(below.rgba) if below is not None else np.zeros_like(inner)
             if self._anchored:
                 new += np.repeat(np.repeat(mean - reduce(new), 2, axis=1), 2, axis=2)
-            inner[:, self.where] = snapped(new)[:, self.where]
+            inner[:, self.where] = snapped_to(snapped(new), self._pyramid.step)[:, self.where]
         return inner
 
 
@@ -90,7 +90,7 @@ def with_values(pyramid: Pyramid, key: TileKey, part: Rect, wanted: np.ndarray, 
     new = old.data.copy()
     new[3, rows, columns] = 0
     bare = evaluate(_with_record(pyramid, key, replace(old, held=new)), key.level, part).rgba
-    new[:COLOURS, rows, columns] += np.rint((wanted - bare) / np.float32(Q)).astype(np.int32)
+    new[:COLOURS, rows, columns] += np.rint((wanted - bare) / pyramid.step).astype(np.int32)
     new[:COLOURS, rows, columns] = np.where(where, new[:COLOURS, rows, columns], old.data[:COLOURS, rows, columns])
     new.flags.writeable = False
     return _with_record(pyramid, key, replace(old, held=new))

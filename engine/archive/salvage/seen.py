@@ -13,6 +13,7 @@ from engine.canvas.evaluate import evaluate
 from engine.canvas.growth import Growth, meets
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.arithmetic import FINE
 from engine.numeric.colour import from_rgba8, from_rgba16, to_rgba8
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce
@@ -31,11 +32,11 @@ class Shown:
         self.frame = rect if frame is None else frame.union(rect)
         self._smaller: list[tuple[Rect, np.ndarray]] = []  # at the next coarser level and on
 
-    def laid(self) -> Pyramid:
-        """Returns a layer of nothing else."""
-        if self.level == 0:
+    def laid(self, grid: int) -> Pyramid:
+        """Returns a layer of nothing else, on a grid of so many bits."""
+        if self.level == 0 and grid == FINE:
             return pasted(iter([self.pixels]), self.rect.x0, self.rect.y0)
-        return commit(Pyramid(), Pasted(self.pixels, self.rect, self.level))
+        return commit(Pyramid(grid=grid), Pasted(self.pixels, self.rect, self.level))
 
     def planes(self, level: int, rect: Rect) -> np.ndarray:
         """Returns what the picture is like over `rect` of its level or a coarser one: float32 (4, h, w) on the grid, 0

@@ -31,6 +31,7 @@ from engine.files.fault import FileError, TooMuch, shown
 from engine.files.limits import memory_cap
 from engine.files.stack_xml import LayerEntry
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import FINE
 from engine.painting.rendering import check_cancelled
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
@@ -77,7 +78,7 @@ def as_seen(remains: Remains) -> Opened:
     except FileError:
         return _all_together(remains)
     lost = remains.stack is None or any(entry.src not in remains.archive for entry in remains.stack.root.layers())
-    root, told = _with_seen(remains, found.painting.root, found.painting.frame) if lost else (found.painting.root, ())
+    root, told = _with_seen(remains, found.painting) if lost else (found.painting.root, ())
     changed = (remains.overtaken,) if remains.overtaken else ()
     return replace(found, painting=replace(found.painting, root=root), notes=(IN_PART, *changed, *found.notes, *told))
 
@@ -96,20 +97,20 @@ def _all_together(remains: Remains) -> Opened:
     if pixels is None:
         raise FileError(remains.archive.name, "no picture of it is whole")
     frame = Rect(0, 0, pixels.shape[1], pixels.shape[0])
-    root = layers.insert(layers.EMPTY, Layer(1, SEEN, pyramid=Shown(pixels, frame).laid()))
+    root = layers.insert(layers.EMPTY, Layer(1, SEEN, pyramid=Shown(pixels, frame).laid(FINE)))
     return Opened(Painting(frame, 0, root, SEEN), (IN_PART, ONLY_SEEN))
 
 
-def _with_seen(remains: Remains, root: Group, frame: Rect) -> tuple[Group, tuple[str, ...]]:
-    """Returns the layers and on top, hidden, the picture of all of them together, if it is whole; and what to say."""
-    pixels = remains.png(MERGED)
+def _with_seen(remains: Remains, painting: Painting) -> tuple[Group, tuple[str, ...]]:
+    """Returns the layers, and on top, hidden, the picture of all of them together, if it is whole; and what to say."""
+    pixels, root = remains.png(MERGED), painting.root
     if pixels is None:
         return root, ()
-    level = shown_level(frame)
-    at = frame.zoomed(level)
+    level = shown_level(painting.frame)
+    at = painting.frame.zoomed(level)
     place = Rect.at(at.x0, at.y0, pixels.shape[1], pixels.shape[0])
     name = layers.unique_name(root, SEEN)
-    layer = Layer(layers.next_id(root), name, visible=False, pyramid=Shown(pixels, place, level).laid())
+    layer = Layer(layers.next_id(root), name, visible=False, pyramid=Shown(pixels, place, level).laid(painting.grid))
     return layers.insert(root, layer), (AS_SEEN.format(name=shown(name)),)
 
 
@@ -137,12 +138,10 @@ class _Parts:
         if not self._had:
             raise FileError(remains.archive.name, "no layer of it is whole")
         told: tuple[str, ...] = ()
+        painting = manifest.painting(root, self._textures())
         if self._unseen:
-            root, told = _with_seen(remains, root, manifest.frame)
-        textures = self._textures()
-        painting = Painting(
-            manifest.frame, manifest.seed, root, manifest.active, textures, manifest.bookmarks, manifest.arithmetic
-        )
+            root, told = _with_seen(remains, painting)
+            painting = replace(painting, root=root)
         notes = (IN_PART, *self._notes, *told, *manifest.notes, *steps_missing(remains))
         return Opened(painting, notes, False, None, remains.pictures, tuple(self._marks))
 
@@ -169,12 +168,12 @@ class _Parts:
     def _ground(self, layer: Layer) -> tuple[Pyramid, bool]:
         found = self._manifest.grounds.get(layer.id)
         if found is None:
-            return Pyramid(), True
+            return layer.pyramid, True
         try:
             png = self._remains.bytes_of(found.member)
             return grounds.restored(found, png, self._remains.where(found.member), self._remains.limits), True
         except FileError:
-            return Pyramid(), False
+            return layer.pyramid, False
 
     def _growth(self, layer: Layer) -> tuple[Growth, bool]:
         """Returns what was painted with examples, which is still to be grown."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.numeric.address import Rect
-from engine.numeric.grid import snap
+from engine.numeric.grid import FINE_STEP, snap
 from engine.numeric.kernel import kernel
 from engine.numeric.pyramid import expand_into
 from engine.texture.example import show, tiles
@@ -95,7 +95,7 @@ def _fill(value: np.ndarray, base: Tiles, region: Region, k: int, rect: Rect) ->
 def _expand(value: np.ndarray, at: Rect, inner: Rect) -> np.ndarray:
     out = np.empty((len(value), inner.height, inner.width), np.float32)
     top, left = (inner.y0 >> 1) - 1 - at.y0, (inner.x0 >> 1) - 1 - at.x0
-    expand_into(value, top, left, np.arange(len(value)), out, 0, inner.height)
+    expand_into(value, top, left, np.arange(len(value)), out, 0, inner.height, FINE_STEP)
     return out
 
 

@@ -1,39 +1,40 @@
-"""Compiled loops that make residuals, in units of 2^-16, and measure them."""
+"""Compiled loops that make residuals, in steps of the grid on which the values lie, and measure them."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from engine.canvas.plain import COUNT, Corner
+from engine.canvas.plain import Corner
 from engine.canvas.rising import plain_counting as plainly
 from engine.canvas.rising.spans import Found, Marks, Span
-from engine.numeric.grid import snap
+from engine.numeric.grid import snap_to
 from engine.numeric.kernel import Array, inlined, inner_uncounted, kernel, uncounted
 from engine.numeric.stand_in import or_plain
 
-_ZERO = np.float32(0.0)
+_ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 _THREE, _NINE, _SIXTEENTH = np.float32(3.0), np.float32(9.0), np.float32(1.0 / 16.0)
 
 
 @or_plain(plainly.residual)
 @kernel
 def residual(
-    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array
-) -> tuple[bool, int, int, int, int, int]:
-    """out[:, top:, left:] (int32, units of 2^-16) = value - predicted where touched.
+    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array,
+    step: np.float32,
+) -> tuple[bool, int, int, int, int, int]:  # fmt: skip
+    """out[:, top:, left:] (int32, in steps) = value - predicted where touched.
 
     `value` float32 (C, H, W) is read from `start` on; `predicted` float32 (C, h, w), `touched` uint8 (h, w).
     Returns whether that changed `out`, and what `extent` tells of it then; `used` (C,) is written as there.
     """
     (row, column), (top, left) = start, corner
     width = touched.shape[1]
-    changed = np.int32(0)
+    changed, count = np.int32(0), _ONE / step
     for c in range(out.shape[0]):
         for y in range(touched.shape[0]):
             v, p, t = value[c, row + y][column : column + width], predicted[c, y], touched[y]
             o = out[c, top + y][left : left + width]
             for i in range(width):
-                new = np.int32((v[i] - p[i]) * COUNT) if t[i] else o[i]
+                new = np.int32((v[i] - p[i]) * count) if t[i] else o[i]
                 changed |= new ^ o[i]
                 o[i] = new
     if changed == 0:
@@ -45,13 +46,14 @@ def residual(
 @or_plain(plainly.first_residual)
 @uncounted
 def first_residual(
-    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, out: Array, found: Found
-) -> Span:
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, out: Array, found: Found,
+    step: np.float32,
+) -> Span:  # fmt: skip
     """Returns the residual of a tile that had none, and what `extent` tells of it.
 
     `value` float32 (C, H, W) is read from `start` on; the prediction is expand of `coarse`, placed from `corner` and
     chosen as by `expand_into`; `marks`: `touched` uint8 (2h, 2w), and its `spans` (2h, 2) as `spread` tells them;
-    `out` int32 (C, 2h, 2w) in units of 2^-16 is written in these columns only.  `found`, int32: `used` (C,), which is
+    `out` int32 (C, 2h, 2w), in steps, is written in these columns only.  `found`, int32: `used` (C,), which is
     written as by `extent`, rows (2h,) and columns (2w,), which are 0 before.
     """
     (line, column), (top, left) = start, corner
@@ -65,7 +67,7 @@ def first_residual(
                 continue
             n = (last - first) // 2
             v, k, o = value[c, line + y][column + first : column + last], touched[y][first:last], out[c, y][first:last]
-            _count_row(v, coarse, source, top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, o)
+            _count_row(v, coarse, source, top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, o, step)
             edge = columns[first:last]
             bits = np.int32(0)
             for i in range(2 * n):
@@ -81,21 +83,23 @@ def first_residual(
 
 
 @inner_uncounted
-def _count_row(v: Array, coarse: Array, source: int, row: int, other: int, left: int, out: Array) -> None:
+def _count_row(
+    v: Array, coarse: Array, source: int, row: int, other: int, left: int, out: Array, step: np.float32
+) -> None:
     """out (2n,), int32, = v less expand of rows `row` and `row + other` of a plane of `coarse` from `left` on, none of
     it for -1."""
-    n = out.size // 2
+    n, count = out.size // 2, _ONE / step
     if source < 0:
         for i in range(2 * n):
-            out[i] = np.int32(v[i] * COUNT)
+            out[i] = np.int32(v[i] * count)
         return
     near, far = coarse[source, row][left : left + n + 2], coarse[source, row + other][left : left + n + 2]
     for i in range(n):
         here = _NINE * near[i + 1] + _THREE * far[i + 1]
-        even = snap((here + (_THREE * near[i] + far[i])) * _SIXTEENTH)
-        odd = snap((here + (_THREE * near[i + 2] + far[i + 2])) * _SIXTEENTH)
-        out[2 * i] = np.int32((v[2 * i] - even) * COUNT)
-        out[2 * i + 1] = np.int32((v[2 * i + 1] - odd) * COUNT)
+        even = snap_to((here + (_THREE * near[i] + far[i])) * _SIXTEENTH, step)
+        odd = snap_to((here + (_THREE * near[i + 2] + far[i + 2])) * _SIXTEENTH, step)
+        out[2 * i] = np.int32((v[2 * i] - even) * count)
+        out[2 * i + 1] = np.int32((v[2 * i + 1] - odd) * count)
 
 
 @or_plain(plainly.crop)
@@ -120,7 +124,7 @@ def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -
 @uncounted
 def renew(
     value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, row: Array, at: Corner,
-    out: Array,
+    out: Array, step: np.float32,
 ) -> tuple[bool, int]:  # fmt: skip
     """As `first_residual` of a tile that has a residual: `out` int16 (C, H, W) from `at` on, which is it, is written
     where it is touched.  Returns whether that changed it, and the bits of the absolute values that belong there: not
@@ -135,7 +139,7 @@ def renew(
                 continue
             v, k = value[c, line + y][column + first : column + last], touched[y][first:last]
             o, r = out[c, at[0] + y][at[1] + first : at[1] + last], row[first:last]
-            _count_row(v, coarse, planes[c], top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, r)
+            _count_row(v, coarse, planes[c], top + 1 + y // 2, 2 * (y & 1) - 1, left + first // 2, r, step)
             for i in range(r.size):
                 old = np.int32(o[i])
                 new = r[i] if k[i] else old

@@ -7,7 +7,7 @@ import numpy as np
 from engine.canvas.plain import LAG, QUARTER, Corner, Pair, Window
 from engine.canvas.rising import plain_lifting as plainly
 from engine.canvas.rising.spans import Extent, Lowered, Marks, ends, spanned
-from engine.numeric.grid import snap
+from engine.numeric.grid import snap, snap_to
 from engine.numeric.kernel import Array, inner_uncounted, uncounted
 from engine.numeric.stand_in import or_plain
 
@@ -17,8 +17,10 @@ _MOVED = np.uint8(2)
 
 @or_plain(plainly.lower)
 @uncounted
-def lower(sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, lowered: Lowered) -> None:
-    """What rule U reads of a changed rectangle, at the resolution of the level above.
+def lower(
+    sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, lowered: Lowered, step: np.float32
+) -> None:
+    """What rule U reads of a changed rectangle, at the resolution of the level above; `step`: of the values' grid.
 
     `lowered`: means[0] and means[1] (2, C, h, w) become R of the two `sources` (D, H, W), v before and after; `kept`
     becomes R of A, `parents` 1 where a child is marked in `below`, and `spans` the columns of each row where all these
@@ -40,8 +42,8 @@ def lower(sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, 
         span = spans[top + y]
         span[0], span[1] = (x, x + n) if span[0] >= span[1] else (min(span[0], x), max(span[1], x + n))
         for c in range(means.shape[1]):
-            _halve_row(old, maps[0][c], v, first, means[0, c, top + y][x : x + n])
-            _halve_row(new, maps[1][c], v, first, means[1, c, top + y][x : x + n])
+            _halve_row(old, maps[0][c], v, first, means[0, c, top + y][x : x + n], step)
+            _halve_row(new, maps[1][c], v, first, means[1, c, top + y][x : x + n], step)
         up, down = changed[v][2 * first : 2 * last], changed[v + 1][2 * first : 2 * last]
         a, b = keep[v][2 * first : 2 * last], keep[v + 1][2 * first : 2 * last]
         p, k = parents[top + y][x : x + n], kept[top + y][x : x + n]
@@ -51,7 +53,7 @@ def lower(sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, 
 
 
 @inner_uncounted
-def _halve_row(fine: np.ndarray, source: int, row: int, first: int, out: np.ndarray) -> None:
+def _halve_row(fine: np.ndarray, source: int, row: int, first: int, out: np.ndarray, step: np.float32) -> None:
     n = out.size
     if source < 0:
         for i in range(n):
@@ -59,18 +61,22 @@ def _halve_row(fine: np.ndarray, source: int, row: int, first: int, out: np.ndar
         return
     upper, lower = fine[source, row][2 * first : 2 * (first + n)], fine[source, row + 1][2 * first : 2 * (first + n)]
     for i in range(n):
-        out[i] = snap(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * QUARTER)
+        out[i] = snap_to(((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * QUARTER, step)
 
 
 @or_plain(plainly.climb)
 @uncounted
-def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values: Array, marks: Marks) -> Extent:
+def climb(
+    lowered: Lowered, spares: bool, around: Array, corner: Corner, values: Array, marks: Marks, step: np.float32,
+    noise: Array,
+) -> Extent:  # fmt: skip
     """Rule U: what a change of the level below does to this one.
 
-    r = v - R v_below (zero where it is only lag);  v' = R v'_below + snap(A r) on `parents` of changed pixels, v
-    elsewhere, and everywhere for alpha if `spares`.  `lowered`: what `lower` made of the level below; v is read of
-    `around` (C, H, W) from `corner` on.  Written are `values` (2, C, h, w), v and v', and A, 1 off `parents`: in each
-    pair of rows only in the columns where any of both is lowered, from an even one to an even one.
+    r = v - R v_below (zero where it is only lag);  v' = R v'_below + A r on `parents` of changed pixels, v elsewhere,
+    and everywhere for alpha if `spares`; A r is rounded to the grid of `step`, with `noise` where that is not empty,
+    float32 (h, w).  `lowered`: what `lower` made of the level below; v is read of `around` (C, H, W) from `corner` on.
+    Written are `values` (2, C, h, w), v and v', and A, 1 off `parents`: in each pair of rows only in the columns where
+    any of both is lowered, from an even one to an even one.
     `marks`: `changed`, uint8 (h, w), becomes 1 where A != 1, 2 more where v' != v; it is 0 before; and `spans` (h, 2)
     the columns of each row in which any is marked.
     Returns the extent y0, y1, x0, x1 of what is marked, y1 = 0 where nothing is.
@@ -96,7 +102,7 @@ def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values:
                 for i in range(n):
                     v[i] = w[i] = u[i]
                 continue
-            _lift_row(u, before, after, (a, p), v, w)
+            _lift_row(u, (before, after), (a, p), (v, w), step, noise, (y, first))
             if c == 3:
                 for i in range(n):
                     w[i] = min(max(w[i], _ZERO), _ONE)
@@ -107,13 +113,22 @@ def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values:
 
 
 @inner_uncounted
-def _lift_row(u: Array, before: Array, after: Array, where: Pair, v: Array, w: Array) -> None:
-    """A row of `climb`: v and v' of u, the old values, where A and `parents` are those of `where`."""
-    a, p = where
+def _lift_row(u: Array, means: Pair, where: Pair, out: Pair, step: np.float32, noise: Array, at: Corner) -> None:
+    """A row of `climb` from a place on: v and v' of u, the old values, where A and `parents` are those of `where`."""
+    (before, after), (a, p), (v, w), lag = means, where, out, LAG * step
+    if noise.size:
+        d = noise[at[0], at[1] : at[1] + u.size]
+        for i in range(u.size):
+            r = u[i] - before[i]
+            r = _ZERO if abs(r) <= lag else r
+            value = after[i] + snap_to(a[i] * r + d[i], step)
+            v[i] = u[i]
+            w[i] = value if p[i] else u[i]
+        return
     for i in range(u.size):
         r = u[i] - before[i]
-        r = _ZERO if abs(r) <= LAG else r
-        value = after[i] + snap(a[i] * r)
+        r = _ZERO if abs(r) <= lag else r
+        value = after[i] + snap_to(a[i] * r, step)
         v[i] = u[i]
         w[i] = value if p[i] else u[i]
 

@@ -4,44 +4,46 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.canvas.plain import COUNT, Corner
+from engine.canvas.plain import Corner
 from engine.canvas.rising.spans import Found, Marks, Span, span, within
 from engine.numeric.kernel import Array
 from engine.numeric.pyramid import expanded_rows
 
-_ZERO = np.float32(0.0)
+_ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
 
 def residual(
-    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array
-) -> tuple[bool, int, int, int, int, int]:
+    value: Array, start: Corner, predicted: Array, touched: Array, corner: Corner, out: Array, used: Array,
+    step: np.float32,
+) -> tuple[bool, int, int, int, int, int]:  # fmt: skip
     """Does what the kernel of that name in `counting` does."""
     (row, column), (top, left) = start, corner
     height, width = touched.shape
     part = out[:, top : top + height, left : left + width]
     there = value[: len(out), row : row + height, column : column + width]
-    new = np.where(touched != 0, _counted(there, predicted), part)
+    new = np.where(touched != 0, _counted(there, predicted, step), part)
     if not (new != part).any():
         return False, 0, 0, 0, 0, 0
     part[...] = new
     return True, *extent(out, used)
 
 
-def _counted(value: Array | np.float32, predicted: Array | np.float32) -> np.ndarray:
+def _counted(value: Array | np.float32, predicted: Array | np.float32, step: np.float32) -> np.ndarray:
     with np.errstate(invalid="ignore"):  # what is not touched may be anything
-        return np.asarray((value - predicted) * COUNT).astype(np.int32)
+        return np.asarray((value - predicted) * (_ONE / step)).astype(np.int32)
 
 
 def first_residual(
-    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, out: Array, found: Found
-) -> Span:
+    value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, out: Array, found: Found,
+    step: np.float32,
+) -> Span:  # fmt: skip
     """Does what the kernel of that name in `counting` does."""
     (line, column), (top, left) = start, corner
     height, width = marks[0].shape
     there = value[:, line : line + height, column : column + width]
     for c, source in enumerate(planes.tolist()):
-        predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
-        out[c] = np.where(marks[0] != 0, _counted(there[c], predicted), 0)
+        predicted = expanded_rows(coarse, top, left, source, 0, height, width, step) if source >= 0 else _ZERO
+        out[c] = np.where(marks[0] != 0, _counted(there[c], predicted, step), 0)
     return extent(out, found[0])
 
 
@@ -56,7 +58,7 @@ def crop(data: Array, spans: Array, planes: Array, corner: Corner, out: Array) -
 
 def renew(
     value: Array, start: Corner, coarse: Array, corner: Corner, planes: Array, marks: Marks, row: Array, at: Corner,
-    out: Array,
+    out: Array, step: np.float32,
 ) -> tuple[bool, int]:  # fmt: skip
     """Does what the kernel of that name in `counting` does."""
     (line, column), (top, left) = start, corner
@@ -65,8 +67,8 @@ def renew(
     part = out[:, at[0] : at[0] + height, at[1] : at[1] + width]
     bits, changed = 0, False
     for c, source in enumerate(planes.tolist()):
-        predicted = expanded_rows(coarse, top, left, source, 0, height, width) if source >= 0 else _ZERO
-        new = np.where(marks[0] != 0, _counted(there[c], predicted), part[c])
+        predicted = expanded_rows(coarse, top, left, source, 0, height, width, step) if source >= 0 else _ZERO
+        new = np.where(marks[0] != 0, _counted(there[c], predicted, step), part[c])
         changed |= bool((new != part[c]).any())
         bits |= int(np.bitwise_or.reduce(np.abs(new), axis=None, initial=0))
         part[c] = new.astype(np.int16)

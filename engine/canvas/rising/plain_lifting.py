@@ -6,13 +6,15 @@ import numpy as np
 
 from engine.canvas.plain import LAG, Corner, Pair, Window, clamp_alpha, halve
 from engine.canvas.rising.spans import Extent, Lowered, Marks, extent_of, spans_of, within
-from engine.numeric.grid import SNAP
+from engine.numeric.grid import FINE_STEP, snapped_to
 from engine.numeric.kernel import Array
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
 
-def lower(sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, lowered: Lowered) -> None:
+def lower(
+    sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, lowered: Lowered, step: np.float32
+) -> None:
     """Does what the kernel of that name in `lifting` does."""
     row, column, height, width, top, left = window
     means, kept, parents, spans = lowered
@@ -20,8 +22,8 @@ def lower(sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, 
     shape = height, width
     halved = np.empty((2, len(maps[0]), *shape), np.float32), np.empty((1, *shape), np.float32)
     for source, planes, out in zip(sources, maps, halved[0], strict=True):
-        halve(source[:, *inner], planes, out, 0, 0)
-    halve(keep[None, *inner], np.zeros(1, np.int64), halved[1], 0, 0)
+        halve(source[:, *inner], planes, out, 0, 0, step)
+    halve(keep[None, *inner], np.zeros(1, np.int64), halved[1], 0, 0, FINE_STEP)
     marked = below[1][inner[0]].reshape(height, 2, 2)
     first, last = marked[:, :, 0].min(axis=1), marked[:, :, 1].max(axis=1)
     empty = first >= last
@@ -37,7 +39,10 @@ def lower(sources: Pair, maps: Pair, keep: Array, below: Marks, window: Window, 
     means[:, :, *place] = np.where(inside, halved[0], means[:, :, *place])
 
 
-def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values: Array, marks: Marks) -> Extent:
+def climb(
+    lowered: Lowered, spares: bool, around: Array, corner: Corner, values: Array, marks: Marks, step: np.float32,
+    noise: Array,
+) -> Extent:  # fmt: skip
     """Does what the kernel of that name in `lifting` does."""
     means, keep, parents, _ = lowered
     top, left = corner
@@ -47,8 +52,9 @@ def climb(lowered: Lowered, spares: bool, around: Array, corner: Corner, values:
     on = parents != 0
     keep[~on] = _ONE
     rest = old - np.where(on, means[0], _ZERO)
-    rest[np.abs(rest) <= LAG] = _ZERO
-    new[...] = np.where(on, np.where(on, means[1], _ZERO) + ((keep * rest + SNAP) - SNAP), old)
+    rest[np.abs(rest) <= LAG * step] = _ZERO
+    kept = keep * rest + noise if noise.size else keep * rest
+    new[...] = np.where(on, np.where(on, means[1], _ZERO) + snapped_to(kept, step), old)
     if spares:
         new[3] = old[3]
     else:

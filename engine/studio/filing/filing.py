@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -15,7 +16,7 @@ from engine.keeping.preferences import Preferences
 from engine.keeping.unfinished import unfinished
 from engine.numeric.arithmetic import NEWEST
 from engine.painting.recording import Header
-from engine.painting.value import Painting, first_painting
+from engine.painting.value import Painting, first_painting, header_for
 from engine.studio import faults, results
 from engine.studio import requests as q
 from engine.studio.easel import Easel
@@ -131,7 +132,7 @@ class Filing(Owned):
 
     def _new(self, request: q.New) -> None:
         self.openings.cancel()
-        header = Header(request.frame, request.seed, arithmetic=NEWEST)
+        header = Header(request.frame, request.seed, arithmetic=NEWEST, grid=request.grid)
         self.replace(Document(first_painting(header), header=header))
 
     def _open(self, request: q.Open) -> None:
@@ -177,6 +178,5 @@ def _head(document: Document) -> Mapping[str, object]:
     header = document.header
     if document.stamp is None:
         return head_of_new(header, document.name, document.folder)
-    painting = document.painting
-    told = Header(painting.frame, painting.seed, header.extra, painting.arithmetic)
+    told = replace(header_for(document.painting), extra=header.extra)
     return head_of_file(document.stamp, document.path is not None, told)

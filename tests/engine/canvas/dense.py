@@ -1,28 +1,30 @@
 """An eager dense reference of the pyramid: every level a whole array, every rule written out plainly in float64.
 
-It shares no code with the canvas but the rectangles that textures are asked for.
+It shares no code with the canvas but the rectangles that textures are asked for, and the keys of hashes.
 """
 
 import numpy as np
 
-from engine.numeric.address import Rect
+from engine.numeric.address import TILE, Rect
+from engine.numeric.hashing import fold_key
 
 COUNT = 65536.0
 
 
-def snap(values):
-    out = values * COUNT
+def snap(values, count=COUNT):
+    out = values * count
     np.rint(out, out)
-    out /= COUNT
+    out /= count
     return out
 
 
-def product(a, b):
-    """snap(a * b) with the product rounded to float32 first."""
-    return snap((np.asarray(a, np.float32) * np.asarray(b, np.float32)).astype(np.float64))
+def product(a, b, count=COUNT, noise=None):
+    """snap(a * b + noise) with product and sum rounded to float32 first."""
+    out = np.asarray(a, np.float32) * np.asarray(b, np.float32)
+    return snap((out if noise is None else out + noise).astype(np.float64), count)
 
 
-def expand(p):
+def expand(p, count=COUNT):
     """(C, h + 2, w + 2) to (C, 2h, 2w)."""
     mid = p[:, 1:-1, 1:-1]
     out = np.empty((p.shape[0], 2 * mid.shape[1], 2 * mid.shape[2]))
@@ -36,12 +38,12 @@ def expand(p):
             mixed += nine
             mixed += p[:, rows, columns]
             mixed /= 16
-            out[:, dy::2, dx::2] = snap(mixed)
+            out[:, dy::2, dx::2] = snap(mixed, count)
     return out
 
 
-def reduce(f):
-    return snap((f[:, 0::2, 0::2] + f[:, 0::2, 1::2] + f[:, 1::2, 0::2] + f[:, 1::2, 1::2]) / 4)
+def reduce(f, count=COUNT):
+    return snap((f[:, 0::2, 0::2] + f[:, 0::2, 1::2] + f[:, 1::2, 0::2] + f[:, 1::2, 1::2]) / 4, count)
 
 
 def cell(mask):
@@ -61,13 +63,24 @@ def children_of(marks):
     return out
 
 
+def hash_plane_of_tile(number, level, x, y):
+    """What `place64` makes of all places of a tile, from its corner, under the key of the tile and the commit."""
+    ys, xs = np.indices((TILE, TILE), np.uint64)
+    h = (ys << np.uint64(32) | xs) ^ np.uint64(fold_key(number, level, x, y))
+    h = (h ^ (h >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    h = (h ^ (h >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return h ^ (h >> np.uint64(31))
+
+
 class Dense:
     """All levels of a square canvas centred on the origin; arrays cover [-H, H) with H = half(level).
 
     An array of a level is never written to once it stands in `v` or `d`: another takes its place.
+    `grid`: of the values, by its bits; `commits`: how many there were, where it is the coarse one.
     """
 
-    def __init__(self, coarsest, finest, half0, inks):
+    def __init__(self, coarsest, finest, half0, inks, grid=16):
+        self.count, self.commits = 2.0**grid, 0
         self.coarsest, self.finest, self.inks = coarsest, finest, list(inks)
         self.planes = 4 + 3 * len(self.inks)
         self.half = {
@@ -77,14 +90,28 @@ class Dense:
         self.d = dict(self.v)
 
     def snapshot(self):
-        return dict(self.v), dict(self.d)
+        return dict(self.v), dict(self.d), self.commits
 
     def restore(self, state):
-        self.v, self.d = dict(state[0]), dict(state[1])
+        self.v, self.d, self.commits = dict(state[0]), dict(state[1]), state[2]
 
-    def up(self, a, k, fill=0.0):
+    def noise(self, k, keep):
+        """What the commit that is under way adds at level k before it rounds: float32, None on the fine grid."""
+        if self.count == COUNT:
+            return None
+        out, h = np.zeros(keep.shape, np.float32), self.half[k]
+        for y in range(-(-h // TILE) * -TILE, h, TILE):
+            for x in range(-(-h // TILE) * -TILE, h, TILE):
+                hashed = hash_plane_of_tile(self.commits + 1, k, x // TILE, y // TILE)
+                rows, columns = slice(max(y, -h), min(y + TILE, h)), slice(max(x, -h), min(x + TILE, h))
+                part = hashed[rows.start - y : rows.stop - y, columns.start - x : columns.stop - x]
+                parts = (part >> np.uint64(54)).astype(np.float64)
+                out[rows.start + h : rows.stop + h, columns.start + h : columns.stop + h] = (parts + 0.5) / 1024 - 0.5
+        return np.where((keep > 15 / 16) & (keep < 17 / 16), out / np.float32(self.count), np.float32(0))
+
+    def up(self, a, k, fill=0.0, count=None):
         """expand from level k - 1 to level k, `fill` outside."""
-        e = expand(np.pad(a, [(0, 0), (1, 1), (1, 1)], constant_values=fill))
+        e = expand(np.pad(a, [(0, 0), (1, 1), (1, 1)], constant_values=fill), count or self.count)
         spare = e.shape[1] // 2 - self.half[k]
         assert spare >= 0
         return e[:, spare : e.shape[1] - spare, spare : e.shape[2] - spare] if spare else e
@@ -102,7 +129,8 @@ class Dense:
             if k > ink.base:
                 detail = ink.bandpass(k, Rect(-h, -h, h, h))
                 if detail is not None:
-                    total += product(ink_planes[3 * i : 3 * i + 3], np.broadcast_to(detail, (3, 2 * h, 2 * h)))
+                    own = ink_planes[3 * i : 3 * i + 3]
+                    total += product(own, np.broadcast_to(detail, (3, 2 * h, 2 * h)), self.count)
         return total
 
     def settle(self, k):
@@ -113,8 +141,8 @@ class Dense:
         self.v[k] = v
 
     def paint(self, m, x0, y0, keep, add, spares_alpha=False):
-        """v' = snap(A v) + B at level m, but not of alpha if that is spared; keep (h, w), add (planes, h, w) on the
-        grid."""
+        """v' = snap(A v) + B at level m, on the coarse grid snap(A v + B + noise), but not of alpha if that is spared;
+        keep (h, w), add (planes, h, w) on the fine grid."""
         residuals = {k: d[3] for k, d in self.d.items()}
         h, (rows, columns) = self.half[m], keep.shape
         a = np.ones((2 * h, 2 * h))
@@ -122,7 +150,12 @@ class Dense:
         a[y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = keep
         b[:, y0 + h : y0 + h + rows, x0 + h : x0 + h + columns] = add
         old = dict(self.v)
-        new = product(np.broadcast_to(a, self.v[m].shape), self.v[m]) + b
+        noise, whole = self.noise(m, a), np.broadcast_to(a, self.v[m].shape)
+        if noise is None:
+            new = product(whole, self.v[m]) + b
+        else:
+            total = whole.astype(np.float32) * self.v[m].astype(np.float32) + b.astype(np.float32)
+            new = snap((total + noise).astype(np.float64), self.count)
         new[3] = old[m][3] if spares_alpha else np.clip(new[3], 0, 1)
         self.v[m] = new
         marks = {m: (a != 1) | (new != old[m]).any(0)}
@@ -137,8 +170,9 @@ class Dense:
             self.new_residual(k, old, marks)
         ak = a[None]
         for k in range(m + 1, self.finest + 1):
-            ak = self.up(ak, k, 1.0)
-            self.d[k] = np.clip(product(np.broadcast_to(ak, self.d[k].shape), self.d[k]), -8, 8)
+            ak = self.up(ak, k, 1.0, COUNT)
+            weaker = product(np.broadcast_to(ak, self.d[k].shape), self.d[k], self.count, self.noise(k, ak[0]))
+            self.d[k] = np.clip(weaker, -8, 8)
             if spares_alpha:
                 self.d[k][3] = residuals[k]
             self.settle(k)
@@ -147,9 +181,10 @@ class Dense:
         above = reduce(self.down(keep[None], j, 1.0))[0]
         parents = cell(self.down(marks[j + 1], j, False))
         above = np.where(parents, above, 1.0)
-        r = old[j] - reduce(self.down(old[j + 1], j))
-        r = np.where(np.abs(r) <= 2 / COUNT, 0, r)
-        new = reduce(self.down(self.v[j + 1], j)) + product(np.broadcast_to(above, r.shape), r)
+        r = old[j] - reduce(self.down(old[j + 1], j), self.count)
+        r = np.where(np.abs(r) <= 2 / self.count, 0, r)
+        kept = product(np.broadcast_to(above, r.shape), r, self.count, self.noise(j, above))
+        new = reduce(self.down(self.v[j + 1], j), self.count) + kept
         new[3] = old[j][3] if spares_alpha else np.clip(new[3], 0, 1)
         self.v[j] = np.where(parents, new, old[j])
         marks[j] = (above != 1) | (self.v[j] != old[j]).any(0)

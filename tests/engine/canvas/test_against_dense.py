@@ -28,8 +28,9 @@ WIDE, NARROW = (
     12,
     8,
 )  # half the canvas's side at level 0: at the finest, what is painted spreads over 4 or 2 tiles' width
-CASES = [(0, WIDE, NOISE), (7, NARROW, TEXTURES), (2, NARROW, NOISE)]
-LATER = [(6, WIDE, TEXTURES), *((n, NARROW, NOISE) for n in (1, 3, 4, 5))]
+CASES = [(0, WIDE, NOISE, 16), (7, NARROW, TEXTURES, 16), (2, NARROW, NOISE, 16), (8, NARROW, NOISE, 12)]
+LATER = [(6, WIDE, TEXTURES, 16), *((n, NARROW, NOISE, 16) for n in (1, 3, 4, 5))]
+LATER += [(9, WIDE, NOISE, 12), *((n, NARROW, TEXTURES, 12) for n in (10, 11, 12))]
 MORE = [pytest.param(*case, marks=pytest.mark.nightly) for case in LATER]
 
 
@@ -47,12 +48,12 @@ def visit(pyramid, rng, cache, half):
         evaluate(pyramid, k, Rect.at(x, y, int(rng.integers(1, 300)), int(rng.integers(1, 200))), cache)
 
 
-@pytest.mark.parametrize(("seed", "half", "inks"), [*CASES, *MORE])
-def test_every_level_equals_the_dense_reference(seed, half, inks):
+@pytest.mark.parametrize(("seed", "half", "inks", "grid"), [*CASES, *MORE])
+def test_every_level_equals_the_dense_reference(seed, half, inks, grid):
     rng = np.random.default_rng(seed)
     cache = TileCache(int(rng.choice([0, 3 << 20, 64 << 20])))
-    dense = Dense(COARSEST, FINEST, half, inks)
-    states, references = [Pyramid()], [dense.snapshot()]
+    dense = Dense(COARSEST, FINEST, half, inks, grid)
+    states, references = [Pyramid(grid=grid)], [dense.snapshot()]
     unvisited = [states[0]]
     for n in range(40):
         if rng.random() < 0.15 and len(states) > 1:
@@ -68,6 +69,7 @@ def test_every_level_equals_the_dense_reference(seed, half, inks):
         states.append(commit(states[-1], edit, cache))
         unvisited.append(commit(unvisited[-1], edit))
         dense.paint(m, x, y, keep, add, spares_alpha)
+        dense.commits = states[-1].commits
         references.append(dense.snapshot())
         committed = evaluate(states[-1], m, edit.rect, cache)
         np.testing.assert_array_equal(spread_planes(shown, inks), spread_planes(committed, inks))

@@ -12,11 +12,13 @@ from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
 from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
+from engine.canvas.dither import NO_DITHER
 from engine.canvas.evaluate import evaluate, shown
 from engine.canvas.kernels import attenuate
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.grid import FINE_STEP
 from engine.numeric.pyramid import reduce
 from engine.texture.sparse_planes import SparsePlanes
 
@@ -326,14 +328,14 @@ def test_attenuation_waits_for_a_bounded_number_of_strokes():
 def test_attenuation_rounds_to_the_grid():
     data = np.array([[[3, -3, 1000, -70000]]], np.int32)
     out = np.empty_like(data)
-    attenuate(data, np.full((1, 4), 0.5, np.float32), False, out)
+    attenuate(data, np.full((1, 4), 0.5, np.float32), False, out, FINE_STEP, NO_DITHER)
     assert out.tolist() == [[[2, -2, 500, -35000]]]
 
 
 def test_amplified_detail_stays_within_bounds_and_alpha_may_be_spared():
     data = np.full((5, 1, 3), [[400000, -400000, 100]], np.int32)
     out = np.empty_like(data)
-    attenuate(data, np.full((1, 3), 2.0, np.float32), True, out)
+    attenuate(data, np.full((1, 3), 2.0, np.float32), True, out, FINE_STEP, NO_DITHER)
     assert out[3].tolist() == [[400000, -400000, 100]]
     for plane in (0, 1, 2, 4):
         assert out[plane].tolist() == [[8 * 65536, -8 * 65536, 200]]

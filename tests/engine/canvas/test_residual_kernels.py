@@ -5,10 +5,12 @@ import pytest
 
 from engine.canvas import kernels
 from engine.canvas.compact import blank_found, compact, trimmed
+from engine.canvas.dither import NO_DITHER
 from engine.canvas.front import blank_marks
 from engine.canvas.rising import counting, lifting
 from engine.canvas.rising.spans import spans_of, within
 from engine.numeric.address import Rect
+from engine.numeric.grid import FINE_STEP
 from engine.numeric.pyramid import expand
 
 
@@ -31,7 +33,9 @@ def test_first_residual_is_what_is_left_of_the_values(largest):
     planes = np.array([0, 1, 2, 3, -1, 5, 4])
     data, marks = np.full((7, 10, 14), 99, np.int32), (touched, even_spans(touched))
     found = used, _, _ = blank_found(data)
-    bits, y0, y1, x0, x1 = counting.first_residual(around, (2, 5), coarse, (2, 3), planes, marks, data, found)
+    bits, y0, y1, x0, x1 = counting.first_residual(
+        around, (2, 5), coarse, (2, 3), planes, marks, data, found, FINE_STEP
+    )
     data[:, ~within(marks[1], 14)] = 0
 
     window = np.stack([coarse[p] if p >= 0 else np.zeros_like(coarse[0]) for p in planes])[:, 2:9, 3:12]
@@ -53,7 +57,7 @@ def test_first_residual_of_nothing():
     touched = np.ones((8, 8), np.uint8)
     coarse, found = np.zeros((4, 6, 6), np.float32), blank_found(data)
     marks = touched, spans_of(touched)
-    extent = counting.first_residual(nothing, (0, 0), coarse, (0, 0), np.arange(4), marks, data, found)
+    extent = counting.first_residual(nothing, (0, 0), coarse, (0, 0), np.arange(4), marks, data, found, FINE_STEP)
     assert extent[0] == 0
     assert not data.any()
     assert compact(Rect(0, 0, 8, 8), data, (), 1, (extent, found[0])) is None
@@ -77,7 +81,7 @@ def test_what_a_stamp_changes_is_measured():
     keep[2, 7] = keep[4, 3] = 0.5
     old, new, marks = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), blank_marks(6, 9)
     add, planes = np.zeros((4, 6, 9), np.float32), np.arange(4)
-    assert kernels.apply_stamp(old, keep, add, planes, True, False, new, marks) == (2, 5, 3, 8)
+    assert kernels.apply_stamp(old, keep, add, planes, True, False, new, marks, FINE_STEP, NO_DITHER) == (2, 5, 3, 8)
     assert np.array_equal(marks[0] != 0, keep != 1.0)
     assert marks[1].tolist() == [[9, 0], [9, 0], [7, 8], [9, 0], [3, 4], [9, 0]]
 
@@ -90,7 +94,7 @@ def test_a_residual_is_written_where_it_is_touched(kernel):
     before = np.zeros((4, 10, 11), np.int32)
     before[1, 9, 0] = -5
     data, used = before.copy(), np.empty(4, np.int32)
-    changed, *extent = kernel(value, (3, 1), predicted, touched, (2, 3), data, used)
+    changed, *extent = kernel(value, (3, 1), predicted, touched, (2, 3), data, used, FINE_STEP)
     wanted, measured = before.copy(), np.empty(4, np.int32)
     new = np.rint((value[:, 3:9, 1:9] - predicted) * 65536).astype(np.int32)
     wanted[:, 2:8, 3:11] = np.where(touched, new, 0)
@@ -98,7 +102,7 @@ def test_a_residual_is_written_where_it_is_touched(kernel):
     assert np.array_equal(data, wanted)
     assert tuple(extent) == counting.extent(wanted, measured)
     assert np.array_equal(used, measured)
-    assert not kernel(value, (3, 1), predicted, touched, (2, 3), data, used)[0]
+    assert not kernel(value, (3, 1), predicted, touched, (2, 3), data, used, FINE_STEP)[0]
 
 
 def both(kernel):
@@ -121,7 +125,7 @@ def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
     before = rng.integers(-32767, 32768, (7, 12, 28)).astype(np.int16)
     data, row = before.copy(), np.empty(26, np.int32)
     marks = touched, even_spans(touched)
-    changed, bits = kernel(value, (2, 3), coarse, (2, 3), planes, marks, row, (1, 2), data)
+    changed, bits = kernel(value, (2, 3), coarse, (2, 3), planes, marks, row, (1, 2), data, FINE_STEP)
 
     window = np.stack([coarse[p] if p >= 0 else np.zeros_like(coarse[0]) for p in planes])[:, 2:9, 3:18]
     new = np.rint((value[:, 2:12, 3:29] - expand(window)) * 65536).astype(np.int32)
@@ -131,7 +135,7 @@ def test_a_renewed_residual_is_what_is_left_of_the_values(kernel, largest):
     assert (bits < 1 << 15) == (abs(wanted).max() < 1 << 15) == (largest < 1.0)
     if largest < 1.0:
         assert np.array_equal(data, wanted)
-        assert not kernel(value, (2, 3), coarse, (2, 3), planes, marks, row, (1, 2), data)[0]
+        assert not kernel(value, (2, 3), coarse, (2, 3), planes, marks, row, (1, 2), data, FINE_STEP)[0]
 
 
 @pytest.mark.parametrize("kernel", both(counting.edges))
@@ -195,9 +199,9 @@ def test_compiled_and_plain_lifts_agree(spares):
             marked = scattered(rng, 24, 24)
             old, new, keep = on_grid(rng, 7, 24, 24), on_grid(rng, 7, 24, 24), on_grid(rng, 24, 24)
             window = 2, 2, 11, 10, 1, left + 1
-            which(lifting.lower)((old, new), maps, keep, (marked, spans_of(marked)), window, into)
+            which(lifting.lower)((old, new), maps, keep, (marked, spans_of(marked)), window, into, FINE_STEP)
         around, values, marks = abs(on_grid(rng, 7, 15, 25)), np.zeros((2, 7, 12, 20), np.float32), blank_marks(12, 20)
-        extent = which(lifting.climb)(into, spares, around, (2, 3), values, marks)
+        extent = which(lifting.climb)(into, spares, around, (2, 3), values, marks, FINE_STEP, NO_DITHER)
         inside = within(marks[1], 20)
         assert np.array_equal(inside & (marks[0] != 0), marks[0] != 0)
         out = np.zeros((7, 14, 22), np.float32)

@@ -6,6 +6,7 @@ import pytest
 from engine.brush.settings import Brush
 from engine.canvas import kernels
 from engine.canvas.composite import composite
+from engine.canvas.dither import NO_DITHER
 from engine.canvas.front import blank_marks
 from engine.canvas.reading import layer_planes
 from engine.canvas.rising import counting
@@ -13,6 +14,7 @@ from engine.kernel_cache import NotCompiled
 from engine.numeric import stand_in
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
+from engine.numeric.grid import FINE_STEP
 from engine.numeric.stand_in import Kernel, or_interpreted, or_plain
 from engine.painting.value import Painting
 from engine.strokes.paint_stroke import LiveStroke
@@ -70,7 +72,7 @@ def test_plain_strokes_are_the_same_bits(request):
 def test_extents_of_nothing():
     for keep in (np.ones((6, 9), np.float32), 1.0 - np.eye(6, 9, 2, dtype=np.float32)):
         old, new, marks = np.ones((4, 6, 9), np.float32), np.empty((4, 6, 9), np.float32), blank_marks(6, 9)
-        arguments = old, keep, np.zeros_like(old), np.arange(4), True, False, new, marks
+        arguments = old, keep, np.zeros_like(old), np.arange(4), True, False, new, marks, FINE_STEP, NO_DITHER
         assert kernels.apply_stamp.compiled(*arguments) == kernels.apply_stamp.plain(*arguments)
     for data in (np.zeros((2, 5, 7), np.int32), np.arange(-35, 35, dtype=np.int32).reshape(2, 5, 7)):
         used = np.empty((2, 2), np.int32)

@@ -10,6 +10,7 @@ import zlib
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from PIL import Image
 
 from engine.archive.grounds import lay_ground
@@ -19,6 +20,7 @@ from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.numeric.address import Rect
 from engine.painting import commands as c
+from engine.painting.value import Painting
 from engine.session.session import Session
 
 Q = 2.0**-16
@@ -33,6 +35,7 @@ class Reader:
     def __init__(self, path, number):
         with zipfile.ZipFile(path) as file:
             self.manifest = json.loads(file.read("inkfall/manifest.json"))
+            self.unit = {"2^-16": Q, "2^-12": 2.0**-12}[self.manifest["unit"]]
             told = next(layer for layer in self.manifest["layers"] if layer["id"] == number)
             self.tiles = {}
             if "ground" in told:
@@ -90,7 +93,7 @@ class Reader:
                     self.tiles[level, tx, ty] = part
 
     def value(self, level, x, y, width, height):
-        """v of a rectangle of a level, in units of Q: float64 (4, height, width)."""
+        """v of a rectangle of a level, in units of the grid: float64 (4, height, width)."""
         coarsest = min((key[0] for key in self.tiles), default=level + 1)
         if level < coarsest:
             return np.zeros((4, height, width))
@@ -100,7 +103,7 @@ class Reader:
         for (at, tx, ty), tile in self.tiles.items():
             if at == level:
                 out += self.cut((tx * TILE, ty * TILE, tile), x, y, width, height)
-        out[3] = np.clip(out[3], 0.0, 1.0 / Q)
+        out[3] = np.clip(out[3], 0.0, 1.0 / self.unit)
         return out
 
 
@@ -224,7 +227,7 @@ def check(session, path, places):
         read = Reader(path, layer.id)
         for level, x, y in places:
             ours = evaluate(layer.pyramid, level, Rect.at(x, y, 70, 50)).data[:4]
-            assert np.array_equal(read.value(level, x, y, 70, 50) * Q, ours), (layer.name, level, x, y)
+            assert np.array_equal(read.value(level, x, y, 70, 50) * read.unit, ours), (layer.name, level, x, y)
         told = {name: entry for name, entry in read.sums.items() if name != "inkfall/manifest.json"}
         assert told == read.manifest["members"]
 
@@ -232,8 +235,9 @@ def check(session, path, places):
 PLACES = [(-3, -4, -4), (-1, 20, 10), (0, 90, 70), (0, 101, 33), (1, 200, 160), (2, 419, 333), (4, 1700, 1401)]
 
 
-def test_a_stranger_reads_strokes_of_several_levels(tmp_path):
-    session = Session()
+@pytest.mark.parametrize("grid", [16, 12])
+def test_a_stranger_reads_strokes_of_several_levels(tmp_path, grid):
+    session = Session(Painting(grid=grid))
     stroke(session, 0, [[20, 20], [240, 160], [60, 190]], radius=24, colour="#c06030", hardness=0.2)
     stroke(session, 2, [[400, 330], [520, 400]], radius=30, colour="#104080", opacity=0.6)
     stroke(session, -1, [[10, 60], [100, 20]], radius=9, colour="#f0e0a0", opacity=0.4)

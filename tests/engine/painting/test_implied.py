@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from engine.archive import implied, implied_kernels, opening
 from engine.archive.grounds import with_tiles
 from engine.archive.implied import needed, ordered, restored, without
-from engine.archive.manifest import FORMAT
+from engine.archive.manifest import FINE_FORMAT
 from engine.archive.opening import open_painting
 from engine.archive.packing import pack, unpack
 from engine.archive.saving import Snapshot, save
@@ -20,6 +20,7 @@ from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.canvas.store import Pyramid, Record
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.grid import FINE_STEP
 from engine.numeric.pyramid import expand
 from engine.painting.cascade import Cascade
 from engine.painting.commands import parse
@@ -170,7 +171,9 @@ def test_the_kernel_is_the_plain_form():
     out = data.copy()
     detail = rng.uniform(-0.1, 0.1, (2, 1, 11, 13)).astype(np.float32)
     detail[1] = 0.0
-    implied_kernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), out)
+    implied_kernels.exchange(
+        data, parents, place, sources, own, around, start, detail, FINE_STEP, factors, np.int32(1), out
+    )
     below = expand(parents)[:, 1:12, 1:14].astype(np.float64)
     for c in range(3):
         amplitudes = [below[4 + c] + data[4 + c] * unit, below[7 + c]]
@@ -195,9 +198,11 @@ def test_terms_that_made_a_colour_are_found(stride):
     sources, own = np.array([4, 7], np.int64), np.array([4, -1], np.int64)
     data[:3], parents[:3] = 0, 0.0  # what is implied is then the whole residual, but for texture
     wide = data.astype(np.int32)
-    implied_kernels.exchange(data, parents, place, sources, own, around, start, detail, factors, np.int32(1), wide)
+    implied_kernels.exchange(
+        data, parents, place, sources, own, around, start, detail, FINE_STEP, factors, np.int32(1), wide
+    )
     wide.flags.writeable = False
-    found = implied_kernels.fit(wide, parents, place, sources, own, around, start, detail, stride)
+    found = implied_kernels.fit(wide, parents, place, sources, own, around, start, detail, FINE_STEP, stride)
     assert np.abs(found - factors).max() < 2e-4
 
 
@@ -248,4 +253,4 @@ def test_the_manifest_tells_the_revision(tmp_path):
     save(tmp_path / "a.ora", Snapshot(Painting(Rect(0, 0, 20, 15), 3)))
     with zipfile.ZipFile(tmp_path / "a.ora") as file:
         told = json.loads(file.read("inkfall/manifest.json"))
-    assert (told["inkfall"], told["texture"]) == (FORMAT, implied.TEXTURES)
+    assert (told["inkfall"], told["texture"]) == (FINE_FORMAT, implied.TEXTURES)
