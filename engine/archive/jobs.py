@@ -10,6 +10,7 @@ from engine.archive.implied import Tile, without
 from engine.archive.manifest import Pack
 from engine.archive.packing import grouped, pack
 from engine.archive.shelf import as_filed, plain_size
+from engine.numeric.arithmetic import COARSE
 from engine.painting.cascade import Cascade
 
 
@@ -33,4 +34,5 @@ def pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack], values: Cascade |
 def _packed(group: Sequence[Tile], values: Cascade | None) -> bytes:
     if values is None:
         return pack([(key, record, None) for key, record in group])
-    return pack(as_filed(values.pyramid, group) or without(values, group))
+    pyramid = values.pyramid
+    return pack(as_filed(pyramid, group) or without(values, group), closely=pyramid.grid == COARSE)

@@ -94,8 +94,9 @@ def _blocks(tiles: Sequence[Coded]) -> Iterator[Sequence[Coded]]:
         yield from _runs(level[start:], BLOCK, TILES)
 
 
-def pack(tiles: Sequence[Coded]) -> bytes:
-    """Returns the pack of some tiles: the same tiles in the same order give the same bytes."""
+def pack(tiles: Sequence[Coded], closely: bool = False) -> bytes:
+    """Returns the pack of some tiles: the same tiles in the same order give the same bytes.  `closely`: a tenth
+    fewer, for three times the work of deflating."""
     inks: dict[Instance, int] = {}
     lines, blocks = [], []
     bodies: list[bytes | memoryview] = []
@@ -111,14 +112,17 @@ def pack(tiles: Sequence[Coded]) -> bytes:
     for run in _blocks(tiles):
         block = block_at(run, 0)
         plain = tilecode.encoded([record.data for _, record, _ in run]) if block is None else b""
-        bodies.append(_deflated(plain) if block is None else block.stored)
+        bodies.append(_deflated(plain, closely) if block is None else block.stored)
         blocks.append([len(run), len(plain) if block is None else block.plain, len(bodies[-1])])
     head = _with_crc(dumps({"inks": [ink.key for ink in inks], "tiles": lines, "blocks": blocks}).encode())
     return b"".join([_MAGIC, struct.pack("<I", len(head)), head, *bodies])
 
 
-def _deflated(plain: bytes) -> bytes:
+def _deflated(plain: bytes, closely: bool) -> bytes:
     """Returns a zlib stream: the same bytes give the same stream, which of few bytes isal's does not."""
+    if closely:  # what is left of tiles repeats itself by chance alone: one codes its bytes, and runs of them
+        stream = zlib.compressobj(_LEVEL, zlib.DEFLATED, zlib.MAX_WBITS, zlib.DEF_MEM_LEVEL + 1, zlib.Z_RLE)
+        return stream.compress(plain) + stream.flush()
     return zlib.compress(plain, _LEVEL) if len(plain) < FEW_BYTES else isal_zlib.compress(plain, _LEVEL)
 
 

@@ -17,6 +17,7 @@ GAINS = 2
 _BITS = 8  # of a gain behind the point
 _MOST = (1 << 15) - 1
 _ALPHA = 3
+_WORTH = 0.12  # of the squares that gains take away: of less, they cost more bits than they save
 
 
 @inlined
@@ -99,7 +100,7 @@ def _differences(plane: np.ndarray, kind: Int, out: np.ndarray) -> bool:
 def _gain_of(own: Array, alpha: Array, before: Array, y: Int, x: Int) -> tuple[Int, Int]:
     """Returns the gains of alpha's and of the plane before's differences, in units of 2^-8, that leave the smallest
     squares of a plane's own on a square."""
-    aa, ab, bb, va, vb = np.int64(0), np.int64(0), np.int64(0), np.int64(0), np.int64(0)
+    aa, ab, bb, va, vb, vv = np.int64(0), np.int64(0), np.int64(0), np.int64(0), np.int64(0), np.int64(0)
     last = min(x + SQUARE_SIDE, own.shape[1])
     for j in range(y, min(y + SQUARE_SIDE, own.shape[0]), FITTED):
         v, a, b = own[j][x:last], alpha[j][x:last], before[j][x:last]
@@ -110,11 +111,12 @@ def _gain_of(own: Array, alpha: Array, before: Array, y: Int, x: Int) -> tuple[I
             bb += h * h
             va += f * g
             vb += f * h
-    return _solved(np.float64(aa), np.float64(ab), np.float64(bb), np.float64(va), np.float64(vb))
+            vv += f * f
+    return _solved(np.float64(aa), np.float64(ab), np.float64(bb), np.float64(va), np.float64(vb), np.float64(vv))
 
 
 @inlined
-def _solved(aa: Real, ab: Real, bb: Real, va: Real, vb: Real) -> tuple[Int, Int]:
+def _solved(aa: Real, ab: Real, bb: Real, va: Real, vb: Real, vv: Real) -> tuple[Int, Int]:
     """Returns the gains of two planes by their sums of products; of planes that go together only alpha's."""
     scale = np.float64(1 << _BITS)
     rest = aa * bb - ab * ab
@@ -125,6 +127,8 @@ def _solved(aa: Real, ab: Real, bb: Real, va: Real, vb: Real) -> tuple[Int, Int]
     elif bb > 0.0:
         first, second = np.float64(0.0), vb / bb
     else:
+        first, second = np.float64(0.0), np.float64(0.0)
+    if first * va + second * vb < _WORTH * vv:
         first, second = np.float64(0.0), np.float64(0.0)
     limit = np.float64(_MOST)
     return (

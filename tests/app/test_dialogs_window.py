@@ -1,6 +1,8 @@
 """The dialogs in the real window: how they look, and that they do what is asked of them."""
 
+import json
 import time
+import zipfile
 
 import numpy as np
 import pytest
@@ -31,9 +33,14 @@ def test_sizes_of_a_new_painting_stand_in_the_middle_of_their_buttons(program):
         assert lines
         assert all(abs(left - right) <= 2 for left, right in lines), f"{name}: {lines}"
     app.click("Square")
+    app.click("Smaller files")
     app.click("Start")
     app.until_gone("Start")
     assert app.process.poll() is None
+    app.save_as(app.folder / "new.ora")
+    with zipfile.ZipFile(app.folder / "new.ora") as file:
+        manifest = json.loads(file.read("inkfall/manifest.json"))
+    assert (manifest["frame"][2:], manifest["grid"]) == ([1024, 1024], 12)
 
 
 def pictures(folder):

@@ -1,5 +1,5 @@
 """Saving and opening four layers of 4000 x 4000, and a sheet of ten, against MyPaint: on the very file, where it is
-installed.
+installed; what is painted also on the coarse grid.
 
 Times are the processor's.  Opening includes the picture that a window shows first; most is put off until it is looked
 at.  MyPaint's own times are of its core without its window, one thread, and without such a picture.  Where it is
@@ -30,6 +30,7 @@ from engine.canvas.layers import EMPTY, Layer, layers
 from engine.canvas.store import Pyramid
 from engine.keeping.memory import resident
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import COARSE, FINE
 from engine.painting.commands import parse
 from engine.painting.rendering import strips
 from engine.session.apply import Painting, apply
@@ -40,6 +41,8 @@ LAYERS = 4
 REPEATS = 2
 TIMES_FASTER = {"photographs": 4.0, "strokes": 3.0, "strokes with rock": 3.0}
 TIMES_LARGER = {"photographs": 1.0, "strokes": 3.0, "strokes with rock": 3.0}
+TIMES_LARGER_COARSELY = 2.0
+COARSE_SHEET = 60e6  # bytes that a file of the sheet may have on the coarse grid
 WINDOW = 1080  # pixels
 # Seconds, and bytes where they are not those of our pictures, of another run on these very paintings; those of strokes
 # without ink are as much less as with others.
@@ -73,6 +76,8 @@ def measure(small: bool = False) -> Iterator[Figure]:
     yield from _case("photographs", photographs(side), side, small)
     yield from _case("strokes", strokes(side, ink=False), side, small)
     yield from _case("strokes with rock", strokes(side), side, small)
+    yield from _coarse_case("strokes", strokes(side, False, COARSE))
+    yield from _coarse_case("strokes with rock", strokes(side, True, COARSE))
     yield from _sheet(20 if small else SHEET_STROKES)
 
 
@@ -95,6 +100,16 @@ def _case(name: str, painting: Painting, side: int, small: bool) -> Iterator[Fig
     yield Figure(f"size, {name}", size / 1e6, "MB", bound, larger, TIMES_LARGER[name], note=note)
 
 
+def _coarse_case(name: str, painting: Painting) -> Iterator[Figure]:
+    """The size of a painting on the coarse grid."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "own.ora"
+        save(file, Snapshot(painting))
+        size, (theirs, note) = file.stat().st_size, _mypaint(name, file, Path(folder) / "theirs.ora")
+    bound, larger = f"MyPaint's {theirs['bytes'] / 1e6:.1f} MB", size / theirs["bytes"]
+    yield Figure(f"size, {name}, grid 12", size / 1e6, "MB", bound, larger, TIMES_LARGER_COARSELY, note=note)
+
+
 def _seen(file: Path, side: int) -> Painting:
     """Opens a file and makes the picture of all of it that fits into a window."""
     painting, level = open_painting(file).painting, 0
@@ -109,6 +124,8 @@ def _sheet(count: int) -> Iterator[Figure]:
     """A4 at 300 dots an inch, ten layers: the file, and what a process holds with it open."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "sheet.ora"
+        save(file, Snapshot(sheet(count, COARSE)))
+        coarse = file.stat().st_size
         save(file, Snapshot(sheet(count)))
         done = subprocess.run(
             python("-m", "bench.files", str(file)), capture_output=True, text=True, env=children(), check=True
@@ -116,6 +133,8 @@ def _sheet(count: int) -> Iterator[Figure]:
         held, size, pictures = int(done.stdout), file.stat().st_size, _pictures(file)
     name, bound = f"a sheet of {SHEET_LAYERS} layers", f"its pictures alone, {pictures / 1e6:.1f} MB"
     yield Figure(f"size, {name}", size / 1e6, "MB", bound, size / pictures, 3.0)
+    bound = f"{COARSE_SHEET / 1e6:.0f} MB"
+    yield Figure(f"size, {name}, grid 12", coarse / 1e6, "MB", bound, coarse / COARSE_SHEET, 1.0)
     bound, note = f"MyPaint's {SHEET_MEMORY / 1e6:.0f} MB", "resident memory; MyPaint's of another run"
     yield Figure(f"memory, {name} open", held / 1e6, "MB", bound, held / SHEET_MEMORY, 1.4, note=note)
 
@@ -156,30 +175,31 @@ def _bands(side: int, seed: int) -> Iterator[np.ndarray]:
         yield out
 
 
-def strokes(side: int, ink: bool = True) -> Painting:
+def strokes(side: int, ink: bool = True, grid: int = FINE) -> Painting:
     """Four layers of strokes, as one paints: broad ones below, of rock where there is ink, finer ones above, much left
     empty on top."""
     rock = [{"texture": "rock", "amount": 0.4, "colour": "#e0d0b0", "period": 200}]
     pyramids = []
     for number, (radius, count) in enumerate(BROAD):
         brush = {"radius": radius, "hardness": 0.5, "ink": rock if ink and number < 2 else []}
-        pyramids.append(_painted((side, side), number, count if side == SIDE else 2, brush))
+        pyramids.append(_painted((side, side), number, count if side == SIDE else 2, brush, grid))
     return _of(pyramids, side)
 
 
-def sheet(count: int) -> Painting:
+def sheet(count: int, grid: int = FINE) -> Painting:
     """Ten layers of so many strokes of several widths."""
     each, radii = -(-count // SHEET_LAYERS), SHEET_RADIUS * 0.75 ** np.arange(SHEET_LAYERS)
     found = [
-        _painted(SHEET, number, each, {"radius": float(radius), "hardness": 0.7}) for number, radius in enumerate(radii)
+        _painted(SHEET, number, each, {"radius": float(radius), "hardness": 0.7}, grid)
+        for number, radius in enumerate(radii)
     ]
     return _of(found, *SHEET)
 
 
-def _painted(size: tuple[int, int], seed: int, count: int, brush: dict) -> Pyramid:
+def _painted(size: tuple[int, int], seed: int, count: int, brush: dict, grid: int) -> Pyramid:
     """A layer of strokes at random."""
     rng, radius = np.random.default_rng(seed), brush["radius"]
-    painting = Painting(Rect(0, 0, *size))
+    painting = Painting(Rect(0, 0, *size), grid=grid)
     for _ in range(count):
         at, way = rng.random(2) * size, np.cumsum(rng.normal(0, radius, (12, 2)), axis=0)
         own = {**brush, "colour": f"#{int(rng.integers(1 << 24)):06x}"}
@@ -191,7 +211,7 @@ def _painted(size: tuple[int, int], seed: int, count: int, brush: dict) -> Pyram
 def _of(pyramids: list, width: int, height: int | None = None) -> Painting:
     sheets = tuple(Layer(i + 1, f"Layer {i + 1}", pyramid=pyramid) for i, pyramid in enumerate(pyramids))
     frame = Rect(0, 0, width, height or width)
-    return Painting(frame, root=replace(EMPTY, children=sheets), active=sheets[0].name)
+    return Painting(frame, root=replace(EMPTY, children=sheets), active=sheets[0].name, grid=sheets[0].pyramid.grid)
 
 
 if __name__ == "__main__":
