@@ -33,10 +33,8 @@ def effective(pyramid: Pyramid, key: TileKey, record: Record) -> Record:
     return record if data is None else Record(record.rect, data, record.inks, pyramid.depth)
 
 
-def _weakened(
-    step: np.float32, pending: Sequence[Attenuation], key: TileKey, record: Record
-) -> np.ndarray | None:
-    """Returns what attenuations, newest first, leave of a record's data in units of `step`: int32; None where they leave
+def _weakened(step: np.float32, pending: Sequence[Attenuation], key: TileKey, record: Record) -> np.ndarray | None:
+    """Returns what attenuations, newest first, leave of a record's data, of units of `step`: int32; None where that is
     all of it."""
     out, at = None, placed(key, record.rect)
     for waits in reversed(pending):

@@ -81,9 +81,9 @@ def test_folding_looks_only_at_records_that_an_attenuation_meets(spread, monkeyp
     looked = []
     plain = folding._weakened
 
-    def weakened(pending, key, record):
+    def weakened(step, pending, key, record):
         looked.append(key)
-        return plain(pending, key, record)
+        return plain(step, pending, key, record)
 
     monkeypatch.setattr(folding, "_weakened", weakened)
     folded = fold(spread)
