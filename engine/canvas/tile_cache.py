@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from engine.canvas import kernels
 from engine.canvas.rising import raised
 from engine.canvas.rising.raised import Raised, RaisedPatch, brought_up
 from engine.canvas.store import Change, Pyramid, changes_between
@@ -268,12 +267,12 @@ def without_empty_inks(planes: Planes) -> Planes | None:
     """Returns planes of ink that are zero all over are dropped; a stack that is zero all over is None."""
     data, inks = planes.data, planes.inks
     _, height, width = data.shape
-    if len(inks) > _MOST:
-        filled = [kernels.any_nonzero(data, c, c + 3, 0, height) for c in range(COLOURS, len(data), 3)]
-        some = any(filled) or kernels.any_nonzero(data, 0, COLOURS, 0, height)
-    else:
-        bits = occupied(data, 0, 0, height, width)
-        filled, some = _of_bits(bits, len(inks)), bits > 0
+    filled, some = [], False
+    for first in range(0, max(len(inks), 1), _MOST):  # a part of the stack begins, as the whole, with four planes
+        part = data[3 * first : COLOURS + 3 * (first + _MOST)]
+        bits = occupied(part, 0, 0, height, width)
+        filled += _of_bits(bits, min(len(inks) - first, _MOST))
+        some = some or bits > 0
     if not some:
         return None
     return planes if all(filled) else _with_inks(planes, filled)

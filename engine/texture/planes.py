@@ -12,6 +12,8 @@ import numpy as np
 from engine.texture.record import Instance
 
 COLOURS = 4  # red, green, blue, alpha
+_NONE = -1, -1, -1
+_FEW = 32  # planes that are copied one by one
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -45,6 +47,10 @@ def merged(*sets: Iterable[Instance]) -> tuple[Instance, ...]:
     first = stacks[0]
     if all(s is first or s == first for s in stacks):
         return first
+    largest = max(stacks, key=len)
+    known = set(map(id, largest))  # of many inks, most often one stack has all: to hash and to sort them takes longer
+    if all(known.issuperset(map(id, s)) for s in stacks):
+        return largest
     return tuple(sorted({ink for s in stacks for ink in s}, key=lambda ink: sort_key(ink.key)))
 
 
@@ -68,11 +74,24 @@ def plane_map(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndar
     """
     if inks is into or inks == into:
         return _all_planes(COLOURS + 3 * len(into))
+    planes, known, count = list(range(COLOURS)), 0, len(inks)
+    for ink in into:
+        if known < count and inks[known] is ink:
+            at = COLOURS + 3 * known
+            planes += (at, at + 1, at + 2)
+            known += 1
+        else:
+            planes += _NONE
+    return np.array(planes, np.int64) if known == count else _looked_up(inks, into)
+
+
+def _looked_up(inks: tuple[Instance, ...], into: tuple[Instance, ...]) -> np.ndarray:
+    """As `plane_map`, whether the one holds all of the other or not, and whatever objects equal inks are."""
     places = {ink: COLOURS + 3 * i for i, ink in enumerate(inks)}
     planes = list(range(COLOURS))
     for ink in into:
         at = places.get(ink)
-        planes.extend((-1, -1, -1) if at is None else (at, at + 1, at + 2))
+        planes += _NONE if at is None else (at, at + 1, at + 2)
     return np.array(planes, np.int64)
 
 
@@ -81,7 +100,12 @@ def widened(planes: Planes, inks: tuple[Instance, ...]) -> Planes:
     if planes.inks == inks:
         return Planes(np.ascontiguousarray(planes.data), inks)
     out = np.zeros((COLOURS + 3 * len(inks), *planes.data.shape[1:]), np.float32)
-    for c, source in enumerate(plane_map(planes.inks, inks)):
+    sources = plane_map(planes.inks, inks)
+    if len(out) > _FEW:
+        there = np.flatnonzero(sources >= 0)
+        out[there] = planes.data[sources[there]]
+        return Planes(out, inks)
+    for c, source in enumerate(sources.tolist()):
         if source >= 0:
             out[c] = planes.data[source]
     return Planes(out, inks)

@@ -3,6 +3,7 @@ of which fills a few of its pixels."""
 
 from __future__ import annotations
 
+from bisect import insort
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -48,9 +49,12 @@ class SparseSheet:
 
     def paste(self, out: np.ndarray, rect: Rect) -> None:
         """Writes what lies in `rect` into planes (c, h, w) over it."""
-        common = self.rect.intersect(rect)
-        if not common.empty:
-            out[:, *common.slices(rect)] = self.data[:, *common.slices(self.rect)]
+        own_x, own_y, right, bottom = self.rect  # by numbers: of many inks there are as many sheets
+        x, y, x1, y1 = rect
+        left, top, right, bottom = max(own_x, x), max(own_y, y), min(right, x1), min(bottom, y1)
+        if left < right and top < bottom:
+            part = self.data[:, top - own_y : bottom - own_y, left - own_x : right - own_x]
+            out[:, top - y : bottom - y, left - x : right - x] = part
 
     def replaced(self, data: np.ndarray, rect: Rect) -> SparseSheet | None:
         """Returns it with `data` in place of what lies in `rect`."""
@@ -93,7 +97,7 @@ class SparsePlanes:
     @property
     def kind(self) -> type[np.signedinteger]:
         """Gives the smaller integer that holds all of it."""
-        return np.int16 if max(sheet.most for sheet in self._sheets) < 1 << 15 else np.int32
+        return np.int16 if max([sheet.most for sheet in self._sheets]) < 1 << 15 else np.int32
 
     def made(self) -> np.ndarray:
         """Returns the planes, int16 or int32 as they need it."""
@@ -114,7 +118,13 @@ class SparsePlanes:
 
     def within(self, rect: Rect) -> tuple[Instance, ...]:
         """Returns the inks of which something may lie in a rectangle."""
-        return tuple(ink for ink, sheet in self.inks.items() if sheet.rect.meets(rect))
+        x0, y0, x1, y1 = rect
+        inks = []
+        for ink, sheet in self.inks.items():
+            left, top, right, bottom = sheet.rect
+            if left < x1 and x0 < right and top < y1 and y0 < bottom:
+                inks.append(ink)
+        return tuple(inks)
 
     def replaced(
         self, rect: Rect, data: np.ndarray, inks: tuple[Instance, ...], before: np.ndarray
@@ -137,7 +147,14 @@ class SparsePlanes:
             return None
         lefts, tops, rights, bottoms = zip(*rects, strict=True)
         whole = Rect(min(lefts), min(tops), max(rights), max(bottoms))
-        return SparsePlanes(whole, colours, kept if len(sheets) == len(self.inks) else _ordered(kept))
+        return SparsePlanes(whole, colours, kept if len(sheets) == len(self.inks) else self._ordered(kept))
+
+    def _ordered(self, sheets: dict[Instance, SparseSheet]) -> dict[Instance, SparseSheet]:
+        """Returns sheets of these inks, and of others behind them, in the order in which a stack has its inks."""
+        inks = [ink for ink in self.inks if ink in sheets]
+        for ink in list(sheets)[len(inks) :]:
+            insort(inks, ink, key=lambda one: sort_key(one.key))
+        return {ink: sheets[ink] for ink in inks}
 
 
 class OfSheets:
@@ -148,11 +165,6 @@ class OfSheets:
     def plain(self) -> SparsePlanes:
         """Returns the planes."""
         raise NotImplementedError
-
-
-def _ordered(sheets: dict[Instance, SparseSheet]) -> dict[Instance, SparseSheet]:
-    """Returns the same sheets in the order in which a stack has its inks."""
-    return {ink: sheets[ink] for ink in sorted(sheets, key=lambda ink: sort_key(ink.key))}
 
 
 def _places(inks: tuple[Instance, ...]) -> Iterable[tuple[int, Instance]]:

@@ -15,6 +15,7 @@ from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
 from engine.painting.difference import areas
 from engine.painting.grown import settled
@@ -82,10 +83,10 @@ def test_strips_and_sheets_show_it(states):
         shown = layer_planes(layer, 0, FRAME).any(axis=0)
         shown[places[layer.id].slices(FRAME)] = False
         assert not shown.any()
-    own, merged = zip(*((known, rows.copy()) for known, rows in sheets(last.root, 0, FRAME, places)), strict=True)
-    assert np.array_equal(np.concatenate(merged, axis=1), wanted)
-    rows = np.concatenate([known[upper.id] for known in own], axis=1)
-    assert np.array_equal(rows, layer_planes(upper, 0, places[upper.id]))
+    own, merged = zip(*sheets(last.root, 0, FRAME, places), strict=True)
+    assert np.array_equal(np.concatenate(merged), to_rgba8(wanted))
+    rows = np.concatenate([known[upper.id] for known in own])
+    assert np.array_equal(rows, to_rgba8(layer_planes(upper, 0, places[upper.id])))
 
 
 def test_a_copied_layer_has_it_too(states):
