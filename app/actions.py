@@ -18,6 +18,7 @@ from engine.studio.filing.film_requests import StopFilm
 from engine.studio.requests import Do
 
 Check = Callable[[Desk], bool]
+_ASIDE = 40  # points of the screen by which what is shown again lies beside itself, down and to the right
 
 
 class Action(NamedTuple):
@@ -234,6 +235,12 @@ def _duplicate(desk: Desk) -> None:
     desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} copy"))))
 
 
+def _show_again(desk: Desk) -> None:
+    name, aside = _active(desk), round(_ASIDE * desk.scale)
+    placing = c.Placing(of=name, at=(aside, aside), level=desk.view.shown_level)
+    desk.post(Do(c.AddPlacement(next_layer_name(desk, f"{name} again"), placing)))
+
+
 def _remove(desk: Desk) -> None:
     desk.post(Do(c.RemoveLayer(_active(desk))))
 
@@ -312,6 +319,9 @@ ACTIONS: dict[str, Action] = {
     "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), _ready),
     "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), _ready),
     "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer", _duplicate, _layer),
+    "show_again": A(
+        "Show again", "Layer", (), "Show the layer once more: what is painted on it shows there", _show_again, _layer
+    ),
     "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), _layer),
     "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), _layer),
     "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, _layer),

@@ -47,7 +47,8 @@ def run(options: argparse.Namespace) -> int:
     if os.path.exists(options.out) and os.path.samefile(options.painting, options.out):
         raise Refused(f"{options.out}: found the painting itself, expected another file to write to")
     found = opened_painting(options.painting, salvage=options.salvage)
-    from engine.canvas.layers import LayerError, find
+    from engine.canvas.layers import find
+    from engine.canvas.node_checks import LayerError
 
     if options.layer is not None:
         try:
@@ -119,7 +120,7 @@ def _painting(options: argparse.Namespace, found: Opened) -> None:
         level, rect = rect_of(options.rect)
         painting, recording = replace(painting, frame=rect.zoomed(-level)), None
     if options.layer is not None:
-        root = alone(find(painting.root, options.layer))
+        root = alone(find(painting.root, options.layer), painting.root)
         top = next((layer.name for layer in reversed(list(layers(root)))), None)
         painting, recording = replace(painting, root=root, active=top), None
     with Progress("writing", 100) as tell:

@@ -119,16 +119,21 @@ def facts(found: Opened) -> dict[str, Any]:
 
 def _row(root: Group, node: Node) -> dict[str, Any]:
     from engine.canvas import layers
+    from engine.canvas.placing.placement import Placement
+    from engine.painting.layer_commands import Placing, write_placing
 
     row: dict[str, Any] = {
         "name": node.name,
-        "kind": "group" if isinstance(node, layers.Group) else "layer",
+        "kind": type(node).__name__.lower(),
         "group": layers.place(root, node.name)[0],
         "opacity": node.opacity,
         "visible": node.visible,
         "blend": node.blend,
         "locked": node.locked,
     }
+    if isinstance(node, Placement):
+        source = None if node.of is None else next(other.name for other in layers.walk(root) if other.id == node.of)
+        row |= {"of": source, **write_placing(Placing.told(node))}
     if isinstance(node, layers.Layer):
         pyramid = node.pyramid
         row |= {
@@ -243,6 +248,8 @@ def _line(row: dict[str, Any]) -> str:
     parts = [f"{row['kind']} {row['name']!r}", f"{row['blend']} {row['opacity']:g}", *marks]
     if row["group"] is not None:
         parts.insert(1, f"in {row['group']!r}")
+    if row["kind"] == "placement":
+        parts.append("of " + (repr(row["of"]) if row["of"] is not None else "the painting"))
     if row["kind"] == "layer":
         at = row["bounds"]
         parts.append(f"{row['tiles']} tiles, {row['bytes']:,} bytes")

@@ -10,7 +10,6 @@ from typing import BinaryIO
 
 import numpy as np
 
-from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.files.atomic import replacing
 from engine.files.fault import WriteError
@@ -18,7 +17,7 @@ from engine.files.png_writer import PngWriter
 from engine.files.tiff_writer import write_tiff
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
-from engine.painting.grown import settled_root
+from engine.painting.grown import settled_alone, settled_root
 from engine.painting.rendering import Progress, folded_layers, rows_of
 from engine.painting.value import Painting
 
@@ -45,9 +44,7 @@ def shown_root(picture: Picture) -> Group:
     """Returns the layers that a picture shows, grown to the end and with nothing pending; LayerError if there is none
     of that name."""
     root = picture.painting.root
-    if picture.layer is not None:
-        root = layers.alone(layers.find(root, picture.layer))
-    return folded_layers(settled_root(root))
+    return folded_layers(settled_root(root) if picture.layer is None else settled_alone(root, picture.layer))
 
 
 Write = Callable[[BinaryIO, tuple[int, int], int, Iterator[np.ndarray]], None]

@@ -17,7 +17,8 @@ from engine.archive.plot_files import Mark
 from engine.brush.stamp import Stamp
 from engine.canvas import layers
 from engine.canvas.commit import commit
-from engine.canvas.layers import Group, Layer, LayerError, Node
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.node_checks import MAX_NAME, LayerError
 from engine.canvas.store import Pyramid
 from engine.files.fault import FileError, TooMuch, shown
 from engine.files.images import read_image
@@ -312,12 +313,12 @@ class _Import:
         unique, count = stem, 1
         while unique in self._names:
             count += 1
-            unique = f"{stem[: layers.MAX_NAME - 12]} {count}"
+            unique = f"{stem[: MAX_NAME - 12]} {count}"
         self._names.add(unique)
         return unique
 
 
 def clean_name(name: str, fallback: str) -> str:
     """Returns a layer's name made of what a file says: printable, without blanks around it, not too long."""
-    kept = "".join(c if c.isprintable() else " " for c in name)[: layers.MAX_NAME].strip()
+    kept = "".join(c if c.isprintable() else " " for c in name)[:MAX_NAME].strip()
     return kept or fallback

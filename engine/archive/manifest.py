@@ -19,12 +19,15 @@ from engine.archive.plot_files import ExampleEntry, PlotEntry
 from engine.brush.checks import frozen, thawed
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.placing import loops
+from engine.canvas.placing.placement import Placement, Pose
 from engine.canvas.store import Pyramid
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
 from engine.numeric.arithmetic import EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
+from engine.painting.layer_commands import Placing, read_placing, write_placing
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT, read_grid
 from engine.painting.textures import Texture
@@ -33,7 +36,7 @@ from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
 from engine.texture.table import TextureError
 
-FORMAT = 5  # of paintings of the grid of 2^-12
+FORMAT = 5  # of paintings of the grid of 2^-12, and of those with placements
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
 MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
@@ -159,7 +162,8 @@ def manifest_json(
 
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
-    return FINE_FORMAT if painting.grid == FINE else FORMAT
+    plain = painting.grid == FINE and not any(True for _ in loops.placements(painting.root))
+    return FINE_FORMAT if plain else FORMAT
 
 
 def _pack_json(pack: Pack) -> list[Any]:
@@ -187,6 +191,8 @@ def _node_json(
         commits = {"commits": node.pyramid.commits} if node.pyramid.grid != FINE else {}
         own = {"alpha_locked": node.alpha_locked, "packs": stored, **commits}
         return {"kind": "layer", **common, **own, **ground, **grown}
+    if isinstance(node, Placement):
+        return {"kind": "placement", **common, "source": node.of, **write_placing(Placing.told(node))}
     children = [_node_json(child, packs, laid, plots) for child in node.children]
     return {"kind": "group", **common, "isolated": node.isolated, "children": children}
 
@@ -210,7 +216,7 @@ def parse_manifest(value: Any) -> Manifest:
     if members.take("unit", expected="a value") != _UNIT.format(held.grid):
         raise members.fault("unit", repr(_UNIT.format(held.grid)))
     nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
-    root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
+    root = loops.checked(layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes)))
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
         raise members.fault("active", "the name of a layer")
@@ -260,9 +266,9 @@ def _object(members: Fields, name: str) -> dict[str, Any]:
 
 def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
     members = Fields(value, where)
-    kind = members.take("kind", expected='"layer" or "group"')
-    if kind not in ("layer", "group") or depth > layers.MAX_DEPTH + 1:
-        raise members.fault("kind", f'"layer" or "group", at most {layers.MAX_DEPTH} deep')
+    kind = members.take("kind", expected='"layer", "group" or "placement"')
+    if kind not in ("layer", "group", "placement") or depth > layers.MAX_DEPTH + 1:
+        raise members.fault("kind", f'"layer", "group" or "placement", at most {layers.MAX_DEPTH} deep')
     common: dict[str, Any] = {
         "id": members.integer("id", lo=1, hi=1 << 62),
         "name": members.text("name"),
@@ -284,6 +290,10 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
         commits = members.integer("commits", lo=0, hi=1 << 62) if held.grid != FINE else 0
         pyramid = Pyramid(grid=held.grid, commits=commits)
         return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=pyramid)
+    if kind == "placement":
+        of = None if members.take("source", None) is None else members.integer("source", lo=1, hi=1 << 62)
+        placing = read_placing(members)
+        return Placement(**common, of=of, pose=placing.posed(Pose()), **placing.fields())
     inside = _list(members, "children")
     children = tuple(_node(v, f"{where}.children[{i}]", held, depth + 1) for i, v in enumerate(inside))
     return Group(**common, isolated=members.flag("isolated"), children=children)

@@ -24,7 +24,8 @@ from engine.archive.packing import unpack
 from engine.archive.plot_files import Mark, Nursery
 from engine.archive.shelf import Shelf, shelved
 from engine.canvas import layers
-from engine.canvas.layers import Group, LayerError
+from engine.canvas.layers import Group
+from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid, Record
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError, TooMuch, shown

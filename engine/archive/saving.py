@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import io
 import os
-import tempfile
 import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator
@@ -28,13 +27,15 @@ from engine.archive.implied import needed, ordered
 from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.plot_files import PlotEntry
+from engine.archive.spooled_png import SpooledPng
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node, isolation
+from engine.canvas.placing import loops
+from engine.canvas.placing.placement import Placement
 from engine.files.atomic import replacing
 from engine.files.fault import FileError, WriteError
 from engine.files.limits import LIMITS
 from engine.files.png_reader import PngReader
-from engine.files.png_writer import PngWriter
 from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, stack_text
 from engine.files.strict_json import dumps
 from engine.files.zip_reader import ZipArchive
@@ -55,7 +56,6 @@ MIMETYPE = b"image/openraster"
 MERGED_SIDE = (1 << 15) - 1  # pixels: the largest picture that the other programs open
 _THUMBNAIL = 256
 MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
-IN_MEMORY = 256 << 20  # bytes of all pictures that are kept in memory before they go into the file
 WORKERS = 2
 WAITING = 4  # finished jobs that may wait for their turn
 _HELD_PART = 32  # of the budget of memory, that one level may take while finer ones are evaluated
@@ -189,13 +189,17 @@ class SavePlan:
         self._plots: dict[int, list[PlotEntry]] = {}
         for layer in layers.layers(painting.root):
             self._places[layer.id] = self._place(layer)
+        self._placements = list(loops.placements(painting.root))
+        for placement in self._placements:
+            self._places[placement.id] = self._placed(placement)
         laid = [job for layer in layers.layers(painting.root) for job in self._ground_jobs(layer)]
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
         grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
         self._recording = recording
         self.jobs = deque([*seen, *laid, *stored, *grown])  # the recording needs the pictures, so they follow it
-        self._shown = [*(_png_name(layer) for layer in layers.layers(painting.root)), MERGED, THUMB]
+        shown: list[Layer | Placement] = [*layers.layers(painting.root), *self._placements]
+        self._shown = [*map(_png_name, shown), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
         recorded = [] if recording is None else [RECORDING]
         self.told = ["mimetype", *recorded, *self.names, "stack.xml"]  # those that the manifest names
@@ -213,20 +217,33 @@ class SavePlan:
         place = reach(layer, self._level, self._frame)
         return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
 
+    def _placed(self, placement: Placement) -> Rect:
+        """Returns the pixels of the picture of what a placement shows: those of the frame that it may lie on."""
+        place = self._frame
+        if placement.part is not None and not placement.repeat:
+            part = placement.part
+            place = place.intersect(placement.pose.similarity.shown(part.rect, part.level, self._level))
+        return Rect.at(self._frame.x0, self._frame.y0, 1, 1) if place.empty else place
+
     def pictures(self) -> list[tuple[Job, IO[bytes]]]:
         """Returns the PNGs of all layers, of them together, and the thumbnail."""
         root, level, places = self._painting.root, self._level, self._places
-        files: dict[str, _Png] = {}
+        files: dict[str, SpooledPng] = {}
         try:
             for layer in layers.layers(root):
                 if not self._is_ground(layer):
-                    files[_png_name(layer)] = _Png(places[layer.id], len(self._shown))
-            files[MERGED] = _Png(self._frame, len(self._shown), small=True)
+                    files[_png_name(layer)] = SpooledPng(places[layer.id], len(self._shown))
+            files[MERGED] = SpooledPng(self._frame, len(self._shown), small=True)
             for known, merged in sheets(root, level, self._frame, places, self._cancelled):
                 for layer in layers.layers(root):
                     if layer.id in known and _png_name(layer) in files:
                         files[_png_name(layer)].rows(known[layer.id])
                 files[MERGED].rows(merged)
+            for placement in self._placements:
+                png = files[_png_name(placement)] = SpooledPng(places[placement.id], len(self._shown))
+                alone = layers.alone(placement, root)
+                for planes in strips(alone, level, places[placement.id], self._cancelled):
+                    png.rows(to_rgba8(planes))
             files[THUMB] = self._thumbnail()
             drawn = [(Job(name, bytes), png.finished()) for name, png in files.items()]
             return [*self._grounds_shown(), *drawn]
@@ -243,7 +260,7 @@ class SavePlan:
                 shown.append((Job(_png_name(layer), bytes), io.BytesIO(layer.pyramid.ground.pixels)))
         return shown
 
-    def _thumbnail(self) -> _Png:
+    def _thumbnail(self) -> SpooledPng:
         """At most 256 x 256: the level that is just large enough, reduced by exact area means."""
         size = fitted_size(self._frame.width, self._frame.height, _THUMBNAIL)
         level, frame = self._level, self._frame
@@ -254,7 +271,7 @@ class SavePlan:
             frame = self._painting.frame.zoomed(level)
         read = strips(self._painting.root, level, frame, self._cancelled)
         planes = np.concatenate([planes.copy() for planes in read], axis=1)
-        png = _Png(Rect(0, 0, *size), 1)
+        png = SpooledPng(Rect(0, 0, *size), 1)
         png.rows(to_rgba8(box_reduce(planes, *size)))
         return png
 
@@ -272,7 +289,7 @@ class SavePlan:
             )
         place = self._places[node.id]
         return LayerEntry(
-            f"data/L{node.id}.png",
+            _png_name(node),
             node.name,
             place.x0 - self._frame.x0,
             place.y0 - self._frame.y0,
@@ -365,23 +382,8 @@ def shown_level(frame: Rect) -> int:
         level -= 1
 
 
-class _Png:
-    """An 8-bit PNG on its way into the file, in memory while it is small; `count` of them share that memory."""
-
-    def __init__(self, place: Rect, count: int, small: bool = False) -> None:
-        self.file: IO[bytes] = tempfile.SpooledTemporaryFile(max(1 << 16, IN_MEMORY // count))  # noqa: SIM115
-        self._writer = PngWriter(self.file, place.width, place.height, small=small)  # type: ignore[arg-type]
-
-    def rows(self, pixels: np.ndarray) -> None:
-        self._writer.rows(pixels)
-
-    def finished(self) -> IO[bytes]:
-        self._writer.close()
-        return self.file
-
-
-def _png_name(layer: Layer) -> str:
-    return f"data/L{layer.id}.png"
+def _png_name(node: Layer | Placement) -> str:
+    return f"data/L{node.id}.png"
 
 
 def _told(recording: Recording) -> bytes:

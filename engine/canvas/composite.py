@@ -14,7 +14,10 @@ from typing import Protocol
 
 import numpy as np
 
-from engine.canvas.layers import Group, Layer, passes_through
+from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
+from engine.canvas.placing.cells import repeated
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.through import UNPLACED, Seen, looked_through, set_in
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
 
@@ -30,14 +33,15 @@ class Read(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class CompositeStep:
-    """One operation on the picture so far: its source is a layer, or the steps of an isolated group.
+    """One operation on the picture so far: its source is a layer, the steps of an isolated group, or what a placement
+    shows.
 
     `over`: the operator is src-over.
     """
 
     row: blend.Blend
     opacity: np.float32
-    source: Layer | tuple[CompositeStep, ...]
+    source: Layer | tuple[CompositeStep, ...] | Placed
     over: bool
 
     @property
@@ -50,17 +54,78 @@ class CompositeStep:
 _Found = list[tuple[CompositeStep, "np.ndarray | _Found | None"]]
 
 
-def steps(root: Group) -> tuple[CompositeStep, ...]:
-    """Returns what to composite, bottom first: invisible nodes left out, groups that pass through dissolved."""
+class Sources:
+    """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal."""
+
+    def __init__(self, root: Group) -> None:
+        self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
+        self._steps: dict[int | None, tuple[CompositeStep, ...]] = {}
+        self._turns: dict[int | None, bool] = {}
+
+    def steps(self, of: int | None) -> tuple[CompositeStep, ...]:
+        """Returns what to composite for a node of an id; None: for all of them."""
+        held = self._steps.get(of)
+        if held is None:
+            node: Node = self._root if of is None else next(node for node in walk(self._root) if node.id == of)
+            held = self._steps[of] = steps(node, self) if isinstance(node, Group) else (self.step(node),)
+        return held
+
+    def turns(self, of: int | None) -> bool:
+        """Tells whether something in a node is turned or scaled so that it has to be sampled."""
+        held = self._turns.get(of)
+        if held is None:
+            self._turns[of] = False  # until it is known: it may hold itself
+            held = self._turns[of] = any(map(self._turned, self.steps(of)))
+        return held
+
+    def _turned(self, step: CompositeStep) -> bool:
+        if isinstance(step.source, Placed):
+            placement = step.source.placement
+            return placement.pose.similarity.quarter is None or self.turns(placement.of)
+        return isinstance(step.source, tuple) and any(map(self._turned, step.source))
+
+    def step(self, node: Layer | Placement) -> CompositeStep:
+        """Returns the step that lays a layer, or what a placement shows, over nothing."""
+        return CompositeStep(blend.BLENDS["src-over"], np.float32(1), self.source(node), True)
+
+    def source(self, node: Layer | Placement) -> Layer | Placed:
+        """Returns what a step of the node has for a source."""
+        return node if isinstance(node, Layer) else Placed(node, self)
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """What a placement shows: the steps of its source, looked up when they are wanted, as they may hold it."""
+
+    placement: Placement
+    sources: Sources
+
+    @property
+    def steps(self) -> tuple[CompositeStep, ...]:
+        """Gives what of the source is composited."""
+        return self.sources.steps(self.placement.of)
+
+    @property
+    def place(self) -> int | None:
+        """Gives the place of the placement's own step among them: the picture contains itself; None if it does not."""
+        own = (i for i, step in enumerate(self.steps) if isinstance(step.source, Placed))
+        return next((i for i in own if self.steps[i].source == self), None)
+
+
+def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, ...]:
+    """Returns what to composite, bottom first: invisible nodes left out, groups that pass through dissolved.
+
+    `sources`: those of the whole tree, where `root` is a group of it."""
+    sources = Sources(root) if sources is None else sources
     out: list[CompositeStep] = []
     for node in root.children:
         row = blend.BLENDS[node.blend]
         if not node.visible or (node.opacity == 0 and not row.outside):
             continue
         if isinstance(node, Group) and passes_through(node):
-            out.extend(steps(node))
+            out.extend(steps(node, sources))
             continue
-        source = node if isinstance(node, Layer) else steps(node)
+        source = steps(node, sources) if isinstance(node, Group) else sources.source(node)
         if source or row.outside:
             out.append(CompositeStep(row, np.float32(node.opacity), source, row.name == "src-over"))
     return tuple(out)
@@ -79,7 +144,7 @@ def blocks(root: Group, level: int, rect: Rect, read: Read) -> Iterator[tuple[Re
             place = Rect.at(x0, y0, BLOCK, BLOCK).intersect(rect)
             if place.empty:
                 continue
-            pixels = _draw(_gather(plan, level, place, read), place.area, buffers, 0)
+            pixels = _draw(_gather(plan, level, place, read, UNPLACED), place.area, buffers, 0)
             yield place, None if pixels is None else pixels.reshape(4, place.height, place.width)
 
 
@@ -89,7 +154,7 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     if out is None:
         out = np.empty((4, rect.height, rect.width), np.float32)
     if 0 < rect.area <= AT_ONCE and out.flags.c_contiguous:
-        if _draw(_gather(steps(root), level, rect, read), rect.area, [out.reshape(-1)], 0) is None:
+        if _draw(_gather(steps(root), level, rect, read, UNPLACED), rect.area, [out.reshape(-1)], 0) is None:
             out[:] = 0
         return out
     for place, pixels in blocks(root, level, rect, read):
@@ -98,24 +163,90 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     return out
 
 
-def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read) -> _Found:
+def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> _Found:
     """Returns the sources that matter for a block, bottom first; read from the top down to the first that covers it
-    all."""
+    all.  `seen`: through which similarity all of them are."""
     found: _Found = []
     for step in reversed(plan):
         source: np.ndarray | _Found | None
         if isinstance(step.source, tuple):
-            source = _gather(step.source, level, rect, read) or None
+            source = _gather(step.source, level, rect, read, seen) or None
         else:
-            planes = read(step.source, level, rect)
+            planes = _pixels(step.source, level, rect, read, seen)
             source = None if planes is None else blend.flat(planes)
         if source is None and not step.row.outside:
             continue
         found.append((step, source))
-        if step.may_cover and isinstance(source, np.ndarray) and source[3, 0] >= 1 and blend.opaque(source):
+        if _covers(step, source):
             break
     found.reverse()
     return found
+
+
+def _covers(step: CompositeStep, source: np.ndarray | _Found | None) -> bool:
+    """Tells whether a step hides all that lies below."""
+    return step.may_cover and isinstance(source, np.ndarray) and bool(source[3, 0] >= 1) and blend.opaque(source)
+
+
+def _pixels(source: Layer | Placed, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+    """Returns the pixels of a layer, or what a placement shows, through a similarity: (4, h, w), None if empty."""
+    if isinstance(source, Layer):
+        layer = source
+        return looked_through(lambda at, part: read(layer, at, part), level, rect, seen)
+    plan, through = source.steps, seen.of(source.placement)
+    if source.place is not None:
+        return _turns(source, level, rect, read, through)
+    if not source.placement.repeat and not through.whole(level) and source.sources.turns(source.placement.of):
+        # What is turned in it is not sampled twice, but once, through both similarities.
+        part = through.meets(level, rect)
+        pixels = None if part.empty else _picture(plan, level, part, read, through.unclipped)
+        return None if pixels is None else through.clipped(pixels, level, part, rect)
+
+    def picture(at: int, part: Rect) -> np.ndarray | None:
+        return _picture(plan, at, part, read, UNPLACED)
+
+    cell = source.placement.part if source.placement.repeat else None
+    return looked_through(picture if cell is None else repeated(picture, cell), level, rect, through)
+
+
+def _turns(source: Placed, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+    """As `_pixels`, of a placement that lies in what it shows: turn by turn, each read straight through all of them.
+
+    What lies above it is read inwards, what lies below outwards, from the first turn that is opaque: at every depth
+    only as many turns as are seen, if nothing lies above.
+    """
+    plan, at = source.steps, source.place
+    assert at is not None
+    whole = rect
+    own, below, above = plan[at], plan[:at], plan[at + 1 :]
+    inwards: list[tuple[Seen, Rect, _Found]] = []
+    while True:
+        part = seen.meets(level, rect)
+        if part.empty or seen.vanishes(level):
+            break
+        over = _gather(above, level, part, read, seen) if above else []
+        inwards.append((seen, part, over))
+        if len(over) and _covers(*over[0]):
+            break
+        seen, rect = seen.of(source.placement), part
+    pixels: np.ndarray | None = None
+    inner = Rect(0, 0, 0, 0)
+    for seen, part, over in reversed(inwards):
+        found: _Found = [] if pixels is None else [(own, blend.flat(set_in(pixels, inner, part)))]
+        if not (found and _covers(*found[0])) and not (over and _covers(*over[0])):
+            found = [*_gather(below, level, part, read, seen), *found]
+        drawn = _draw([*found, *over], part.area, [], 0)
+        drawn = None if drawn is None else drawn.reshape(4, part.height, part.width)
+        pixels, inner = None if drawn is None else seen.clipped(drawn, level, part, part), part
+    return None if pixels is None else set_in(pixels, inner, whole)
+
+
+def _picture(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+    """Returns a source's picture: (4, h, w), its own where it is one layer, None where it is empty."""
+    if len(plan) == 1 and plan[0].may_cover and not isinstance(plan[0].source, tuple):
+        return _pixels(plan[0].source, level, rect, read, seen)
+    drawn = _draw(_gather(plan, level, rect, read, seen), rect.area, [], 0)
+    return None if drawn is None else drawn.reshape(4, rect.height, rect.width)
 
 
 def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.ndarray | None:

@@ -7,59 +7,18 @@ all untouched parts with the old one; errors are `LayerError`, one line with wha
 
 from __future__ import annotations
 
-import math
-import unicodedata
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from engine.canvas.node_checks import MAX_NAME, LayerError, allowed, check_common, check_flags, check_name, insist
+from engine.canvas.placing.placement import Placement
 from engine.canvas.store import Pyramid
-from engine.numeric.blend import BLENDS
 
 if TYPE_CHECKING:
     from engine.canvas.growth import Growth
 
 MAX_DEPTH = 32  # groups inside one another, the root not counted
-MAX_NAME = 200  # characters
-
-
-class LayerError(ValueError):
-    """A layer command that cannot be done; the message is one line for the artist or the script's author."""
-
-
-def _check(name: str, what: str, found: object, right: bool, expected: str) -> None:
-    if not right:
-        raise LayerError(f"layer {name!r}: {what}: found {found!r}, expected {expected}")
-
-
-def _allowed(character: str) -> bool:
-    """Tells whether a name may hold it: no control characters, line ends, lone surrogates or what XML 1.0 cannot
-    hold."""
-    return unicodedata.category(character) not in ("Cc", "Cs", "Zl", "Zp") and character not in "\ufffe\uffff"
-
-
-def _check_name(name: object) -> None:
-    right = isinstance(name, str) and 0 < len(name) <= MAX_NAME and name.strip() == name and all(map(_allowed, name))
-    if not right:
-        text = ascii(name)
-        text = text if len(text) <= 60 else text[:57] + "..."
-        raise LayerError(
-            f"layer name: found {text}, expected 1 to {MAX_NAME} characters, no controls, no blanks around"
-        )
-
-
-def _check_common(node: Layer | Group) -> None:
-    _check_name(node.name)
-    opacity = node.opacity
-    number = isinstance(opacity, int | float) and not isinstance(opacity, bool) and math.isfinite(opacity)
-    _check(node.name, "opacity", opacity, number and 0 <= opacity <= 1, "a number from 0 to 1")
-    _check(node.name, "blend", node.blend, node.blend in BLENDS, "one of " + ", ".join(BLENDS))
-
-
-def _check_flags(node: Layer | Group, names: Sequence[str]) -> None:
-    for name in names:
-        value = getattr(node, name)
-        _check(node.name, name, value, isinstance(value, bool), "true or false")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,8 +41,8 @@ class Layer:
     growth: Growth = ()
 
     def __post_init__(self) -> None:
-        _check_common(self)
-        _check_flags(self, ("visible", "locked", "alpha_locked"))
+        check_common(self)
+        check_flags(self, ("visible", "locked", "alpha_locked"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,16 +59,24 @@ class Group:
     children: tuple[Node, ...] = ()
 
     def __post_init__(self) -> None:
-        _check_common(self)
-        _check_flags(self, ("visible", "locked", "isolated"))
+        check_common(self)
+        check_flags(self, ("visible", "locked", "isolated"))
 
 
-Node = Layer | Group
+@dataclass(frozen=True, slots=True)
+class Alone(Group):
+    """A root that shows but one node of a `tree`, in which lies what its placements show."""
+
+    tree: Group | None = None
+
+
+Node = Layer | Group | Placement
 Trail = tuple[int, ...]  # positions from the root down to a node
 EMPTY = Group(0, "root")
 _SETTABLE = {
     Layer: ("opacity", "visible", "blend", "locked", "alpha_locked"),
     Group: ("opacity", "visible", "blend", "locked", "isolated"),
+    Placement: ("opacity", "visible", "blend", "locked", "of", "pose", "part", "repeat"),
 }
 
 
@@ -215,14 +182,15 @@ def unique_name(root: Group, stem: str = "Layer") -> str:
 def free_name(root: Group, wanted: str) -> str:
     """Returns the allowed and free name nearest to `wanted`, which may be any text: for what comes from other
     programs."""
-    name = "".join(filter(_allowed, wanted[: 4 * MAX_NAME])).strip()[:MAX_NAME].strip()
+    name = "".join(filter(allowed, wanted[: 4 * MAX_NAME])).strip()[:MAX_NAME].strip()
     return name if name and not has(root, name) else unique_name(root, name or "Layer")
 
 
-def alone(node: Node) -> Group:
-    """Returns a root that shows just this layer or group, as if it were visible, opaque and normal: thumbnails,
+def alone(node: Node, root: Group) -> Group:
+    """Returns a root that shows just this node of a tree, as if it were visible, opaque and normal: thumbnails,
     exports."""
-    return replace(EMPTY, children=(replace(node, visible=True, opacity=1.0, blend="src-over"),))
+    shown = replace(node, visible=True, opacity=1.0, blend="src-over")
+    return Alone(EMPTY.id, EMPTY.name, children=(shown,), tree=root)
 
 
 # --- changing --------------------------------------------------------------------------------------------------------
@@ -254,7 +222,7 @@ def _put(root: Group, node: Node, group: str | None, to: int | None) -> Group:
     count = len(_at(root, trail).children)
     to = count if to is None else to
     right = isinstance(to, int) and not isinstance(to, bool) and 0 <= to <= count
-    _check(node.name, "position", to, right, f"an integer from 0 (bottom) to {count}")
+    insist(node.name, "position", to, right, f"an integer from 0 (bottom) to {count}")
     return checked(_edited(root, trail, lambda siblings: (*siblings[:to], node, *siblings[to:])))
 
 
@@ -281,7 +249,7 @@ def set_fields(root: Group, name: str, /, **fields: Any) -> Group:
     node = find(root, name)
     settable = _SETTABLE[type(node)]
     for key in fields:
-        _check(name, "property", key, key in settable, "one of " + ", ".join(settable))
+        insist(name, "property", key, key in settable, "one of " + ", ".join(settable))
     return substitute(root, name, replace(node, **fields))
 
 
@@ -323,12 +291,14 @@ def move(root: Group, name: str, group: str | None, to: int) -> Group:
 def duplicate(root: Group, name: str, to: str) -> Group:
     """With a copy named `to` right above the original; inside a copied group names become "NAME copy", ...
 
-    The copies share all paint with the originals.
+    The copies share all paint with the originals; placements that are copied with what they show, show the copy.
     """
     group, position = place(root, name)
-    _check_name(to)
+    check_name(to)
     taken = {node.name for node in walk(root)} | {to}
-    ids = iter(range(next_id(root), 1 << 62))
+    original = find(root, name)
+    within = [original, *walk(original)] if isinstance(original, Group) else [original]
+    ids = dict(zip((node.id for node in within), range(next_id(root), 1 << 62), strict=False))
 
     def free(stem: str) -> str:
         names = (f"{stem[: MAX_NAME - 12]} copy" + (f" {i}" if i > 1 else "") for i in range(1, len(taken) + 2))
@@ -337,14 +307,17 @@ def duplicate(root: Group, name: str, to: str) -> Group:
         return found
 
     def copy(node: Node, called: str) -> Node:
-        number = next(ids)
+        number = ids[node.id]
         if isinstance(node, Layer):
             # Its own line of history from here on, so that caches keep both.
             return replace(node, id=number, name=called, pyramid=node.pyramid.branched())
+        if isinstance(node, Placement):
+            of = None if node.of is None else ids.get(node.of, node.of)
+            return replace(node, id=number, name=called, of=of)
         inside = tuple(copy(child, free(child.name)) for child in node.children)
         return replace(node, id=number, name=called, children=inside)
 
-    return insert(root, copy(find(root, name), to), group, position + 1)
+    return insert(root, copy(original, to), group, position + 1)
 
 
 def checked(root: Group) -> Group:
@@ -354,8 +327,8 @@ def checked(root: Group) -> Group:
     for trail, node in _trails(root):
         if node.name in names:
             raise LayerError(f"layer name: found {node.name!r} twice, expected a name not in use")
-        _check(node.name, "id", node.id, node.id not in ids and node.id > 0, "a positive number not in use")
-        _check(
+        insist(node.name, "id", node.id, node.id not in ids and node.id > 0, "a positive number not in use")
+        insist(
             node.name, "nesting", len(trail), len(trail) <= MAX_DEPTH + 1, f"at most {MAX_DEPTH} groups in one another"
         )
         names.add(node.name)

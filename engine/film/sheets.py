@@ -175,7 +175,7 @@ class Sheets:
 
     def _evaluate(self, sheet: Sheet, rect: Rect, painting: Painting, planes: np.ndarray) -> None:
         def evaluate(piece: Rect) -> None:
-            pixels = composite(painting.root, sheet.level, piece, piece_reader(piece))
+            pixels = composite(painting.root, sheet.level, piece, piece_reader(sheet.level, piece))
             pixels[:3] += UNDER - UNDER * pixels[3]
             pixels[:3] *= 255.0
             planes[:, *piece.slices(sheet.rect)] = np.rint(pixels[:3])

@@ -12,7 +12,6 @@ import numpy as np
 from immutables import Map
 
 from engine.brush.checks import thawed
-from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.files.fault import FileError
 from engine.files.images import read_image
@@ -23,7 +22,7 @@ from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.numeric.grid import snapped
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
-from engine.painting.grown import settled_root
+from engine.painting.grown import settled_alone, settled_root
 from engine.painting.rendering import strips
 from engine.texture.image import ImageSource
 
@@ -79,8 +78,6 @@ def captured(members: Fields, root: Group) -> np.ndarray:
     if abs(level) > LEVEL_LIMIT or width < 1 or height < 1 or (width * height) << (2 * detail) > PIXELS_CAP:
         raise members.fault("rect", f"[L, X, Y, W, H] of at most {PIXELS_CAP} pixels at the finest level")
     name = members.text("layer", None)
-    shown = root if name is None else layers.alone(layers.find(root, name))
+    shown = settled_root(root) if name is None else settled_alone(root, name)
     rect = Rect.at(x, y, width, height).zoomed(detail)
-    return snapped(
-        np.concatenate([strip.copy() for strip in strips(settled_root(shown), level + detail, rect)], axis=1)
-    )
+    return snapped(np.concatenate([strip.copy() for strip in strips(shown, level + detail, rect)], axis=1))

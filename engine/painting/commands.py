@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
-from enum import Enum
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,9 +16,20 @@ from immutables import Map
 from engine.brush import settings
 from engine.brush.checks import thawed
 from engine.brush.settings import Brush
-from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
-from engine.painting import places
+from engine.painting import layer_commands, places
+from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
+from engine.painting.layer_commands import AddLayer as AddLayer
+from engine.painting.layer_commands import AddPlacement as AddPlacement
+from engine.painting.layer_commands import DuplicateLayer as DuplicateLayer
+from engine.painting.layer_commands import LayerCommand as LayerCommand
+from engine.painting.layer_commands import MoveLayer as MoveLayer
+from engine.painting.layer_commands import Placing as Placing
+from engine.painting.layer_commands import RemoveLayer as RemoveLayer
+from engine.painting.layer_commands import RenameLayer as RenameLayer
+from engine.painting.layer_commands import Same as Same
+from engine.painting.layer_commands import SelectLayer as SelectLayer
+from engine.painting.layer_commands import SetLayer as SetLayer
 from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT
 from engine.painting.places import PLACE_LIMIT as PLACE_LIMIT
 from engine.painting.places import Bookmark as Bookmark
@@ -29,14 +39,7 @@ from engine.painting.places import View as View
 from engine.painting.points import plain, points_array, points_json
 
 SEED_LIMIT = (1 << 63) - 1
-COUNT_LIMIT = 1_000_000_000
 _NOTHING: Map[str, Any] = Map()
-
-
-class Same(Enum):
-    """Stands for "as it is now" where None has a meaning of its own."""
-
-    SAME = "same"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,82 +66,6 @@ class Stroke:
 
     def __hash__(self) -> int:
         return hash((self.level, self.origin, self.layer, self.seed, self.points.tobytes()))
-
-
-@dataclass(frozen=True, slots=True)
-class AddLayer:
-    """A new layer or group.  `group`: the one it goes into (None: the root; SAME: beside the active layer);
-    `to`: its position there, 0 at the bottom; None: above the active layer if that lies there, else on top."""
-
-    name: str
-    kind: str = "layer"
-    group: str | Same | None = Same.SAME
-    to: int | None = None
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
-class SelectLayer:
-    """The layer that strokes without a layer go to."""
-
-    name: str
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
-class RemoveLayer:
-    """Takes a layer or group out of the tree."""
-
-    name: str
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
-class RenameLayer:
-    """Gives a layer or group another name."""
-
-    name: str
-    to: str
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
-class DuplicateLayer:
-    """A copy named `to`, just above the original."""
-
-    name: str
-    to: str
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
-class MoveLayer:
-    """To position `to` among the layers of `group` (None: the root; SAME: where it is), counted without itself."""
-
-    name: str
-    to: int
-    group: str | Same | None = Same.SAME
-    extra: Map[str, Any] = _NOTHING
-
-
-@dataclass(frozen=True, slots=True)
-class SetLayer:
-    """What of a layer or group is to change; None leaves it."""
-
-    name: str
-    opacity: float | None = None
-    visible: bool | None = None
-    blend: str | None = None
-    locked: bool | None = None
-    alpha_locked: bool | None = None
-    isolated: bool | None = None
-    extra: Map[str, Any] = _NOTHING
-
-    @property
-    def changes(self) -> dict[str, Any]:
-        """Gives the properties that are set, by name."""
-        names = (row[0] for row in _SETTABLE)
-        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +107,6 @@ class Swap:
     extra: Map[str, Any] = _NOTHING
 
 
-LayerCommand = AddLayer | SelectLayer | RemoveLayer | RenameLayer | DuplicateLayer | MoveLayer | SetLayer
 Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap | places.BookmarkCommand
 
 
@@ -227,91 +153,6 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         "points": points_json(stroke.points),
         **thawed(stroke.extra),
     }
-
-
-class LayerForm(NamedTuple):
-    """A form of the layer command: which record, and how the members besides the verb's own are read."""
-
-    record: type
-    read: Callable[[Fields], dict[str, Any]]
-
-
-def _no_more(members: Fields) -> dict[str, Any]:
-    return {}
-
-
-def _new_name(members: Fields) -> dict[str, Any]:
-    return {"to": members.text("to")}
-
-
-def _group(members: Fields) -> str | Same | None:
-    if "group" not in members:
-        return Same.SAME
-    return None if members.take("group") is None else members.text("group")
-
-
-def _position(members: Fields) -> dict[str, Any]:
-    return {"to": members.integer("to", lo=0, hi=COUNT_LIMIT), "group": _group(members)}
-
-
-def _new_place(members: Fields) -> dict[str, Any]:
-    kind = members.take("kind", "layer")
-    if kind not in ("layer", "group"):
-        raise members.fault("kind", '"layer" or "group"')
-    return {"kind": kind, "group": _group(members), "to": members.integer("to", None, lo=0, hi=COUNT_LIMIT)}
-
-
-def _opacity(members: Fields, name: str) -> float:
-    out: float = members.number(name, lo=0.0, hi=1.0)
-    return out
-
-
-_SETTABLE: tuple[tuple[str, Callable[[Fields, str], Any]], ...] = (
-    ("opacity", _opacity),
-    ("visible", Fields.flag),
-    ("blend", Fields.text),
-    ("locked", Fields.flag),
-    ("alpha_locked", Fields.flag),
-    ("isolated", Fields.flag),
-)
-
-
-def _settings(members: Fields) -> dict[str, Any]:
-    settings = {name: read(members, name) for name, read in _SETTABLE if name in members}
-    if not settings:
-        raise FieldError(members.place, "nothing to set", f"any of {', '.join(row[0] for row in _SETTABLE)}")
-    return settings
-
-
-LAYER_FORMS: dict[str, LayerForm] = {
-    "add": LayerForm(AddLayer, _new_place),
-    "select": LayerForm(SelectLayer, _no_more),
-    "remove": LayerForm(RemoveLayer, _no_more),
-    "rename": LayerForm(RenameLayer, _new_name),
-    "duplicate": LayerForm(DuplicateLayer, _new_name),
-    "move": LayerForm(MoveLayer, _position),
-    "set": LayerForm(SetLayer, _settings),
-}
-_VERBS = {form.record: verb for verb, form in LAYER_FORMS.items()}
-
-
-def _read_layer(members: Fields) -> Command:
-    verbs = [verb for verb in LAYER_FORMS if verb in members]
-    if len(verbs) != 1:
-        raise FieldError(members.place, " and ".join(verbs) or "none", f"exactly one of {', '.join(LAYER_FORMS)}")
-    name = members.text(verbs[0])
-    form = LAYER_FORMS[verbs[0]]
-    out: Command = form.record(name, **form.read(members), extra=members.rest())
-    return out
-
-
-def _write_layer(command: LayerCommand) -> dict[str, Any]:
-    out: dict[str, Any] = {_VERBS[type(command)]: command.name}
-    for f in fields(command):
-        value = getattr(command, f.name)
-        if f.name not in ("name", "extra") and value != f.default:
-            out[f.name] = value
-    return {**out, **thawed(command.extra)}
 
 
 def _reads_count(form: type) -> Callable[[Fields], Any]:
@@ -366,7 +207,7 @@ class Form(NamedTuple):
 
 COMMANDS: dict[str, Form] = {
     "stroke": Form((Stroke,), _read_stroke, _write_stroke),
-    "layer": Form(tuple(_VERBS), _read_layer, _write_layer),
+    "layer": Form(layer_commands.RECORDS, layer_commands.read_layer, layer_commands.write_layer),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), places.read_view, places.write_view),

@@ -8,7 +8,10 @@ from typing import Any, NamedTuple
 
 from engine.canvas import growth as growths
 from engine.canvas.growth import Growth
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.through import Seen
+from engine.canvas.placing.views import Views, mapped
 from engine.canvas.store import Change, changes_between
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
@@ -20,13 +23,19 @@ def areas(old: Painting, new: Painting) -> Areas:
     """Tells where two paintings differ, by level; None for anywhere."""
     pairs = _pairs(old.root, new.root)
     # Not the layers themselves: who asks for areas later does not want to hold the old painting until then.
-    found = None if pairs is None else [_Changed.of(a, b) for a, b in pairs]
+    found = None if pairs is None else {b.id: _Changed.of(a, b) for a, b in pairs}
+    views = Views(new.root)
 
     @cache  # it is asked for every tile on the screen
     def where(level: int) -> list[Rect] | None:
         if found is None:
             return None
-        return [rect for changed in found for rect in changed.rects(level)]
+        own = [rect for changed in found.values() for rect in changed.rects(level)]
+        ways = views.of(level) if views.any else iter(())
+        changed_ways = None if ways is None else [(found[layer], seen) for layer, seen in ways if layer in found]
+        if changed_ways is None or any(seen.repeats for _, seen in changed_ways):
+            return None
+        return own + [rect for changed, seen in changed_ways for rect in changed.seen(seen, level)]
 
     return where
 
@@ -48,6 +57,11 @@ class _Changed(NamedTuple):
         found = [change.reach(level) for change in self.commits]
         return found + growths.changed_rects(self.old, self.new, level) if self.old is not self.new else found
 
+    def seen(self, seen: Seen, level: int) -> list[Rect]:
+        """Returns the rectangles of a level in which the states may differ where they are seen through placements."""
+        at = level + seen.levels + (seen.finer(level) or 0)
+        return [rect for changed in self.rects(at) if not (rect := mapped(changed, at, seen, level)).empty]
+
 
 def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
     """Layers whose paint differs; None if the trees differ in anything else."""
@@ -67,11 +81,11 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
                 return None
             if a.pyramid is not b.pyramid or a.growth is not b.growth:
                 out.append((a, b))
-        else:
+        elif not isinstance(a, Placement) or a != b:
             return None
     return out
 
 
-def _plain(node: Layer | Group) -> tuple[Any, ...]:
+def _plain(node: Node) -> tuple[Any, ...]:
     """Returns what of a node shows, besides its paint."""
     return node.id, node.opacity, node.visible, node.blend, isinstance(node, Group) and node.isolated

@@ -13,6 +13,7 @@ from engine.canvas import layers
 from engine.canvas.growth import Growth, Tell, is_settled, one_of
 from engine.canvas.growth import settled as settled_growth
 from engine.canvas.layers import Group, Layer
+from engine.canvas.placing.placement import Placement
 from engine.painting.value import Painting
 
 MOST_THREADS = 8
@@ -51,6 +52,13 @@ def settled_root(root: Group, count: int | None = None, tell: Tell = lambda part
             growth = settled_growth(layer.growth, pool, one_of(tell, n, len(found)))
             root = layers.with_growth(root, layer.name, growth)
     return root
+
+
+def settled_alone(root: Group, name: str) -> Group:
+    """Returns a root that shows just the node of a name, grown to the end, and what its placements show."""
+    placed = any(isinstance(node, Placement) for node in layers.walk(root))
+    tree = settled_root(root) if placed else root
+    return settled_root(layers.alone(layers.find(tree, name), tree))
 
 
 def waiting(root: Group) -> list[Layer]:

@@ -22,6 +22,8 @@ from engine.files.strict_json import BYTES_CAP, Fields, dumps, loads
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import COARSE, EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Redo, Undo, parse, to_json
+from engine.painting.layer_commands import LayerCommand
+from engine.painting.layer_commands import version as layer_version
 from engine.painting.places import BookmarkCommand
 
 VERSION = 2  # that is read; older ones too
@@ -92,6 +94,8 @@ class Recording:
 def version_of(command: Command) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
     region = isinstance(command, DefineTexture) and "region" in command.arguments
+    if isinstance(command, LayerCommand):
+        return layer_version(command)
     return 2 if region or isinstance(command, BookmarkCommand) else 1
 
 

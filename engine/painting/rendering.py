@@ -118,7 +118,7 @@ class _Pieces:
     def composited(self, piece: Rect) -> np.ndarray:
         """Returns the picture of a piece: float32 (4, h, w).  Cancelled, if the one who asked says so."""
         check_cancelled(self._cancelled)
-        return composite(self._root, self._level, piece, piece_reader(piece, self._evaluated.planes))
+        return composite(self._root, self._level, piece, piece_reader(self._level, piece, self._evaluated.planes))
 
 
 def sheets(
@@ -147,13 +147,13 @@ def sheets(
                 if planes is not None:
                     found[layer.id] = planes
                     known[layer.id][part.slices(parts[layer.id])] = to_rgba8(planes[:, *part.slices(piece)])
-            merged[piece.slices(band)] = to_rgba8(composite(root, level, piece, _known(found, piece)))
+            merged[piece.slices(band)] = to_rgba8(composite(root, level, piece, _known(found, level, piece)))
         yield known, merged
 
 
-def _known(found: Mapping[int, np.ndarray], piece: Rect) -> Read:
-    """Hands out blocks of the planes of a piece, by the ids of layers."""
-    return piece_reader(piece, lambda layer, level, rect: found.get(layer.id))
+def _known(found: Mapping[int, np.ndarray], level: int, piece: Rect) -> Read:
+    """Hands out blocks of the planes of a piece of a level, by the ids of layers."""
+    return piece_reader(level, piece, lambda layer, level, rect: found.get(layer.id))
 
 
 def _clear(rect: Rect) -> np.ndarray:
@@ -166,12 +166,16 @@ def check_cancelled(cancelled: Stop) -> None:
         raise Cancelled
 
 
-def piece_reader(piece: Rect, evaluate: Read = layer_planes) -> Read:
-    """Returns what evaluates each layer once for a whole piece, and hands out its blocks."""
+def piece_reader(level: int, piece: Rect, evaluate: Read = layer_planes, placed: Read = layer_planes) -> Read:
+    """Returns what evaluates each layer once for a whole piece of a level, and hands out its blocks; what placements
+    show of other places, `placed` evaluates as it is asked for."""
     known: dict[int, np.ndarray | None] = {}
+    own = level
 
     def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-        if layer.id not in known:
+        if level != own or rect.intersect(piece) != rect:
+            return placed(layer, level, rect)
+        if layer.id not in known:  # once for all blocks: they share most of what lies above them
             known[layer.id] = evaluate(layer, level, piece)
         planes = known[layer.id]
         if planes is None:

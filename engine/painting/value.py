@@ -84,7 +84,8 @@ def layer_for(painting: Painting, name: str | None, what: str = "stroke") -> tup
         painting = with_node(painting, new_layer(painting, wanted))
     node = layers.find(painting.root, wanted)
     if not isinstance(node, Layer):
-        raise Refusal(f"{what}: found {wanted!r}, which is a group, expected a layer")
+        kind = "a group" if isinstance(node, Group) else "a placement"
+        raise Refusal(f"{what}: found {wanted!r}, which is {kind}, expected a layer")
     if layers.is_locked(painting.root, wanted):
         raise Refusal(f"{what}: found layer {wanted!r} locked, expected one that is not")
     return painting, node

@@ -10,7 +10,10 @@ from dataclasses import replace
 from typing import Any
 
 from engine.canvas import layers
-from engine.canvas.layers import Group, Layer, LayerError
+from engine.canvas.layers import Group, Layer
+from engine.canvas.node_checks import LayerError
+from engine.canvas.placing import loops
+from engine.canvas.placing.placement import Placement
 from engine.checks.field_error import FieldError
 from engine.makers.makers import define
 from engine.painting import commands as c
@@ -58,11 +61,35 @@ def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
     return with_node(painting, node, command.group, command.to)
 
 
+def _add_placement(painting: Painting, command: c.AddPlacement, around: Around) -> Painting:
+    made = Placement(layers.next_id(painting.root), command.name)
+    node = replace(made, **_placed(painting.root, made, command.placing))
+    return _shown(with_node(painting, node, command.group, command.to))
+
+
+def _placed(root: Group, node: Placement, placing: c.Placing) -> dict[str, Any]:
+    """Returns the fields of a placement that are to change."""
+    out: dict[str, Any] = {"pose": placing.posed(node.pose), **placing.fields()}
+    if not isinstance(placing.of, c.Same):
+        out["of"] = None if placing.of is None else layers.find(root, placing.of).id
+    return out
+
+
+def _shown(painting: Painting) -> Painting:
+    """Returns the painting itself, if all its placements can be shown; else LayerError."""
+    loops.checked(painting.root)
+    return painting
+
+
 def _select(painting: Painting, command: c.SelectLayer, around: Around) -> Painting:
     return replace(painting, active=layers.find(painting.root, command.name).name)
 
 
 def _remove(painting: Painting, command: c.RemoveLayer, around: Around) -> Painting:
+    showing = loops.showing(painting.root, command.name)
+    if showing:
+        names = ", ".join(repr(one.name) for one in showing[:3]) + (", ..." if len(showing) > 3 else "")
+        raise LayerError(f"layer {command.name!r}: found {names} showing it, expected no placement that does")
     group, position = layers.place(painting.root, command.name)
     root = layers.remove(painting.root, command.name)
     active = painting.active
@@ -96,14 +123,19 @@ def _move(painting: Painting, command: c.MoveLayer, around: Around) -> Painting:
     group = command.group
     if isinstance(group, c.Same):
         group = layers.place(painting.root, command.name)[0]
-    return replace(painting, root=layers.move(painting.root, command.name, group, command.to))
+    return _shown(replace(painting, root=layers.move(painting.root, command.name, group, command.to)))
 
 
 def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
     changes: Mapping[str, Any] = command.changes
     if "blend" in changes:
         changes = {**changes, "blend": changes["blend"].removeprefix("svg:")}
-    return replace(painting, root=layers.set_fields(painting.root, command.name, **changes))
+    if command.placing is not None:
+        node = layers.find(painting.root, command.name)
+        if not isinstance(node, Placement):
+            raise LayerError(f"layer {command.name!r}: found no placement, expected one to set its place")
+        changes = {**changes, **_placed(painting.root, node, command.placing)}
+    return _shown(replace(painting, root=layers.set_fields(painting.root, command.name, **changes)))
 
 
 def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:
@@ -118,6 +150,7 @@ def _bookmark(painting: Painting, command: BookmarkCommand, around: Around) -> P
 _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
     c.AddLayer: _add,
+    c.AddPlacement: _add_placement,
     c.SelectLayer: _select,
     c.RemoveLayer: _remove,
     c.RenameLayer: _rename,

@@ -249,5 +249,5 @@ def _sheets(group: Group, weight: float, plain: bool) -> Iterator[tuple[Layer, f
         over = plain and node.blend == "src-over"
         if isinstance(node, Group):
             yield from _sheets(node, weight * node.opacity, over)
-        else:
+        elif isinstance(node, Layer):
             yield node, weight * node.opacity, over

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from immutables import Map
 
 from engine.canvas import layers
-from engine.canvas.layers import Group, Layer, LayerError, Node
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid
 from engine.checks.owned import Owned
 from engine.painting import commands as c
@@ -177,4 +178,6 @@ def _bare(group: Group) -> Group:
 
 
 def _without_paint(node: Node) -> Node:
-    return _bare(node) if isinstance(node, Group) else replace(node, pyramid=Pyramid(), growth=())
+    if isinstance(node, Group):
+        return _bare(node)
+    return replace(node, pyramid=Pyramid(), growth=()) if isinstance(node, Layer) else node

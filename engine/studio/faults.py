@@ -10,7 +10,7 @@ import errno
 import logging
 from pathlib import Path
 
-from engine.canvas.layers import LayerError
+from engine.canvas.node_checks import LayerError
 from engine.checks.field_error import FieldError
 from engine.files.fault import Cancelled, FileError
 from engine.numeric.formula import FormulaError

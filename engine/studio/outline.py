@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
+from engine.canvas.placing.placement import Placement
 from engine.studio import results
 
 
-def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[results.LayerRow]:
+def rows(root: Group) -> list[results.LayerRow]:
     """Returns the tree as the panel lists it, top-most first."""
+    return _rows(root, {node.id: node.name for node in layers.walk(root)}, 0, None)
+
+
+def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None) -> list[results.LayerRow]:
     out = []
     for position in reversed(range(len(group.children))):
         node = group.children[position]
@@ -25,8 +33,9 @@ def rows(group: Group, depth: int = 0, parent: str | None = None) -> list[result
                 node.blend,
                 node.locked,
                 alpha_locked,
+                results.Shows(names[node.of] if node.of else None) if isinstance(node, Placement) else None,
             )
         )
         if isinstance(node, Group):
-            out += rows(node, depth + 1, node.name)
+            out += _rows(node, names, depth + 1, node.name)
     return out

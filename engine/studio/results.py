@@ -63,8 +63,16 @@ class Same:
 
 
 @dataclass(frozen=True, slots=True)
+class Shows:
+    """What a placement shows: the node of that name; None: the whole painting."""
+
+    name: str | None
+
+
+@dataclass(frozen=True, slots=True)
 class LayerRow:
-    """A layer or group as the panel lists it, top-most first; `depth` counts the groups around it."""
+    """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
+    what a placement shows, None where it is none."""
 
     name: str
     group: bool
@@ -76,6 +84,7 @@ class LayerRow:
     blend: str
     locked: bool
     alpha_locked: bool
+    shows: Shows | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,9 +46,10 @@ class Sight(Owned):
         """Another painting is to be seen: no change of the old one matters."""
         self._changes.clear()
 
-    def meeting(self, level: int, area: Rect) -> list[Key]:
-        """Returns the tiles of a level that the window holds and an area meets."""
-        return [k for k, held in self._wanted.items() if k[0] == level and held >= 0 and area.meets(tile_rect(k))]
+    def meeting(self, where: Areas) -> list[Key]:
+        """Returns the tiles that the window holds and that meet areas of their levels."""
+        held = ((key, where(key[0])) for key, held in self._wanted.items() if held >= 0)
+        return [key for key, found in held if found is None or any(area.meets(tile_rect(key)) for area in found)]
 
     @property
     def near(self) -> tuple[int, Rect] | None:

@@ -14,12 +14,13 @@ from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting.difference import Areas, areas
+from engine.painting.rendering import piece_reader
 from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.strokes.example_stroke import Live
 from engine.strokes.paint_stroke import LiveStroke
+from engine.studio import placed_stroke, results
 from engine.studio import requests as q
-from engine.studio import results
 from engine.studio.sight import Key, Sight, tile_rect
 
 _NOTHING = Rect(0, 0, 0, 0)
@@ -43,6 +44,7 @@ class Viewer(Owned):
         self.above: Above = lambda level, rect, pixels: pixels  # lays over a picture what is not painted yet
         self._fresh = _NOTHING  # pixels of the live stroke's level not sent yet
         self._level = 0
+        self._where: Areas = lambda level: []  # what is fresh is seen
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick}
 
@@ -60,8 +62,8 @@ class Viewer(Owned):
         """The stroke in progress laid paint on `area` of its level."""
         more = self.fresh  # one change for all points between two pictures
         self._level, self._fresh = level, self._fresh.union(area)
-        fresh = self._fresh
-        self.sight.grew(lambda n: [fresh] if n == level else [], more)
+        self._where = placed_stroke.areas_of(self._subject.live, level, self._fresh)
+        self.sight.grew(self._where, more)
 
     def changed(self, where: Areas) -> None:
         """The picture changed in the areas that `where` gives for a level; whatever was fresh is among them."""
@@ -72,7 +74,8 @@ class Viewer(Owned):
         """The preview of a stroke that came to nothing goes from the screen."""
         whole = live.flattened or live.bed is not None  # seen at other levels too
         own, rect = live.level, live.rect
-        self.changed(lambda level: None if whole else [rect] if level == own else [])
+        seen = placed_stroke.areas_of(live, own, rect)
+        self.changed(lambda level: None if whole else seen(level))
 
     def look_back(self, painting: Painting | None) -> None:
         """Shows another state of the painting; None: as it is now."""
@@ -88,8 +91,8 @@ class Viewer(Owned):
 
     def send_fresh(self) -> None:
         """Sends the part of the wanted tiles that the stroke in progress changed."""
-        area, self._fresh = self._fresh, _NOTHING
-        for key in self.sight.meeting(self._level, area):
+        self._fresh = _NOTHING
+        for key in self.sight.meeting(self._where):
             self._bring_up_to_date(key)
 
     def send_tile(self) -> None:
@@ -116,15 +119,9 @@ class Viewer(Owned):
         """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         live = self._subject.live
         root = live.root if live is not None else (self.looking or self._subject.session.painting).root
-        known: dict[int, np.ndarray | None] = {}
-
-        def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
-            if layer.id not in known:  # once for all blocks: they share most of what lies above them
-                known[layer.id] = self._read(layer, level, whole)
-            planes = known[layer.id]
-            return None if planes is None else planes[:, *rect.slices(whole)]
-
-        return self.above(level, whole, composite(root, level, whole, read))
+        return self.above(
+            level, whole, composite(root, level, whole, piece_reader(level, whole, self._read, self._read_placed))
+        )
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live
@@ -137,6 +134,13 @@ class Viewer(Owned):
         ):
             return covered(live.preview(rect).rgba, layer.growth, level, rect)
         return layer_planes(layer, level, rect, self._subject.session.cache)
+
+    def _read_placed(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        """As `_read`, for placements, which show the stroke in progress at coarser levels, too."""
+        live, cache = self._subject.live, self._subject.session.cache
+        if isinstance(live, LiveStroke) and layer.name == live.layer.name and placed_stroke.reaches(live, level, rect):
+            return placed_stroke.from_afar(live, layer, level, rect, cache)
+        return self._read(layer, level, rect)
 
     def _pick(self, request: q.Pick) -> None:
         pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]

@@ -132,6 +132,12 @@ class LayersPanel:
                 self._folded ^= {row.name}
             w.tooltip("Fold or unfold the group", beside=True)
             imgui.same_line(0, 2 * desk.scale)
+        if row.shows is not None:
+            source = row.shows.name
+            if w.icon_button("source", icons.LINK, "", enabled=source is not None) and source is not None:
+                desk.post(Do(c.SelectLayer(source)))
+            w.tooltip(f"Shows {source}: click to go there" if source else "Shows the whole painting", beside=True)
+            imgui.same_line(0, 2 * desk.scale)
         if self._editing == row.name:
             self._name_field(desk, row)
         else:
@@ -194,6 +200,7 @@ class LayersPanel:
             ("add_layer", icons.ADD),
             ("add_group", icons.GROUP),
             ("duplicate", icons.COPY),
+            ("show_again", icons.LINK),
             ("raise", icons.UP),
             ("lower", icons.DOWN),
             ("remove", icons.DELETE),

@@ -49,7 +49,9 @@ class Source:
         out = np.empty((rect.height, rect.width, 4), kind)
         for piece in _pieces(area, sum(1 for _ in layers.layers(self.root))):
             check_cancelled(cancelled)
-            out[piece.slices(area)] = convert(composite(self.root, place.level, piece, piece_reader(piece)))
+            out[piece.slices(area)] = convert(
+                composite(self.root, place.level, piece, piece_reader(place.level, piece))
+            )
         return out
 
 

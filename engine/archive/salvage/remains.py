@@ -18,7 +18,7 @@ from engine.archive.manifest import FORMAT, MANIFEST, MANIFEST_AGAIN, RECORDING,
 from engine.archive.members import CHANGED, PIECE, Stored
 from engine.archive.packing import unpack, unpack_torn
 from engine.archive.salvage.damaged_layer import Rest
-from engine.canvas.layers import LayerError
+from engine.canvas.node_checks import LayerError
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError, shown
 from engine.files.limits import Limits

@@ -24,7 +24,8 @@ from engine.archive.salvage.seen import Shown
 from engine.archive.saving import MERGED, shown_level
 from engine.canvas import layers
 from engine.canvas.growth import Growth
-from engine.canvas.layers import Group, Layer, LayerError
+from engine.canvas.layers import Group, Layer
+from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError, TooMuch, shown

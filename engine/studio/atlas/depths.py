@@ -91,7 +91,7 @@ def _visible(node: Group) -> Iterator[Layer]:
         if child.visible and child.opacity > 0:
             if isinstance(child, Layer):
                 yield child
-            else:
+            elif isinstance(child, Group):
                 yield from _visible(child)
 
 

@@ -32,10 +32,12 @@ class StepPainter:
 
     def made(self, step: LoggedStep, painting: Painting, cache: TileCache | None) -> np.ndarray:
         """Returns the picture of a step: uint8 (72, 96, 4), premultiplied; `painting`: as it was after it."""
-        level, whole = _place(step.command, painting)
+        own, whole = _place(step.command, painting)
         known: dict[int, tuple[Rect, np.ndarray | None]] = {}
 
         def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+            if level != own or rect.intersect(whole) != rect:  # what placements show of other places
+                return layer_planes(layer, level, rect, cache)
             if layer.id not in known:  # once for all blocks
                 around = whole if self._at_hand(layer, level, whole, cache) else _tiled(whole)
                 known[layer.id] = around, layer_planes(layer, level, around, cache)
@@ -43,7 +45,7 @@ class StepPainter:
             around, planes = known[layer.id]
             return None if planes is None else planes[:, *rect.slices(around)]
 
-        return to_premul8(composite(painting.root, level, whole, read))
+        return to_premul8(composite(painting.root, own, whole, read))
 
     def _at_hand(self, layer: Layer, level: int, rect: Rect, cache: TileCache | None) -> bool:
         """Tells whether a rectangle of a layer is soon read, or of a layer that changes.  If not, whole tiles are kept

@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.canvas import layers
-from engine.canvas.layers import EMPTY, Group, Layer, LayerError
+from engine.canvas.layers import EMPTY, Group, Layer
+from engine.canvas.node_checks import LayerError
 from engine.canvas.store import Pyramid
 
 
@@ -101,7 +102,7 @@ def test_isolation_written_is_what_krita_and_mypaint_read_alike():
 
 def test_alone_shows_a_hidden_translucent_layer_in_full(tree):
     hidden = layers.set_fields(tree, "Ink", visible=False, opacity=0.1, blend="dst-in")
-    (only,) = layers.alone(layers.find(hidden, "Ink")).children
+    (only,) = layers.alone(layers.find(hidden, "Ink"), hidden).children
     assert (only.name, only.visible, only.opacity, only.blend) == ("Ink", True, 1.0, "src-over")
 
 

@@ -27,6 +27,7 @@ MORE = c.parse({"do": "undo", "newer": {"than": [1, 2, {"this": 0.1}]}}).extra
 SAMPLES = {
     c.Stroke: c.Stroke(2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
+    c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),
     c.SelectLayer: c.SelectLayer("sky"),
     c.RemoveLayer: c.RemoveLayer("cloud"),
     c.RenameLayer: c.RenameLayer("sky", "heaven"),

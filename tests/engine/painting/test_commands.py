@@ -1,6 +1,7 @@
 """Commands: parse and to_json are inverse to one another; what is wrong is named in one line."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -9,8 +10,10 @@ from hypothesis import strategies as st
 
 from engine.brush.checks import frozen
 from engine.brush.settings import Brush, Component
+from engine.canvas.placing.placement import FINEST, MOST_LEVELS, SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import dumps, loads
+from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.points import POINT_COLUMNS, points_array
 
@@ -52,9 +55,31 @@ def strokes(draw):
 
 
 optional_flags = st.none() | st.booleans()
+same = st.just(c.Same.SAME)
+far = st.integers(-FINEST, FINEST)
+turns = st.one_of(
+    st.fixed_dictionaries({}, optional={"turn": st.integers(0, 3)}),
+    st.floats(0, 6).map(lambda angle: {"turned": (1.2 * math.cos(angle), 1.2 * math.sin(angle))}),
+)
+parts = st.builds(
+    lambda level, x, y, width, height: SourcePart(level, Rect.at(x, y, width, height)),
+    far, whole, whole, st.integers(1, 1 << 40), st.integers(1, 1 << 40),
+)  # fmt: skip
+placings = st.builds(
+    lambda turn, **given: c.Placing(**turn, **given),
+    turns,
+    of=st.none() | names | same,
+    at=st.tuples(whole, whole) | same,
+    level=far | same,
+    levels=st.integers(-MOST_LEVELS, MOST_LEVELS) | same,
+    mirror=st.booleans() | same,
+    part=st.none() | parts | same,
+    repeat=st.booleans() | same,
+)
 COMMANDS = st.one_of(
     strokes(),
     st.builds(c.AddLayer, names, st.sampled_from(["layer", "group"]), groups, st.none() | positions, later),
+    st.builds(c.AddPlacement, names, placings, groups, st.none() | positions, later),
     st.builds(c.SelectLayer, names, later),
     st.builds(c.RemoveLayer, names, later),
     st.builds(c.RenameLayer, names, names, later),
@@ -69,6 +94,7 @@ COMMANDS = st.one_of(
         optional_flags,
         optional_flags,
         optional_flags,
+        st.none() | placings.filter(lambda placing: placing != c.Placing()),
         later,
     ),
     st.builds(c.Undo, st.integers(1, c.COUNT_LIMIT), later),

@@ -11,7 +11,7 @@ from engine.archive.export import Picture, export
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.layers import LayerError
+from engine.canvas.node_checks import LayerError
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, WriteError
 from engine.files.images import read_image
@@ -108,7 +108,7 @@ def test_sheets_are_cut_from_the_pictures_of_the_layers(painting, monkeypatch, c
 
 def test_one_layer(painting, tmp_path):
     export(tmp_path / "a.png", Picture(painting, layer="b"))
-    expected = whole(layers.alone(layers.find(painting.root, "b")), 0, FRAME)
+    expected = whole(layers.alone(layers.find(painting.root, "b"), painting.root), 0, FRAME)
     assert np.array_equal(np.asarray(Image.open(tmp_path / "a.png")), to_rgba8(expected))
     with pytest.raises(LayerError, match="nobody"):
         export(tmp_path / "b.png", Picture(painting, layer="nobody"))

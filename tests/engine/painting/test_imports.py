@@ -13,6 +13,7 @@ from engine.archive.members import LOST
 from engine.archive.opening import open_painting
 from engine.canvas import layers
 from engine.canvas.evaluate import evaluate
+from engine.canvas.node_checks import MAX_NAME
 from engine.files.fault import FileError
 from engine.files.limits import LIMITS
 from engine.files.png_writer import write_png
@@ -100,7 +101,7 @@ def test_a_picture_becomes_a_painting(tmp_path):
 def test_names_are_made_fit():
     assert clean_name(" a\nb\u200b\x07 ", "x") == "a b"
     assert clean_name("\t", "Layer 1") == "Layer 1"
-    assert len(clean_name("n" * 999, "x")) == layers.MAX_NAME
+    assert len(clean_name("n" * 999, "x")) == MAX_NAME
 
 
 # ---- OpenRaster ----

@@ -17,7 +17,7 @@ from engine.archive.ladder import deepzoom, ladder_files
 from engine.archive.ladder.ladder_files import write_folder, write_tiff_ladder
 from engine.archive.ladder.rungs import Ladder
 from engine.canvas.composite import composite
-from engine.canvas.layers import LayerError
+from engine.canvas.node_checks import LayerError
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled, WriteError
 from engine.numeric.address import Rect
@@ -46,7 +46,7 @@ def painting():
 def expected(painting, ladder):
     """Every rung in one piece, as the painting has that level."""
     for rung in ladder.rungs:
-        planes = composite(painting.root, rung.level, rung.rect, piece_reader(rung.rect))
+        planes = composite(painting.root, rung.level, rung.rect, piece_reader(rung.level, rung.rect))
         yield (to_rgba8 if ladder.depth == 8 else to_rgba16)(planes)
 
 

@@ -1,0 +1,1 @@
+"""Placements: layers, groups or the whole painting, shown again elsewhere through a similarity."""

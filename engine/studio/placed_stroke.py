@@ -1,0 +1,54 @@
+"""The stroke in progress as placements of its layer show it: elsewhere, and at coarser levels."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from engine.canvas.layers import Layer
+from engine.canvas.placing.views import Views
+from engine.canvas.reading import layer_planes
+from engine.canvas.tile_cache import TileCache
+from engine.numeric.address import Rect
+from engine.numeric.pyramid import reduce
+from engine.painting.difference import Areas
+from engine.strokes.example_stroke import Live
+from engine.strokes.paint_stroke import LiveStroke
+
+_COARSER = 4  # levels at which a stroke is seen, besides its own
+
+
+def areas_of(live: Live | None, level: int, area: Rect) -> Areas:
+    """Returns where an area of a stroke's level is seen: where it is, and through placements."""
+    views = None if live is None else Views(live.root)
+    if live is None or views is None or not views.any:
+        return lambda n: [area] if n == level else []
+    layer = live.layer.id
+
+    @cache
+    def where(n: int) -> list[Rect] | None:
+        placed = views.shown(layer, level, area, n)
+        return None if placed is None else ([area] if n == level else []) + placed
+
+    return where
+
+
+def reaches(live: LiveStroke, level: int, rect: Rect) -> bool:
+    """Tells whether the stroke is seen in a rectangle of a level coarser than its own."""
+    by = live.level - level
+    return 0 < by <= _COARSER and not live.empty and rect.zoomed(by).meets(live.rect)
+
+
+def from_afar(live: LiveStroke, layer: Layer, level: int, rect: Rect, cache: TileCache | None) -> np.ndarray:
+    """Returns a rectangle of the stroke's layer at a coarser level, with the mean of what the stroke changes."""
+    by = live.level - level
+    part = live.rect.zoomed(-by).intersect(rect)
+    fine = part.zoomed(by)
+    known, before = layer_planes(layer, level, rect, cache), layer_planes(layer, live.level, fine, cache)
+    change = live.preview(fine).rgba - (np.float32(0) if before is None else before)
+    for _ in range(by):
+        change = reduce(change)
+    out = np.zeros((4, rect.height, rect.width), np.float32) if known is None else known.copy()
+    out[:, *part.slices(rect)] += change
+    return out
