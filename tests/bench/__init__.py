@@ -56,6 +56,6 @@ BENCHES = {
     "start": "from the command to the first frame of the window",
     "first_start": "with no kernel compiled: to the first dab, and to all brushes",
     "playing": "a recording of the gallery replayed, against its commands applied one after the other",
-    "past": "small pictures of steps on random layers; which of 5,000 strokes show at a pixel",
+    "past": "small pictures of steps on random layers; which of 5,000 strokes show at a pixel; a look at a packed step",
     "memory": "what the process and its history hold after 1,000 strokes",
 }

@@ -1,5 +1,5 @@
 """The past of a painting: small pictures of its steps, each of whose strokes falls on another layer than that before;
-and the strokes that show at a pixel which thousands of faint ones cover.
+the strokes that show at a pixel which thousands of faint ones cover; and a look at a step whose paint is packed.
 
 Processor time of the engine's thread.
 """
@@ -18,6 +18,7 @@ from bench import Figure
 from engine.canvas.tile_cache import TileCache
 from engine.painting import commands as c
 from engine.session.session import Session
+from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.past import past_records as p
 from engine.studio.past.step_pictures import StepPainter, StepPictures
@@ -28,6 +29,8 @@ LAYERS, STROKES, SIDE = (1, 4, 10), 300, 400  # strokes on random ones of so man
 PICTURE = 1e-3  # seconds, at most
 FAINT, HERE = 5000, (0, 455, 455)  # strokes; pixel that they all cover
 FIRST = 0.05  # seconds until the newest strokes that show are told
+BACK, SEEN = 200, 0.03  # steps back that is looked; seconds until the view is seen
+TILES = tuple((0, x, y, -1) for y in range(4) for x in range(5))
 LOOKS: dict[str, dict[str, Any]] = {
     "plain": {},
     "grain": {"opacity": 0.1, "grain": {"texture": "rock", "period": 32, "amount": 0.2}},
@@ -48,6 +51,9 @@ def measure(small: bool = False) -> Iterator[Figure]:
         note = f"all after {whole * 1e3:.0f} ms, in pieces of at most {longest * 1e3:.0f} ms"
         name, bound = f"painted here, {count:,} x {look}, first told", f"{FIRST * 1e3:.0f} ms"
         yield Figure(name, first * 1e3, "ms", bound, first / FIRST, 1.0, note=note)
+    seen, cold = _looked_back(8 if small else BACK)
+    note = f"the same view of the present, from nothing, takes {cold * 1e3:.0f} ms"
+    yield Figure("a look at a packed step", seen * 1e3, "ms", f"{SEEN * 1e3:.0f} ms", seen / SEEN, 1.0, note=note)
 
 
 def _pictures(count: int, strokes: int) -> float:
@@ -112,3 +118,30 @@ def _asked(session: Session) -> tuple[float, float, float]:
         pieces.append(time.thread_time())
     studio.close()
     return told[0] - pieces[0], max(b - a for a, b in pairwise(pieces)), told[-1] - pieces[0]
+
+
+def _looked_back(by: int) -> tuple[float, float]:
+    """Seconds for a view of three layers painted with rock, so many steps back, and as it is, from nothing."""
+    studio = Studio(lambda result: None, lambda request: None)
+    for n in range(3):
+        studio.do(q.Do(c.AddLayer(f"Rock {n}")))
+    rng, ink = random.Random(3), [{"texture": "rock", "colour": "#ffffff", "period": 16}]
+    for n in range(by + by // 2):
+        x, y = rng.uniform(0, 1280), rng.uniform(0, 1024)
+        points = [[x + 20 * k, y + rng.uniform(-20, 20), 0.8] for k in range(14)]
+        brush = {"radius": 20, "opacity": 0.8, "colour": f"#{rng.randrange(1 << 24):06x}", "ink": ink}
+        studio.do(q.Do(c.parse({"do": "stroke", "layer": f"Rock {n % 3}", "points": points, "brush": brush})))
+    while studio.step():
+        pass
+    steps = studio.easel.session.steps.count
+    times = []
+    for number in (steps - by, None):
+        studio.do(p.LookBack(number))
+        studio.easel.session.cache.clear()
+        start = time.thread_time()
+        studio.look(q.Look(TILES))
+        while studio.easel.viewer.sight.open:
+            studio.step()
+        times.append(time.thread_time() - start)
+    studio.close()
+    return times[0], times[1]
