@@ -30,12 +30,18 @@ _TWO = np.float32(2.0)
 _THREE = np.float32(3.0)
 
 
+def no_bounds() -> np.ndarray:
+    """Returns what `as_discs` tells of none: no place, and no ceiling."""
+    return np.array([np.inf, np.inf, -np.inf, -np.inf, 0.0])
+
+
 @or_interpreted()
 @kernel
 def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray) -> np.ndarray:
     """Dabs (n, 6) as discs (n, 7), moved by a shift in px; those without effect get RATE 0.
 
-    CEILING is the dab's opacity on the grid 2^-16.  `bounds`, float64 (x0, y0, x1, y1), grows to hold the discs.
+    CEILING is the dab's opacity on the grid 2^-16.  `bounds`, float64 (x0, y0, x1, y1, highest CEILING), grows to hold
+    the discs.
     """
     discs = np.empty((dabs.shape[0], DISC))
     for i in range(dabs.shape[0]):
@@ -52,22 +58,13 @@ def as_discs(dabs: np.ndarray, shift_x: Real, shift_y: Real, bounds: np.ndarray)
         disc[SCALE] = 1.0 / (outer * outer - inner * inner)
         disc[CEILING] = math.floor(dabs[i, 3] * fade * 65536.0 + 0.5) / 65536.0
         disc[RATE] = dabs[i, 4] if disc[CEILING] > 0.0 else 0.0
+        bounds[4] = max(bounds[4], disc[CEILING])
         if disc[RATE] > 0.0:
             bounds[0] = min(bounds[0], disc[CX] - outer)
             bounds[1] = min(bounds[1], disc[CY] - outer)
             bounds[2] = max(bounds[2], disc[CX] + outer)
             bounds[3] = max(bounds[3], disc[CY] + outer)
     return discs
-
-
-@or_interpreted()
-@kernel
-def highest(discs: np.ndarray) -> float:
-    """Returns the highest ceiling of discs (n, 7)."""
-    most = 0.0
-    for i in range(discs.shape[0]):
-        most = max(most, discs[i, CEILING])
-    return most
 
 
 @inlined

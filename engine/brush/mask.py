@@ -82,8 +82,7 @@ class StrokeMask:
         self._shift = float(origin[0] % TILE), float(origin[1] % TILE)
         self._tiles: dict[TileKey, np.ndarray | float] = {}
         self._lent: set[TileKey] = set()  # tiles that a Coverage also holds: copied before they are written
-        self._bounds = np.array([np.inf, np.inf, -np.inf, -np.inf])
-        self._ceiling = 0.0
+        self._bounds = kernels.no_bounds()  # and the highest ceiling so far
         self._slabs: list[np.ndarray] = []  # new tiles, zero before
         self._free = 0  # of the last slab
         self._places: dict[tuple[int, int], tuple[int, int, TileKey]] = {}  # slab and slot of tiles that are not lent
@@ -94,9 +93,14 @@ class StrokeMask:
         """Returns the pixels of the level that the dabs so far may have covered."""
         if not self._tiles:
             return Rect(0, 0, 0, 0)
-        x0, y0, x1, y1 = self._bounds.tolist()
+        x0, y0, x1, y1, _ = self._bounds.tolist()
         left, top = self._corner[0] * TILE, self._corner[1] * TILE
         return Rect(left + int(x0 // 1), top + int(y0 // 1), left - int(-x1 // 1), top - int(-y1 // 1))
+
+    @property
+    def _ceiling(self) -> float:
+        """Gives the highest coverage that any dab so far comes up to."""
+        return float(self._bounds[4])
 
     def coverage(self) -> Coverage:
         """Returns what is covered so far, as a value that later dabs do not change."""
@@ -112,7 +116,6 @@ class StrokeMask:
         discs = kernels.as_discs(dabs, *self._shift, self._bounds)
         if not len(discs):
             return set()
-        self._ceiling = max(self._ceiling, kernels.highest(discs))
         codes, which, inside, runs = self._lists_of(max(_PAIRS_OF_ONE, min(_PAIRS, 16 * len(discs))))
         touched: set[TileKey] = set()
         start = 0

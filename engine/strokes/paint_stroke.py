@@ -66,7 +66,7 @@ class LiveStroke(Drawn):
             dabs = self._stroker.walk(points)
             dirty = tile_bounds(self._mask.paint(dabs))
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
-            dirty = dirty.union(self._scenery.lay(points, self._mask.rect))
+            dirty = dirty.union(self._scenery.lay(points, self._mask))
             if self.bed is not None:
                 self.bed.lay(points)
         except BrushError:

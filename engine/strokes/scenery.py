@@ -42,20 +42,21 @@ class Scenery:
         self._memo: dict[str, Predictor | None] = {}
         self._begun = False
 
-    def lay(self, points: np.ndarray, rect: Rect) -> Rect:
-        """More points, float64 (n, 6), that are known to be good, of a stroke that now covers `rect`.
+    def lay(self, points: np.ndarray, covered: StrokeMask) -> Rect:
+        """More points, float64 (n, 6), that are known to be good, of a stroke that has `covered` so much now.
 
         Returns the pixels that may look different although they were covered before.  BrushError if what is
         done cannot be done on so large a stroke; the points are not laid then.
         """
-        if self._looks.whole and rect.area > AREA_CAP:
+        rect = covered.rect if self._looks.whole else Rect(0, 0, 0, 0)
+        if rect.area > AREA_CAP:
             raise BrushError("stroke", f"one of {rect.area} pixels", f"at most {AREA_CAP} of {self._looks.whole}")
         if not self._begun:
             left, top = (math.floor(value) for value in points[0, :2])
             self._start, self._begun = (self._origin[0] + left, self._origin[1] + top), True
         if self._looks.pressure:
             self._mask.paint(self._stroker.walk(points))
-        return rect if self._looks.whole else Rect(0, 0, 0, 0)
+        return rect
 
     @property
     def predictor(self) -> Predictor | None:

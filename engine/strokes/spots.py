@@ -95,7 +95,7 @@ def _cover(
 
     `moved`: what is added to dabs before they are scaled, and after; `corners`: of the pixels, from the same tile.
     """
-    dabs, bounds, state = np.empty((_DABS, walking.DAB)), np.zeros(4), np.empty(6)
+    dabs, bounds, state = np.empty((_DABS, walking.DAB)), np.zeros(5), np.empty(6)
     for n in range(ends.shape[0]):
         part, row = points[ends[n - 1] if n else 0 : ends[n]], which[n]
         state[:] = 0.0
