@@ -46,7 +46,8 @@ class Patch:
 class Around:
     """Values of a level around a change: the old ones, until `take` puts the new ones in their place.
 
-    `planes` is None where nothing lies, `blank` whether nothing did; `moved`, uint8, has bit 2 where a value changed.
+    `planes` is None where nothing lies, `blank` whether nothing did; `moved`, uint8, has bit 2 where `mark` was told
+    that a value changes.
     """
 
     def __init__(self, level: int, rect: Rect, planes: Planes | None) -> None:
@@ -66,14 +67,16 @@ class Around:
     def take(self, patches: Sequence[Patch]) -> None:
         """Puts the new values of patches of this level in their places."""
         whole = self.with_inks(merged(*(patch.new.inks for patch in patches)))
-        if patches and self.moved is None:
-            self.moved = np.zeros((self.rect.height, self.rect.width), np.uint8)
         for patch in patches:
-            assert self.moved is not None
-            planes, (changed, spans) = plane_map(patch.new.inks, whole.inks), patch.marks
+            planes, (_, spans) = plane_map(patch.new.inks, whole.inks), patch.marks
             top, left = patch.at.y0 - self.rect.y0, patch.at.x0 - self.rect.x0
             lifting.place_changed(patch.new.data, planes, spans, whole.data, top, left)
-            self.moved[top : top + patch.at.height, left : left + patch.at.width] = changed
+
+    def mark(self, patches: Sequence[Patch]) -> None:
+        """Notes where patches of this level change it."""
+        self.moved = np.zeros((self.rect.height, self.rect.width), np.uint8)
+        for patch in patches:
+            self.moved[patch.at.slices(self.rect)] = patch.marks[0]
 
     def spread(self, rect: Rect, touched: Marks) -> bool:
         """Marks the children of changed pixels in `touched`, over the even `rect`, and tells the columns of each row

@@ -56,22 +56,24 @@ def store(
     parts = {key: part for key, part in _reached(patches, lifted).items() if inside is None or key.rect.meets(inside)}
     values: dict[TileKey, Around] = {}
     before = None if above.blank else above.planes
+    above.mark(lifted)
     for key, part in parts.items():
         if here is not None:
             values[key] = here
         elif key in changed:
             values[key] = Around(level, key.rect, changed[key].new)
-        else:
+        elif above.spread(part, blank_marks(part.height, part.width)):
             values[key] = Around(level, part, step(pyramid, before, above.rect, level, part))
     above.take(lifted)
-    for key, part in parts.items():
+    for key, value in values.items():
+        part = parts[key]
         touched = blank_marks(part.height, part.width)
         patch = changed.get(key)
         if patch is not None:
             own = patch.dirty
             touched[0][own.slices(part)] = patch.marks[0][own.slices(patch.at)]
         if above.spread(part, touched):
-            record = _record(pyramid, _Renewed(key, part, touched, values[key], above, pyramid.depth + 1, pyramid.step))
+            record = _record(pyramid, _Renewed(key, part, touched, value, above, pyramid.depth + 1, pyramid.step))
             if not isinstance(record, _Told):
                 records[key] = record
 

@@ -80,15 +80,17 @@ class NewValues:
         rows, columns = part.slices(self.at)
         spans = np.minimum(np.maximum(self.spans[rows] - np.int32(columns.start), 0), part.width)
         planes = plane_map(self.planes.inks, out.inks)
-        values = self.planes.data[:, rows, columns]
+        values = np.ascontiguousarray(
+            self.planes.data[:, rows, columns]
+        )  # whatever is cut: so the kernel is compiled once
         lifting.place_changed(values, planes, spans, out.data, part.y0 - rect.y0, part.x0 - rect.x0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Made:
-    """What a commit made: `own`, where its own level changed; of the coarser levels, what was written."""
+    """What a commit made: `own`, where its own level changed, by tile; of the coarser levels, what was written."""
 
-    own: tuple[Rect, ...]
+    own: Mapping[tuple[int, int], Rect]
     coarser: Mapping[int, Sequence[NewValues]]
 
     @classmethod
@@ -97,7 +99,13 @@ class _Made:
         for patch in patches:
             if patch.key.level < level:
                 coarser.setdefault(patch.key.level, []).append(NewValues.of(patch))
-        return cls(tuple(patch.dirty for patch in patches if patch.key.level == level), coarser)
+        return cls({(patch.key.x, patch.key.y): patch.dirty for patch in patches if patch.key.level == level}, coarser)
+
+    def meets(self, rect: Rect) -> bool:
+        """Tells whether its own level changed in a rectangle."""
+        x0, y0, x1, y1 = rect.within_tiles()
+        near = [self.own.get((x, y)) for y in range(y0, y1) for x in range(x0, x1)]
+        return any(own is not None and own.meets(rect) for own in near)
 
     @property
     def nbytes(self) -> int:
@@ -139,7 +147,7 @@ class Raised:
                 made = self._made.get(change)
                 if made is None or level > change.level:
                     return None
-                if level == change.level and any(own.meets(rect) for own in made.own):
+                if level == change.level and made.meets(rect):
                     return None
                 found += [written for written in made.coarser.get(level, ()) if written.at.meets(rect)]
             change = change.before
