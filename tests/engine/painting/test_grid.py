@@ -196,3 +196,34 @@ def test_info_tells_the_grid(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["grid"] == 12
     assert main(["info", str(tmp_path / "a.ora")]) == 0
     assert "grid" in capsys.readouterr().out
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("opacity", [0.002, 0.005, 0.02])
+def test_a_thousand_soft_strokes_do_not_band(opacity):
+    """Against the same on the fine grid, in levels of 8 bits: no shift, and a grain that is less than one, in place of
+    terraces; rounded to the nearest, half a level would be missing, and up to five where most strokes overlap."""
+    rng = np.random.default_rng(1)
+    brush = {"radius": 90, "hardness": 0, "opacity": opacity, "colour": "#f0c890"}
+    ends = [(x - 60, y, x + 60, y) for x, y in zip(rng.normal(160, 60, 1000), rng.normal(96, 40, 1000), strict=True)]
+    ground = {"do": "stroke", "points": [[-50, 96], [370, 96]], "brush": {"radius": 300, "colour": "#304878"}}
+    soft = [{"do": "stroke", "points": [[a, b], [c, d]], "brush": brush} for a, b, c, d in ends]
+    pictures = []
+    for grid in (16, 12):
+        painting = replay(recording({"inkfall": 2, "grid": grid}, ground, *soft)).painting
+        (layer,) = layers(painting.root)
+        pictures.append(evaluate(layer.pyramid, 0, Rect(0, 0, 320, 192)).rgba[:3] * 255)
+    fine, coarse = pictures
+    error = coarse - fine
+    assert abs(error.mean()) < 0.03
+    assert error.std() < 0.6
+    smooth = error.reshape(3, 24, 8, 40, 8).mean(axis=(2, 4))  # what one sees as bands is left of it
+    assert np.abs(smooth).max() < 0.4
+    assert (np.abs(np.rint(coarse) - np.rint(fine)) > 1).mean() < 0.005
+    assert longest_run(np.rint(coarse)) <= longest_run(np.rint(fine)) + 4
+
+
+def longest_run(values):
+    """The most pixels in a row that are equal."""
+    rows = values.reshape(-1, values.shape[-1])
+    return max(int(np.diff(np.flatnonzero(np.r_[True, np.diff(row) != 0, True])).max()) for row in rows)
