@@ -99,7 +99,7 @@ def test_levels_left_behind_are_evicted_first():
         cache.look_at(level)
         evaluate(pyramid, level, Rect(-128, -128, 128, 128), cache)
     assert known() == [4] * 6
-    cache.budget = 10 << 20
+    cache.budget = 12 << 20  # half of it for levels beside the one that is seen
     cache.look_at(4)
     *behind, third, fourth, fifth = known()
     assert (third, fourth, fifth) == (4, 4, 4)
