@@ -34,6 +34,8 @@ class Narrow(Spill):
         self.room = room
 
     def put(self, piece):
+        with self._lock:
+            self._collect()  # what nobody holds any more has no part in what is full
         return super().put(piece) if self.held + len(piece) <= self.room else None
 
 
