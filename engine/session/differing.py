@@ -68,6 +68,15 @@ def changed_records(far: Group, near: Group) -> Iterator[OnlyHere]:
             yield from _only(layer.pyramid, other)
 
 
+def apart_records(far: Group, near: Group) -> Iterator[OnlyHere]:
+    """As `changed_records`, and those of layers that the other state has not."""
+    there = {layer.id: layer.pyramid.uid for layer in layers.layers(near)}
+    for layer in layers.layers(far):
+        if there.get(layer.id) != layer.pyramid.uid:
+            yield from ((key, record, None) for key, record in layer.pyramid.all_records())
+    yield from changed_records(far, near)
+
+
 def lost_records(old: Group, new: Group) -> Iterator[Record]:
     """Yields the records that one state of the layers has and a later one has not."""
     there = {layer.id for layer in layers.layers(new)}

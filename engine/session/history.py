@@ -23,7 +23,7 @@ from engine.keeping import memory
 from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, decode
-from engine.session.differing import changed_records, difference, lost_records
+from engine.session.differing import apart_records, difference, lost_records
 from engine.session.line import StepLine, Undoable
 
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
@@ -103,7 +103,7 @@ class History(Owned):
         if other is self._done:
             left, self._root = self._root, left
         # What else the present holds it held before.
-        self._mixed.extend((key, record) for key, record, _ in changed_records(self._root, left))
+        self._mixed.extend((key, record) for key, record, _ in apart_records(self._root, left))
         return step
 
     def at(self, by: int) -> Painting | None:
@@ -140,10 +140,9 @@ class History(Owned):
     def step(self) -> None:
         """Makes a record of the present that is made of others plain, or codes some records of a step, or puts a step
         away on disk: a piece of work of some milliseconds."""
-        # What is coded by itself may be so because there is no room for more (`Paging`), and holds nothing else.
         while self._mixed:
             key, record = self._mixed.popleft()
-            if _made_of_others(record) and _has(self._root, key, record):
+            if _in_the_way(record, self.tight) and _has(self._root, key, record):
                 decode(record)
                 return
         line = max(self._done, self._undone, key=lambda line: line.plain)
@@ -176,5 +175,6 @@ def _has(root: Group | None, key: TileKey, record: Record) -> bool:
     return root is not None and any(layer.pyramid.holds(key, record) for layer in layers.layers(root))
 
 
-def _made_of_others(record: Record) -> bool:
-    return isinstance(record.held, CodedData) and record.held.other is not None
+def _in_the_way(record: Record, tight: bool) -> bool:
+    """Tells whether a record of the present is to be made plain: what is coded by itself only where there is room."""
+    return isinstance(record.held, CodedData) and (record.held.other is not None or not tight)

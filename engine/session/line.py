@@ -12,7 +12,7 @@ from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
-from engine.session.differing import changed_records, difference
+from engine.session.differing import apart_records, difference
 
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 
@@ -127,7 +127,7 @@ class StepLine:
     def put_away(self) -> None:
         """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
         entry = self.entries[self._away]
-        coded = (record.held for _, record, _ in changed_records(*_ends(entry.step, self._undone)))
+        coded = (record.held for _, record, _ in apart_records(*_ends(entry.step, self._undone)))
         saved = sum(put_away(held) for held in coded if isinstance(held, CodedData))
         entry.held -= saved
         self.held -= saved
@@ -137,7 +137,7 @@ class StepLine:
         """Codes one record of a step's far end after the other; yields the bytes of data that were looked at."""
         far, near = _ends(step, self._undone)
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
-        for key, record, other in changed_records(far, near):
+        for key, record, other in apart_records(far, near):
             if not any(pyramid.holds(key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes
                 self._code(record, other)

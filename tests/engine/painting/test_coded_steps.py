@@ -316,3 +316,24 @@ def test_bytes_of_integers_are_told_apart_and_put_together(kind, seed):
     together = joined_bytes(apart, values.dtype).reshape(values.shape)
     assert together.dtype == kind
     assert np.array_equal(together, values)
+
+
+def test_layers_that_were_removed_are_coded_and_plain_again_when_they_are_back():
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History())
+    session.do(c.AddLayer("Above"))
+    for n in range(6):
+        session.do(stroke(n, radius=30.0))
+    before, held = contents(session.painting), records(session.painting)
+    session.do(c.RemoveLayer("Above"))
+    session.do(c.AddLayer("Other"))
+    plain = session.history.held
+    code_all(session.history)
+    assert session.history.held < plain / 2
+    assert any(isinstance(record.held, CodedData) for record in held)
+    check_what_is_held(session)
+    session.do(c.Undo(2))
+    assert contents(session.painting) == before
+    rest(session.history)
+    assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
+    assert contents(session.painting) == before
+    check_what_is_held(session)
