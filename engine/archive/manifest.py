@@ -20,7 +20,8 @@ from engine.brush.checks import frozen, thawed
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing import loops
-from engine.canvas.placing.placement import Placement, Pose
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose
 from engine.canvas.store import Pyramid
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
@@ -34,6 +35,7 @@ from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
 from engine.texture.image import ImageSource
+from engine.texture.placed import PlacedInk
 from engine.texture.table import TextureError
 
 FORMAT = 5  # of paintings of the grid of 2^-12, and of those with placements
@@ -162,8 +164,11 @@ def manifest_json(
 
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
-    plain = painting.grid == FINE and not any(True for _ in loops.placements(painting.root))
-    return FINE_FORMAT if plain else FORMAT
+    if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
+        return FORMAT
+    records = (record for layer in layers.layers(painting.root) for _, record in layer.pyramid.all_records())
+    placed = any(isinstance(ink, PlacedInk) for record in records for ink in record.inks)
+    return FORMAT if placed else FINE_FORMAT
 
 
 def _pack_json(pack: Pack) -> list[Any]:

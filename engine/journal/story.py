@@ -22,7 +22,8 @@ from engine.journal import records
 from engine.journal.frames import Frame, frames_in
 from engine.journal.records import ASKED, NUMBER, Kind, Members, Touch
 from engine.painting.commands import COUNT_LIMIT, SEED_LIMIT, Command, Stroke
-from engine.painting.points import fitted, rounded
+from engine.painting.pen_points import fitted
+from engine.painting.points import rounded
 
 JOURNAL = "journal-"
 _NAMED = re.compile(JOURNAL + "[0-9]{1,9}")

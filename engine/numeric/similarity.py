@@ -7,13 +7,13 @@ in.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
 from engine.numeric.address import Rect
 
 _SLACK, _SLACK_BITS = 46341, 16  # 2^-1/2: a scale of 1 + 1e-17, from a rounded cos and sin, is no level finer
+_FRACTION, _PLACES = 40, 96  # bits of a logarithm behind the point, and of what it is worked out with
 _QUARTERS = {(1, 0): 0, (0, 1): 1, (-1, 0): 2, (0, -1): 3}
 
 
@@ -92,8 +92,7 @@ class Similarity:
     def log_scale(self) -> float:
         """Gives log2 |c|."""
         n, e = self.squared
-        spare = max(0, n.bit_length() - 60)
-        return (math.log2(n >> spare) + spare - e) / 2
+        return (_log2(n) - e) / 2
 
     @cached_property
     def like_levels(self) -> int:
@@ -177,6 +176,17 @@ class Similarity:
 def _dropped(number: Dyadic, bits: int) -> Dyadic:
     """Returns a number without its last bits."""
     return number if bits <= 0 else Dyadic.of(number.x >> bits, number.y >> bits, number.e - bits)
+
+
+def _log2(number: int) -> float:
+    """Returns the logarithm of a whole number, rounded down to 2^-40: the same on every machine."""
+    whole, bits = number.bit_length() - 1, 0
+    x = number << _PLACES >> whole
+    for _ in range(_FRACTION):
+        x = x * x >> _PLACES
+        above = x >> _PLACES + 1
+        x, bits = x >> above, 2 * bits + above
+    return whole + bits / (1 << _FRACTION)
 
 
 def _floor(value: int, shift: int) -> int:

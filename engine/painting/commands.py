@@ -21,6 +21,7 @@ from engine.painting import layer_commands, places
 from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
 from engine.painting.layer_commands import AddLayer as AddLayer
 from engine.painting.layer_commands import AddPlacement as AddPlacement
+from engine.painting.layer_commands import BakePlacement as BakePlacement
 from engine.painting.layer_commands import DuplicateLayer as DuplicateLayer
 from engine.painting.layer_commands import LayerCommand as LayerCommand
 from engine.painting.layer_commands import MoveLayer as MoveLayer

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from immutables import Map
 
 from engine.brush.checks import thawed
-from engine.canvas.placing.placement import FINEST, MOST_LEVELS, Placement, Pose, SourcePart
+from engine.canvas.placing.pose import FINEST, MOST_LEVELS, Pose, SourcePart
 from engine.checks.field_error import FieldError
 from engine.checks.values import is_number
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.painting.places import PLACE_LIMIT
+
+if TYPE_CHECKING:
+    from engine.canvas.placing.placement import Placement
 
 COUNT_LIMIT = 1_000_000_000
 Members = dict[str, Any]
@@ -39,6 +42,14 @@ class AddLayer:
     kind: str = "layer"
     group: str | Same | None = Same.SAME
     to: int | None = None
+    extra: Extra = _NOTHING
+
+
+@dataclass(frozen=True, slots=True)
+class BakePlacement:
+    """Makes paint of its own of what a placement shows; it becomes a layer in its place."""
+
+    name: str
     extra: Extra = _NOTHING
 
 
@@ -277,6 +288,7 @@ class LayerForm(NamedTuple):
 
 LAYER_FORMS: dict[str, LayerForm] = {
     "add": LayerForm(AddLayer, _new_place),
+    "bake": LayerForm(BakePlacement, _no_more),
     "select": LayerForm(SelectLayer, _no_more),
     "remove": LayerForm(RemoveLayer, _no_more),
     "rename": LayerForm(RenameLayer, _new_name),
@@ -289,7 +301,17 @@ _KINDS: dict[str, Callable[[Fields], tuple[type, Members]]] = {
     "group": lambda members: (AddLayer, {"kind": "group"}),
     "placement": lambda members: (AddPlacement, {"placing": read_placing(members)}),
 }
-LayerCommand = AddLayer | AddPlacement | SelectLayer | RemoveLayer | RenameLayer | DuplicateLayer | MoveLayer | SetLayer
+LayerCommand = (
+    AddLayer
+    | AddPlacement
+    | BakePlacement
+    | SelectLayer
+    | RemoveLayer
+    | RenameLayer
+    | DuplicateLayer
+    | MoveLayer
+    | SetLayer
+)
 RECORDS: tuple[type, ...] = (AddPlacement, *(form.record for form in LAYER_FORMS.values()))
 _VERBS: dict[type, str] = {AddPlacement: "add", **{form.record: verb for verb, form in LAYER_FORMS.items()}}
 
@@ -327,5 +349,5 @@ def write_layer(command: LayerCommand) -> Members:
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    placed = command.placing is not None if isinstance(command, SetLayer) else isinstance(command, AddPlacement)
-    return 2 if placed else 1
+    placed = isinstance(command, SetLayer) and command.placing is not None
+    return 2 if placed or isinstance(command, AddPlacement | BakePlacement) else 1

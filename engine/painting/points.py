@@ -8,27 +8,25 @@ import numpy as np
 
 from engine.checks.field_error import FieldError
 from engine.checks.values import described
-from engine.numeric.kernel import Array, kernel
-from engine.numeric.stand_in import or_interpreted
 
 POINTS_CAP = 1_000_000  # of one stroke
-_REACH = float(1 << 24)  # pixels from a stroke's origin to its points
+REACH = float(1 << 24)  # pixels from a stroke's origin to its points
 
 # Columns of a stroke's points: name, default, lowest and highest value.
 POINT_COLUMNS = (
-    ("x", 0.0, -_REACH, _REACH),
-    ("y", 0.0, -_REACH, _REACH),
+    ("x", 0.0, -REACH, REACH),
+    ("y", 0.0, -REACH, REACH),
     ("pressure", 1.0, 0.0, 1.0),
     ("tilt_x", 0.0, -90.0, 90.0),
     ("tilt_y", 0.0, -90.0, 90.0),
     ("t", 0.0, -1e9, 1e9),
 )
-_DEFAULTS = np.array([column[1] for column in POINT_COLUMNS])
-_TAILS = {n: tuple(_DEFAULTS.tolist()[n:]) for n in range(2, 7)}
+DEFAULTS = np.array([column[1] for column in POINT_COLUMNS])
+_TAILS = {n: tuple(DEFAULTS.tolist()[n:]) for n in range(2, 7)}
 _NUMERIC = {int, float}
 _DECIMALS = (3, 3, 4, 2, 2, 4)
-_LOWEST = np.array([column[2] for column in POINT_COLUMNS])
-_HIGHEST = np.array([column[3] for column in POINT_COLUMNS])
+LOWEST = np.array([column[2] for column in POINT_COLUMNS])
+HIGHEST = np.array([column[3] for column in POINT_COLUMNS])
 
 
 def points_array(rows: Any, place: str) -> np.ndarray:
@@ -50,7 +48,7 @@ def points_array(rows: Any, place: str) -> np.ndarray:
 def checked_points(table: np.ndarray, place: str) -> np.ndarray:
     """Returns the points themselves, read-only, if all are within their columns' bounds; else FieldError for the
     first."""
-    good = (table >= _LOWEST) & (table <= _HIGHEST)
+    good = (table >= LOWEST) & (table <= HIGHEST)
     if not good.all():
         i, column = (int(v) for v in np.argwhere(~good)[0])
         name, _, lo, hi = POINT_COLUMNS[column]
@@ -58,33 +56,6 @@ def checked_points(table: np.ndarray, place: str) -> np.ndarray:
     table += 0.0  # no negative zeros
     table.flags.writeable = False
     return table
-
-
-def fitted(given: np.ndarray) -> tuple[np.ndarray, int]:
-    """Returns what a pen told, float64 (n, 2..6), as points (n, 6): within their columns' bounds, without those that
-    are no points (not finite, or too far away), and how many these were."""
-    table = np.empty((len(given), len(POINT_COLUMNS)))
-    told = np.ascontiguousarray(given).view()
-    told.flags.writeable = False  # whatever is given: so the kernel is compiled once
-    if _fill(told, _DEFAULTS, _LOWEST, _HIGHEST, table):
-        return table, 0
-    table[:, 3:] = np.nan_to_num(table[:, 3:], nan=0.0, posinf=0.0, neginf=0.0)
-    good = np.isfinite(table[:, :3]).all(axis=1) & (np.abs(table[:, :2]) <= _REACH).all(axis=1)
-    return np.clip(table[good], _LOWEST, _HIGHEST), int((~good).sum())
-
-
-@or_interpreted()
-@kernel
-def _fill(given: Array, defaults: Array, lowest: Array, highest: Array, out: Array) -> bool:
-    """Writes points (n, 2..6) into `out` (n, 6), with defaults for what is left out and without negative zeros; returns
-    whether all are within their columns' bounds."""
-    good = True
-    for i in range(out.shape[0]):
-        for j in range(out.shape[1]):
-            value = (given[i, j] if j < given.shape[1] else defaults[j]) + 0.0
-            out[i, j] = value
-            good = good and lowest[j] <= value and value <= highest[j]
-    return good
 
 
 def rounded(points: np.ndarray) -> np.ndarray:
@@ -97,7 +68,7 @@ def rounded(points: np.ndarray) -> np.ndarray:
 
 def points_json(points: np.ndarray) -> list[list[float]]:
     """Returns rows without their trailing defaults, whole numbers without a point."""
-    kept = np.where(points != _DEFAULTS, np.arange(1, 7), 2).max(axis=1)
+    kept = np.where(points != DEFAULTS, np.arange(1, 7), 2).max(axis=1)
     return [[plain(v) for v in row[:n]] for row, n in zip(points.tolist(), kept.tolist(), strict=True)]
 
 

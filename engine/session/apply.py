@@ -12,11 +12,12 @@ from typing import Any
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing import loops
+from engine.canvas.placing import baking, loops
 from engine.canvas.placing.placement import Placement
 from engine.checks.field_error import FieldError
 from engine.makers.makers import define
 from engine.painting import commands as c
+from engine.painting.grown import settled_root
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
@@ -65,6 +66,18 @@ def _add_placement(painting: Painting, command: c.AddPlacement, around: Around) 
     made = Placement(layers.next_id(painting.root), command.name)
     node = replace(made, **_placed(painting.root, made, command.placing))
     return _shown(with_node(painting, node, command.group, command.to))
+
+
+def _bake(painting: Painting, command: c.BakePlacement, around: Around) -> Painting:
+    node = layers.find(painting.root, command.name)
+    if not isinstance(node, Placement):
+        raise LayerError(f"layer {command.name!r}: found no placement, expected one to make paint of")
+    if layers.is_locked(painting.root, command.name):
+        raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
+    settled = settled_root(painting.root)
+    paint = baking.paint_of(settled, node, painting.frame, painting.grid)
+    layer = Layer(node.id, node.name, node.opacity, node.visible, node.blend, pyramid=paint)
+    return _shown(replace(painting, root=layers.substitute(painting.root, node.name, layer)))
 
 
 def _placed(root: Group, node: Placement, placing: c.Placing) -> dict[str, Any]:
@@ -151,6 +164,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
     c.AddLayer: _add,
     c.AddPlacement: _add_placement,
+    c.BakePlacement: _bake,
     c.SelectLayer: _select,
     c.RemoveLayer: _remove,
     c.RenameLayer: _rename,

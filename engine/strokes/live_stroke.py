@@ -15,7 +15,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.prediction import Predictor
 from engine.painting.commands import Stroke
-from engine.painting.points import fitted
+from engine.painting.pen_points import fitted
 from engine.painting.value import Painting, Refusal, layer_for
 
 POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have

@@ -16,6 +16,7 @@ from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.matched import Matched, MatchedCover, series, series_cover
+from engine.texture.placed import PlacedInk, similarity_of
 from engine.texture.procedural import Sawtooth, Squares, Stripes, White
 from engine.texture.record import Instance, kind_of_key
 from engine.texture.rock import Rock
@@ -170,6 +171,8 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         raise TextureError("key", described(key), "[kind, base level, parameters ...]")
     if key[0] == "shaped":
         return _shaped_from_key(key, images)
+    if key[0] == "placed":
+        return _placed_from_key(key, images)
     kind, arithmetic = kind_of_key(key[0]) if isinstance(key[0], str) else (key[0], LIBRARY)
     row = (_COVERS.get(kind) if isinstance(kind, str) else None) or _row(kind)
     _check_level(key[1])
@@ -202,6 +205,20 @@ def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> I
     if made.base != key[1]:
         raise TextureError("level", described(key[1]), f"{made.base}, that of the texture itself")
     return Shaped(made, _curve(key[2]))
+
+
+def _placed_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
+    """Returns a texture shown elsewhere: ["placed", base level, similarity, key of the texture itself]."""
+    similarity = similarity_of(key[2]) if len(key) == 4 else None
+    inner = key[3] if similarity is not None else None
+    if similarity is None or not isinstance(inner, list | tuple) or inner[:1] in (["placed"], ("placed",)):
+        raise TextureError("key", described(key), '["placed", base level, similarity of quarter turns, key]')
+    _check_level(key[1])
+    made, aligned = from_key(inner, images), similarity.aligned_from
+    shown = PlacedInk(made, similarity, key[1])
+    if (aligned is not None and key[1] < aligned) or key[1] < made.base - shown.levels:
+        raise TextureError("level", described(key[1]), "one at which it has whole pixels, not above the texture's own")
+    return shown
 
 
 def _curve(value: Any) -> Shape:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from engine.canvas.placing.placement import SourcePart
+from engine.canvas.placing.pose import SourcePart
 from engine.canvas.placing.sampling import Picture
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import reduce

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from engine.canvas.placing.placement import SourcePart
+from engine.canvas.placing.pose import SourcePart
 from engine.canvas.placing.sampling import density, source_level
 from engine.numeric.address import Rect
 from engine.numeric.kernel import kernel

@@ -5,66 +5,10 @@ It has no paint of its own: what it shows follows from its source at every level
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from functools import cached_property
 
 from engine.canvas.node_checks import check_common, check_flags, insist
-from engine.numeric.address import Rect
-from engine.numeric.similarity import Dyadic, Similarity
-
-MOST_LEVELS = 8192  # most powers of two by which a source is magnified or made smaller
-FARTHEST = 1 << 8192  # pixels: as far as places are told
-FINEST = 4096  # levels at which places and rectangles are told, and their negatives
-_QUARTERS = ((1, 0), (0, 1), (-1, 0), (0, -1))
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Where a source is shown: its place p, x + iy with y downwards, at 2^levels c m(p) + at.
-
-    c is `turn` quarters clockwise, or `turned`: its real and imaginary part, 1/2 <= |c| < 2, exactly what the doubles
-    say.  m(x + iy) is -x + iy where `mirror` is set, else p.  `at`: in pixels of `level`.
-    """
-
-    at: tuple[int, int] = (0, 0)
-    level: int = 0
-    levels: int = 0
-    turn: int = 0
-    turned: tuple[float, float] | None = None
-    mirror: bool = False
-
-    @cached_property
-    def similarity(self) -> Similarity:
-        """Gives it as a similarity."""
-        c = Dyadic.of(*_QUARTERS[self.turn]) if self.turned is None else Dyadic.exactly(*self.turned)
-        c = Dyadic.of(c.x, c.y, c.e - self.levels)
-        return Similarity(-c if self.mirror else c, Dyadic.of(*self.at, self.level), self.mirror)
-
-    def wrong(self) -> tuple[str, object, str] | None:
-        """Returns what is wrong with it: the member, what was found there, what was expected; None if nothing is."""
-        if max(map(abs, self.at)) > FARTHEST:
-            return "at", "a place too far", "integers up to 2^8192"
-        for name, most in (("level", FINEST), ("levels", MOST_LEVELS)):
-            if abs(getattr(self, name)) > most:
-                return name, getattr(self, name), f"an integer from -{most} to {most}"
-        if self.turn not in range(4):
-            return "turn", self.turn, "0, 1, 2 or 3 quarters"
-        if self.turned is None:
-            return None
-        if self.turn:
-            return "c", "a turn of quarters, too", "one of both"
-        if not all(map(math.isfinite, self.turned)) or not 0.5 <= math.hypot(*self.turned) < 2:
-            return "c", list(self.turned), "[re, im] with 1/2 <= |c| < 2"
-        return None
-
-
-@dataclass(frozen=True, slots=True)
-class SourcePart:
-    """A rectangle of a source, of which only what lies within is shown: pixels of `level`."""
-
-    level: int
-    rect: Rect
+from engine.canvas.placing.pose import FARTHEST, FINEST, UNMOVED, Pose, SourcePart
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +27,7 @@ class Placement:
     blend: str = "src-over"
     locked: bool = False
     of: int | None = None
-    pose: Pose = Pose()
+    pose: Pose = UNMOVED
     part: SourcePart | None = None
     repeat: bool = False
 

@@ -16,6 +16,7 @@ from engine.canvas.placing.sampling import Picture, sampled, source_level
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import reduce
 from engine.numeric.similarity import IDENTITY, Similarity
+from engine.texture.placed import oriented
 
 _FINER = 2  # levels by which a source may be read finer, and averaged, where its move is by parts of pixels
 _SURE, _FINEST = 192, 4200  # bits of c, and of t below level 0, that are kept of many turns in one another
@@ -116,8 +117,7 @@ def _turned(picture: Picture, similarity: Similarity, level: int, rect: Rect) ->
     found = picture(level + levels, back.shown(rect, level, level + levels))
     if found is None:
         return None
-    found = found[:, ::-1] if similarity.mirror else found
-    return np.ascontiguousarray(np.rot90(found, -quarters, axes=(1, 2))) if quarters or similarity.mirror else found
+    return np.ascontiguousarray(oriented(found, similarity)) if quarters or similarity.mirror else found
 
 
 def set_in(pixels: np.ndarray, part: Rect, rect: Rect) -> np.ndarray:

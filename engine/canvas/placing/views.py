@@ -31,11 +31,11 @@ class Views:
             found |= isinstance(node, Placement) or (isinstance(node, Group) and self._take(node))
         return found
 
-    def of(self, level: int) -> Iterator[tuple[int, Seen]] | None:
+    def of(self, level: int, node: int | None = None) -> Iterator[tuple[int, Seen]] | None:
         """Returns layers and how each is seen at a level, besides where it lies itself; None if there are too many
-        ways."""
+        ways.  `node`: the id of the placement through which alone one looks."""
         found: list[tuple[int, Seen]] = []
-        waiting: list[tuple[int, Seen]] = [(self._root, UNPLACED)]
+        waiting: list[tuple[int, Seen]] = [(self._root if node is None else node, UNPLACED)]
         for _ in range(_MOST + len(self._within)):
             if not waiting:
                 return iter(found)

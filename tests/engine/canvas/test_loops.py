@@ -11,7 +11,8 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import loops
-from engine.canvas.placing.placement import Placement, Pose, SourcePart
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose, SourcePart
 from engine.numeric.address import Rect
 
 FRAME = SourcePart(0, Rect(0, 0, 64, 64))

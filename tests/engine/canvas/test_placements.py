@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, Layer, find
-from engine.canvas.placing.placement import Placement, Pose, SourcePart
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import reduce

@@ -28,6 +28,7 @@ SAMPLES = {
     c.Stroke: c.Stroke(2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
     c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),
+    c.BakePlacement: c.BakePlacement("sky again"),
     c.SelectLayer: c.SelectLayer("sky"),
     c.RemoveLayer: c.RemoveLayer("cloud"),
     c.RenameLayer: c.RenameLayer("sky", "heaven"),

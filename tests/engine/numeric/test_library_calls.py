@@ -37,6 +37,7 @@ SHOWN = "shown, and part of no painting's pixels"
 SOLIDS = "solids, which no recording makes"
 HAND = "what the hand does, before it is recorded"
 LABELS = "which pixels hang together: whole numbers alone"
+REFUSED = "which placements are refused, and no pixel"
 REFERENCE = "the paper's own method, which `inkfall example` has for reference, and no painting"
 ALLOWED = {
     "numeric.array_functions": GIVEN,
@@ -54,6 +55,7 @@ ALLOWED = {
     "brush.tip": EXACT,
     "texture.grey": EXACT,
     "strokes.example_region": LABELS,
+    "canvas.placing.loops": REFUSED,
     "texture.example.scanline": REFERENCE,
     "brush.smoothing": HAND,
     "numeric.spectra": SHOWN,

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from engine.brush.checks import frozen
 from engine.brush.settings import Brush, Component
-from engine.canvas.placing.placement import FINEST, MOST_LEVELS, SourcePart
+from engine.canvas.placing.pose import FINEST, MOST_LEVELS, SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import dumps, loads
 from engine.numeric.address import Rect
@@ -80,6 +80,7 @@ COMMANDS = st.one_of(
     strokes(),
     st.builds(c.AddLayer, names, st.sampled_from(["layer", "group"]), groups, st.none() | positions, later),
     st.builds(c.AddPlacement, names, placings, groups, st.none() | positions, later),
+    st.builds(c.BakePlacement, names, later),
     st.builds(c.SelectLayer, names, later),
     st.builds(c.RemoveLayer, names, later),
     st.builds(c.RenameLayer, names, names, later),

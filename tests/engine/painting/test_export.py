@@ -102,7 +102,7 @@ def test_sheets_are_cut_from_the_pictures_of_the_layers(painting, monkeypatch, c
     assert np.array_equal(merged, to_rgba8(whole(painting.root, 0, frame)))
     for id, name in names.items():
         parts = [known[id] for known, _ in bands_of if id in known]
-        alone = whole(layers.alone(layers.find(painting.root, name)), 0, places[id])
+        alone = whole(layers.alone(layers.find(painting.root, name), painting.root), 0, places[id])
         assert np.array_equal(np.concatenate(parts), to_rgba8(alone)) if parts else places[id].empty
 
 
