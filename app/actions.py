@@ -12,6 +12,7 @@ from typing import NamedTuple
 from app.desk import offers
 from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
+from app.desk.known import moved_by
 from app.desk.places import going
 from engine.painting import commands as c
 from engine.studio.filing.film_requests import StopFilm
@@ -238,7 +239,18 @@ def _duplicate(desk: Desk) -> None:
 def _show_again(desk: Desk) -> None:
     name, aside = _active(desk), round(_ASIDE * desk.scale)
     placing = c.Placing(of=name, at=(aside, aside), level=desk.view.shown_level)
-    desk.post(Do(c.AddPlacement(next_layer_name(desk, f"{name} again"), placing)))
+    taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
+    wanted = f"{name} again"
+    desk.post(Do(c.AddPlacement(wanted if wanted not in taken else next_layer_name(desk, wanted), placing)))
+
+
+def _nudges(x: int, y: int) -> Callable[[Desk], None]:
+    def do(desk: Desk) -> None:
+        row = desk.known.active
+        if row is not None and not row.locked and desk.past.looking is None:
+            desk.post(Do(c.SetLayer(row.name, placing=moved_by(row, desk.view.shown_level, x, y))))
+
+    return do
 
 
 def _remove(desk: Desk) -> None:
@@ -310,6 +322,7 @@ ACTIONS: dict[str, Action] = {
     "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), _always, _is("brush")),
     "eraser": A("Eraser", "Tools", ("E",), "Erase; again to paint", _toggle_eraser, _always, _erasing),
     "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), _always, _is("pick")),
+    "move": A("Move", "Tools", ("V",), "Drag the layer", _tool("move"), _always, _is("move")),
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), _always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), _always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), _always, _is("turn")),
@@ -325,6 +338,10 @@ ACTIONS: dict[str, Action] = {
     "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), _layer),
     "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), _layer),
     "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, _layer),
+    "left": A("Nudge left", "Layer", ("Left",), "Move the layer by a pixel of what you see", _nudges(-1, 0), _layer),
+    "right": A("Nudge right", "Layer", ("Right",), "Move the layer by a pixel of what you see", _nudges(1, 0), _layer),
+    "up": A("Nudge up", "Layer", ("Up",), "Move the layer by a pixel of what you see", _nudges(0, -1), _layer),
+    "down": A("Nudge down", "Layer", ("Down",), "Move the layer by a pixel of what you see", _nudges(0, 1), _layer),
     "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),
     "fit": A("Fit the frame", "View", ("F", "2"), "Show the whole frame", Desk.fit),
     "one": A("One to one", "View", ("1",), "One pixel of level 0 on one of the screen", _one_to_one),

@@ -18,7 +18,12 @@ from app.tools import TOOLS
 
 _PATIENCE = 0.35  # seconds that something grows before that is shown
 MARKS = 16  # at most
-_SHAPES = {"pan": glfw.RESIZE_ALL_CURSOR, "turn": glfw.RESIZE_ALL_CURSOR, "zoom": glfw.CROSSHAIR_CURSOR}
+_SHAPES = {
+    "move": glfw.RESIZE_ALL_CURSOR,
+    "pan": glfw.RESIZE_ALL_CURSOR,
+    "turn": glfw.RESIZE_ALL_CURSOR,
+    "zoom": glfw.CROSSHAIR_CURSOR,
+}
 
 
 def shape(desk: Desk, panning: bool) -> int:

@@ -19,14 +19,18 @@ from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples import example_use
+from app.desk.known import moved_by
 from app.desk.match_state import SMALLEST
 from app.input.events import ENDS, PenEvent
 from app.trace import trace, trace_points
 from engine.brush.smoothing import Smoother
 from engine.numeric.address import Rect
+from engine.painting.layer_commands import SetLayer
+from engine.studio.moving.move_requests import Try
 from engine.studio.requests import (
     Abandon,
     Begin,
+    Do,
     Finish,
     LabBegin,
     LabEnd,
@@ -59,6 +63,9 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     layer = desk.known.active
     if layer is not None and layer.locked:
         desk.say(f"Layer “{layer.name}” is locked", bad=True)
+        return
+    if layer is not None and layer.shows is not None:
+        desk.say(f"“{layer.name}” shows “{layer.shows.name or 'the painting'}”: paint on that", bad=True)
         return
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
@@ -226,6 +233,34 @@ def paint_region(desk: Desk, first: PenEvent) -> Gesture:
         desk.post(RegionEnd(done))
 
 
+def move(desk: Desk, first: PenEvent) -> Gesture:
+    """The layer, group or placement that is chosen follows the pointer, by whole pixels of the level that is shown."""
+    row = desk.known.active
+    if row is None or desk.past.looking is not None:
+        desk.say("There is no layer to move" if row is None else "This is an earlier step", bad=True)
+        return
+    if row.locked:
+        desk.say(f"Layer “{row.name}” is locked", bad=True)
+        return
+    level = desk.view.shown_level
+    start, event, placing = desk.view.to_canvas(first.x, first.y).pixel(level), first, None
+    done = False
+    try:
+        while event.kind not in ENDS:
+            x, y = desk.view.to_canvas(event.x, event.y).pixel(level)
+            way = moved_by(row, level, x - start[0], y - start[1])
+            if way != placing:
+                placing = way
+                desk.post(Try(row.name, way))
+            event = yield
+        done = event.kind == "up"
+    finally:
+        if done and placing is not None:
+            desk.post(Do(SetLayer(row.name, placing=placing)))
+        else:
+            desk.post(Try(row.name, None))
+
+
 def swap(desk: Desk, first: PenEvent) -> Gesture:
     """Returns what was painted with an example, at the place touched, becomes like the chosen one."""
     event = first
@@ -255,6 +290,7 @@ class Tool(NamedTuple):
 
 TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
+    "move": Tool("Move", icons.MOVE, move, "Drag the layer, by whole pixels of what you see; nothing of it is lost"),
     "pan": Tool("Pan", icons.HAND, pan, "Drag the picture (Space or the middle button with any tool)"),
     "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),
     "turn": Tool("Turn", icons.ROTATE, turn, "Drag to turn the view; the painting itself stays as it is"),

@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from app.desk.presets import Paper, Preset
+from engine.canvas.placing.pose import Pose
 from engine.numeric.address import Rect
+from engine.painting.layer_commands import Placing
 from engine.studio import results
 from engine.studio.held.held_records import Held
 from engine.studio.results import (
@@ -127,3 +129,11 @@ _TELLERS: dict[type, Callable[[Known, Any, float], dict[str, Any]]] = {
     results.FilmLength: lambda known, r, now: {"film_length": r},
     Held: lambda known, r, now: {"held": r},
 }
+
+
+def moved_by(row: LayerRow, level: int, x: int, y: int) -> Placing | None:
+    """Returns where a layer, group or placement is when it is moved by pixels of a level; None: where it was."""
+    if not (x or y):
+        return None
+    by = Pose(at=(x, y), level=level)
+    return Placing.at_pose(by if row.shows is None else row.shows.pose.followed(by.similarity))

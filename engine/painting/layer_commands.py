@@ -118,9 +118,14 @@ class Placing:
     @classmethod
     def told(cls, node: Placement) -> Placing:
         """Tells where a placement is, and what of its source it shows; not which one."""
-        pose = {f.name: getattr(node.pose, f.name) for f in fields(Pose)}
-        pose["turned" if pose["turned"] is None else "turn"] = Same.SAME
-        return cls(**pose, part=node.part, repeat=node.repeat)
+        return replace(cls.at_pose(node.pose), part=node.part, repeat=node.repeat)
+
+    @classmethod
+    def at_pose(cls, pose: Pose) -> Placing:
+        """Tells a pose, and nothing of what is shown."""
+        told = {f.name: getattr(pose, f.name) for f in fields(Pose)}
+        told["turned" if pose.turned is None else "turn"] = Same.SAME
+        return cls(**told)
 
     def fields(self) -> Members:
         """Returns the fields of a placement that are given, but for its pose and its source."""

@@ -21,6 +21,7 @@ from engine.painting.grown import settled_root
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
+from engine.session.moving import elsewhere
 from engine.strokes.example_stroke import kind_of, swapped
 
 __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
@@ -145,9 +146,14 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
         changes = {**changes, "blend": changes["blend"].removeprefix("svg:")}
     if command.placing is not None:
         node = layers.find(painting.root, command.name)
-        if not isinstance(node, Placement):
-            raise LayerError(f"layer {command.name!r}: found no placement, expected one to set its place")
-        changes = {**changes, **_placed(painting.root, node, command.placing)}
+        if isinstance(node, Placement):
+            changes = {**changes, **_placed(painting.root, node, command.placing)}
+        else:
+            if layers.is_locked(painting.root, command.name):
+                raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
+            painting = elsewhere(painting, node, command.placing)
+    if not changes:
+        return _shown(painting)
     return _shown(replace(painting, root=layers.set_fields(painting.root, command.name, **changes)))
 
 

@@ -33,7 +33,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 node.blend,
                 node.locked,
                 alpha_locked,
-                results.Shows(names[node.of] if node.of else None) if isinstance(node, Placement) else None,
+                results.Shows(names[node.of] if node.of else None, node.pose) if isinstance(node, Placement) else None,
             )
         )
         if isinstance(node, Group):

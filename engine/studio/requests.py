@@ -15,9 +15,10 @@ from immutables import Map
 
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
-from engine.studio.filing.film_requests import FilmGrew, MakeFilm, PreviewFilm, StopFilm
+from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
+from engine.studio.moving.move_requests import Try
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 
@@ -366,10 +367,7 @@ Request = (
     | Recover
     | Save
     | Export
-    | MakeFilm
-    | PreviewFilm
-    | StopFilm
-    | FilmGrew
+    | FilmRequest
     | Do
     | Begin
     | Points
@@ -392,6 +390,7 @@ Request = (
     | Prepare
     | PastRequest
     | Tend
+    | Try
 )
 
 

@@ -18,6 +18,7 @@ from engine.studio.held.held_records import Held
 from engine.studio.past.past_records import Here, PastScene
 
 if TYPE_CHECKING:
+    from engine.canvas.placing.pose import Pose
     from engine.painting.places import Bookmark
 
 
@@ -64,9 +65,10 @@ class Same:
 
 @dataclass(frozen=True, slots=True)
 class Shows:
-    """What a placement shows: the node of that name; None: the whole painting."""
+    """What a placement shows, and where: the node of that name; None: the whole painting."""
 
     name: str | None
+    pose: Pose
 
 
 @dataclass(frozen=True, slots=True)

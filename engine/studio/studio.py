@@ -30,6 +30,7 @@ from engine.studio.journalled.posts import Posts
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.lab import Lab
 from engine.studio.matcher import Matcher
+from engine.studio.moving.moves import Moves
 from engine.studio.past.here import HereFinder
 from engine.studio.past.past_list import PastList
 from engine.studio.past.trail import Trail
@@ -119,6 +120,7 @@ class Studio(Owned):
             Tend: lambda r: None,
             **self.filing.handlers,
             **Warming(send).handlers,
+            **Moves(easel).handlers,
         }
         for row in self._rows:
             self._handlers |= row.handlers

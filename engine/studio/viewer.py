@@ -19,8 +19,9 @@ from engine.painting.value import Painting
 from engine.session.session import Session
 from engine.strokes.example_stroke import Live
 from engine.strokes.paint_stroke import LiveStroke
-from engine.studio import placed_stroke, results
 from engine.studio import requests as q
+from engine.studio import results
+from engine.studio.moving import placed_stroke
 from engine.studio.sight import Key, Sight, tile_rect
 
 _NOTHING = Rect(0, 0, 0, 0)

@@ -114,7 +114,7 @@ class BrushPanel:
             ("brush", icons.BRUSH, desk.hand.tool == "brush" and not desk.hand.erasing),
             ("eraser", icons.ERASER, desk.hand.tool == "brush" and desk.hand.erasing),
         ]
-        names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "pan", "zoom", "turn")]
+        names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
         gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
         for i, (name, icon, on) in enumerate(names):
             if i:

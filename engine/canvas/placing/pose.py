@@ -38,6 +38,23 @@ class Pose:
         c = Dyadic.of(c.x, c.y, c.e - self.levels)
         return Similarity(-c if self.mirror else c, Dyadic.of(*self.at, self.level), self.mirror)
 
+    @classmethod
+    def of(cls, similarity: Similarity) -> Pose:
+        """Returns the pose that shows a source through a similarity; one that is not of quarter turns has a turn that
+        two doubles tell."""
+        c = -similarity.c if similarity.mirror else similarity.c
+        at, level, mirror = (similarity.t.x, similarity.t.y), similarity.t.e, similarity.mirror
+        if similarity.quarter is not None:
+            return cls(at, level, similarity.quarter[0], _QUARTERS.index((c.x, c.y)), mirror=mirror)
+        levels = max(abs(c.x), abs(c.y)).bit_length() - 1 - c.e  # the longer part is 1 to 2 times 2^levels
+        if c.x**2 + c.y**2 >= 4 << (2 * (levels + c.e)):
+            levels += 1
+        return cls(at, level, levels, turned=(_double(c.x, c.e + levels), _double(c.y, c.e + levels)), mirror=mirror)
+
+    def followed(self, by: Similarity) -> Pose:
+        """Returns the pose that shows a source by this one and then by a similarity of quarter turns."""
+        return Pose.of(self.similarity.then(by))
+
     def wrong(self) -> tuple[str, object, str] | None:
         """Returns what is wrong with it: the member, what was found there, what was expected; None if nothing is."""
         if max(map(abs, self.at)) > FARTHEST:
@@ -62,6 +79,11 @@ class SourcePart:
 
     level: int
     rect: Rect
+
+
+def _double(value: int, down: int) -> float:
+    """Returns value 2^-down, which is a double."""
+    return float(Fraction(value << max(-down, 0), 1 << max(down, 0)))
 
 
 UNMOVED = Pose()

@@ -55,3 +55,6 @@ class FilmGrew:
     """So much of the film is made, 0..1; posted by the thread that makes it."""
 
     part: float
+
+
+FilmRequest = MakeFilm | PreviewFilm | StopFilm | FilmGrew

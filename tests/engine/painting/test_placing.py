@@ -96,7 +96,7 @@ def test_what_cannot_be_done_is_refused_and_nothing_has_changed():
         (placement("Other", of=None, rect=[0, 0, 0, 9, 9]), "halve"),
         (placement("Other", repeat=True), "rect"),
         ({"do": "layer", "remove": "Tree"}, "'Copy' showing it"),
-        ({"do": "layer", "set": "Tree", "at": [1, 1]}, "no placement"),
+        ({"do": "layer", "set": "Tree", "repeat": True}, "no placement"),
         ({"do": "layer", "set": "Copy", "of": None}, "no rect"),
         (stroke(2, layer="Copy"), "placement"),
     ):

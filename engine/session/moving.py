@@ -1,0 +1,52 @@
+"""Layers and groups moved, turned and scaled: what lies on whole pixels exactly, anything else without a pixel lost."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from engine.canvas import layers
+from engine.canvas.flatten import flattened
+from engine.canvas.layers import Group, Layer
+from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.bake import baked
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import UNMOVED, Pose
+from engine.painting.layer_commands import Placing, Same
+from engine.painting.value import Painting
+
+
+def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Painting:
+    """Returns the painting with a layer or group elsewhere, as a placement would show it.
+
+    A layer that is moved by quarter turns and powers of two stays one, with its paint in other places.  Any other node
+    stays where it is, hidden, as "NAME (source)", and a placement shows it under its name.
+    """
+    given = placing.fields() or placing.of is not Same.SAME
+    if given:
+        raise LayerError(f"layer {node.name!r}: found no placement, expected one to set what it shows")
+    pose = placing.posed(UNMOVED)
+    if isinstance(node, Layer) and pose.similarity.quarter is not None:
+        paint = (flattened(node) if node.growth else node).pyramid
+        here = replace(node, pyramid=baked(paint, pose.similarity), growth=())
+        return replace(painting, root=layers.substitute(painting.root, node.name, here))
+    return replace(painting, root=_shown_from_beside(painting.root, node, pose))
+
+
+def tried(painting: Painting, name: str, placing: Placing) -> Painting:
+    """Returns how a painting looks with a node elsewhere, made at once: no paint is touched."""
+    node = layers.find(painting.root, name)
+    if isinstance(node, Placement):
+        root = layers.substitute(painting.root, name, replace(node, pose=placing.posed(node.pose)))
+    else:
+        root = _shown_from_beside(painting.root, node, placing.posed(UNMOVED))
+    return replace(painting, root=root)
+
+
+def _shown_from_beside(root: Group, node: Layer | Group, pose: Pose) -> Group:
+    """Returns the tree with a placement in a node's place, right above the node, which is hidden."""
+    source = replace(node, name=layers.free_name(root, f"{node.name} (source)"), visible=False)
+    shown = Placement(
+        layers.next_id(root), node.name, node.opacity, node.visible, node.blend, node.locked, node.id, pose
+    )
+    group, position = layers.place(root, node.name)
+    return layers.insert(layers.substitute(root, node.name, source), shown, group, position + 1)

@@ -1,0 +1,1 @@
+"""What is seen elsewhere while it is dragged or painted."""

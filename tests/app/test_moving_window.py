@@ -1,0 +1,55 @@
+"""A layer moved by hand in the real window."""
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+FROM, TO = (420, 330), (500, 390)
+CHEQUER = 13  # of 255: the difference of the squares under the paint, which stay
+INNER = slice(150, 560), slice(150, 560)  # of the canvas, far from its rims
+
+
+@pytest.fixture
+def app(program):
+    """The window with a stroke, one pixel of level 0 on one of the screen."""
+    app = program()
+    app.settled(60.0)
+    app.keys("1")
+    empty = app.canvas()
+    app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))
+    app.canvas_unlike(empty)
+    return app
+
+
+def test_a_layer_is_dragged_and_nudged_and_nothing_of_it_is_lost(app):
+    painted = app.canvas()
+    app.keys("v")
+    app.stroke(FROM, (450, 350), (480, 380), TO)
+    dragged = app.canvas_unlike(painted)
+    by = TO[1] - FROM[1], TO[0] - FROM[0]
+    assert np.abs(dragged[INNER] - np.roll(painted, by, axis=(0, 1))[INNER]).max() <= CHEQUER
+    app.keys("Right")
+    app.canvas_unlike(dragged)
+    app.keys("ctrl+z", "ctrl+z")
+    assert app.comes_to(painted)
+    assert not any(key[1] == "Layer 1 (source)" for key in app.boxes())
+
+
+def test_what_is_shown_again_is_moved_by_itself_and_leads_to_its_source(app):
+    once = app.canvas()
+    app.click("show_again")
+    app.box("Layer 1 again")
+    twice = app.canvas_unlike(once)
+    app.click("Layer 1 again")
+    app.keys("v")
+    app.stroke(FROM, (440, 350), TO)
+    apart = app.canvas_unlike(twice)
+    app.keys("b")
+    app.stroke((440, 320), (470, 330))
+    assert np.array_equal(app.canvas(), apart)
+    app.click("source")
+    app.settled()  # it is chosen
+    app.stroke((600, 520), (680, 560))
+    both = app.canvas_unlike(apart)
+    changed = (np.abs(both - apart).max(axis=2) > 8).any(axis=1)
+    assert changed.sum() > 60  # the stroke, and beside it the one that the placement shows

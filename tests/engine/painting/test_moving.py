@@ -1,0 +1,145 @@
+"""Layers, groups and placements moved: exactly where that can be, and nothing is lost where it cannot."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.canvas import layers
+from engine.canvas.composite import composite
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose
+from engine.canvas.reading import layer_planes
+from engine.numeric.address import Rect
+from engine.numeric.similarity import Dyadic, Similarity
+from engine.painting import commands as c
+from engine.painting.value import Refusal
+from engine.session.moving import tried
+from engine.session.session import Session
+from engine.studio import requests as q
+from engine.studio.moving.move_requests import Try
+from engine.studio.sight import tile_rect
+from engine.studio.studio import Studio
+
+WINDOW = Rect(-60, -50, 140, 120)
+TURNED = {"c": [0.8, 0.6], "at": [12, -5]}
+
+
+def painted(*commands):
+    session = Session()
+    brush = {"radius": 9, "colour": "#306080"}
+    strokes = [{"do": "stroke", "points": [[x, 10], [x + 30, 40]], "brush": brush} for x in (0, 25)]
+    for command in (*strokes, *commands):
+        session.do(c.parse(command))
+    return session
+
+
+def picture(painting, level=0, rect=WINDOW):
+    return composite(painting.root, level, rect, layer_planes)
+
+
+def test_a_layer_is_moved_by_whole_pixels_and_can_be_painted_on():
+    session = painted()
+    before = picture(session.painting)
+    session.do(c.parse({"do": "layer", "set": "Layer 1", "at": [17, -6]}))
+    moved = picture(session.painting, 0, Rect(-43, -56, 157, 114))
+    np.testing.assert_array_equal(moved, before)
+    assert len(list(layers.layers(session.painting.root))) == 1
+    session.do(c.parse({"do": "stroke", "points": [[50, 0]], "brush": {"radius": 20}}))
+    assert (picture(session.painting) != moved).any()
+    session.do(c.parse({"do": "undo", "count": 2}))
+    np.testing.assert_array_equal(picture(session.painting), before)
+
+
+@pytest.mark.parametrize("name", ["Layer 1", "Group"])
+def test_what_cannot_be_exact_stays_as_a_source(name):
+    session = painted(
+        {"do": "layer", "add": "Group", "kind": "group"},
+        {"do": "layer", "move": "Layer 1", "to": 0, "group": "Group"},
+        {"do": "layer", "set": name, "opacity": 0.5},
+    )
+    before = session.painting
+    session.do(c.parse({"do": "layer", "set": name, **TURNED}))
+    shown = layers.find(session.painting.root, name)
+    source = layers.find(session.painting.root, f"{name} (source)")
+    assert isinstance(shown, Placement)
+    assert (shown.of, shown.opacity, source.visible) == (source.id, 0.5, False)
+    assert picture(session.painting).any()
+    session.do(c.parse({"do": "layer", "set": name, "c": [1.0, 0.0], "at": [0, 0]}))
+    np.testing.assert_allclose(picture(session.painting), picture(before), atol=1e-6)
+
+
+def test_a_group_keeps_all_that_it_shows():
+    session = painted(
+        {"do": "layer", "add": "Group", "kind": "group"}, {"do": "layer", "move": "Layer 1", "to": 0, "group": "Group"}
+    )
+    before = picture(session.painting)
+    session.do(c.parse({"do": "layer", "set": "Group", "at": [5, 3]}))
+    np.testing.assert_array_equal(picture(session.painting, 0, Rect(-55, -47, 145, 123)), before)
+
+
+def test_what_cannot_be_is_refused():
+    session = painted({"do": "layer", "set": "Layer 1", "locked": True})
+    with pytest.raises(Refusal, match="locked"):
+        session.do(c.parse({"do": "layer", "set": "Layer 1", "at": [1, 1]}))
+    session = painted()
+    with pytest.raises(Refusal, match="no placement"):
+        session.do(c.parse({"do": "layer", "set": "Layer 1", "repeat": True}))
+
+
+QUARTERS = (1, 0), (0, 1), (-1, 0), (0, -1)
+moves = st.builds(
+    lambda q, k, x, y, e, mirror: Similarity(Dyadic.of(*QUARTERS[q], -k), Dyadic.of(x, y, e), mirror),
+    st.integers(0, 3), st.integers(-40, 40), st.integers(-(1 << 70), 1 << 70), st.integers(-99, 99),
+    st.integers(-30, 30), st.booleans(),
+)  # fmt: skip
+poses = st.one_of(
+    moves.map(Pose.of),
+    st.builds(
+        lambda re, im, at, mirror: Pose(at=at, turned=(re, im), mirror=mirror),
+        st.floats(0.6, 1.3), st.floats(-1.3, 1.3, allow_subnormal=False),
+        st.tuples(st.integers(-99, 99), st.integers(-99, 99)), st.booleans(),
+    ),
+)  # fmt: skip
+
+
+@given(poses, moves)
+def test_a_pose_follows_exactly(pose, by):
+    followed = pose.followed(by)
+    assert followed.similarity == pose.similarity.then(by)
+    assert followed.wrong() is None
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.integers(-30, 30), st.integers(-30, 30), st.integers(0, 3))
+def test_what_is_tried_looks_as_what_is_done(x, y, turn):
+    session = painted()
+    command = c.parse({"do": "layer", "set": "Layer 1", "at": [x, y], "turn": turn})
+    seen = picture(tried(session.painting, "Layer 1", command.placing))
+    session.do(command)
+    np.testing.assert_array_equal(picture(session.painting), seen)
+
+
+def test_what_is_dragged_is_seen_and_nothing_has_changed():
+    sent = []
+    studio = Studio(sent.append, lambda request: None)
+    studio.do(q.Begin(0, (0, 0), painted().log[0].brush))
+    studio.do(q.Points(np.array([[10.0, 10, 1, 0, 0, 0], [60, 50, 1, 0, 0, 0]])))
+    studio.do(q.Finish())
+    before = studio.easel.session.painting
+    tile = tile_rect((0, 0, 0))
+    still = studio.easel.viewer.picture(0, tile)
+    command = c.parse({"do": "layer", "set": "Layer 1", "at": [30, 20]})
+    studio.do(Try("Layer 1", command.placing))
+    seen = studio.easel.viewer.picture(0, tile)
+    assert (seen != still).any()
+    assert studio.easel.session.painting is before
+    studio.do(Try("nobody", command.placing))
+    np.testing.assert_array_equal(studio.easel.viewer.picture(0, tile), still)
+    studio.do(Try("Layer 1", command.placing))
+    studio.do(q.Do(command))
+    np.testing.assert_array_equal(studio.easel.viewer.picture(0, tile), seen)
+    assert studio.easel.session.painting is not before
+    assert replace(before, root=before.root).root is before.root
