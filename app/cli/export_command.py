@@ -113,7 +113,8 @@ def _bytes_of(options: argparse.Namespace, found: Opened) -> bytes:
 def _painting(options: argparse.Namespace, found: Opened) -> None:
     """As a painting: the frame is the smallest one that holds the rectangle; all detail goes along."""
     from engine.archive.saving import Snapshot, save
-    from engine.canvas.layers import alone, find, layers
+    from engine.canvas.layers import alone, find, layers, walk
+    from engine.canvas.placing.loops import placements
 
     painting, recording = found.painting, found.recording
     if options.rect is not None:
@@ -121,6 +122,11 @@ def _painting(options: argparse.Namespace, found: Opened) -> None:
         painting, recording = replace(painting, frame=rect.zoomed(-level)), None
     if options.layer is not None:
         root = alone(find(painting.root, options.layer), painting.root)
+        inside = {node.id for node in walk(root)}
+        if any(one.of not in inside for one in placements(root)):
+            raise Refused(
+                f"--layer: found {options.layer!r}, which shows what lies elsewhere, expected it baked before"
+            )
         top = next((layer.name for layer in reversed(list(layers(root)))), None)
         painting, recording = replace(painting, root=root, active=top), None
     with Progress("writing", 100) as tell:

@@ -161,3 +161,22 @@ def test_what_was_painted_at_a_place(saved, tmp_path, capsys):
     part = tmp_path / "part.ora"
     assert main(["export", str(saved), str(part), "--layer", "Sky"]) == 0
     assert "found no recording" in refused(capsys, "info", part, "--at", "0,26,21", status=1)
+
+
+def test_a_placement_is_told_and_exported_as_a_picture_alone(script, tmp_path, capsys):
+    more = [
+        {"do": "layer", "add": "Again", "kind": "placement", "of": "Sky", "at": [9, -4], "turn": 1},
+        {"do": "layer", "add": "Both ways", "kind": "placement", "of": "Again", "mirror": True},
+    ]
+    longer, placed = tmp_path / "longer.jsonl", tmp_path / "placed.ora"
+    longer.write_text("\n".join([script.read_text().strip(), *map(json.dumps, more)]) + "\n")
+    assert main(["play", str(longer), "--save", str(placed)]) == 0
+    assert main(["export", str(placed), str(tmp_path / "again.png"), "--layer", "Again"]) == 0
+    assert pixels(tmp_path / "again.png").any()
+    capsys.readouterr()
+    assert main(["info", str(placed), "--json"]) == 0
+    rows = {row["name"]: row for row in json.loads(capsys.readouterr().out)["layers"]}
+    assert (rows["Again"]["kind"], rows["Again"]["of"], rows["Again"]["at"]) == ("placement", "Sky", [9, -4])
+    assert main(["info", str(placed)]) == 0
+    assert "placement 'Both ways'; src-over 1; of 'Again'" in capsys.readouterr().out
+    assert "expected it baked" in refused(capsys, "export", placed, tmp_path / "again.ora", "--layer", "Again")
