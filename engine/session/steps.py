@@ -44,11 +44,15 @@ class Laid:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _State:
-    """The layers without their paint, the last step that led here, and what was laid on each layer, by its id."""
+    """The layers without their paint, the last step that led here, and what was laid on each layer, by its id.
+
+    `active`: the active layer right after that step; the painting has the one that was chosen since.
+    """
 
     painting: Painting
     step: LoggedStep | None
     laid: Map[int, Laid | None]
+    active: str | None = None
 
 
 class Steps(Owned):
@@ -91,8 +95,9 @@ class Steps(Owned):
     def active_at(self, number: int) -> str | None:
         """Returns the active layer that undoing, or doing again, up to the step of a number comes to."""
         by = number - self.count
-        state = self._done[number] if by < 0 else self._undone[-by] if by > 0 else self._now
-        return state.painting.active
+        if by > 0:
+            return self._undone[-by].active
+        return (self._done[number] if by < 0 else self._now).painting.active
 
     @property
     def root(self) -> Group:
@@ -110,9 +115,9 @@ class Steps(Owned):
         if isinstance(command, c.DefineTexture):
             self._textures = self._textures.set(command.name, command)
         elif isinstance(command, c.Undo):
-            self._travel(command.count, self._done, self._undone)
+            self._travel(command.count, self._done, self._undone, False)
         elif isinstance(command, c.Redo):
-            self._travel(command.count, self._undone, self._done)
+            self._travel(command.count, self._undone, self._done, True)
         elif type(command) in STEPS:
             before, number = self._now, 1 + len(self._done)
             self._now = self._after(LoggedStep(index, number, command, self._textures))
@@ -133,7 +138,7 @@ class Steps(Owned):
         if isinstance(command, c.RemoveLayer):  # a later layer may get the number of one that is gone
             held = {node.id for node in layers.walk(painting.root)}
             laid = Map({number: last for number, last in laid.items() if number in held})
-        return _State(painting, step, laid)
+        return _State(painting, step, laid, painting.active)
 
     def _after_stroke(self, step: LoggedStep, stroke: c.Stroke) -> _State:
         now = self._now
@@ -142,16 +147,18 @@ class Steps(Owned):
         except (Refusal, LayerError):  # the log is of another painting
             return replace(now, step=step)
         step = replace(step, locked=layer.alpha_locked)
-        return _State(painting, step, now.laid.set(layer.id, Laid(step, now.laid.get(layer.id))))
+        return _State(painting, step, now.laid.set(layer.id, Laid(step, now.laid.get(layer.id))), painting.active)
 
-    def _travel(self, count: int, back: list[_State], forth: list[_State]) -> None:
-        """As `Session` does it: what is no step stays as it is."""
+    def _travel(self, count: int, back: list[_State], forth: list[_State], redone: bool) -> None:
+        """As `Session` does it: what is no step stays as it is.  Where the active layer is gone, it is the one before
+        the step that is undone, or right after the one that is done again."""
         active = self._now.painting.active
         for _ in range(min(count, len(back))):
             forth.append(self._now)
             self._now = back.pop()
         found = self._now.painting
-        kept = active if active is not None and layers.has(found.root, active) else found.active
+        first = self._now.active if redone else found.active
+        kept = active if active is not None and layers.has(found.root, active) else first
         self._now = replace(self._now, painting=replace(found, active=kept))
 
 

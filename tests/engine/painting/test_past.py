@@ -115,6 +115,10 @@ def test_whatever_is_jumped_and_looked_at_the_recording_gives_the_painting(held,
     check_acts(held, acts)
 
 
+def test_a_jump_to_and_fro_leaves_the_layer_that_the_recording_leaves():
+    check_acts(False, [p.Jump(0), p.Jump(8)])  # after step 8 another layer was chosen, which is no step
+
+
 @pytest.mark.nightly
 @settings(deadline=None, max_examples=150)
 @given(st.booleans(), st.lists(ACTS, max_size=10))
