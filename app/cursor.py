@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
-from app.tools import TOOLS
+from app.tools.tools import TOOLS
 
 _PATIENCE = 0.35  # seconds that something grows before that is shown
 MARKS = 16  # at most

@@ -9,12 +9,15 @@ from dataclasses import replace
 import glfw
 from imgui_bundle import imgui
 
-from app.actions import ACTIONS, by_key, perform
+from app.actions.actions import ACTIONS, by_key, perform
 from app.desk.desk import Desk
 from app.input.events import BACK, FORWARD, LEFT, MIDDLE, RIGHT, PenEvent
 from app.keys import chord
 from app.panels.layout import Layout
-from app.tools import TOOLS, Gesture, ask_here, mark, pan, pick, swap, turn, zoom
+from app.tools.asking_gestures import ask_here, mark, pick, swap
+from app.tools.gesture import Gesture
+from app.tools.tools import TOOLS
+from app.tools.view_gestures import pan, turn, zoom
 
 NOTCH = 0.25  # levels a notch of the wheel zooms
 _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}

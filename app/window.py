@@ -14,7 +14,7 @@ import moderngl
 from imgui_bundle.imgui import backends
 
 from app import cursor, theme
-from app.actions import close
+from app.actions.file_actions import close
 from app.callbacks import Callbacks
 from app.canvas.gallery import Gallery
 from app.canvas.overlay import Overlay

@@ -60,7 +60,7 @@ def _no_thumbnails(_entries: tuple[Entry, ...], _side: int) -> None:
 
 class Message(NamedTuple):
     """A line in the status line, until a time by the monotonic clock.  `offer`: the action, a row of
-    app.actions.ACTIONS, that does something about it; the line is void when that is not to be done any more."""
+    ACTIONS in app.actions, that does something about it; the line is void when that is not to be done any more."""
 
     text: str = ""
     bad: bool = False

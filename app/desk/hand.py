@@ -53,7 +53,7 @@ class Hand:
 
     @property
     def tool(self) -> str:
-        """Returns a row of app.tools.TOOLS."""
+        """Returns a row of TOOLS in app.tools."""
         return self._tool
 
     @property

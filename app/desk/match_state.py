@@ -11,8 +11,9 @@ from immutables import Map
 
 from app.desk.knots import Knots
 from engine.numeric.address import Rect
-from engine.studio.requests import MatchSet, MatchUse, Request
+from engine.studio.requests import Request
 from engine.studio.results import MatchScene
+from engine.studio.textures.texture_requests import MatchSet, MatchUse
 
 SIZES = (128, 256, 512)
 LEVELS, ORIENTATIONS, ITERATIONS = 4, 4, 5

@@ -17,7 +17,7 @@ OF_A_PAINTING = (
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """A line that stays.  `offers`: what can be done about it, names of rows of app.actions.ACTIONS; `about`: of what
+    """A line that stays.  `offers`: what can be done about it, rows of ACTIONS in app.actions; `about`: of what
     it is, empty for what nothing else deals with; `path`: of which file; `lines`: what more there is to read."""
 
     text: str

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.actions import ACTIONS, MENUS, Action, perform
+from app.actions.action import Action
+from app.actions.actions import ACTIONS, MENUS, perform
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from app.actions import Action
+from app.actions.action import Action
 from app.desk.desk import Desk, Hear
 from app.input.events import PenEvent
-from app.tools import Gesture
+from app.tools.gesture import Gesture
 
 Painting = Callable[[Desk, PenEvent], Gesture]
 

@@ -8,12 +8,12 @@ import time
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.actions import ACTIONS, perform
+from app.actions.actions import ACTIONS, perform
 from app.canvas.view import zoom_text
 from app.desk.desk import Desk
 from app.panels import notice_line
 from app.panels.controls import widgets as w
-from app.tools import TOOLS
+from app.tools.tools import TOOLS
 from engine.studio.held.held_records import Held
 from engine.studio.results import Opening
 

@@ -1,6 +1,6 @@
 """What opens below the canvas, between the panels: the texture lab, textures matched to examples, places, the analysis.
 
-A panel of this kind is a row in STRIPS, and one in app.actions.ACTIONS under the same name, which opens it.
+A panel of this kind is a row in STRIPS, and one in ACTIONS in app.actions under the same name, which opens it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ from typing import NamedTuple
 from imgui_bundle import imgui
 
 from app import icons, theme
-from app.actions import ACTIONS, Action
+from app.actions.action import Action
+from app.actions.actions import ACTIONS
 from app.desk.desk import Desk, Hear
 from app.panels.controls import widgets as w
 from app.panels.examples.examples_panel import ExamplesPanel

@@ -19,7 +19,7 @@ from engine.studio.results import Note
 
 EXPECTED = (FileError, FieldError, FormulaError, LayerError, Refusal, Cancelled, MemoryError)
 FAULT = "A fault in Inkfall"
-# What can be done about what did not work, by what that was: names of rows of app.actions.ACTIONS.
+# What can be done about what did not work, by what that was: names of rows of ACTIONS in app.actions.
 OFFERS: dict[str, tuple[str, ...]] = {
     "save": ("try_again", "save_as"),
     "export": ("try_again",),

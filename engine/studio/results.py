@@ -114,7 +114,7 @@ class Note:
     """A line for the artist; `bad` when something did not work, `fault` when that is told in the log.
 
     `stays`: it is shown until it is dealt with or closed by hand; `offers`: what can be done about it, names of rows of
-    `app.actions.ACTIONS`; `about`: of what it is ("save", "open", "journal"), a newer one of the same takes its place,
+    ACTIONS in app.actions; `about`: of what it is ("save", "open", "journal"), a newer one of the same takes its place,
     and deals with it if it does not stay; `path`: of which file; `lines`: what more there is to tell, a line each.
     """
 

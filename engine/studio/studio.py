@@ -17,7 +17,7 @@ from engine.painting import commands as c
 from engine.painting.points import rounded
 from engine.painting.times import members, timed
 from engine.studio import requests as q
-from engine.studio import results, swatch_files, swatches
+from engine.studio import results
 from engine.studio.atlas.atlas import Atlas
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
@@ -28,15 +28,16 @@ from engine.studio.held.holding import Holding
 from engine.studio.journalled.answers import Answers
 from engine.studio.journalled.posts import Posts
 from engine.studio.journalled.tend_request import Tend
-from engine.studio.lab import Lab
-from engine.studio.matcher import Matcher
 from engine.studio.moving.moves import Moves
 from engine.studio.past.here import HereFinder
 from engine.studio.past.past_list import PastList
 from engine.studio.past.trail import Trail
 from engine.studio.past.travels import Travels
 from engine.studio.ready import ready
-from engine.studio.region_strokes import Regions
+from engine.studio.textures import swatch_files, swatches
+from engine.studio.textures.lab import Lab
+from engine.studio.textures.matcher import Matcher
+from engine.studio.textures.region_strokes import Regions
 from engine.studio.warming import Warming
 
 _NO_REQUESTS: q.Handlers = {}

@@ -4,11 +4,12 @@ import sys
 
 from imgui_bundle import imgui
 
-from app import actions, news
+from app import news
 from app.__main__ import main
+from app.actions import actions
 from app.panels.layers.layers_panel import LayersPanel
 from app.panels.strip import StripPanel
-from app.tools import TOOLS
+from app.tools.tools import TOOLS
 from engine.studio import results
 
 

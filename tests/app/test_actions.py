@@ -8,13 +8,13 @@ from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use on
 import glfw  # isort: skip
 
 from app import icons
-from app.actions import ACTIONS, MENUS, by_key, perform
+from app.actions.actions import ACTIONS, MENUS, by_key, perform
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
 from app.keys import chord
 from app.panels.brush.brush_panel import BrushPanel  # noqa: F401  # the panels name actions; importing them checks the names
 from app.panels.dialogs.dialogs import DIALOGS
-from app.tools import TOOLS
+from app.tools.tools import TOOLS
 
 
 @pytest.fixture

@@ -15,8 +15,8 @@ from engine.brush.settings import Brush, Component
 from engine.keeping.preferences import read_preferences
 from engine.painting.commands import parse
 from engine.painting.value import Painting
-from engine.studio import swatch_files
 from engine.studio.requests import Swatch
+from engine.studio.textures import swatch_files
 
 INK = (Component("mine", 0.4, "#c04020", Map({"period": 20.0}), ((0.0, 1.0), (1.0, 0.0))),)
 TEXTURE = parse({"do": "texture", "name": "mine", "maker": "sparse", "path": "/none.png", "spacing": 9})

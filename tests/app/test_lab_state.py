@@ -13,8 +13,8 @@ from engine.brush.settings import Brush
 from engine.makers import spectrum
 from engine.numeric.spectra import radial_window
 from engine.painting import commands as c
-from engine.studio import lab as engine_lab
-from engine.studio.requests import LabRest, LabSet, LabUse
+from engine.studio.textures import lab as engine_lab
+from engine.studio.textures.texture_requests import LabRest, LabSet, LabUse
 
 OWN = frozenset({"rock", "stripes"})
 

@@ -10,7 +10,7 @@ from app.panels.match.subbands import gain_of, part_of
 from engine.makers import definitions
 from engine.numeric.address import Rect
 from engine.painting.commands import DefineTexture, parse, to_json
-from engine.studio.requests import MatchSet, MatchUse
+from engine.studio.textures.texture_requests import MatchSet, MatchUse
 
 
 def state(*names):

@@ -20,7 +20,7 @@ from engine.painting.value import Painting
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio.requests import Swatch
-from engine.studio.swatches import painted
+from engine.studio.textures.swatches import painted
 
 FRAME = Rect.at(0, 0, 64, 64)
 POINTS = np.array([[10.0, 12, 1.0], [50, 40, 0.6]])

@@ -4,7 +4,7 @@ import errno
 
 import pytest
 
-from app.actions import ACTIONS, perform
+from app.actions.actions import ACTIONS, perform
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
 from app.desk.notices import Notice, Notices

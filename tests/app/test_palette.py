@@ -20,7 +20,7 @@ from engine.painting.value import Painting
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
-from engine.studio.swatches import painted
+from engine.studio.textures.swatches import painted
 from opens import opens
 
 FUR = {

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.actions import ACTIONS, perform
+from app.actions.actions import ACTIONS, perform
 from app.canvas.view import place_of_pixel
 from app.desk import palette
 from app.desk.desk import Desk

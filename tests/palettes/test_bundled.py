@@ -23,7 +23,7 @@ from engine.painting.recording import read
 from engine.painting.value import Painting
 from engine.session.apply import apply
 from engine.studio.requests import Swatch
-from engine.studio.swatches import painted
+from engine.studio.textures.swatches import painted
 
 PALETTES = Path(__file__).resolve().parents[2] / "palettes"
 DEMO = PALETTES / "demo"

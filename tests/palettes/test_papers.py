@@ -19,7 +19,7 @@ from engine.numeric.address import TileKey
 from engine.painting.value import Painting
 from engine.session.apply import apply
 from engine.studio.requests import Swatch
-from engine.studio.swatches import painted
+from engine.studio.textures.swatches import painted
 
 PAPERS, FAULTS = presets.load_papers(presets.papers_folder())
 

@@ -7,7 +7,8 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app import actions, icons, theme
+from app import icons, theme
+from app.actions import actions
 from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
@@ -21,7 +22,7 @@ from app.panels.brush.save_brush import SaveBrush
 from app.panels.brush.texturing import Texturing
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
-from app.tools import TOOLS
+from app.tools.tools import TOOLS
 from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
 from engine.studio.requests import Swatch

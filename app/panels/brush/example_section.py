@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.actions import tip
+from app.actions.actions import tip
 from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
 from app.desk.examples.example_state import DEPTHS

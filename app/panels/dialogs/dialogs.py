@@ -8,7 +8,7 @@ from typing import Protocol
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
-from app.actions import ACTIONS, MENUS
+from app.actions.actions import ACTIONS, MENUS
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser

@@ -9,7 +9,7 @@ from typing import Any
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.actions import Action
+from app.actions.action import Action
 from app.desk.desk import Desk
 from app.desk.examples import example_pictures, example_state, example_use, example_work, thumbnails
 from app.desk.examples.example_state import Entry
@@ -19,7 +19,7 @@ from app.panels.examples.growth_settings import GrowthSettings
 from app.panels.examples.own_examples import OwnExamples
 from app.panels.examples.region_panel import RegionPanel
 from app.panels.panel import Painting, Panel
-from app.tools import paint_region
+from app.tools.painting_gestures import paint_region
 from engine.studio.results import Picture, RegionScene, Scene
 
 TILE = 68.0  # side of a thumbnail, points, at least

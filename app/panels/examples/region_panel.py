@@ -11,7 +11,8 @@ from imgui_bundle import ImVec2, imgui
 from immutables import Map
 
 from app import icons, theme
-from app.actions import ACTIONS, Action
+from app.actions.action import Action
+from app.actions.actions import ACTIONS
 from app.desk.desk import Desk
 from app.desk.examples import example_work
 from app.desk.examples.region_state import BY_ALPHA, EVERYTHING, INVERTED, RADII, SMOOTHED, RegionState

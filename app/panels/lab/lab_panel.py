@@ -8,16 +8,17 @@ from dataclasses import replace
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.actions import ACTIONS, Action
+from app.actions.action import Action
+from app.actions.actions import ACTIONS
 from app.desk import pictured
 from app.desk.desk import Desk
 from app.desk.lab_state import only_with, with_texture
 from app.panels.controls import widgets as w
 from app.panels.lab.lab_settings import LabSettings
 from app.panels.panel import Painting, Panel
-from app.tools import paint_lab
-from engine.studio.requests import LabStep
+from app.tools.painting_gestures import paint_lab
 from engine.studio.results import LabScene
+from engine.studio.textures.texture_requests import LabStep
 
 FIELD = 360  # pixels of an endless field that the preview shows along a side
 HALF = 0.564  # of the radial window's width: within it, it is more than half as strong as in the middle

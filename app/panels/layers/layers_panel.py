@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app import actions, icons, theme
+from app import icons, theme
+from app.actions import actions
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended

@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.actions import ACTIONS, perform
+from app.actions.actions import ACTIONS, perform
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.actions import ACTIONS, perform, tip
+from app.actions.actions import ACTIONS, perform, tip
 from app.desk.desk import Desk
 from app.desk.examples.following import Following
 from app.desk.places import going

@@ -32,7 +32,7 @@ from engine.studio import warming
 from engine.studio.filing import documents
 from engine.studio.past.past_records import AskHere
 from engine.studio.studio import Studio
-from engine.studio.swatches import painted
+from engine.studio.textures.swatches import painted
 from engine.texture.planes import Planes
 
 _LEVELS = (0, -1, 1, -3, 2)  # that are looked at: the stroke's first

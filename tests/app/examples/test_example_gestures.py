@@ -4,7 +4,7 @@ import pytest
 from examples_at_hand import named
 
 from app import icons, tools
-from app.actions import ACTIONS
+from app.actions.actions import ACTIONS
 from app.cursor import apart
 from app.desk.examples import example_state, example_use, example_work
 from app.desk.examples.region_state import INVERTED

@@ -17,7 +17,7 @@ from engine.brush.settings import Brush
 from engine.makers.definitions import defined_by
 from engine.painting.commands import parse, to_json
 from engine.session.session import Session
-from engine.studio.requests import RegionClose
+from engine.studio.textures.texture_requests import RegionClose
 from engine.texture.example.parameters import Parameters
 
 

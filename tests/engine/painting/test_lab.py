@@ -21,8 +21,9 @@ from engine.session.replay import replay
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
+from engine.studio.textures import texture_requests as tq
 
-RING = q.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
+RING = tq.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
 WHITE = Brush(radius=5, colour="#ffffff")
 
 
@@ -48,7 +49,7 @@ class Desk:
 
     def stroke(self, *points, brush=WHITE, kept=True):
         rows = [np.array([[x, y, 1.0, 0, 0, 0]]) for x, y in points]
-        self.ask(q.LabBegin(brush), *map(q.LabPoints, rows), q.LabEnd(kept))
+        self.ask(tq.LabBegin(brush), *map(tq.LabPoints, rows), tq.LabEnd(kept))
 
     @property
     def log(self):
@@ -69,7 +70,7 @@ def sample_of(command):
 def test_the_lab_shows_what_its_command_makes(desk):
     desk.ask(RING)
     desk.stroke((10, 12), (30, 20), (50, 14))
-    desk.ask(q.LabUse("Fur"))
+    desk.ask(tq.LabUse("Fur"))
     command = desk.log[-1]
     assert command.maker == "spectrum"
     source = desk.studio.easel.session.painting.textures["Fur"].source
@@ -80,15 +81,15 @@ def test_the_lab_shows_what_its_command_makes(desk):
 
 
 def test_a_stroke_is_seen_at_both_frequencies_while_it_is_painted(desk):
-    desk.ask(q.LabSet((64, 64)))
+    desk.ask(tq.LabSet((64, 64)))
     assert desk.scene.silent
-    desk.ask(q.LabBegin(WHITE), q.LabPoints(np.array([[20.0, 22, 1, 0, 0, 0]])))
+    desk.ask(tq.LabBegin(WHITE), tq.LabPoints(np.array([[20.0, 22, 1, 0, 0, 0]])))
     shown = desk.picture("lab spectrum")[..., 0]
     assert shown[22, 20] == shown[42, 44] == 255
     assert np.array_equal(opposite(shown), shown)
     assert not desk.scene.silent
     assert desk.scene.strokes == 0
-    desk.ask(q.LabEnd(kept=False))
+    desk.ask(tq.LabEnd(kept=False))
     assert desk.scene.silent
 
 
@@ -98,18 +99,18 @@ def test_undo_redo_and_clear(desk):
     for x in (12, 26, 40):
         desk.stroke((x, 10), (x, 20))
         seen.append(desk.picture("lab texture"))
-    desk.ask(q.LabStep(-2))
+    desk.ask(tq.LabStep(-2))
     assert np.array_equal(desk.picture("lab texture"), seen[1])
-    desk.ask(q.LabStep(1))
+    desk.ask(tq.LabStep(1))
     assert np.array_equal(desk.picture("lab texture"), seen[2])
-    desk.ask(q.LabStep(0))
+    desk.ask(tq.LabStep(0))
     assert np.array_equal(desk.picture("lab texture"), seen[0])
     assert (desk.scene.strokes, desk.scene.can_undo, desk.scene.can_redo) == (0, True, False)
-    desk.ask(q.LabStep(-1))
+    desk.ask(tq.LabStep(-1))
     assert np.array_equal(desk.picture("lab texture"), seen[2])
-    desk.ask(q.LabStep(9))
+    desk.ask(tq.LabStep(9))
     assert desk.scene.strokes == 0
-    desk.ask(q.LabStep(-5), q.LabStep(-1), q.LabStep(2))
+    desk.ask(tq.LabStep(-5), tq.LabStep(-1), tq.LabStep(2))
     assert np.array_equal(desk.picture("lab texture"), seen[2])
 
 
@@ -117,17 +118,21 @@ def test_other_shapes_slide_under_the_strokes(desk):
     desk.ask(RING)
     desk.stroke((10, 12), (30, 20))
     desk.stroke((10, 40), (30, 40))
-    desk.ask(q.LabSet((64, 64), (Map({"shape": "noise", "b": 1.0}),), seed=3))
+    desk.ask(tq.LabSet((64, 64), (Map({"shape": "noise", "b": 1.0}),), seed=3))
     changed = desk.picture("lab texture")
-    desk.ask(q.LabStep(-1), q.LabSet((64, 64), RING.shapes, seed=3), q.LabStep(1))
+    desk.ask(
+        tq.LabStep(-1),
+        tq.LabSet((64, 64), RING.shapes, seed=3),
+        tq.LabStep(1),
+    )
     other = desk.picture("lab texture")
-    desk.ask(q.LabSet((64, 64), (Map({"shape": "noise", "b": 1.0}),), seed=3))
+    desk.ask(tq.LabSet((64, 64), (Map({"shape": "noise", "b": 1.0}),), seed=3))
     assert np.array_equal(desk.picture("lab texture"), changed)
     assert not np.array_equal(other, changed)
 
 
 def test_a_texture_in_use_follows_the_lab_and_the_next_stroke_paints_with_it(desk):
-    desk.ask(RING, q.LabUse("Cloth"))
+    desk.ask(RING, tq.LabUse("Cloth"))
     before = desk.studio.easel.session.painting.textures["Cloth"].source.sha
     version = desk.scene.version
     desk.stroke((10, 12), (30, 20))
@@ -135,7 +140,7 @@ def test_a_texture_in_use_follows_the_lab_and_the_next_stroke_paints_with_it(des
     desk.ask(q.Begin(0, (0, 0), brush), q.Points(np.array([[50.0, 50, 1, 0, 0, 0], [90, 60, 1, 0, 0, 0]])), q.Finish())
     painting = desk.studio.easel.session.painting
     assert painting.textures["Cloth"].source.sha != before
-    desk.ask(q.LabRest(WHITE, (80, 40)))
+    desk.ask(tq.LabRest(WHITE, (80, 40)))
     assert desk.scene.version == version + 1
     assert desk.picture("lab stroke").shape == desk.picture("lab near").shape == (40, 80, 4)
     again = replay(desk.studio.easel.session.recording()).painting
@@ -145,7 +150,7 @@ def test_a_texture_in_use_follows_the_lab_and_the_next_stroke_paints_with_it(des
 
 @pytest.mark.parametrize("field", [Map(), Map({"field": "sparse"})])
 def test_its_texture_serves_as_paper_and_as_a_dry_brush(desk, field):
-    desk.ask(replace(RING, field=field), q.LabUse("Cloth"))
+    desk.ask(replace(RING, field=field), tq.LabUse("Cloth"))
     plain = Brush(radius=20, colour="#000000", opacity=0.5)  # pressed harder, paint would fill the paper
     points = q.Points(np.array([[50.0, 50, 1, 0, 0, 0], [90, 60, 1, 0, 0, 0]]))
     seen = []
@@ -159,19 +164,19 @@ def test_its_texture_serves_as_paper_and_as_a_dry_brush(desk, field):
 
 
 def test_definitions_that_nothing_was_painted_with_are_not_recorded(desk):
-    desk.ask(RING, q.LabUse("Cloth"))
+    desk.ask(RING, tq.LabUse("Cloth"))
     for x in (12, 20, 30):
         desk.stroke((x, 10), (x, 20))
-        desk.ask(q.LabRest(WHITE, (40, 20)))
+        desk.ask(tq.LabRest(WHITE, (40, 20)))
     assert len(desk.log) == 1
     again = replay(desk.studio.easel.session.recording()).painting
     assert again.textures["Cloth"].source == desk.studio.easel.session.painting.textures["Cloth"].source
 
 
 def test_a_texture_let_go_stays_as_it_is(desk):
-    desk.ask(RING, q.LabUse("Cloth"), q.LabUse(""))
+    desk.ask(RING, tq.LabUse("Cloth"), tq.LabUse(""))
     desk.stroke((10, 12), (30, 20))
-    desk.ask(q.LabRest(WHITE, (40, 20)))
+    desk.ask(tq.LabRest(WHITE, (40, 20)))
     assert len(desk.log) == 1
 
 
@@ -179,10 +184,10 @@ def test_the_spectrum_of_what_is_on_the_canvas(desk):
     points = np.array([[x, 32.0, 1, 0, 0, 0] for x in range(4, 64, 8)])
     brush = Brush(radius=100, ink=(Component("stripes", 1.0, "#ffffff", Map({"period": 8.0})),))
     desk.ask(q.Begin(0, (0, 0), brush), q.Points(points), q.Finish())
-    desk.ask(q.LabSet((64, 64), (Map({"shape": "canvas", "rect": (0, 0, 0, 64, 64)}),)))
+    desk.ask(tq.LabSet((64, 64), (Map({"shape": "canvas", "rect": (0, 0, 0, 64, 64)}),)))
     shown = desk.picture("lab spectrum")[32, :, 0].astype(int)
     assert set(np.argsort(shown)[-2:]) == {24, 40}
-    desk.ask(q.LabUse("Seen"))
+    desk.ask(tq.LabUse("Seen"))
     again = replay(desk.studio.easel.session.recording()).painting
     assert again.textures["Seen"].source == desk.studio.easel.session.painting.textures["Seen"].source
 
@@ -193,10 +198,10 @@ def test_the_spectrum_of_another_texture_stays_what_it_was(desk):
     stroke = q.Begin(0, (0, 0), brush), q.Points(points), q.Finish()
     view = Map({"rect": (0, 0, 0, 64, 64)})
     desk.ask(*stroke, q.Do(c.DefineTexture("View", "canvas", view)))
-    desk.ask(q.LabSet((64, 64), (Map({"shape": "texture", "texture": "View"}),)))
+    desk.ask(tq.LabSet((64, 64), (Map({"shape": "texture", "texture": "View"}),)))
     shown = desk.picture("lab spectrum")
     assert set(np.argsort(shown[32, :, 0])[-2:]) == {24, 40}
-    desk.ask(*stroke, q.LabUse("Seen"), *stroke)
+    desk.ask(*stroke, tq.LabUse("Seen"), *stroke)
     assert np.array_equal(desk.picture("lab spectrum"), shown)
     again = replay(desk.studio.easel.session.recording()).painting
     assert again.textures["Seen"].source == desk.studio.easel.session.painting.textures["Seen"].source
@@ -205,7 +210,7 @@ def test_the_spectrum_of_another_texture_stays_what_it_was(desk):
 def test_the_phases_of_what_is_on_the_canvas(desk):
     points = np.array([[x, 32.0, 1, 0, 0, 0] for x in range(4, 64, 8)])
     desk.ask(q.Begin(0, (0, 0), Brush(radius=100, ink=(Component("rock", 1.0),))), q.Points(points), q.Finish())
-    made = q.LabSet((64, 64), (Map({"shape": "canvas", "rect": (0, 0, 0, 64, 64)}),), "painted")
+    made = tq.LabSet((64, 64), (Map({"shape": "canvas", "rect": (0, 0, 0, 64, 64)}),), "painted")
     desk.ask(made)
     flat = desk.picture("lab texture")
     desk.ask(replace(made, phase="own", sheet="phase"))
@@ -213,7 +218,7 @@ def test_the_phases_of_what_is_on_the_canvas(desk):
     assert not np.array_equal(own, flat)
     desk.stroke((10, 12), (30, 20))
     assert not np.array_equal(desk.picture("lab texture"), own)
-    desk.ask(q.LabUse("Seen"))
+    desk.ask(tq.LabUse("Seen"))
     again = replay(desk.studio.easel.session.recording()).painting
     assert again.textures["Seen"].source == desk.studio.easel.session.painting.textures["Seen"].source
 
@@ -222,7 +227,7 @@ def test_the_phases_of_what_is_on_the_canvas(desk):
 def test_a_picture_that_is_not_there_is_told_once(desk, shape):
     desk.ask(RING)
     before = desk.picture("lab texture")
-    desk.studio.do(q.LabSet((64, 64), (Map(shape),)))
+    desk.studio.do(tq.LabSet((64, 64), (Map(shape),)))
     with pytest.raises((FileError, FieldError)):
         desk.studio.step()
     assert not desk.studio.pending
@@ -231,27 +236,27 @@ def test_a_picture_that_is_not_there_is_told_once(desk, shape):
 
 
 def test_another_size_keeps_what_was_painted(desk):
-    desk.ask(q.LabSet((64, 64)))
+    desk.ask(tq.LabSet((64, 64)))
     desk.stroke((16, 16))
-    desk.ask(q.LabSet((128, 128)))
+    desk.ask(tq.LabSet((128, 128)))
     assert desk.picture("lab spectrum")[32, 32, 0] == 255
 
 
 def test_forward_paints_a_pattern_without_its_mirror_image(desk):
-    desk.ask(q.LabSet((64, 64)))
+    desk.ask(tq.LabSet((64, 64)))
     desk.stroke((16, 16))
     assert desk.picture("lab spectrum")[48, 48, 0] == 255
-    desk.ask(q.LabSet((64, 64), forward=True))
+    desk.ask(tq.LabSet((64, 64), forward=True))
     assert desk.picture("lab spectrum")[16, 16, 0] == 255
     assert desk.picture("lab spectrum")[48, 48, 0] < 40
-    desk.ask(q.LabUse("T"))
+    desk.ask(tq.LabUse("T"))
     assert desk.studio.easel.session.painting.textures["T"].source == sample_of(c.parse(c.to_json(desk.log[-1])))
 
 
 def test_the_phase_has_a_sheet_of_its_own(desk):
     desk.ask(RING)
     random = desk.picture("lab texture")
-    desk.ask(q.LabSet((64, 64), RING.shapes, "painted", sheet="phase"))
+    desk.ask(tq.LabSet((64, 64), RING.shapes, "painted", sheet="phase"))
     flat = desk.picture("lab texture")
     desk.stroke((10, 12), (30, 20))
     assert not np.array_equal(desk.picture("lab texture"), flat)
@@ -289,7 +294,7 @@ def test_analysis_of_nothing(desk):
 def test_a_recording_of_the_lab_replays_from_its_lines(desk):
     desk.ask(RING)
     desk.stroke((10, 12), (30, 20), brush=Brush(radius=4, colour="#ffffff", ink=(Component("rock"),)))
-    desk.ask(q.LabUse("A"))
+    desk.ask(tq.LabUse("A"))
     kept = desk.studio.easel.session.recording()
     again = replay(Recording(kept.header, tuple(c.parse(c.to_json(x)) for x in kept.commands))).painting
     assert again.textures["A"].source == desk.studio.easel.session.painting.textures["A"].source

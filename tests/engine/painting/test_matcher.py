@@ -15,6 +15,7 @@ from engine.session.replay import replay
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
+from engine.studio.textures import texture_requests as tq
 
 
 class Desk:
@@ -63,7 +64,7 @@ def members(folder, **more):
 
 
 def test_a_preview_grows_step_by_step(desk, example):
-    desk.ask(q.MatchSet("match", members(example)))
+    desk.ask(tq.MatchSet("match", members(example)))
     assert desk.rest() > 20
     assert len(desk.pictures("match texture")) == 5
     assert desk.pictures("match texture")[-1].shape == (32, 48, 4)
@@ -79,7 +80,7 @@ def test_a_translucent_example_is_seen_and_used_so(desk, example):
     pixels[3:9, 3:9, 3] = 0
     Image.fromarray(pixels).resize((56, 48)).save(example / "a.png")
     given = members(example)
-    desk.ask(q.MatchSet("match", given))
+    desk.ask(tq.MatchSet("match", given))
     desk.rest()
     for ident in ("match example", "match texture"):
         seen = desk.pictures(ident)[-1]
@@ -87,39 +88,39 @@ def test_a_translucent_example_is_seen_and_used_so(desk, example):
         assert (seen[..., :3] <= seen[..., 3:]).all()
     assert len(desk.scene.colours) == 4
     assert all(len(colour) == 3 for colour in desk.scene.colours)
-    desk.ask(q.MatchUse("Lace", "match", given))
+    desk.ask(tq.MatchUse("Lace", "match", given))
     desk.rest()
     made = desk.studio.easel.session.painting.textures["Lace"]
     assert np.abs(made.source.data.transpose(1, 2, 0) * 255 - desk.pictures("match texture")[-1]).max() < 0.51
     assert made.instance({}, 0, 0).cover is not None
     given = given.set("axes", (1.0, 1.0, 0.5, 0.0))
-    desk.ask(q.MatchSet("match", given))
+    desk.ask(tq.MatchSet("match", given))
     desk.rest()
     assert not desk.scene.fault
 
 
 def test_the_newest_settings_win_and_tiles_come_first(desk, example):
-    desk.ask(q.MatchSet("match", members(example)))
+    desk.ask(tq.MatchSet("match", members(example)))
     for _ in range(8):
         desk.studio.step()
-    desk.ask(q.MatchSet("match", members(example, iterations=1, seed=5)))
+    desk.ask(tq.MatchSet("match", members(example, iterations=1, seed=5)))
     desk.studio.look(q.Look(((0, 0, 0, -1),)))
     desk.studio.step()
     assert any(isinstance(r, results.Patch | results.Same) for r in desk.sent)
     desk.rest()
     assert len(desk.pictures("match texture")) == 1
     assert len(desk.pictures("match example")) == 1  # it is the same
-    desk.ask(q.MatchSet("match", None))
+    desk.ask(tq.MatchSet("match", None))
     assert not desk.studio.pending
     assert desk.scene.done == 0.0
 
 
 def test_what_is_used_is_what_was_seen_and_replays(desk, example):
     given = members(example)
-    desk.ask(q.MatchSet("match", given))
+    desk.ask(tq.MatchSet("match", given))
     desk.rest()
     seen = desk.pictures("match texture")[-1]
-    desk.ask(q.MatchUse("Stone", "match", given))
+    desk.ask(tq.MatchUse("Stone", "match", given))
     assert desk.rest() < 4  # nothing is done twice
     texture = desk.studio.easel.session.painting.textures["Stone"]
     assert texture.kind == "matched"
@@ -133,7 +134,7 @@ def test_what_is_used_is_what_was_seen_and_replays(desk, example):
 
 def test_a_series_is_made_for_use_between_strokes(desk, example):
     given = members(example, pattern=str(example / "b.png"), how="average")
-    desk.ask(q.MatchSet("mix", given), q.MatchUse("Both", "mix", given.set("stages", 3)))
+    desk.ask(tq.MatchSet("mix", given), tq.MatchUse("Both", "mix", given.set("stages", 3)))
     desk.ask(q.Begin(0, (0, 0), from_json({"radius": 4})), q.Points(np.array([[0.0, 0, 1, 0, 0, 0]])))
     for _ in range(3000):
         desk.studio.step()
@@ -159,10 +160,10 @@ def test_a_rectangle_is_taken_as_the_canvas_is_now(desk):
 
     stroke("#402010")
     given = Map({"rect": (0, 0, 0, 64, 48), "size": (32, 32), "levels": 2})
-    desk.ask(q.MatchSet("match", given))
+    desk.ask(tq.MatchSet("match", given))
     desk.rest()
     stroke("#1020ff")
-    desk.ask(q.MatchUse("View", "match", given))
+    desk.ask(tq.MatchUse("View", "match", given))
     desk.rest()
     blue = desk.studio.easel.session.painting.textures["View"].source.data[:3].mean((1, 2))
     assert blue[2] > blue[0]
@@ -176,7 +177,7 @@ def test_a_rectangle_is_taken_as_the_canvas_is_now(desk):
     [({"path": "/nowhere/a.png"}, "/nowhere/a.png"), ({"path": "a", "levels": -1}, "a"), ({}, "path: found nothing")],
 )
 def test_faults_are_told_and_end_the_work(desk, given, message):
-    desk.ask(q.MatchSet("match", Map(given)))
+    desk.ask(tq.MatchSet("match", Map(given)))
     desk.rest()
     assert message in desk.scene.fault
     assert not desk.studio.pending

@@ -8,9 +8,9 @@ from immutables import Map
 
 from engine.numeric.address import Rect
 from engine.strokes.example_region import followed
-from engine.studio import requests as q
 from engine.studio import results
-from engine.studio.region_strokes import KEPT, Regions, over_paper, region_picture
+from engine.studio.textures import texture_requests as tq
+from engine.studio.textures.region_strokes import KEPT, Regions, over_paper, region_picture
 
 HEIGHT, WIDTH = 40, 60
 WHOLE = Rect(0, 0, WIDTH, HEIGHT)
@@ -28,7 +28,7 @@ class Post:
         self.first = np.zeros((HEIGHT, WIDTH), bool) if first is None else first
         self.regions, self.sent = Regions(self._take), []
         self.scene, self.seen = None, np.zeros((HEIGHT, WIDTH, 3), np.uint8)
-        self(q.RegionOpen("a", self.picture, self.first, steps))
+        self(tq.RegionOpen("a", self.picture, self.first, steps))
 
     def __call__(self, *requests):
         for request in requests:
@@ -45,11 +45,15 @@ class Post:
             self.seen[result.area.slices(WHOLE)] = result.pixels
 
     def do(self, *steps):
-        return self(*(q.RegionDo("a", step) for step in steps))
+        return self(*(tq.RegionDo("a", step) for step in steps))
 
     def stroke(self, *points, op="add", radius=4.0, kept=True):
         rows = [np.array([[x, y, 1.0, 0.0, 0.0, 0.0]]) for x, y in points]
-        return self(q.RegionBegin("a", op, radius), *map(q.RegionPoints, rows), q.RegionEnd(kept))
+        return self(
+            tq.RegionBegin("a", op, radius),
+            *map(tq.RegionPoints, rows),
+            tq.RegionEnd(kept),
+        )
 
     def meant(self):
         """What the steps mean to whoever replays them."""
@@ -61,10 +65,10 @@ def test_a_stroke_is_a_step_that_is_taken_back_and_again():
     one = post.stroke((10, 20), (50, 20))
     assert one.inside[20, 10:50].all()
     assert (one.can_undo, one.can_redo, one.modified, len(one.steps)) == (True, False, True, 1)
-    back = post(q.RegionTravel("a", -1))
+    back = post(tq.RegionTravel("a", -1))
     assert not back.inside.any()
     assert (back.can_undo, back.can_redo, back.modified, back.steps) == (False, True, False, ())
-    again = post(q.RegionTravel("a", 1))
+    again = post(tq.RegionTravel("a", 1))
     assert np.array_equal(again.inside, one.inside)
     assert again.steps == one.steps
 
@@ -72,14 +76,17 @@ def test_a_stroke_is_a_step_that_is_taken_back_and_again():
 def test_a_stroke_is_seen_before_the_pen_lifts_and_leaves_nothing_if_it_is_dropped():
     post = Post()
     before = post.seen.copy()
-    post(q.RegionBegin("a", "add", 4.0), q.RegionPoints(np.array([[30.0, 20.0, 1, 0, 0, 0]])))
+    post(
+        tq.RegionBegin("a", "add", 4.0),
+        tq.RegionPoints(np.array([[30.0, 20.0, 1, 0, 0, 0]])),
+    )
     assert not np.array_equal(post.seen, before)
     assert post.scene.steps == ()
-    scene = post(q.RegionEnd(False))
+    scene = post(tq.RegionEnd(False))
     assert np.array_equal(post.seen, before)
     assert not scene.inside.any()
     assert not scene.can_undo
-    post(q.RegionPoints(np.array([[30.0, 20.0, 1, 0, 0, 0]])), q.RegionEnd())  # of a stroke that was dropped
+    post(tq.RegionPoints(np.array([[30.0, 20.0, 1, 0, 0, 0]])), tq.RegionEnd())  # of a stroke that was dropped
     assert not post.scene.can_undo
 
 
@@ -88,10 +95,10 @@ def test_another_tolerance_takes_the_place_of_the_step():
     like = {"op": "add", "like": Map({"at": (5, 5), "tolerance": 0.1, "contiguous": False})}
     one = post.do(EVERYTHING, INVERT, Map(like))
     wide = Map({**like, "like": like["like"].set("tolerance", 1.0)})
-    other = post(q.RegionDo("a", wide, True))
+    other = post(tq.RegionDo("a", wide, True))
     assert other.inside.sum() > one.inside.sum()
     assert other.steps == (EVERYTHING, INVERT, wide)
-    assert not post(q.RegionTravel("a", -1)).inside.any()
+    assert not post(tq.RegionTravel("a", -1)).inside.any()
 
 
 def test_only_the_last_of_many_changes_is_shown():
@@ -107,11 +114,11 @@ def test_what_was_saved_counts_as_saved_under_its_new_name():
     steps = post.stroke((10, 10)).steps
     post.do(INVERT)
     post.seen[:] = 0
-    scene = post(q.RegionSaved("a", "b", steps))
+    scene = post(tq.RegionSaved("a", "b", steps))
     assert (scene.ident, scene.modified) == ("b", True)
     assert post.seen.any()
-    assert not post(q.RegionTravel("b", -1)).modified
-    post(q.RegionDo("a", INVERT))  # it is not there any more
+    assert not post(tq.RegionTravel("b", -1)).modified
+    post(tq.RegionDo("a", INVERT))  # it is not there any more
     assert post.scene.ident == "b"
 
 
@@ -125,7 +132,7 @@ def test_steps_from_a_file_can_be_taken_back_and_all_of_them_however_many():
     for one in (told, post):
         count = len(one.scene.steps)
         for k in range(count):
-            scene = one(q.RegionTravel("a", -1))
+            scene = one(tq.RegionTravel("a", -1))
             assert len(scene.steps) == count - k - 1
         assert not scene.can_undo
         assert np.array_equal(scene.inside, one.first)
@@ -150,15 +157,15 @@ def test_whatever_is_done_the_steps_mean_what_is_seen_and_undo_takes_all_of_it_b
         elif kind == "do":
             post.do(about[0])
         elif kind == "travel":
-            post(q.RegionTravel("a", about[0]))
+            post(tq.RegionTravel("a", about[0]))
         else:
             post.stroke(*about[0], kept=False)
         assert np.array_equal(post.scene.inside, post.meant())
         assert np.array_equal(post.seen, region_picture(over_paper(post.picture), post.scene.inside, WHOLE))
     last = post.scene
     steps = len(last.steps)
-    assert np.array_equal(post(q.RegionTravel("a", -steps)).inside, post.first)
-    again = post(q.RegionTravel("a", steps))
+    assert np.array_equal(post(tq.RegionTravel("a", -steps)).inside, post.first)
+    again = post(tq.RegionTravel("a", steps))
     assert np.array_equal(again.inside, last.inside)
     assert again.steps == last.steps
 
@@ -183,5 +190,8 @@ def test_holes_show_the_paper():
 def test_a_region_that_was_opened_before_is_as_it_was_left(ident):
     post = Post()
     left = post.stroke((10, 10), (20, 30)).inside
-    post(q.RegionOpen("b", post.picture, post.first), q.RegionOpen(ident, post.picture, post.first))
+    post(
+        tq.RegionOpen("b", post.picture, post.first),
+        tq.RegionOpen(ident, post.picture, post.first),
+    )
     assert np.array_equal(post.scene.inside, left if ident == "a" else post.first)

@@ -8,8 +8,9 @@ from engine.brush.settings import Brush
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.studio import requests as q
-from engine.studio import results, swatch_files
+from engine.studio import results
 from engine.studio.studio import Studio
+from engine.studio.textures import swatch_files
 
 ASKED = q.Swatch("it", Brush(radius=6.0, colour="#804020"), (40, 20), kept=True)
 
@@ -33,7 +34,7 @@ def painted(request):
 def test_a_second_studio_takes_it_from_its_file(folder, monkeypatch):
     first = painted(ASKED)
     assert len(list(folder.iterdir())) == 1
-    monkeypatch.setattr("engine.studio.swatches.painted", None)  # it cannot be painted any more
+    monkeypatch.setattr("engine.studio.textures.swatches.painted", None)  # it cannot be painted any more
     assert np.array_equal(painted(ASKED), first)
     assert not painted(ASKED).flags.writeable
 

@@ -23,9 +23,10 @@ from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.painting.textures import Texture
 from engine.studio import requests as q
-from engine.studio import results, swatches
+from engine.studio import results
 from engine.studio.easel import Easel
-from engine.studio.lab_spectrum import LabSpectrum
+from engine.studio.textures import swatches, texture_requests
+from engine.studio.textures.lab_spectrum import LabSpectrum
 from engine.texture.image import ImageSource
 
 FIELD = Rect(0, 0, 360, 360)  # the part of an endless field that is shown
@@ -45,8 +46,8 @@ class Lab(Owned):
         self._version = 0
         self.handlers: dict[type, Callable[[Any], None]] = {
             **self._spectrum.handlers,
-            q.LabRest: self._rest,
-            q.LabUse: self._use,
+            texture_requests.LabRest: self._rest,
+            texture_requests.LabUse: self._use,
         }
 
     @property
@@ -76,7 +77,7 @@ class Lab(Owned):
             if command != defined:
                 self._define(command)
 
-    def _rest(self, request: q.LabRest) -> None:
+    def _rest(self, request: texture_requests.LabRest) -> None:
         """Sends pictures of strokes, once nothing moves; the texture in use follows."""
         self._spectrum.finish_building()
         if self._spectrum.stale:
@@ -89,7 +90,7 @@ class Lab(Owned):
             pixels = swatches.painted(q.Swatch(ident, brush, request.size, kind, zoom), painting)
             self._easel.send(results.Picture(ident, results.frozen(to_premul8(pixels))))
 
-    def _use(self, request: q.LabUse) -> None:
+    def _use(self, request: texture_requests.LabUse) -> None:
         self._used = request.name, None
         if request.name:
             self._spectrum.finish_building()

@@ -27,8 +27,8 @@ from engine.numeric.colour_axes import ColourAxes
 from engine.painting import commands as c
 from engine.painting.capture import PictureSource
 from engine.studio import faults, results
-from engine.studio import requests as q
 from engine.studio.easel import Easel
+from engine.studio.textures import texture_requests as tq
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
@@ -59,7 +59,10 @@ class Matcher(Owned):
         self._preview: _Work | None = None
         self._wanted: list[_Work] = []
         self._shown: tuple[str, ...] = ()  # shas of the examples whose pictures were sent
-        self.handlers: dict[type, Callable[[Any], None]] = {q.MatchSet: self._set, q.MatchUse: self._use}
+        self.handlers: dict[type, Callable[[Any], None]] = {
+            tq.MatchSet: self._set,
+            tq.MatchUse: self._use,
+        }
 
     @property
     def pending(self) -> bool:
@@ -86,14 +89,14 @@ class Matcher(Owned):
             self._easel.send(results.MatchScene(fault=faults.words(error)))
             raise
 
-    def _set(self, request: q.MatchSet) -> None:
+    def _set(self, request: tq.MatchSet) -> None:
         if request.arguments is None:
             self._preview, self._shown = None, ()
             self._easel.send(results.MatchScene())
         else:
             self._preview = _Work(request.maker, request.arguments)
 
-    def _use(self, request: q.MatchUse) -> None:
+    def _use(self, request: tq.MatchUse) -> None:
         self._wanted.append(_Work(request.maker, request.arguments, request.name))
 
     def _drop(self, work: _Work) -> None:

@@ -21,8 +21,8 @@ from engine.painting import commands as c
 from engine.painting.capture import PictureSource
 from engine.painting.points import rounded
 from engine.strokes.paint_stroke import LiveStroke
-from engine.studio import requests as q
 from engine.studio.easel import Easel
+from engine.studio.textures import texture_requests as tq
 
 _CACHE = 1 << 24  # bytes of evaluated tiles, for strokes on a sheet
 
@@ -64,7 +64,7 @@ class LabSpectrum(Owned):
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
-        self.asked = q.LabSet()
+        self.asked = tq.LabSet()
         self.live: LiveStroke | None = None
         self.stale = False
         self._past: list[_State] = []
@@ -72,11 +72,11 @@ class LabSpectrum(Owned):
         self._future: list[_State] = []
         self._building: tuple[_Start, Sheets, int] | None = None  # start, sheets, strokes laid
         self.handlers: dict[type, Callable[[Any], None]] = {
-            q.LabSet: self._change,
-            q.LabBegin: self._begin,
-            q.LabPoints: self._extend,
-            q.LabEnd: self._end,
-            q.LabStep: self._travel,
+            tq.LabSet: self._change,
+            tq.LabBegin: self._begin,
+            tq.LabPoints: self._extend,
+            tq.LabEnd: self._end,
+            tq.LabStep: self._travel,
         }
 
     @property
@@ -93,7 +93,7 @@ class LabSpectrum(Owned):
             sheets = spectrum.stroked(sheets, self.live, not self.asked.forward)
         return sheets
 
-    def _change(self, request: q.LabSet) -> None:
+    def _change(self, request: tq.LabSet) -> None:
         shapes = tuple(map(self._resolved, request.shapes))
         before, self.asked = self.asked, replace(request, shapes=shapes)
         if before.size != request.size:
@@ -103,17 +103,17 @@ class LabSpectrum(Owned):
             self._now = _State(tuple(_scaled(stroke, *scale) for stroke in self._now.strokes))
         self.stale = True
 
-    def _begin(self, request: q.LabBegin) -> None:
+    def _begin(self, request: tq.LabBegin) -> None:
         self.finish_building()
         assert self._now.sheets is not None
         own, sheet = self._start().arithmetic, self.asked.sheet
         self.live = spectrum.touch(self._now.sheets, request.brush, sheet, TileCache(_CACHE), own)
 
-    def _extend(self, request: q.LabPoints) -> None:
+    def _extend(self, request: tq.LabPoints) -> None:
         if self.live is not None and not self.live.add(rounded(request.points)).empty:
             self.stale = True
 
-    def _end(self, request: q.LabEnd) -> None:
+    def _end(self, request: tq.LabEnd) -> None:
         live, self.live = self.live, None
         if live is None or live.empty:
             return
@@ -125,7 +125,7 @@ class LabSpectrum(Owned):
             self._now = _State((*self._now.strokes, live.to_command()), after, self._now.start)
             self._future = []
 
-    def _travel(self, request: q.LabStep) -> None:
+    def _travel(self, request: tq.LabStep) -> None:
         self.live = self._building = None
         if request.count == 0 and self._now.strokes:
             self._past.append(self._now)

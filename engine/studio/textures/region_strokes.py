@@ -20,8 +20,8 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.points import rounded
 from engine.strokes.example_region import followed, lay, round_brush
-from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.textures import texture_requests as tq
 
 KEPT = 100  # states before the present one that are held as pixels; those before them are painted anew
 DIM, TINT = np.float32(0.22), np.array((28, 32, 40), np.float32)  # how much of what is outside shows over what; sRGB
@@ -57,7 +57,7 @@ class _Stroke:
 class _Painted:
     """One region.  `first`: what it begins with; `picture`: the example, premultiplied, float32 (4, h, w)."""
 
-    def __init__(self, request: q.RegionOpen) -> None:
+    def __init__(self, request: tq.RegionOpen) -> None:
         self.picture, self.first = request.picture, request.first
         self.flat = over_paper(request.picture)
         steps = request.steps
@@ -158,14 +158,14 @@ class Regions(Owned):
         self._ident = ""
         self._stale = False  # what was done is not seen
         self.handlers: dict[type, Callable[[Any], None]] = {
-            q.RegionOpen: self._open,
-            q.RegionBegin: self._begin,
-            q.RegionPoints: self._extend,
-            q.RegionEnd: self._end,
-            q.RegionDo: lambda r: self._change(r.ident, lambda held: held.do(r.step, r.instead)),
-            q.RegionTravel: lambda r: self._change(r.ident, lambda held: held.travel(r.count)),
-            q.RegionSaved: self._saved,
-            q.RegionClose: self._close,
+            tq.RegionOpen: self._open,
+            tq.RegionBegin: self._begin,
+            tq.RegionPoints: self._extend,
+            tq.RegionEnd: self._end,
+            tq.RegionDo: lambda r: self._change(r.ident, lambda held: held.do(r.step, r.instead)),
+            tq.RegionTravel: lambda r: self._change(r.ident, lambda held: held.travel(r.count)),
+            tq.RegionSaved: self._saved,
+            tq.RegionClose: self._close,
         }
 
     @property
@@ -182,7 +182,7 @@ class Regions(Owned):
                 held.settle()
             self._show(held)
 
-    def _open(self, request: q.RegionOpen) -> None:
+    def _open(self, request: tq.RegionOpen) -> None:
         self._settle()
         self._held.setdefault(request.ident, _Painted(request))
         self._held[request.ident].dirty = self._held[request.ident].whole
@@ -198,29 +198,29 @@ class Regions(Owned):
             change(held)
             self._ident, self._stale = ident, True
 
-    def _begin(self, request: q.RegionBegin) -> None:
+    def _begin(self, request: tq.RegionBegin) -> None:
         self._change(request.ident, lambda held: held.begin(request.op, request.radius))
 
-    def _extend(self, request: q.RegionPoints) -> None:
+    def _extend(self, request: tq.RegionPoints) -> None:
         held = self._held.get(self._ident)
         if held is not None:
             held.extend(rounded(request.points))
             self._stale = True
 
-    def _end(self, request: q.RegionEnd) -> None:
+    def _end(self, request: tq.RegionEnd) -> None:
         held = self._held.get(self._ident)
         if held is not None:
             held.end(request.kept)
             self._stale = True
 
-    def _saved(self, request: q.RegionSaved) -> None:
+    def _saved(self, request: tq.RegionSaved) -> None:
         held = self._held.pop(request.ident, None)
         if held is not None:
             held.saved, held.dirty = request.steps, held.whole
             self._held[request.name] = held
             self._ident, self._stale = request.name, True
 
-    def _close(self, request: q.RegionClose) -> None:
+    def _close(self, request: tq.RegionClose) -> None:
         self._held.pop(request.ident, None)
 
     def _settle(self) -> None:

@@ -1,0 +1,84 @@
+"""What an action is, and what several of them have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from app.desk.desk import Desk
+from engine.painting import commands as c
+from engine.studio.requests import Do
+
+Check = Callable[[Desk], bool]
+
+
+class Action(NamedTuple):
+    """One thing the artist can do.  `keys`: such as `Ctrl+Shift+Z`, the first is shown in menus."""
+
+    title: str
+    menu: str
+    keys: tuple[str, ...]
+    hint: str
+    do: Callable[[Desk], None]
+    when: Check = lambda desk: True
+    checked: Check | None = None
+
+
+def always(_desk: Desk) -> bool:
+    """True: for what can always be done."""
+    return True
+
+
+def ready(desk: Desk) -> bool:
+    """Tells whether the engine can be asked, and no stroke is in hand."""
+    return desk.known.ready and not desk.painting
+
+
+def idle(desk: Desk) -> bool:
+    """Tells whether no stroke is in hand."""
+    return not desk.painting
+
+
+def chosen(desk: Desk) -> bool:
+    """Tells whether a layer is chosen."""
+    return ready(desk) and desk.known.scene is not None and desk.known.scene.active is not None
+
+
+def posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
+    """Returns what posts a command that `make` makes."""
+    return lambda desk: desk.post(Do(make()))
+
+
+def next_layer_name(desk: Desk, stem: str) -> str:
+    """`stem` with the first number that no layer has yet."""
+    return free_name(stem, {row.name for row in desk.known.scene.layers} if desk.known.scene else set())
+
+
+def free_name(stem: str, taken: set[str]) -> str:
+    """`stem` with the first number that is not taken yet."""
+    n = 1
+    while f"{stem} {n}" in taken:
+        n += 1
+    return f"{stem} {n}"
+
+
+def active(desk: Desk) -> str:
+    """Returns the name of the layer that is chosen."""
+    assert desk.known.scene is not None
+    assert desk.known.scene.active is not None
+    return desk.known.scene.active
+
+
+def asks(name: str) -> Callable[[Desk], None]:
+    """Returns what shows a dialog."""
+    return lambda desk: desk.asked.show(name)
+
+
+def asks_guarded(name: str) -> Callable[[Desk], None]:
+    """Returns what shows a dialog, once what is not saved was asked about."""
+    return lambda desk: desk.guard(lambda: desk.asked.show(name))
+
+
+def to_now(desk: Desk) -> None:
+    """Shows the painting as it is, after looking back."""
+    desk.past.look(desk.post, None)

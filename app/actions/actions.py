@@ -1,0 +1,49 @@
+"""The table of actions: name, menu, keys, when allowed, what it does; those of no menu are offers of notices.
+
+Menus, keys, tooltips and the list of keys are made from it.
+"""
+
+from __future__ import annotations
+
+from app.actions.action import Action, asks
+from app.actions.edit_actions import EDIT_ACTIONS
+from app.actions.file_actions import FILE_ACTIONS
+from app.actions.layer_actions import LAYER_ACTIONS
+from app.actions.tool_actions import TOOL_ACTIONS
+from app.actions.view_actions import VIEW_ACTIONS
+from app.desk import offers
+from app.desk.desk import Desk
+
+ACTIONS: dict[str, Action] = {
+    **FILE_ACTIONS,
+    **EDIT_ACTIONS,
+    **TOOL_ACTIONS,
+    **LAYER_ACTIONS,
+    **VIEW_ACTIONS,
+    "keys": Action("Keys…", "Help", ("F1",), "All keys in one list", asks("keys")),
+    "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
+    "about": Action("About Inkfall…", "Help", (), "What this program is", asks("about")),
+}  # fmt: skip
+MENUS = ("File", "Edit", "Tools", "Layer", "View", "Go", "Help")
+
+
+def by_key(keys: str) -> Action | None:
+    """Returns the action that a key press such as `Ctrl+S` means."""
+    return _BY_KEY.get(keys)
+
+
+_BY_KEY = {key: action for action in ACTIONS.values() for key in action.keys}
+
+
+def perform(desk: Desk, action: Action) -> bool:
+    """Does it if it is allowed now."""
+    if not action.when(desk):
+        return False
+    action.do(desk)
+    return True
+
+
+def tip(name: str) -> str:
+    """Returns an action's hint with its keys, for tooltips."""
+    action = ACTIONS[name]
+    return f"{action.hint}  ({action.keys[0]})" if action.keys else action.hint

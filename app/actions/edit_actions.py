@@ -1,0 +1,45 @@
+"""The actions of the Edit menu."""
+
+from __future__ import annotations
+
+from app.actions.action import Action as A
+from app.actions.action import posts, ready, to_now
+from app.desk.desk import Desk
+from app.desk.hand import BLACK, WHITE
+from engine.painting import commands as c
+
+
+def _can_undo(desk: Desk) -> bool:
+    scene = desk.known.scene
+    return ready(desk) and scene is not None and (scene.can_undo or desk.behind())  # a stroke may still be laid
+
+
+def _can_redo(desk: Desk) -> bool:
+    return ready(desk) and desk.known.scene is not None and desk.known.scene.can_redo
+
+
+def _swap(desk: Desk) -> None:
+    desk.hand.swap()
+
+
+def _default_colours(desk: Desk) -> None:
+    desk.hand.colour, desk.hand.other_colour = BLACK, WHITE
+
+
+def _asks_here(desk: Desk) -> None:
+    desk.strip, desk.panels = "history", True
+    desk.past.listing, desk.past.asking = "here", True
+
+
+def _looking_back(desk: Desk) -> bool:
+    return desk.past.looking is not None
+
+
+EDIT_ACTIONS: dict[str, A] = {
+    "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", posts(c.Undo), _can_undo),
+    "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", posts(c.Redo), _can_redo),
+    "here": A("What was painted here?", "Edit", ("W",), "The strokes that show at a place", _asks_here, ready),
+    "now": A("Back to now", "Edit", (), "See the painting as it is, after looking back", to_now, _looking_back),
+    "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
+    "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
+}  # fmt: skip

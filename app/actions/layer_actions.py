@@ -1,0 +1,80 @@
+"""The actions of the Layer menu."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.actions.action import Action as A
+from app.actions.action import active, chosen, next_layer_name, ready
+from app.desk.desk import Desk
+from app.desk.known import moved_by
+from engine.painting import commands as c
+from engine.studio.requests import Do
+
+_ASIDE = 40  # points of the screen by which what is shown again lies beside itself, down and to the right
+
+
+def _hidden(desk: Desk) -> bool:
+    return ready(desk) and bool(desk.known.hiding)
+
+
+def _add(kind: str, stem: str) -> Callable[[Desk], None]:
+    return lambda desk: desk.post(Do(c.AddLayer(next_layer_name(desk, stem), kind=kind)))
+
+
+def _duplicate(desk: Desk) -> None:
+    name = active(desk)
+    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} copy"))))
+
+
+def _show_again(desk: Desk) -> None:
+    name, aside = active(desk), round(_ASIDE * desk.scale)
+    placing = c.Placing(of=name, at=(aside, aside), level=desk.view.shown_level)
+    taken = {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
+    wanted = f"{name} again"
+    desk.post(Do(c.AddPlacement(wanted if wanted not in taken else next_layer_name(desk, wanted), placing)))
+
+
+def _nudges(x: int, y: int) -> Callable[[Desk], None]:
+    def do(desk: Desk) -> None:
+        row = desk.known.active
+        if row is not None and not row.locked and desk.past.looking is None:
+            desk.post(Do(c.SetLayer(row.name, placing=moved_by(row, desk.view.shown_level, x, y))))
+
+    return do
+
+
+def _remove(desk: Desk) -> None:
+    desk.post(Do(c.RemoveLayer(active(desk))))
+
+
+def _show(desk: Desk) -> None:
+    for name in desk.known.hiding:
+        desk.post(Do(c.SetLayer(name, visible=True)))
+
+
+def _moves(by: int) -> Callable[[Desk], None]:
+    def do(desk: Desk) -> None:
+        row = next((r for r in desk.known.scene.layers if r.name == active(desk)), None) if desk.known.scene else None
+        if row is not None and row.position + by >= 0:
+            desk.post(Do(c.MoveLayer(row.name, row.position + by)))
+
+    return do
+
+
+LAYER_ACTIONS: dict[str, A] = {
+    "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), ready),
+    "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), ready),
+    "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer", _duplicate, chosen),
+    "show_again": A(
+        "Show again", "Layer", (), "Show the layer once more: what is painted on it shows there", _show_again, chosen
+    ),
+    "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
+    "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),
+    "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, chosen),
+    "left": A("Nudge left", "Layer", ("Left",), "Move the layer by a pixel of what you see", _nudges(-1, 0), chosen),
+    "right": A("Nudge right", "Layer", ("Right",), "Move the layer by a pixel of what you see", _nudges(1, 0), chosen),
+    "up": A("Nudge up", "Layer", ("Up",), "Move the layer by a pixel of what you see", _nudges(0, -1), chosen),
+    "down": A("Nudge down", "Layer", ("Down",), "Move the layer by a pixel of what you see", _nudges(0, 1), chosen),
+    "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),
+}  # fmt: skip

@@ -1,0 +1,54 @@
+"""The actions of the Tools menu."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.actions.action import Action as A
+from app.actions.action import Check, always, to_now
+from app.desk.desk import Desk
+
+
+def _tool(name: str) -> Callable[[Desk], None]:
+    def choose(desk: Desk) -> None:
+        desk.hand.use(name)
+
+    return choose
+
+
+def _is(name: str) -> Check:
+    return lambda desk: desk.hand.tool == name and not desk.hand.erasing
+
+
+def _erasing(desk: Desk) -> bool:
+    return desk.hand.erasing
+
+
+def _toggle_eraser(desk: Desk) -> None:
+    desk.hand.erase(not desk.hand.erasing)
+
+
+def _escape(desk: Desk) -> None:
+    if desk.known.opening is not None:
+        desk.stop_opening()
+        return
+    desk.match.marking = None
+    desk.past.asking = False
+    if desk.past.looking is not None:
+        to_now(desk)
+    desk.examples.swapping = False
+    desk.hand.use("brush")
+
+
+TOOL_ACTIONS: dict[str, A] = {
+    "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), always, _is("brush")),
+    "eraser": A("Eraser", "Tools", ("E",), "Erase; again to paint", _toggle_eraser, always, _erasing),
+    "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), always, _is("pick")),
+    "move": A("Move", "Tools", ("V",), "Drag the layer", _tool("move"), always, _is("move")),
+    "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), always, _is("pan")),
+    "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),
+    "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),
+    "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.hand.resize(1 / 1.15)),
+    "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.hand.resize(1.15)),
+    "escape": A("Back to the brush", "Tools", ("Escape",), "Stop what is going on; back to the brush", _escape),
+}  # fmt: skip

@@ -1,0 +1,1 @@
+"""The tools: one generator for each gesture."""

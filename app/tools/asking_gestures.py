@@ -1,0 +1,61 @@
+"""Gestures that take something from a place: a colour, an example, the strokes that show there."""
+
+from __future__ import annotations
+
+from app.canvas.view import Place
+from app.desk.desk import Desk
+from app.desk.examples import example_use
+from app.desk.match_state import SMALLEST
+from app.input.events import PenEvent
+from app.tools.gesture import Gesture
+from engine.numeric.address import Rect
+from engine.studio.requests import Pick
+
+
+def pick(desk: Desk, first: PenEvent) -> Gesture:
+    """Takes the colour under the pointer."""
+    event = first
+    while True:
+        place: Place = desk.view.to_canvas(event.x, event.y)
+        level = desk.view.shown_level
+        desk.post(Pick(level, *place.pixel(level)))
+        if event.kind == "up":
+            return
+        event = yield
+
+
+def mark(desk: Desk, first: PenEvent) -> Gesture:
+    """A rectangle of the canvas becomes an example to match."""
+    match, index = desk.match, desk.match.marking or 0
+    event = first
+    try:
+        while event.kind != "up":
+            match.marked = first.x, first.y, event.x, event.y
+            event = yield
+    finally:
+        match.marked = None
+    level, view = desk.view.shown_level, desk.view
+    corners = [view.to_canvas(x, y).pixel(level) for x in (first.x, event.x) for y in (first.y, event.y)]
+    xs, ys = zip(*corners, strict=True)
+    rect = Rect(min(xs), min(ys), max(xs), max(ys))
+    if min(rect.width, rect.height) < SMALLEST:
+        desk.say(f"An example has at least {SMALLEST} pixels along each side", bad=True)
+        return
+    match.show_area(index, level, rect)
+
+
+def swap(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns what was painted with an example, at the place touched, becomes like the chosen one."""
+    event = first
+    while event.kind != "up":
+        event = yield
+    example_use.swap(desk, event.x, event.y)
+
+
+def ask_here(desk: Desk, first: PenEvent) -> Gesture:
+    """Asks for the strokes that show at the place touched."""
+    event = first
+    while event.kind != "up":
+        event = yield
+    level = desk.view.shown_level
+    desk.past.ask(desk.post, level, *desk.view.to_canvas(event.x, event.y).pixel(level))

@@ -1,0 +1,131 @@
+"""Gestures that paint: on the canvas, in the spectrum of the texture lab, in the region of an example."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from app.canvas.view import View
+from app.desk import palette
+from app.desk.colours import to_hex
+from app.desk.desk import Desk
+from app.desk.examples import example_use
+from app.input.events import ENDS, PenEvent
+from app.tools.gesture import Gesture
+from app.trace import trace, trace_points
+from engine.brush.smoothing import Smoother
+from engine.studio.requests import Abandon, Begin, Finish, Points
+from engine.studio.textures.texture_requests import LabBegin, LabEnd, LabPoints, RegionBegin, RegionEnd, RegionPoints
+
+
+def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, start: float) -> list[float]:
+    """Returns a pen event as a row of stroke points."""
+    x, y = view.to_canvas(event.x, event.y).offset(level, *origin)
+    pressure = event.pressure if event.pen else 1.0
+    return [x, y, pressure, event.tilt_x, event.tilt_y, event.time - start]
+
+
+def paint(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke, at the level that is shown."""
+    if desk.known.opening and not desk.known.ready:  # who paints before the engine is there paints on a new painting
+        desk.say("The paint engine is still loading")
+        return
+    if desk.past.looking is not None:
+        desk.say("This is an earlier step: nothing can be painted on it", bad=True, offer="now")
+        return
+    layer = desk.known.active
+    if layer is not None and layer.locked:
+        desk.say(f"Layer “{layer.name}” is locked", bad=True)
+        return
+    if layer is not None and layer.shows is not None:
+        desk.say(f"“{layer.name}” shows “{layer.shows.name or 'the painting'}”: paint on that", bad=True)
+        return
+    if desk.known.hiding:
+        desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
+    example_use.fit_within_reach(desk)
+    palette.provide(desk)
+    level, brush = desk.stroke_brush(first.eraser)
+    origin = desk.view.to_canvas(first.x, first.y).pixel(level)
+    smoother = Smoother(desk.hand.stabiliser)
+    desk.post(Begin(level, origin, brush))
+    desk.painting = True
+    done = False
+    try:
+        event = first
+        while True:
+            if event.kind in ("down", "move"):
+                _post(desk, smoother.add(np.array([_point(desk.view, level, origin, event, first.time)])))
+            if event.kind in ENDS:
+                break
+            event = yield
+        _post(desk, smoother.finish())
+        done = True
+    finally:
+        desk.painting = False
+        desk.post(Finish() if done else Abandon())
+        trace("a stroke is posted" if done else "a stroke is dropped")
+    if brush.row.lays_ink:
+        desk.hand.remember()
+
+
+def paint_lab(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke in the texture lab's spectrum."""
+    lab = desk.lab
+    built_in = frozenset(row.name for row in desk.known.tables.kinds if not row.pictured)
+    brush = lab.brush(desk.hand.brush, to_hex(desk.hand.colour), first.eraser, built_in)
+    smoother = Smoother(desk.hand.stabiliser)
+    desk.post(LabBegin(brush))
+    lab.painting = True
+    done = False
+    try:
+        event = first
+        while True:
+            if event.kind in ("down", "move"):
+                pressure = event.pressure if event.pen else 1.0
+                row = [*lab.place(event.x, event.y), pressure, event.tilt_x, event.tilt_y, event.time - first.time]
+                _post(desk, smoother.add(np.array([row])), LabPoints)
+            if event.kind in ENDS:
+                break
+            event = yield
+        _post(desk, smoother.finish(), LabPoints)
+        done = True
+    finally:
+        lab.painting = False
+        desk.post(LabEnd(done))
+
+
+def paint_region(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke in the region of an example; as all strokes it may be dropped.  A click takes a colour out of
+    it."""
+    state, region = desk.examples, desk.examples.region
+    if region is None:
+        return
+    event = first
+    if region.way == "colour" and not first.eraser:
+        x, y = state.place(first.x, first.y)
+        region.pick(desk.post, int(x // 1), int(y // 1))
+        while event.kind != "up":
+            event = yield
+        return
+    op = "add" if region.way == "in" and not first.eraser else "subtract"
+    desk.post(RegionBegin(region.scene.ident, op, region.radius))
+    done = False
+    try:
+        while True:
+            if event.kind in ("down", "move", "up"):
+                _post(desk, np.array([[*state.place(event.x, event.y), 1.0, 0.0, 0.0, 0.0]]), RegionPoints)
+            if event.kind in ENDS:
+                break
+            event = yield
+        done = True
+    finally:
+        desk.post(RegionEnd(done))
+
+
+def _post(desk: Desk, points: np.ndarray, form: type[Points | LabPoints | RegionPoints] = Points) -> None:
+    if len(points):
+        points.flags.writeable = False
+        began = time.monotonic()
+        desk.post(form(points))
+        trace_points(len(points), began)

@@ -1,0 +1,21 @@
+"""The table of tools."""
+
+from __future__ import annotations
+
+from app import icons
+from app.tools.asking_gestures import pick
+from app.tools.gesture import Tool
+from app.tools.moving_gestures import move
+from app.tools.painting_gestures import paint
+from app.tools.view_gestures import pan, turn, zoom
+
+TOOLS: dict[str, Tool] = {
+    "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
+    "move": Tool("Move", icons.MOVE, move, "Drag the layer, by whole pixels of what you see; nothing of it is lost"),
+    "pan": Tool("Pan", icons.HAND, pan, "Drag the picture (Space or the middle button with any tool)"),
+    "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),
+    "turn": Tool("Turn", icons.ROTATE, turn, "Drag to turn the view; the painting itself stays as it is"),
+    "pick": Tool(
+        "Pick colour", icons.PICK, pick, "Take a colour from the picture (Ctrl or the right button with any tool)"
+    ),
+}
