@@ -3,7 +3,7 @@
 import pytest
 from examples_at_hand import named
 
-from app import icons, tools
+from app import icons
 from app.actions.actions import ACTIONS
 from app.cursor import apart
 from app.desk.examples import example_state, example_use, example_work
@@ -30,12 +30,12 @@ def region(desk):
 
 def test_a_stroke_in_the_region_paints_there_and_a_pens_eraser_paints_out(desk, region):
     before = region.scene.inside.copy()
-    gesture = tools.paint_region(desk, pen("down", 110.0, 210.0))
+    gesture = painting_gestures.paint_region(desk, pen("down", 110.0, 210.0))
     next(gesture)
     with pytest.raises(StopIteration):
         gesture.send(pen("up", 130.0, 210.0))
     assert region.scene.inside[5, 5:15].all()
-    gesture = tools.paint_region(desk, pen("down", 110.0, 210.0, eraser=True))
+    gesture = painting_gestures.paint_region(desk, pen("down", 110.0, 210.0, eraser=True))
     next(gesture)
     with pytest.raises(StopIteration):
         gesture.send(pen("up", 130.0, 210.0))
@@ -47,7 +47,7 @@ def test_a_stroke_in_the_region_paints_there_and_a_pens_eraser_paints_out(desk, 
 
 def test_a_stroke_that_is_given_up_leaves_the_region_as_it_was(desk, region):
     before = region.scene.inside.copy()
-    gesture = tools.paint_region(desk, pen("down", 110.0, 210.0))
+    gesture = painting_gestures.paint_region(desk, pen("down", 110.0, 210.0))
     next(gesture)
     gesture.send(pen("move", 130.0, 210.0))
     gesture.close()
@@ -86,12 +86,12 @@ def test_a_click_swaps_and_escape_does_not(desk, posted):
     ACTIONS["escape"].do(desk)
     assert not desk.examples.swapping
     desk.examples.swapping = True
-    gesture = tools.swap(desk, pen("down", 400.0, 300.0))
+    gesture = asking_gestures.swap(desk, pen("down", 400.0, 300.0))
     next(gesture)
     gesture.close()
     assert desk.examples.swapping
     assert not posted
-    gesture = tools.swap(desk, pen("down", 400.0, 300.0))
+    gesture = asking_gestures.swap(desk, pen("down", 400.0, 300.0))
     next(gesture)
     with pytest.raises(StopIteration):
         gesture.send(pen("up", 402.0, 303.0))
