@@ -11,6 +11,7 @@ from app.desk.examples.region_state import INVERTED
 from app.input.events import PenEvent
 from app.panels import status
 from app.panels.strip import StripPanel
+from app.tools import asking_gestures, painting_gestures
 from engine.studio.requests import GetReady
 from engine.studio.results import Growing, Writing
 
