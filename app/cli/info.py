@@ -120,7 +120,7 @@ def facts(found: Opened) -> dict[str, Any]:
 def _row(root: Group, node: Node) -> dict[str, Any]:
     from engine.canvas import layers
     from engine.canvas.placing.placement import Placement
-    from engine.painting.layer_commands import Placing, write_placing
+    from engine.painting.layering.placing_members import Placing, write_placing
 
     row: dict[str, Any] = {
         "name": node.name,

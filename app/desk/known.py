@@ -13,7 +13,7 @@ from typing import Any
 from app.desk.presets import Paper, Preset
 from engine.canvas.placing.pose import Pose
 from engine.numeric.address import Rect
-from engine.painting.layer_commands import Placing
+from engine.painting.layering.placing_members import Placing
 from engine.studio import results
 from engine.studio.held.held_records import Held
 from engine.studio.results import (

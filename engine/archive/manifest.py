@@ -28,7 +28,7 @@ from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
 from engine.numeric.arithmetic import EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
-from engine.painting.layer_commands import Placing, read_placing, write_placing
+from engine.painting.layering.placing_members import Placing, read_placing, write_placing
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT, read_grid
 from engine.painting.textures import Texture

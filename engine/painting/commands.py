@@ -25,12 +25,12 @@ from engine.painting.layer_commands import BakePlacement as BakePlacement
 from engine.painting.layer_commands import DuplicateLayer as DuplicateLayer
 from engine.painting.layer_commands import LayerCommand as LayerCommand
 from engine.painting.layer_commands import MoveLayer as MoveLayer
-from engine.painting.layer_commands import Placing as Placing
 from engine.painting.layer_commands import RemoveLayer as RemoveLayer
 from engine.painting.layer_commands import RenameLayer as RenameLayer
-from engine.painting.layer_commands import Same as Same
 from engine.painting.layer_commands import SelectLayer as SelectLayer
 from engine.painting.layer_commands import SetLayer as SetLayer
+from engine.painting.layering.placing_members import Placing as Placing
+from engine.painting.layering.placing_members import Same as Same
 from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT
 from engine.painting.places import PLACE_LIMIT as PLACE_LIMIT
 from engine.painting.places import Bookmark as Bookmark

@@ -11,7 +11,7 @@ from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.bake import baked
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, Pose
-from engine.painting.layer_commands import Placing, Same
+from engine.painting.layering.placing_members import Placing, Same
 from engine.painting.value import Painting
 
 

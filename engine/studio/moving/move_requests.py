@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from engine.painting.layer_commands import Placing
+from engine.painting.layering.placing_members import Placing
 
 
 @dataclass(frozen=True, slots=True)
