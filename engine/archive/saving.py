@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import io
 import os
-import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -27,6 +26,7 @@ from engine.archive.implied import needed, ordered
 from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.plot_files import PlotEntry
+from engine.archive.saving_turn import SAVING
 from engine.archive.spooled_png import SpooledPng
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node, isolation
@@ -59,7 +59,6 @@ MERGED, THUMB = "mergedimage.png", "Thumbnails/thumbnail.png"
 WORKERS = 2
 WAITING = 4  # finished jobs that may wait for their turn
 _HELD_PART = 32  # of the budget of memory, that one level may take while finer ones are evaluated
-_TURNS = threading.BoundedSemaphore(WORKERS)  # a save and a checkpoint may run at once, and take as much as one of them
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -80,30 +79,42 @@ def save(
     cancelled: Stop = None,
     ready: Callable[[Path], None] | None = None,
 ) -> None:
-    """Writes the painting.  The place holds the old file or the whole new one, which was read back and checked.
+    """Writes the painting, when it is its turn.  The place holds the old file or the whole new one, which was read back
+    and checked.
 
     `progress` gets the part done, 0..1, on the calling thread; `cancelled` is asked from several; `ready` gets the
     whole new file before it takes its place, and may raise.  WriteError if it cannot be done, Cancelled if it was asked
     for; either way nothing has changed.
     """
     try:
-        painting = replace(snapshot.painting, root=folded_layers(settled_root(snapshot.painting.root)))
-        plan = SavePlan(painting, snapshot.recording, cancelled)
-        with replacing(path, verify=lambda part: _verify(part, path, plan, ready)) as file:
-            writer = ZipWriter(file)
-            writer.add("mimetype", MIMETYPE)
-            plan.begin(writer)
-            with closing(_made(plan, cancelled)) as made:
-                for number, (job, product) in enumerate(made):
-                    _add(writer, job.name, product, job.deflate)
-                    if progress is not None:
-                        progress((number + 1) / (len(plan.names) + 1))
-            plan.finish(writer)
-            writer.close()
+        with SAVING.taken(cancelled):
+            _save(path, snapshot, progress, cancelled, ready)
     except MemoryError as error:
         raise WriteError(path, "not enough memory to save it") from error
     if progress is not None:
         progress(1.0)
+
+
+def _save(
+    path: str | os.PathLike[str],
+    snapshot: Snapshot,
+    progress: Progress,
+    cancelled: Stop,
+    ready: Callable[[Path], None] | None,
+) -> None:
+    painting = replace(snapshot.painting, root=folded_layers(settled_root(snapshot.painting.root)))
+    plan = SavePlan(painting, snapshot.recording, cancelled)
+    with replacing(path, verify=lambda part: _verify(part, path, plan, ready)) as file:
+        writer = ZipWriter(file)
+        writer.add("mimetype", MIMETYPE)
+        plan.begin(writer)
+        with closing(_made(plan, cancelled)) as made:
+            for number, (job, product) in enumerate(made):
+                _add(writer, job.name, product, job.deflate)
+                if progress is not None:
+                    progress((number + 1) / (len(plan.names) + 1))
+        plan.finish(writer)
+        writer.close()
 
 
 def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], None, None]:
@@ -119,7 +130,7 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
             try:
                 while plan.jobs:
                     job = plan.jobs.popleft()  # with the last of a layer's goes what was evaluated for them
-                    waiting.append((job, pool.submit(_in_turn, job.make)))
+                    waiting.append((job, pool.submit(job.make)))
                     if len(waiting) >= WAITING:
                         yield _next(waiting, cancelled)
                 while waiting:
@@ -132,11 +143,6 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
         if shown is not None and not shown.cancelled() and shown.exception() is None:
             for _, product in shown.result():
                 product.close()
-
-
-def _in_turn(make: Callable[[], Product]) -> Product:
-    with _TURNS:
-        return make()
 
 
 def _next(waiting: deque[tuple[Job, Future[Product]]], cancelled: Stop) -> tuple[Job, Product]:

@@ -15,6 +15,7 @@ from isal import isal_zlib
 
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
+from engine.archive.saving_turn import SAVING
 from engine.files.fault import FileError
 from engine.journal.records import Members
 from engine.journal.story import Checkpoint
@@ -34,9 +35,11 @@ def write_checkpoint(
     folder: Path, generation: int, painting: Painting, cancelled: Callable[[], bool] | None = None
 ) -> Members:
     """Writes a painting, grown to its end, without its recording; returns what the journal is to tell of the file
-    besides the number of commands.  WriteError or Cancelled if it was not written."""
+    besides the number of commands.  WriteError or Cancelled if it was not written, as where a painting is being written
+    elsewhere."""
     place = checkpoint_file(folder, generation)
-    save(place, Snapshot(replace(painting, frame=_NO_FRAME)), cancelled=cancelled)
+    with SAVING.taken_if_free():  # it must not wait: who has the turn may wait for the thread that writes this
+        save(place, Snapshot(replace(painting, frame=_NO_FRAME)), cancelled=cancelled)
     size, crc = _sums(place)
     return {"generation": generation, "size": size, "crc": crc}
 

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
+from engine.archive.saving_turn import SAVING
 from engine.checks.owned import Owned
 from engine.files.atomic import replacing
 from engine.files.fault import Cancelled, FileError
@@ -32,6 +33,7 @@ from engine.journal.kept import keep_source
 from engine.journal.records import Kind, told_object
 from engine.journal.volume import Volume
 from engine.journal.writing import RETRY
+from engine.keeping import memory
 from engine.numeric.colour import to_rgba8
 from engine.painting.grown import waiting
 from engine.painting.rendering import strips
@@ -45,7 +47,7 @@ LIMIT = 1.0  # seconds of carrying out after which a checkpoint is written: more
 PATIENCE = 3.0  # times that long one waits until what is painted with examples has grown by itself
 PAUSE_FACTOR = 1.0  # times as long as a checkpoint took until the next is begun, at least
 PICTURE_PAUSE = 5.0  # seconds between two small pictures, at least
-PREPARING = 0.25  # seconds from one look at whether kernels are still being compiled to the next
+PREPARING = 0.25  # seconds from one look at whether kernels are still being compiled, or a file written, to the next
 _MOST_FAILURES = 5  # each of which doubles the time until a checkpoint is tried again
 _NICE = 10
 
@@ -71,7 +73,8 @@ class Beside(Owned):
         self._closing = threading.Event()
         self._is_compiling, self._wake = is_compiling, wake
         self._opened = Opened(journal, self.do, wake)
-        self._writing: Future[float | None] | None = None  # gives how long it took, None if it was not written
+        self._writing: Future[_Ended] | None = None
+        self._gives_way = True  # whether the next checkpoint does, to a save
         self._owed = 0.0  # `spent` before that one
         self._failures = 0  # to write one, in a row
         self._generation = int(time.time())  # none that an entry had before
@@ -113,10 +116,13 @@ class Beside(Owned):
         due = min(waits)
         self.due = None if due == math.inf else due
 
-    def _written(self, took: float | None, now: float) -> None:
-        """A checkpoint has ended."""
-        self._writing = None
-        if took is None:
+    def _written(self, ended: _Ended, now: float) -> None:
+        """A checkpoint has ended.  One that gave way to a save is written after it, and then gives way to none."""
+        self._writing, took = None, ended.took
+        self._gives_way = not ended.gave_way
+        if ended.gave_way:
+            self._next, self.spent = now, max(self.spent, self._owed)
+        elif took is None:
             self._next, self.spent = now + RETRY * 2**self._failures, max(self.spent, self._owed)
             self._failures = min(self._failures + 1, _MOST_FAILURES)
         else:
@@ -128,10 +134,12 @@ class Beside(Owned):
             return math.inf  # who ends it wakes this thread
         if now < self._next:
             return self._next
+        if not SAVING.free:
+            return now + PREPARING
         if waiting(painting.root) and self.spent < PATIENCE * LIMIT:
             return now + LIMIT
         self._owed, self.spent, self._generation = self.spent, 0.0, self._generation + 1
-        about = _Generation(self._generation, painting, count, self._closing.is_set)
+        about = _Generation(self._generation, painting, count, self._closing.is_set, self._gives_way)
         wake = self._wake
         self._writing = self._pool.submit(_checkpoint, self._journal, self._entry, about)
         self._writing.add_done_callback(lambda written: wake())
@@ -181,13 +189,22 @@ class Beside(Owned):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Generation:
-    """A checkpoint to be written: its number, the painting after `count` commands, and what asks whether it is still
-    wanted."""
+    """A checkpoint to be written: its number, the painting after `count` commands, what tells whether it is given up,
+    and whether it gives way to a save."""
 
     number: int
     painting: Painting
     count: int
-    cancelled: Callable[[], bool]
+    given_up: Callable[[], bool]
+    gives_way: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Ended:
+    """What came of a checkpoint: seconds that it took, None if it was not written; whether it gave way to a save."""
+
+    took: float | None
+    gave_way: bool
 
 
 def write_picture(folder: Path, painting: Painting) -> None:
@@ -201,17 +218,22 @@ def write_picture(folder: Path, painting: Painting) -> None:
         write_png(file, to_rgba8(planes))
 
 
-def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> float | None:
-    """Returns seconds that it took; None if it was not written."""
-    start, written = time.monotonic(), list[int]()
+def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> _Ended:
+    start, written, gave_way = time.monotonic(), list[int](), False
+
+    def cancelled() -> bool:
+        nonlocal gave_way
+        gave_way = gave_way or (about.gives_way and SAVING.wanted)
+        return gave_way or about.given_up()
 
     def write(folder: Path) -> None:
-        told = write_checkpoint(folder, about.number, about.painting, about.cancelled)
+        told = write_checkpoint(folder, about.number, about.painting, cancelled)
         journal.note(Kind.CHECKPOINT, told_object({**told, "commands": about.count}), entry)
         written.append(about.count)
 
     _tried(partial(in_folder, entry, write))
-    return time.monotonic() - start if written else None
+    memory.settle()
+    return _Ended(time.monotonic() - start if written else None, not written and (gave_way or not SAVING.free))
 
 
 def _yield() -> None:
