@@ -20,6 +20,7 @@ from engine.files.strict_json import Fields
 from engine.painting import layer_commands, places
 from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
 from engine.painting.layer_commands import AddLayer as AddLayer
+from engine.painting.layer_commands import AddPicture as AddPicture
 from engine.painting.layer_commands import AddPlacement as AddPlacement
 from engine.painting.layer_commands import BakePlacement as BakePlacement
 from engine.painting.layer_commands import DuplicateLayer as DuplicateLayer

@@ -12,6 +12,7 @@ from engine.brush.checks import thawed
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.painting.layering.placing_members import PLACED, Members, Placing, Reader, Same, read_placing, write_placing
+from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 
 COUNT_LIMIT = 1_000_000_000
 Extra = Map[str, Any]  # members that this version does not know
@@ -25,6 +26,20 @@ class AddLayer:
 
     name: str
     kind: str = "layer"
+    group: str | Same | None = Same.SAME
+    to: int | None = None
+    extra: Extra = _NOTHING
+
+
+@dataclass(frozen=True, slots=True)
+class AddPicture:
+    """A new layer that begins with the picture of a texture, whose corner lies at pixel `at` of `level`, a pixel on a
+    pixel; in the tree as an `AddLayer` has it."""
+
+    name: str
+    texture: str
+    level: int = 0
+    at: tuple[int, int] = (0, 0)
     group: str | Same | None = Same.SAME
     to: int | None = None
     extra: Extra = _NOTHING
@@ -136,6 +151,12 @@ def _new_place(members: Fields) -> Members:
     return {"group": _group(members), "to": members.integer("to", None, lo=0, hi=COUNT_LIMIT)}
 
 
+def _picture(members: Fields) -> Members:
+    level = members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
+    x, y = members.integers("at", 2, (0, 0), limit=PLACE_LIMIT)
+    return {"texture": members.text("texture"), "level": level, "at": (x, y)}
+
+
 def _opacity(members: Fields, name: str) -> float:
     out: float = members.number(name, lo=0.0, hi=1.0)
     return out
@@ -183,9 +204,11 @@ _KINDS: dict[str, Callable[[Fields], tuple[type, Members]]] = {
     "layer": lambda members: (AddLayer, {}),
     "group": lambda members: (AddLayer, {"kind": "group"}),
     "placement": lambda members: (AddPlacement, {"placing": read_placing(members)}),
+    "picture": lambda members: (AddPicture, _picture(members)),
 }
 LayerCommand = (
     AddLayer
+    | AddPicture
     | AddPlacement
     | BakePlacement
     | SelectLayer
@@ -195,8 +218,12 @@ LayerCommand = (
     | MoveLayer
     | SetLayer
 )
-RECORDS: tuple[type, ...] = (AddPlacement, *(form.record for form in LAYER_FORMS.values()))
-_VERBS: dict[type, str] = {AddPlacement: "add", **{form.record: verb for verb, form in LAYER_FORMS.items()}}
+_KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPlacement: "placement"}  # of those that are no `AddLayer`
+RECORDS: tuple[type, ...] = (*_KIND_NAMES, *(form.record for form in LAYER_FORMS.values()))
+_VERBS: dict[type, str] = {
+    **dict.fromkeys(_KIND_NAMES, "add"),
+    **{form.record: verb for verb, form in LAYER_FORMS.items()},
+}
 
 
 def read_layer(members: Fields) -> LayerCommand:
@@ -210,7 +237,7 @@ def read_layer(members: Fields) -> LayerCommand:
     if record is AddLayer:
         kind = members.take("kind", "layer")
         if not isinstance(kind, str) or kind not in _KINDS:
-            raise members.fault("kind", '"layer", "group" or "placement"')
+            raise members.fault("kind", " or ".join(f'"{name}"' for name in _KINDS))
         record, more = _KINDS[kind](members)
     out: LayerCommand = record(name, **more, **read(members), extra=members.rest())
     return out
@@ -219,18 +246,18 @@ def read_layer(members: Fields) -> LayerCommand:
 def write_layer(command: LayerCommand) -> Members:
     """Tells its members; `read_layer` is the inverse."""
     out: Members = {_VERBS[type(command)]: command.name}
-    if isinstance(command, AddPlacement):
-        out["kind"] = "placement"
+    if type(command) in _KIND_NAMES:
+        out["kind"] = _KIND_NAMES[type(command)]
     for f in fields(command):
         value = getattr(command, f.name)
         if isinstance(value, Placing):
             out.update(write_placing(value))
         elif f.name not in ("name", "extra") and value != f.default:
-            out[f.name] = value
+            out[f.name] = list(value) if isinstance(value, tuple) else value
     return {**out, **thawed(command.extra)}
 
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
     placed = isinstance(command, SetLayer) and command.placing is not None
-    return 2 if placed or isinstance(command, AddPlacement | BakePlacement) else 1
+    return 2 if placed or isinstance(command, AddPicture | AddPlacement | BakePlacement) else 1

@@ -22,6 +22,7 @@ from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.moving import elsewhere
+from engine.session.picturing import with_picture
 from engine.strokes.example_stroke import kind_of, swapped
 
 __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
@@ -61,6 +62,10 @@ def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
     plain = command.kind == "layer"
     node = new_layer(painting, command.name) if plain else Group(layers.next_id(painting.root), command.name)
     return with_node(painting, node, command.group, command.to)
+
+
+def _add_picture(painting: Painting, command: c.AddPicture, around: Around) -> Painting:
+    return with_picture(painting, command)
 
 
 def _add_placement(painting: Painting, command: c.AddPlacement, around: Around) -> Painting:
@@ -169,6 +174,7 @@ def _bookmark(painting: Painting, command: BookmarkCommand, around: Around) -> P
 _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
     c.AddLayer: _add,
+    c.AddPicture: _add_picture,
     c.AddPlacement: _add_placement,
     c.BakePlacement: _bake,
     c.SelectLayer: _select,

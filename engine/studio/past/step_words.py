@@ -22,6 +22,12 @@ def _title(command: c.Command) -> str:
     match command:
         case c.AddLayer(name=name, kind=kind):
             return f"New {kind} “{name}”"
+        case c.AddPlacement(name=name):
+            return f"Show again: “{name}”"
+        case c.AddPicture(name=name):
+            return f"Bring in “{name}”"
+        case c.BakePlacement(name=name):
+            return f"Make paint of “{name}”"
         case c.RemoveLayer(name=name):
             return f"Delete “{name}”"
         case c.RenameLayer(name=name, to=to):

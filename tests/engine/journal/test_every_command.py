@@ -27,6 +27,7 @@ MORE = c.parse({"do": "undo", "newer": {"than": [1, 2, {"this": 0.1}]}}).extra
 SAMPLES = {
     c.Stroke: c.Stroke(2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
+    c.AddPicture: c.AddPicture("photo", "grit", 1, (5, -6)),
     c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),
     c.BakePlacement: c.BakePlacement("sky again"),
     c.SelectLayer: c.SelectLayer("sky"),
@@ -44,7 +45,7 @@ SAMPLES = {
     places.RenameBookmark: places.RenameBookmark("shore", "coast"),
     places.RemoveBookmark: places.RemoveBookmark("coast"),
 }
-UNDOABLE = (c.Swap, c.RenameLayer)  # which need more than a layer "sky" there
+UNDOABLE = (c.Swap, c.RenameLayer, c.AddPicture)  # which need more than a layer "sky" there
 
 
 def test_no_command_is_missing():
