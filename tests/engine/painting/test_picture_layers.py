@@ -48,7 +48,9 @@ def photo(request, tmp_path_factory):
 def laid(photo, level=0, at=(0, 0), grid=FINE):
     session = Session(Painting(Rect(0, 0, 300, 200), arithmetic=EVERYWHERE, grid=grid))
     session.do(c.parse({"do": "texture", "name": "Photo", "maker": "image", "path": str(photo)}))
-    session.do(c.parse({"do": "layer", "add": "Sea", "kind": "picture", "texture": "Photo", "level": level, "at": list(at)}))
+    session.do(
+        c.parse({"do": "layer", "add": "Sea", "kind": "picture", "texture": "Photo", "level": level, "at": list(at)})
+    )
     return session
 
 
