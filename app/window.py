@@ -21,6 +21,7 @@ from app.canvas.overlay import Overlay
 from app.canvas.screen import Screen
 from app.canvas.view import Place, View
 from app.decoration import Decoration
+from app.desk import bringing
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
@@ -90,14 +91,18 @@ class Window:
         return [hears[kind] for hears in (self.tiles.hears, self.engine.hears) if kind in hears]
 
     def _dropped(self, path: Path) -> bool:
-        """Takes a file that was dropped on the window: it is a panel's, or it is opened.  False while it cannot be."""
+        """Takes a file that was dropped on the window: it is a panel's, or a picture to
+        bring in, or it is opened.  False while it cannot be."""
         desk = self.desk
         if not desk.known.ready:
             self._not_yet(None)
             return False
         with self._guard.spare("on a drop"):
             if not self.layout.strip.dropped(desk, path, *self.pointers.at()):
-                desk.guard(lambda: desk.open(path))
+                if bringing.is_picture(path):
+                    bringing.offer(desk, path, desk.view.to_canvas(*self.pointers.at()))
+                else:
+                    desk.guard(lambda: desk.open(path))
         return True
 
     def connect(self, start: Start) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 
+from app.canvas.view import Place
 from app.desk.known import Known
 from engine.painting.places import Bookmark
 from engine.studio.filing.film_requests import FilmWish
@@ -40,7 +42,7 @@ class Asked:
     `after_save`: goes on once the painting is saved, `after_film` once the film is made; `overtaken`: the save that is
     asked about; `quit`: the window is to go; `export_level`: how deep the exported picture goes; `texture`: a name
     under which one is being made, which joins the ink when the painting has it; `film`: what is chosen of the film
-    that is asked for."""
+    that is asked for; `bringing`: a picture that was given to the painting, and to which place of the canvas."""
 
     dialog: str = ""
     shown: str = ""
@@ -54,6 +56,7 @@ class Asked:
     export_level: int = 0
     texture: str = ""
     film: FilmState = field(default_factory=FilmState)
+    bringing: tuple[Path, Place] | None = None
 
     def show(self, dialog: str) -> None:
         """Opens a dialog by its name."""

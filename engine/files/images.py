@@ -28,6 +28,8 @@ UPRIGHT: dict[int, Callable[[np.ndarray], np.ndarray]] = {
     7: lambda a: a[::-1, ::-1].swapaxes(0, 1),
     8: lambda a: a.swapaxes(0, 1)[::-1],
 }
+_ORIENTATION = 0x0112
+_TIFF = b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"
 _READ_AT_ONCE = 1 << 16  # bytes that are read at once
 _warnings = threading.Lock()  # the list of warning filters belongs to the whole process
 
@@ -99,6 +101,27 @@ def read_image(
         raise FileError(name or path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
 
 
+def picture_size(path: str | os.PathLike[str]) -> tuple[int, int]:
+    """Returns columns and rows of a picture, upright, as its head tells; FileError where that cannot be read."""
+    from PIL import Image
+
+    name = os.fspath(path)
+    try:
+        with open(path, "rb") as file:
+            if file.read(4) in _TIFF:
+                file.seek(0)
+                layout = read_layout(file, name, LIMITS)
+                size, orientation = (layout.one("ImageWidth"), layout.one("ImageLength")), layout.one("Orientation", 1)
+            else:
+                with Image.open(path) as picture:
+                    size, orientation = picture.size, picture.getexif().get(_ORIENTATION, 1)
+    except FileError:
+        raise
+    except Exception as error:  # a decoder of hostile bytes may raise anything
+        raise FileError(name, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
+    return (size[1], size[0]) if orientation in (5, 6, 7, 8) else size
+
+
 def _read(file: BinaryIO, name: str, limits: Limits) -> tuple[np.ndarray, Meta]:
     start = file.read(8)
     file.seek(0)
@@ -108,7 +131,7 @@ def _read(file: BinaryIO, name: str, limits: Limits) -> tuple[np.ndarray, Meta]:
             return reader.read(), Meta("png", reader.header.notes)
         if start[:3] == b"\xff\xd8\xff":
             return _by_pillow(file, name, "JPEG", limits)
-        if start[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
+        if start[:4] in _TIFF:
             return _tiff(file, name, limits)
     except MemoryError as error:
         raise FileError(name, "not enough memory for its pixels") from error

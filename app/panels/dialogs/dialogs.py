@@ -12,6 +12,7 @@ from app.actions.actions import ACTIONS, MENUS
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
+from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.overtaken import OvertakenSave
@@ -255,6 +256,8 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "match picture 0": file_browser.choosing_example(0),
     "match picture 1": file_browser.choosing_example(1),
     "example picture": file_browser.choosing_own,
+    "bring from": file_browser.choosing_to_bring,
+    "bring in": BringIn,
     "unsaved": lambda desk: Unsaved(),
     "overtaken": _overtaken,
     "earlier": _earlier,

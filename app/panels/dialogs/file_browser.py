@@ -13,7 +13,7 @@ from imgui_bundle import portable_file_dialogs as pfd
 from immutables import Map
 
 from app import icons, theme
-from app.desk import pictured
+from app.desk import bringing, pictured
 from app.desk.desk import Desk
 from app.desk.examples import example_work
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
@@ -240,3 +240,8 @@ def choosing_own(desk: Desk) -> SystemDialog | Browser:
 def choosing_texture(desk: Desk) -> SystemDialog | Browser:
     """Asks for a picture to paint with."""
     return _chooser("Paint with a picture", _folder(desk), _PICTURES, False, pictured.from_file)
+
+
+def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:
+    """Asks for a picture to bring into the painting, in the middle of what is seen."""
+    return _chooser("Bring in a picture", _folder(desk), _PICTURES, False, bringing.offer)

@@ -61,7 +61,7 @@ def test_it_is_what_opening_the_picture_gives(photo):
     assert ours.active == "Sea"
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=12)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=12, deadline=None)
 @given(
     level=st.sampled_from((-40, -1, 0, 1, 5, 600)),
     at=st.tuples(*(2 * [st.integers(-200, 200) | st.just(1 << 300)])),

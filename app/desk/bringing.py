@@ -1,0 +1,54 @@
+"""Pictures from outside: one that is dropped or chosen becomes a layer, a texture, an example, or is opened."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from immutables import Map
+
+from app.canvas.view import Place
+from app.desk.desk import Desk, FileWork
+from app.desk.pictured import free_layer_name, free_texture_name
+from app.desk.previews import PICTURES
+from engine.painting.commands import AddPicture, DefineTexture
+from engine.studio.requests import Do
+
+
+def is_picture(path: Path) -> bool:
+    """Tells whether a file is a picture, by its name."""
+    return path.suffix.lower() in PICTURES
+
+
+def offer(desk: Desk, path: Path, place: Place | None = None) -> None:
+    """Asks what is to become of a picture; as a layer it is laid around `place`, else in the middle of the view."""
+    desk.asked.bringing = path, desk.view.to_canvas(*desk.middle()) if place is None else place
+    desk.asked.show("bring in")
+
+
+@dataclass(frozen=True, slots=True)
+class _Lay(FileWork):
+    path: Path
+    place: Place
+    level: int
+
+    def carry_out(self) -> tuple[int, int]:
+        from engine.files.images import picture_size  # here: it takes its time to load
+
+        return picture_size(self.path)
+
+    def arrive(self, desk: Desk, found: tuple[int, int]) -> None:
+        x, y = self.place.pixel(self.level)
+        texture, at = free_texture_name(desk, self.path.stem), (x - found[0] // 2, y - found[1] // 2)
+        desk.post(Do(DefineTexture(texture, "image", Map({"path": str(self.path.absolute())}))))
+        name = free_layer_name(desk, self.path.stem)
+        desk.post(Do(AddPicture(name, texture, self.level, at)))
+        desk.say(f"“{name}” is a layer: drag it where it belongs")
+        desk.hand.use("move")
+
+
+def as_layer(desk: Desk, path: Path, place: Place) -> None:
+    """Lays a picture on a layer of its own, a pixel on a pixel of the level seen, with its middle at a place; then it
+    can be moved."""
+    desk.say(f"Bringing in {path.name}")
+    desk.work(_Lay(path, place, desk.view.shown_level))

@@ -1,0 +1,68 @@
+"""The dialog of a picture that is brought in: what is to become of it."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from app import icons, theme
+from app.desk import bringing, pictured, previews
+from app.desk.desk import Desk
+from app.desk.examples import example_work
+from app.desk.previews import FileRow
+from app.panels.controls import widgets as w
+
+_SIDE = 150.0  # of the small picture, points
+
+
+class BringIn:
+    """Asks whether a picture is to be a layer, a texture, an example, or opened by itself."""
+
+    title = "Bring in a picture"
+
+    def __init__(self, desk: Desk) -> None:
+        assert desk.asked.bringing is not None
+        self._path, self._place = desk.asked.bringing
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws it into the present window; False when it is answered."""
+        self._picture(desk)
+        imgui.same_line()
+        imgui.begin_group()
+        imgui.text_unformatted(self._path.name if len(self._path.name) < 40 else f"{self._path.name[:38]}…")
+        imgui.spacing()
+        done = self._ways(desk)
+        imgui.end_group()
+        return not done
+
+    def _ways(self, desk: Desk) -> bool:
+        wide = imgui.get_font_size() * 15
+        if w.default_button("Layer", "Lay it on a layer of its own, where it was dropped; then move it", width=wide):
+            bringing.as_layer(desk, self._path, self._place)
+            return True
+        if w.text_button("Texture", "Paint with it: it joins the ink", width=wide):
+            pictured.from_file(desk, self._path)
+            return True
+        if w.text_button("Example", "Paint with more of the same, with its own rim", width=wide):
+            desk.strip, desk.panels = "examples", True
+            example_work.add(desk, self._path)
+            return True
+        if w.text_button("Open", "Leave this painting, and open the picture by itself", width=wide):
+            path = self._path
+            desk.guard(lambda: desk.open(path))
+            return True
+        return w.text_button("Cancel", "Leave the painting as it is", width=wide)
+
+    def _picture(self, desk: Desk) -> None:
+        side = _SIDE * desk.scale
+        row = FileRow(self._path.name, False)
+        desk.previews(self._path.parent, [row], round(side))
+        corner = imgui.get_cursor_screen_pos()
+        imgui.dummy(ImVec2(side, side))
+        shown = desk.pictures.get(previews.ident(self._path.parent, row))
+        painter = imgui.get_window_draw_list()
+        if shown is not None:
+            painter.add_image(shown, corner, ImVec2(corner.x + side, corner.y + side))
+            return
+        sign = imgui.calc_text_size(icons.IMAGE)
+        middle = ImVec2(corner.x + (side - sign.x) / 2, corner.y + (side - sign.y) / 2)
+        painter.add_text(middle, theme.packed(theme.QUIET), icons.IMAGE)
