@@ -21,10 +21,10 @@ from app.canvas.overlay import Overlay
 from app.canvas.screen import Screen
 from app.canvas.view import Place, View
 from app.decoration import Decoration
-from app.desk import bringing
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
+from app.desk.outside import bringing
 from app.desk.places import going
 from app.desk.previews import Previews
 from app.desk.recovery.engine_thread import EngineThread, Start

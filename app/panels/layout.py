@@ -5,8 +5,8 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import theme, trace
-from app.desk import pictured
 from app.desk.desk import Desk, Hear
+from app.desk.outside import pictured
 from app.faults.fault_guard import FaultGuard
 from app.panels import menu_bar, status
 from app.panels.brush.brush_panel import BrushPanel

@@ -6,9 +6,9 @@ import numpy as np
 from PIL import Image
 
 from app.canvas.view import View, place_of_pixel
-from app.desk import pictured
 from app.desk.asked import Asked
 from app.desk.known import Known
+from app.desk.outside import pictured
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.settings import Brush, Component

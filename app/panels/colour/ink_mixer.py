@@ -7,10 +7,11 @@ from dataclasses import replace
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import palette, pictured
+from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples.following import Following
+from app.desk.outside import pictured
 from app.panels.controls import texture_choice, texture_rows
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor

@@ -5,9 +5,10 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import bringing, pictured, previews
+from app.desk import previews
 from app.desk.desk import Desk
 from app.desk.examples import example_work
+from app.desk.outside import bringing, pictured
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 

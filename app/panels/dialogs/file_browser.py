@@ -13,10 +13,10 @@ from imgui_bundle import portable_file_dialogs as pfd
 from immutables import Map
 
 from app import icons, theme
-from app.desk import bringing, pictured
 from app.desk.desk import Desk
 from app.desk.examples import example_work
 from app.desk.folders import A_FILE, A_FOLDER, LookAt, ReadFolder
+from app.desk.outside import bringing, pictured
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list

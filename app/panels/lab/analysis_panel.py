@@ -7,8 +7,8 @@ import math
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import pictured
 from app.desk.desk import Desk
+from app.desk.outside import pictured
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from engine.numeric.address import Rect

@@ -10,9 +10,9 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions.action import Action
 from app.actions.actions import ACTIONS
-from app.desk import pictured
 from app.desk.desk import Desk
 from app.desk.lab_state import only_with, with_texture
+from app.desk.outside import pictured
 from app.panels.controls import widgets as w
 from app.panels.lab.lab_settings import LabSettings
 from app.panels.panel import Painting, Panel

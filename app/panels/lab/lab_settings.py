@@ -8,9 +8,9 @@ from imgui_bundle import imgui
 from immutables import Map
 
 from app import icons
-from app.desk import pictured
 from app.desk.desk import Desk
 from app.desk.lab_state import PAINTED, SIZES
+from app.desk.outside import pictured
 from app.panels.controls import widgets as w
 
 _SIGNS = {"ring": icons.RING, "wedge": icons.WEDGE, "points": icons.GRID, "noise": icons.CLOUD}

@@ -12,10 +12,10 @@ from pathlib import Path
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
-from app.desk import pictured
 from app.desk.desk import Desk
 from app.desk.lab_state import with_texture
 from app.desk.match_state import SIZES, SMALLEST, title
+from app.desk.outside import pictured
 from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.match.match_settings import MatchSettings

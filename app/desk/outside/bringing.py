@@ -9,7 +9,7 @@ from immutables import Map
 
 from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
-from app.desk.pictured import free_layer_name, free_texture_name
+from app.desk.outside.pictured import free_layer_name, free_texture_name
 from app.desk.previews import PICTURES
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do

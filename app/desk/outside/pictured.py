@@ -54,16 +54,16 @@ def _define(desk: Desk, command: DefineTexture) -> None:
 def free_texture_name(desk: Desk, stem: str) -> str:
     """Returns a name that no texture has yet."""
     scene = desk.known.scene
-    return free_name(stem, {row.name for row in desk.known.tables.kinds} | set(scene.textures if scene else ()))
+    return free_stem(stem, {row.name for row in desk.known.tables.kinds} | set(scene.textures if scene else ()))
 
 
 def free_layer_name(desk: Desk, stem: str) -> str:
     """Returns a name that no layer has yet."""
     scene = desk.known.scene
-    return free_name(stem, {row.name for row in scene.layers} if scene else set())
+    return free_stem(stem, {row.name for row in scene.layers} if scene else set())
 
 
-def free_name(stem: str, taken: Container[str]) -> str:
+def free_stem(stem: str, taken: Container[str]) -> str:
     """Returns a file's name, or what of it is short enough, with a number behind it where that is taken."""
     stem = "".join(letter for letter in stem if letter.isprintable())[:NAME_LENGTH].strip() or "Picture"
     name, number = stem, 1
