@@ -7,7 +7,7 @@ all untouched parts with the old one; errors are `LayerError`, one line with wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -191,6 +191,11 @@ def alone(node: Node, root: Group) -> Group:
     exports."""
     shown = replace(node, visible=True, opacity=1.0, blend="src-over")
     return Alone(EMPTY.id, EMPTY.name, children=(shown,), tree=root)
+
+
+def together(nodes: Iterable[Node], root: Group) -> Group:
+    """Returns a root that shows just these nodes of a tree, bottom first."""
+    return Alone(EMPTY.id, EMPTY.name, children=tuple(nodes), tree=root)
 
 
 # --- changing --------------------------------------------------------------------------------------------------------

@@ -23,8 +23,11 @@ from engine.painting.layer_commands import AddLayer as AddLayer
 from engine.painting.layer_commands import AddPicture as AddPicture
 from engine.painting.layer_commands import AddPlacement as AddPlacement
 from engine.painting.layer_commands import BakePlacement as BakePlacement
+from engine.painting.layer_commands import ClearLayer as ClearLayer
 from engine.painting.layer_commands import DuplicateLayer as DuplicateLayer
+from engine.painting.layer_commands import FlattenGroup as FlattenGroup
 from engine.painting.layer_commands import LayerCommand as LayerCommand
+from engine.painting.layer_commands import MergeLayer as MergeLayer
 from engine.painting.layer_commands import MoveLayer as MoveLayer
 from engine.painting.layer_commands import RemoveLayer as RemoveLayer
 from engine.painting.layer_commands import RenameLayer as RenameLayer

@@ -54,6 +54,31 @@ class BakePlacement:
 
 
 @dataclass(frozen=True, slots=True)
+class MergeLayer:
+    """Makes one layer of a layer, group or placement and of what lies right below it, under the name of the lower."""
+
+    name: str
+    extra: Extra = _NOTHING
+
+
+@dataclass(frozen=True, slots=True)
+class FlattenGroup:
+    """Makes a layer of all that is seen of a group, in its place; None: of the whole painting, but for what is
+    hidden."""
+
+    name: str | None
+    extra: Extra = _NOTHING
+
+
+@dataclass(frozen=True, slots=True)
+class ClearLayer:
+    """Takes all paint off a layer."""
+
+    name: str
+    extra: Extra = _NOTHING
+
+
+@dataclass(frozen=True, slots=True)
 class SelectLayer:
     """The layer that strokes without a layer go to."""
 
@@ -193,6 +218,9 @@ class LayerForm(NamedTuple):
 LAYER_FORMS: dict[str, LayerForm] = {
     "add": LayerForm(AddLayer, _new_place),
     "bake": LayerForm(BakePlacement, _no_more),
+    "merge": LayerForm(MergeLayer, _no_more),
+    "flatten": LayerForm(FlattenGroup, _no_more),
+    "clear": LayerForm(ClearLayer, _no_more),
     "select": LayerForm(SelectLayer, _no_more),
     "remove": LayerForm(RemoveLayer, _no_more),
     "rename": LayerForm(RenameLayer, _new_name),
@@ -211,6 +239,9 @@ LayerCommand = (
     | AddPicture
     | AddPlacement
     | BakePlacement
+    | MergeLayer
+    | FlattenGroup
+    | ClearLayer
     | SelectLayer
     | RemoveLayer
     | RenameLayer
@@ -218,6 +249,7 @@ LayerCommand = (
     | MoveLayer
     | SetLayer
 )
+_OF_VERSION_2 = AddPicture | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer
 _KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPlacement: "placement"}  # of those that are no `AddLayer`
 RECORDS: tuple[type, ...] = (*_KIND_NAMES, *(form.record for form in LAYER_FORMS.values()))
 _VERBS: dict[type, str] = {
@@ -231,7 +263,8 @@ def read_layer(members: Fields) -> LayerCommand:
     verbs = [verb for verb in LAYER_FORMS if verb in members]
     if len(verbs) != 1:
         raise FieldError(members.place, " and ".join(verbs) or "none", f"exactly one of {', '.join(LAYER_FORMS)}")
-    name = members.text(verbs[0])
+    whole = verbs[0] == "flatten" and members.take("flatten") is None
+    name = None if whole else members.text(verbs[0])
     record, read = LAYER_FORMS[verbs[0]]
     more: Members = {}
     if record is AddLayer:
@@ -260,4 +293,4 @@ def write_layer(command: LayerCommand) -> Members:
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
     placed = isinstance(command, SetLayer) and command.placing is not None
-    return 2 if placed or isinstance(command, AddPicture | AddPlacement | BakePlacement) else 1
+    return 2 if placed or isinstance(command, _OF_VERSION_2) else 1

@@ -21,6 +21,7 @@ from engine.painting.grown import settled_root
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
+from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture
 from engine.strokes.example_stroke import kind_of, swapped
@@ -84,6 +85,10 @@ def _bake(painting: Painting, command: c.BakePlacement, around: Around) -> Paint
     paint = baking.paint_of(settled, node, painting.frame, painting.grid)
     layer = Layer(node.id, node.name, node.opacity, node.visible, node.blend, pyramid=paint)
     return _shown(replace(painting, root=layers.substitute(painting.root, node.name, layer)))
+
+
+def _flatten(painting: Painting, command: c.FlattenGroup, around: Around) -> Painting:
+    return flattened_whole(painting) if command.name is None else flattened_group(painting, command.name)
 
 
 def _placed(root: Group, node: Placement, placing: c.Placing) -> dict[str, Any]:
@@ -177,6 +182,9 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.AddPicture: _add_picture,
     c.AddPlacement: _add_placement,
     c.BakePlacement: _bake,
+    c.MergeLayer: lambda painting, command, around: merged_down(painting, command.name),
+    c.FlattenGroup: _flatten,
+    c.ClearLayer: lambda painting, command, around: cleared(painting, command.name),
     c.SelectLayer: _select,
     c.RemoveLayer: _remove,
     c.RenameLayer: _rename,

@@ -135,7 +135,9 @@ class Steps(Owned):
         if isinstance(command, c.DuplicateLayer) and painting is not now.painting:
             for one, copy in _copied(painting.root, command):
                 laid = laid.set(copy.id, laid.get(one.id))
-        if isinstance(command, c.RemoveLayer):  # a later layer may get the number of one that is gone
+        if isinstance(
+            command, c.RemoveLayer | c.MergeLayer | c.FlattenGroup
+        ):  # a later layer may get the number of one that is gone
             held = {node.id for node in layers.walk(painting.root)}
             laid = Map({number: last for number, last in laid.items() if number in held})
         return _State(painting, step, laid, painting.active)

@@ -103,7 +103,7 @@ def _by_row(key: TileKey) -> tuple[int, int]:
 
 def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int) -> Pyramid:
     shown, empty, cache = layers.alone(node, root), Pyramid(grid=grid), TileCache(_CACHE)
-    ways = [(layer, seen) for layer, seen in _ways(root, node) if layer.pyramid.levels]
+    ways = [(layer, seen) for layer, seen in ways_of(root, node) if layer.pyramid.levels]
     if not ways:
         return empty
     level = max(_finest(layer) - seen.levels for layer, seen in ways)
@@ -118,7 +118,7 @@ def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int) -> Pyram
         tiles = {key for key in _few(node, frame.zoomed(level).tiles(level)) if filled(key)}
     else:
         first = min(min(layer.pyramid.levels) - seen.levels for layer, seen in ways)
-        tiles = filled_tiles(_stored(ways), filled, first, level)
+        tiles = filled_tiles(stored_tiles(ways), filled, first, level)
 
     def values(key: TileKey) -> Planes:
         return Planes(snapped(picture(key)))
@@ -135,7 +135,7 @@ def _few(node: Placement, tiles: Iterable[TileKey]) -> list[TileKey]:
     return out
 
 
-def _ways(root: Group, node: Placement) -> list[tuple[Layer, Seen]]:
+def ways_of(root: Group, node: Placement) -> list[tuple[Layer, Seen]]:
     """Returns the layers that a placement shows, and how; one that shows itself for its first turn."""
     own = {layer.id: layer for layer in layers.layers(root)}
     ways = Views(root).of(0, node.id)
@@ -154,7 +154,7 @@ def _finest(layer: Layer) -> int:
     return max([*finest, *layer.pyramid.levels])
 
 
-def _stored(ways: list[tuple[Layer, Seen]]) -> Callable[[int], Iterator[TilePlace]]:
+def stored_tiles(ways: list[tuple[Layer, Seen]]) -> Callable[[int], Iterator[TilePlace]]:
     """Returns what tells the tiles of a level on which records of layers are shown."""
 
     def stored(level: int) -> Iterator[TilePlace]:

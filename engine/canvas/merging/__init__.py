@@ -1,0 +1,1 @@
+"""Several nodes of the tree made one layer."""

@@ -1,0 +1,122 @@
+"""Layers, groups and placements made one layer, and layers made empty."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from engine.canvas import layers
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.merging.merged import merged_paint
+from engine.canvas.node_checks import LayerError
+from engine.canvas.placing import loops
+from engine.canvas.store import Pyramid
+from engine.painting.grown import settled_root
+from engine.painting.value import Painting
+
+PLAIN_BLEND = "src-over"
+
+
+def merged_down(painting: Painting, name: str) -> Painting:
+    """Returns the painting with a node and the one below it as one layer, which keeps the name of the lower.
+
+    Two of one blend mode mix on in that mode; otherwise the layer is a usual one, opaque.
+    """
+    root = painting.root
+    group, position = layers.place(root, name)
+    upper, siblings = layers.find(root, name), _children(root, group)
+    if position == 0:
+        raise LayerError(f"layer {name!r}: found nothing below it in its group, expected what to merge it onto")
+    lower = siblings[position - 1]
+    for node in (lower, upper):
+        _check(root, node, lower if node is lower else None)
+    blend = lower.blend if lower.blend == upper.blend and not isinstance(lower, Group) else PLAIN_BLEND
+    paint = merged_paint(settled_root(root), (replace(lower, blend=PLAIN_BLEND), upper), painting.grid)
+    made = _made(lower, paint, blend)
+    root = layers.substitute(layers.remove(root, name), lower.name, made)
+    return _with_active(painting, root, {upper.name, lower.name, *_inner(upper), *_inner(lower)}, made.name)
+
+
+def flattened_group(painting: Painting, name: str) -> Painting:
+    """Returns the painting with all that is seen of a group as a layer in its place."""
+    root = painting.root
+    group = layers.find(root, name)
+    if not isinstance(group, Group):
+        raise LayerError(f"layer {name!r}: found no group, expected one to flatten")
+    _check(root, group, group)
+    settled = layers.find(settled_root(root), name)
+    assert isinstance(settled, Group)
+    paint = merged_paint(settled_root(root), settled.children, painting.grid)
+    made = replace(_made(group, paint, group.blend), opacity=group.opacity, visible=group.visible)
+    return _with_active(painting, layers.substitute(root, name, made), _inner(group), name)
+
+
+def flattened_whole(painting: Painting) -> Painting:
+    """Returns the painting with all that is seen as one layer, in the place of the lowest; what is hidden stays."""
+    root = painting.root
+    seen = tuple(node for node in root.children if node.visible)
+    if not seen:
+        raise LayerError("layer: found no layer that is seen, expected one to merge")
+    for node in seen:
+        _check(root, node, None)
+        _check_unshown(root, node, {inner.id for one in seen for inner in _with_inner(one)})
+    settled = settled_root(root)
+    paint = merged_paint(settled, tuple(node for node in settled.children if node.visible), painting.grid)
+    made = replace(_made(seen[0], paint, PLAIN_BLEND), opacity=1.0)
+    gone = {inner.name for node in seen for inner in _with_inner(node)}
+    children = tuple(made if node is seen[0] else node for node in root.children if node is seen[0] or not node.visible)
+    return _with_active(painting, layers.checked(replace(root, children=children)), gone, made.name)
+
+
+def cleared(painting: Painting, name: str) -> Painting:
+    """Returns the painting with nothing on a layer."""
+    node = layers.find(painting.root, name)
+    if not isinstance(node, Layer):
+        raise LayerError(f"layer {name!r}: found no layer of paint, expected one to clear")
+    if layers.is_locked(painting.root, name):
+        raise LayerError(f"layer {name!r}: found it locked, expected one that is not")
+    empty = replace(node, pyramid=Pyramid(grid=painting.grid, commits=node.pyramid.commits), growth=())
+    return replace(painting, root=layers.substitute(painting.root, name, empty))
+
+
+def _made(node: Node, paint: Pyramid, blend: str) -> Layer:
+    alpha_locked = isinstance(node, Layer) and node.alpha_locked
+    return Layer(node.id, node.name, blend=blend, alpha_locked=alpha_locked, pyramid=paint)
+
+
+def _children(root: Group, name: str | None) -> tuple[Node, ...]:
+    holder = root if name is None else layers.find(root, name)
+    assert isinstance(holder, Group)
+    return holder.children
+
+
+def _with_inner(node: Node) -> list[Node]:
+    return [node, *(layers.walk(node) if isinstance(node, Group) else ())]
+
+
+def _inner(node: Node) -> set[str]:
+    return {inner.name for inner in _with_inner(node)[1:]}
+
+
+def _check(root: Group, node: Node, stays: Node | None) -> None:
+    """Raises LayerError unless a node may be merged; `stays`: one whose number goes on to what is made."""
+    if layers.is_locked(root, node.name) or any(inner.locked for inner in _with_inner(node)):
+        raise LayerError(f"layer {node.name!r}: found it locked, expected one that is not")
+    if not node.visible:
+        raise LayerError(f"layer {node.name!r}: found it hidden, expected one that is seen")
+    if stays is None or stays is node:
+        own = {inner.id for inner in _with_inner(node)}
+        _check_unshown(root, node, own, None if stays is None else node.id)
+
+
+def _check_unshown(root: Group, node: Node, within: set[int], but: int | None = None) -> None:
+    """Raises LayerError if a placement outside shows a node, or one in it, that will be there no more."""
+    gone = {inner.id for inner in _with_inner(node)} - {but}
+    showing = [one.name for one in loops.placements(root) if one.of in gone and one.id not in within]
+    if showing:
+        names = ", ".join(map(repr, showing[:3])) + (", ..." if len(showing) > 3 else "")
+        raise LayerError(f"layer {node.name!r}: found {names} showing it, expected no placement that does")
+
+
+def _with_active(painting: Painting, root: Group, gone: set[str], made: str) -> Painting:
+    active = made if painting.active in gone else painting.active
+    return replace(painting, root=loops.checked(root), active=active)
