@@ -14,16 +14,19 @@ from imgui_bundle import ImVec2, imgui
 from app import theme
 from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
+from app.desk.moving import held_box
+from app.desk.moving.box import SCALES, TURN
 from app.tools.tools import TOOLS
 
 _PATIENCE = 0.35  # seconds that something grows before that is shown
 MARKS = 16  # at most
 _SHAPES = {
-    "move": glfw.RESIZE_ALL_CURSOR,
     "pan": glfw.RESIZE_ALL_CURSOR,
     "turn": glfw.RESIZE_ALL_CURSOR,
     "zoom": glfw.CROSSHAIR_CURSOR,
 }
+# By eighths of a turn from the right, clockwise, of which every other half is the same.
+_WAYS = glfw.RESIZE_EW_CURSOR, glfw.RESIZE_NWSE_CURSOR, glfw.RESIZE_NS_CURSOR, glfw.RESIZE_NESW_CURSOR
 
 
 def shape(desk: Desk, panning: bool) -> int:
@@ -32,7 +35,20 @@ def shape(desk: Desk, panning: bool) -> int:
         return int(glfw.ARROW_CURSOR)
     if panning:
         return int(glfw.RESIZE_ALL_CURSOR)
+    if desk.hand.tool == held_box.TOOL:
+        return _over_box(desk)
     return int(_SHAPES.get(desk.hand.tool, glfw.CROSSHAIR_CURSOR))
+
+
+def _over_box(desk: Desk) -> int:
+    """Returns the cursor for what of the box around a layer the pointer is over."""
+    grip, box = desk.moving.grip, held_box.seen_box(desk)
+    if grip == TURN:
+        return int(glfw.POINTING_HAND_CURSOR)
+    if grip not in SCALES or box is None:
+        return int(glfw.RESIZE_ALL_CURSOR)
+    (x, y), (mx, my) = box.at(*SCALES[grip]), box.middle
+    return int(_WAYS[round(math.atan2(y - my, x - mx) / (math.pi / 4)) % 4])
 
 
 def draw_frame(desk: Desk) -> None:

@@ -13,6 +13,7 @@ from app.desk.recovery import recovery_work
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
+from engine.studio.moving.move_requests import Extent
 from engine.studio.results import Result
 
 Hearers = Callable[[type], Sequence[Hear]]  # those who hear results of a type
@@ -63,6 +64,7 @@ HEARS: dict[type, Hear] = {
     results.Overtaken: _overtaken,
     results.Picked: _picked,
     results.Looked: flight.fly,
+    Extent: lambda desk, extent, now: desk.moving.told(extent),
     results.Whole: lambda desk, whole, now: desk.show(whole),
 }
 

@@ -105,9 +105,8 @@ class Router:
         """Returns the gesture that this press begins."""
         held = self._keys
         ctrl = bool({glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL} & held)
-        shift = bool({glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT} & held)
         if glfw.KEY_SPACE in held or event.button == MIDDLE:
-            begin: Callable[[Desk, PenEvent], Gesture] = zoom if ctrl else turn if shift else pan
+            begin: Callable[[Desk, PenEvent], Gesture] = zoom if ctrl else turn if self.desk.pointer.shift else pan
         elif event.button == RIGHT or ctrl:
             begin = pick
         elif self.desk.match.marking is not None and self.desk.strip == "match":
@@ -150,8 +149,10 @@ class Router:
         """Takes one key event; those that a text field or a dialog wants are left to it."""
         if action == glfw.RELEASE:
             self._keys.discard(key)
+            _tell_held(self.desk, self._keys)
             return
         self._keys.add(key)
+        _tell_held(self.desk, self._keys)
         keys = chord(key, scancode, mods)
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
@@ -170,6 +171,7 @@ class Router:
     def lost_focus(self) -> None:
         """Another window is in front: keys are no longer known to be down, nor is what a gesture began with."""
         self._keys.clear()
+        _tell_held(self.desk, self._keys)
         self.lift()
 
     def hover(self) -> None:
@@ -194,6 +196,12 @@ class Router:
     def panning_key(self) -> bool:
         """Tells whether the key is down that makes every press pan."""
         return glfw.KEY_SPACE in self._keys
+
+
+def _tell_held(desk: Desk, keys: set[int]) -> None:
+    """Tells the desk which of the keys are down that gestures ask for."""
+    desk.pointer.shift = bool({glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT} & keys)
+    desk.pointer.alt = bool({glfw.KEY_LEFT_ALT, glfw.KEY_RIGHT_ALT} & keys)
 
 
 def _dialog(desk: Desk, layout: Layout) -> bool:

@@ -24,6 +24,7 @@ from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
+from app.desk.moving import held_box
 from app.desk.outside import bringing
 from app.desk.places import going
 from app.desk.previews import Previews
@@ -36,6 +37,7 @@ from app.input.pointers import Pointers
 from app.news import News
 from app.pace import Pace
 from app.panels.layout import Layout
+from app.panels.moving import box_marks
 from app.router import Router
 from app.trace import trace_rest
 from app.wanted_tiles import Tiles
@@ -145,6 +147,7 @@ class Window:
         with spare("asking for what is to be seen"):
             if desk.known.ready:
                 self.tiles.wants(desk)
+                held_box.wants(desk)
                 self.layout.wants(desk, now)
         if desk.painting and self.news.take_from((self.engine.paint,), now):  # what came of this frame's points
             self.pace.news(now)
@@ -171,9 +174,11 @@ class Window:
             cursor.draw_frame(self.desk)
             cursor.draw_growing(self.desk)
             cursor.draw_outline(self.desk)
+            box_marks.draw(self.desk)
         with self._guard.spare_drawing("laying out the panels"):
             self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
             self.router.hover()
+            held_box.hover(self.desk)
         if not self._laid_out:
             self._laid_out = True
             self.desk.fit()

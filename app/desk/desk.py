@@ -19,6 +19,7 @@ from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
 from app.desk.match_state import MatchState
+from app.desk.moving.move_state import MoveState
 from app.desk.notices import Notice, Notices
 from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
@@ -74,12 +75,14 @@ def _no_previews(_folder: Path, _rows: Iterable[FileRow], _side: int) -> None:
 
 @dataclass(slots=True)
 class Pointer:
-    """Where the pointer is, and what it is over."""
+    """Where the pointer is, what it is over, and which keys are held that mean something to what it drags."""
 
     x: float = 0.0
     y: float = 0.0
     over_canvas: bool = False
     pen: bool = False
+    shift: bool = False
+    alt: bool = False
 
 
 @dataclass(slots=True)
@@ -110,6 +113,7 @@ class Desk:
     recovery: RecoveryState = field(default_factory=RecoveryState)
     past: PastState = field(default_factory=PastState)
     places: PlaceState = field(default_factory=PlaceState)
+    moving: MoveState = field(default_factory=MoveState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

@@ -1,18 +1,36 @@
-"""The gesture that moves layers, groups and placements."""
+"""The gesture that moves, scales and turns layers, groups and placements."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
+from app.canvas.view import View
 from app.desk.desk import Desk
-from app.desk.known import moved_by
+from app.desk.moving import held_box
+from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, place_of, spot
+from app.desk.moving.move_state import Label, Trial
+from app.desk.moving.poses import Spin, exact, factor, respun, shifted, spin_of
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
+from engine.canvas.placing.pose import Pose, SourcePart
+from engine.numeric.similarity import Dyadic
 from engine.painting.layer_commands import SetLayer
-from engine.studio.moving.move_requests import Try
+from engine.painting.layering.placing_members import Placing
+from engine.studio.moving.move_requests import Extent, Try
 from engine.studio.requests import Do
+from engine.studio.results import LayerRow
+
+Way = Callable[
+    [PenEvent], tuple[Pose, str]
+]  # from where the pointer is: where it takes what is held, and how that reads
 
 
 def move(desk: Desk, first: PenEvent) -> Gesture:
-    """The layer, group or placement that is chosen follows the pointer, by whole pixels of the level that is shown."""
+    """The layer, group or placement that is chosen follows the pointer; by a handle of its box it is scaled or turned.
+
+    It is seen there at once, and done when it is let go, as one step.
+    """
     row = desk.known.active
     if row is None or desk.past.looking is not None:
         desk.say("There is no layer to move" if row is None else "This is an earlier step", bad=True)
@@ -20,20 +38,129 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
     if row.locked:
         desk.say(f"Layer “{row.name}” is locked", bad=True)
         return
-    level = desk.view.shown_level
-    start, event, placing = desk.view.to_canvas(first.x, first.y).pixel(level), first, None
-    done = False
+    box = held_box.seen_box(desk)
+    desk.moving.grip = (box.grip(first.x, first.y) if box is not None else "") or INSIDE
+    way, start = _way(desk, row, first), desk.moving.pose(desk.known, row)
+    event, pose, done = first, start, False
     try:
         while event.kind not in ENDS:
-            x, y = desk.view.to_canvas(event.x, event.y).pixel(level)
-            way = moved_by(row, level, x - start[0], y - start[1])
-            if way != placing:
-                placing = way
-                desk.post(Try(row.name, way))
+            pose = _tried(desk, row, way(event), pose)
             event = yield
         done = event.kind == "up"
     finally:
-        if done and placing is not None:
-            desk.post(Do(SetLayer(row.name, placing=placing)))
+        desk.moving.label, desk.moving.grip = None, ""
+        if done and pose != start:
+            set_down(desk, row, pose)
         else:
+            desk.moving.trial = None
             desk.post(Try(row.name, None))
+
+
+def set_down(desk: Desk, row: LayerRow, pose: Pose) -> None:
+    """Moves the layer, group or placement to a pose, as one step; its box is there at once."""
+    desk.post(Do(SetLayer(row.name, placing=Placing.at_pose(pose))))
+    held = held_box.part(desk, row)
+    if held is not None and row.shows is None and not row.group and pose.similarity.quarter is not None:
+        desk.moving.trial = None  # it stays a layer, elsewhere
+        level = held.level - pose.levels
+        there = SourcePart(level, pose.similarity.shown(held.rect, held.level, level))
+        desk.moving.extent = Extent(row.name, there)
+    else:
+        desk.moving.trial = Trial(desk.known.scene, row.name, pose)
+
+
+def _tried(desk: Desk, row: LayerRow, found: tuple[Pose, str], before: Pose) -> Pose:
+    """Shows it where it is now, and returns that; where it was before, if it cannot be there."""
+    pose, text = found
+    if pose.wrong() is not None:
+        return before
+    desk.moving.label = Label(text, exact(pose, desk.view.shown_level))
+    if pose != before:
+        desk.moving.trial = Trial(desk.known.scene, row.name, pose)
+        desk.post(Try(row.name, Placing.at_pose(pose)))
+    return pose
+
+
+def _way(desk: Desk, row: LayerRow, first: PenEvent) -> Way:
+    """Returns what a drag does, by what it took hold of."""
+    held, pose, grip = held_box.part(desk, row), desk.moving.pose(desk.known, row), desk.moving.grip
+    if held is not None and grip in SCALES:
+        return _scaling(desk, first, pose, (held, grip))
+    if held is not None and grip == TURN:
+        return _turning(desk, first, pose, spot(held, pose, 0, 0))
+    return _moving(desk, first, pose)
+
+
+def _moving(desk: Desk, first: PenEvent, pose: Pose) -> Way:
+    level = desk.view.shown_level
+    start = desk.view.to_canvas(first.x, first.y).pixel(level)
+
+    def way(event: PenEvent) -> tuple[Pose, str]:
+        x, y = (now - was for now, was in zip(_pixel(desk.view, event, level), start, strict=True))
+        if desk.pointer.shift:
+            x, y = (x, 0) if abs(x) >= abs(y) else (0, y)
+        return (shifted(pose, level, x, y) if x or y else pose), f"{_signed(x)}, {_signed(y)} px"
+
+    return way
+
+
+def _scaling(desk: Desk, first: PenEvent, pose: Pose, held: tuple[SourcePart, str]) -> Way:
+    part, handle = held
+    level, spin = desk.view.shown_level, spin_of(pose)
+    middle = desk.pointer.alt
+    about = spot(part, pose, 0, 0) if middle else opposite(part, pose, handle)
+    before = _away(desk.view, first, about)
+    long = before[0] ** 2 + before[1] ** 2 or 1.0
+
+    def way(event: PenEvent) -> tuple[Pose, str]:
+        now = _away(desk.view, event, about)
+        by = (now[0] * before[0] + now[1] * before[1]) / long
+        found = spin.scaled(factor(by)).snapped_scale()
+        return _spun(pose, spin, found, (about, level)), scale_text(found)
+
+    return way
+
+
+def _turning(desk: Desk, first: PenEvent, pose: Pose, about: Dyadic) -> Way:
+    level, spin = desk.view.shown_level, spin_of(pose)
+    x, y = _away(desk.view, first, about)
+    begin = math.atan2(y, x)
+
+    def way(event: PenEvent) -> tuple[Pose, str]:
+        x, y = _away(desk.view, event, about)
+        found = spin.turned(spin.degrees + math.degrees(math.atan2(y, x) - begin)).snapped_turn(desk.pointer.shift)
+        return _spun(pose, spin, found, (about, level)), turn_text(found)
+
+    return way
+
+
+def _spun(pose: Pose, before: Spin, found: Spin, where: tuple[Dyadic, int]) -> Pose:
+    return pose if found == before else respun(pose, found, *where)
+
+
+def _pixel(view: View, event: PenEvent, level: int) -> tuple[int, int]:
+    return view.to_canvas(event.x, event.y).pixel(level)
+
+
+def _away(view: View, event: PenEvent, place: Dyadic) -> tuple[float, float]:
+    """Returns how far the pointer is from a place, in pixels of the level that is shown."""
+    level = view.shown_level
+    x, y = view.centre.pixel(level)
+    (ax, ay), (bx, by) = (at.offset(level, x, y) for at in (view.to_canvas(event.x, event.y), place_of(place)))
+    return ax - bx, ay - by
+
+
+def scale_text(spin: Spin) -> str:
+    """Returns a scale as it is read."""
+    if abs(spin.levels) > 20:
+        return f"2^{spin.doublings:.2f}".removesuffix(".00")
+    return f"{100 * math.ldexp(spin.size, spin.levels):.4g} %"
+
+
+def turn_text(spin: Spin) -> str:
+    """Returns an angle as it is read."""
+    return f"{spin.degrees:.1f}".removesuffix(".0") + "°"
+
+
+def _signed(value: int) -> str:
+    return f"{value:+d}".replace("-", "−") if value else "0"

@@ -11,7 +11,9 @@ from app.tools.view_gestures import pan, turn, zoom
 
 TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
-    "move": Tool("Move", icons.MOVE, move, "Drag the layer, by whole pixels of what you see; nothing of it is lost"),
+    "move": Tool(
+        "Move", icons.MOVE, move, "Drag the layer; its handles scale and turn it, with Shift by steps.  Nothing is lost"
+    ),
     "pan": Tool("Pan", icons.HAND, pan, "Drag the picture (Space or the middle button with any tool)"),
     "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),
     "turn": Tool("Turn", icons.ROTATE, turn, "Drag to turn the view; the painting itself stays as it is"),

@@ -17,7 +17,7 @@ from engine.numeric.arithmetic import FINE
 from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
-from engine.studio.moving.move_requests import Try
+from engine.studio.moving.move_requests import MoveRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 from engine.studio.textures.texture_requests import LabRequest, MatchRequest, RegionRequest
@@ -236,7 +236,7 @@ Request = (
     | Prepare
     | PastRequest
     | Tend
-    | Try
+    | MoveRequest
 )
 
 

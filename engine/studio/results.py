@@ -15,7 +15,8 @@ from immutables import Map
 
 from engine.numeric.address import Rect
 from engine.studio.held.held_records import Held
-from engine.studio.past.past_records import Here, PastScene
+from engine.studio.moving.move_requests import Extent
+from engine.studio.past.past_records import PastResult
 
 if TYPE_CHECKING:
     from engine.canvas.placing.pose import Pose
@@ -387,8 +388,8 @@ Result = (
     | FilmLength
     | Prepared
     | Growing
-    | PastScene
-    | Here
+    | PastResult
+    | Extent
     | Held
 )
 

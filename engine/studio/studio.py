@@ -100,6 +100,7 @@ class Studio(Owned):
             Work(lambda: viewer.fresh, viewer.send_fresh),
             _of(Regions(send)),
             _of(self.lab),
+            _of(Moves(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
             _of(travels),
@@ -121,7 +122,6 @@ class Studio(Owned):
             Tend: lambda r: None,
             **self.filing.handlers,
             **Warming(send).handlers,
-            **Moves(easel).handlers,
         }
         for row in self._rows:
             self._handlers |= row.handlers

@@ -25,6 +25,7 @@ def test_a_layer_is_dragged_and_nudged_and_nothing_of_it_is_lost(app):
     painted = app.canvas()
     app.keys("v")
     app.stroke(FROM, (450, 350), (480, 380), TO)
+    app.keys("b")  # without the box
     dragged = app.canvas_unlike(painted)
     by = TO[1] - FROM[1], TO[0] - FROM[0]
     assert np.abs(dragged[INNER] - np.roll(painted, by, axis=(0, 1))[INNER]).max() <= CHEQUER
@@ -43,8 +44,8 @@ def test_what_is_shown_again_is_moved_by_itself_and_leads_to_its_source(app):
     app.click("Layer 1 again")
     app.keys("v")
     app.stroke(FROM, (440, 350), TO)
-    apart = app.canvas_unlike(twice)
     app.keys("b")
+    apart = app.canvas_unlike(twice)
     app.stroke((440, 320), (470, 330))
     assert np.array_equal(app.canvas(), apart)
     app.click("source")

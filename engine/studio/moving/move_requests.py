@@ -1,9 +1,10 @@
-"""What the window asks for while something on the canvas is dragged."""
+"""What the window asks for while something on the canvas is moved, and what it is told of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from engine.canvas.placing.pose import SourcePart
 from engine.painting.layering.placing_members import Placing
 
 
@@ -13,3 +14,22 @@ class Try:
 
     name: str
     placing: Placing | None
+
+
+@dataclass(frozen=True, slots=True)
+class AskExtent:
+    """Asks how far a layer, group or placement reaches, to a pixel of a level where that can be.  The newest counts."""
+
+    name: str
+    level: int
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """How far a layer or group reaches; a placement, in the places of its source.  None: there is nothing."""
+
+    name: str
+    part: SourcePart | None
+
+
+MoveRequest = Try | AskExtent

@@ -97,3 +97,6 @@ class Here:
     place: tuple[int, int, int]
     strokes: tuple[HereStroke, ...]
     more: bool = False
+
+
+PastResult = PastScene | Here

@@ -1,0 +1,38 @@
+"""The box around what the tool Move holds, on the desk."""
+
+from __future__ import annotations
+
+from app.desk.desk import Desk
+from app.desk.moving.box import Box, box_of
+from engine.canvas.placing.pose import SourcePart
+from engine.studio.results import LayerRow
+
+TOOL = "move"
+
+
+def part(desk: Desk, row: LayerRow) -> SourcePart | None:
+    """Returns what of a layer's own places is painted; of a placement, of its source's; None: nothing, or not known."""
+    extent = desk.moving.extent
+    return extent.part if extent is not None and extent.name == row.name else None
+
+
+def seen_box(desk: Desk) -> Box | None:
+    """Returns the box that is to be seen; None if there is none."""
+    row = desk.known.active
+    if desk.hand.tool != TOOL or row is None or desk.past.looking is not None:
+        return None
+    held = part(desk, row)
+    return None if held is None else box_of(desk.view, desk.scale, held, desk.moving.pose(desk.known, row))
+
+
+def hover(desk: Desk) -> None:
+    """Finds what of the box the pointer is over, if nothing is dragged."""
+    if desk.moving.label is None:
+        box = seen_box(desk) if desk.pointer.over_canvas else None
+        desk.moving.grip = "" if box is None else box.grip(desk.pointer.x, desk.pointer.y)
+
+
+def wants(desk: Desk) -> None:
+    """Posts what the tool lacks."""
+    if desk.hand.tool == TOOL:
+        desk.moving.wants(desk.post, desk.known, desk.view.shown_level)

@@ -1,0 +1,63 @@
+"""What is known of the layer, group or placement that the tool Move holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from app.desk.known import Known
+from engine.canvas.placing.pose import UNMOVED, Pose
+from engine.studio.moving.move_requests import AskExtent, Extent
+from engine.studio.requests import Request
+from engine.studio.results import LayerRow, Scene
+
+
+class Trial(NamedTuple):
+    """Where something is seen meanwhile: until the painting is another one than that of a scene."""
+
+    scene: Scene | None
+    name: str
+    pose: Pose
+
+
+class Label(NamedTuple):
+    """What is told beside the pointer during a drag; `exact`: it shows the very pixels so."""
+
+    text: str
+    exact: bool
+
+
+@dataclass(slots=True)
+class MoveState:
+    """`extent`: how far it reaches; `trial`: where it is seen while it is dragged; `label`: what is told of that;
+    `grip`: what of its box the pointer is over, or holds."""
+
+    extent: Extent | None = None
+    trial: Trial | None = None
+    label: Label | None = None
+    grip: str = ""
+    _asked: tuple[str, int, Scene | None] | None = None
+
+    def pose(self, known: Known, row: LayerRow) -> Pose:
+        """Returns where it is seen: a layer or group that is not dragged is where it is."""
+        trial = self.trial
+        if trial is not None and trial.scene is known.scene and trial.name == row.name:
+            return trial.pose
+        return UNMOVED if row.shows is None else row.shows.pose
+
+    def wants(self, post: Callable[[Request], None], known: Known, level: int) -> None:
+        """Posts a question how far the chosen one reaches, at the level that is seen, if that may be another answer."""
+        row = known.active
+        if row is None:
+            return
+        if row.shows is not None:
+            level += row.shows.pose.similarity.like_levels
+        asked = row.name, level, known.scene
+        if asked != self._asked:
+            self._asked = asked
+            post(AskExtent(row.name, level))
+
+    def told(self, extent: Extent) -> None:
+        """Takes the answer."""
+        self.extent = extent
