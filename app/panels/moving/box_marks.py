@@ -70,6 +70,8 @@ def _label(painter: imgui.ImDrawList, desk: Desk) -> None:
     room = 2 * mark + pad
     end = ImVec2(at.x + room + size.x + 2 * pad, at.y + size.y + pad)
     painter.add_rect_filled(at, end, theme.packed((0.0, 0.0, 0.0), 0.72), 4 * scale)
+    told = f"{'exactly ' if label.exact else ''}{label.text}"
+    trace.note_place("canvas", told, (round(at.x), round(at.y), round(end.x), round(end.y)))
     middle = ImVec2(at.x + pad + mark, (at.y + end.y) / 2)
     a, b = ImVec2(middle.x, middle.y - mark), ImVec2(middle.x + mark, middle.y)
     c, d = ImVec2(middle.x, middle.y + mark), ImVec2(middle.x - mark, middle.y)
