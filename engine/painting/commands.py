@@ -17,7 +17,9 @@ from engine.brush import settings
 from engine.brush.checks import thawed
 from engine.brush.settings import Brush
 from engine.files.strict_json import Fields
-from engine.painting import layer_commands, places
+from engine.painting import fill_command, layer_commands, places
+from engine.painting.fill_command import Fill as Fill
+from engine.painting.fill_command import Like as Like
 from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
 from engine.painting.layer_commands import AddLayer as AddLayer
 from engine.painting.layer_commands import AddPicture as AddPicture
@@ -112,7 +114,7 @@ class Swap:
     extra: Map[str, Any] = _NOTHING
 
 
-Command = Stroke | LayerCommand | Undo | Redo | View | DefineTexture | Swap | places.BookmarkCommand
+Command = Stroke | Fill | LayerCommand | Undo | Redo | View | DefineTexture | Swap | places.BookmarkCommand
 
 
 def parse(value: Any, where: str = "") -> Command:
@@ -212,6 +214,7 @@ class Form(NamedTuple):
 
 COMMANDS: dict[str, Form] = {
     "stroke": Form((Stroke,), _read_stroke, _write_stroke),
+    "fill": Form((Fill,), fill_command.read_fill, fill_command.write_fill),
     "layer": Form(layer_commands.RECORDS, layer_commands.read_layer, layer_commands.write_layer),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),

@@ -25,6 +25,7 @@ from engine.session.merging import cleared, flattened_group, flattened_whole, me
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture
 from engine.strokes.example_stroke import kind_of, swapped
+from engine.strokes.filling import filled
 
 __all__ = ["STEPS", "Around", "Painting", "Refusal", "apply"]
 
@@ -57,6 +58,10 @@ def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
 
 def _swap(painting: Painting, command: c.Swap, around: Around) -> Painting:
     return swapped(painting, command)
+
+
+def _fill(painting: Painting, command: c.Fill, around: Around) -> Painting:
+    return filled(painting, command, around.cache)
 
 
 def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
@@ -178,6 +183,7 @@ def _bookmark(painting: Painting, command: BookmarkCommand, around: Around) -> P
 
 _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
+    c.Fill: _fill,
     c.AddLayer: _add,
     c.AddPicture: _add_picture,
     c.AddPlacement: _add_placement,

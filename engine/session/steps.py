@@ -131,6 +131,9 @@ class Steps(Owned):
         now, command = self._now, step.command
         if isinstance(command, c.Stroke):
             return self._after_stroke(step, command)
+        if isinstance(command, c.Fill):  # of layers without paint it changes only that there is one
+            painting = _painted_on(now.painting, command.layer)
+            return _State(painting, step, now.laid, painting.active)
         painting, laid = _applied(now.painting, command), now.laid
         if isinstance(command, c.DuplicateLayer) and painting is not now.painting:
             for one, copy in _copied(painting.root, command):
@@ -162,6 +165,14 @@ class Steps(Owned):
         first = self._now.active if redone else found.active
         kept = active if active is not None and layers.has(found.root, active) else first
         self._now = replace(self._now, painting=replace(found, active=kept))
+
+
+def _painted_on(painting: Painting, layer: str | None) -> Painting:
+    """Returns the painting with the layer that is painted on; the same where that does not fit."""
+    try:
+        return layer_for(painting, layer)[0]
+    except (Refusal, LayerError):
+        return painting
 
 
 def _applied(painting: Painting, command: c.Command) -> Painting:

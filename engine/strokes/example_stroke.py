@@ -53,13 +53,13 @@ class LiveGrowth(Drawn):
     flattened = False  # what the layer has of examples stays that
 
     def _begin(self) -> None:
-        _check_alpha(self.layer, "stroke")
+        check_alpha(self.layer, "stroke")
         brush, level, painting = self.brush, self.level, self.before
-        grid = _grid(brush, level)
+        grid = grid_of(brush, level)
         shape = tip.resolve(brush, painting.textures, level, self.own)
         within = growths.bounds(self.layer.growth, grid) if brush.row.takes_away else None
         begin = partial(Footprint, brush, self.origin, grid - level, shape, within)
-        self.bed = Bed(self.layer.growth, level, begin, _change(brush, grid, painting, self.own))
+        self.bed = Bed(self.layer.growth, level, begin, change_of(brush, grid, painting, self.own))
 
     def lay(self, points: np.ndarray) -> Rect:
         """As `LiveStroke.lay`, but nothing looks different before the bed is followed."""
@@ -87,13 +87,13 @@ class LiveGrowth(Drawn):
         return replace(self.base, root=layers.with_growth(self.base.root, self.layer.name, self.bed.growth))
 
 
-def _check_alpha(layer: Layer, what: str) -> None:
+def check_alpha(layer: Layer, what: str) -> None:
     """Refusal if the layer's alpha, which whatever grows changes, is locked."""
     if layer.alpha_locked:
         raise Refusal(f"{what}: found layer {layer.name!r} with locked alpha, expected one without")
 
 
-def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
+def change_of(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
     """Returns what the brush makes of a growth where it takes pixels of level `grid`."""
     if brush.row.takes_away:
         return lambda growth, rect, mask: growths.cut(growth, grid, rect, mask, brush.depth)
@@ -104,7 +104,7 @@ def _change(brush: Brush, grid: int, painting: Painting, seed: int) -> Change:
     return lambda growth, rect, mask: growths.laid(growth, *about, rect, mask)
 
 
-def _grid(brush: Brush, level: int) -> int:
+def grid_of(brush: Brush, level: int) -> int:
     """Returns the level whose pixels are taken."""
     if brush.row.takes_away or brush.example_level is None:
         return level
@@ -130,7 +130,7 @@ def swapped(painting: Painting, command: Swap) -> Painting:
     """With another example for the topmost region at a place.  Refusal if there is none or alpha is locked, BrushError
     if it is no example."""
     _, layer = layer_for(painting, command.layer, "swap")
-    _check_alpha(layer, "swap")
+    check_alpha(layer, "swap")
     plot = growths.at(layer.growth, command.level, *command.at, command.depth)
     if plot is None:
         raise Refusal(f"swap: found nothing painted with an example there on layer {layer.name!r}, expected a region")

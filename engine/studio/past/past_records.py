@@ -55,8 +55,8 @@ PastRequest = ShowPast | LookBack | Jump | StopJump | AskHere
 
 @dataclass(frozen=True, slots=True)
 class PastStep:
-    """A step; `brush` of a stroke, at `level`; `time`: seconds since 1970, if that is known; `picture`: the name of
-    its picture."""
+    """A step; `brush` of a stroke or a fill, at `level`; `time`: seconds since 1970, if that is known; `picture`: the
+    name of its picture."""
 
     index: int
     number: int

@@ -63,7 +63,11 @@ def _tiled(rect: Rect) -> Rect:
 
 def _place(command: c.Command, painting: Painting) -> tuple[int, Rect]:
     """Returns the level, no finer than the stroke's, and its pixels that are shown."""
-    level, whole = (command.level, stroke_bounds(command)) if isinstance(command, c.Stroke) else (0, painting.frame)
+    level, whole = 0, painting.frame
+    if isinstance(command, c.Stroke):
+        level, whole = command.level, stroke_bounds(command)
+    elif isinstance(command, c.Fill) and command.like.rect is not None:
+        level, whole = command.like.level, command.like.rect
     while whole.width > _ROOM * PICTURE_WIDTH or whole.height > _ROOM * PICTURE_HEIGHT:
         level, whole = level - 1, whole.zoomed(-1)
     left = whole.x0 - (PICTURE_WIDTH - whole.width) // 2

@@ -15,6 +15,8 @@ def told(step: LoggedStep, serial: int) -> PastStep:
     if isinstance(command, c.Stroke):
         title = command.brush.row.label
         return PastStep(step.index, step.number, title, picture, command.brush, command.level, when)
+    if isinstance(command, c.Fill):
+        return PastStep(step.index, step.number, "Fill", picture, command.brush, command.like.level, when)
     return PastStep(step.index, step.number, _title(command), picture, time=when)
 
 

@@ -15,6 +15,7 @@ from engine.journal.journal import Journal
 from engine.journal.records import Kind, read_command, told_command
 from engine.journal.story import read_story
 from engine.journal.volume import End
+from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import places
 from engine.studio import requests as q
@@ -26,6 +27,9 @@ MORE = c.parse({"do": "undo", "newer": {"than": [1, 2, {"this": 0.1}]}}).extra
 # One of each: a command that is not here fails `test_no_command_is_missing`.
 SAMPLES = {
     c.Stroke: c.Stroke(2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE),
+    c.Fill: c.Fill(
+        Brush(colour="#20a0f0"), c.Like((9, 9), 1, Rect(-5, 0, 90, 70), 0.25, 6, False, None), True, "sky", MORE
+    ),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
     c.AddPicture: c.AddPicture("photo", "grit", 1, (5, -6)),
     c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),

@@ -1,0 +1,114 @@
+"""The command that fills: a region of like colour, with anything that a brush can do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from immutables import Map
+
+from engine.brush import settings
+from engine.brush.checks import thawed
+from engine.brush.settings import Brush
+from engine.files.strict_json import Fields
+from engine.numeric.address import Rect
+from engine.painting.layering.placing_members import Same
+from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
+from engine.painting.points import plain
+
+WIDEST_GAP = 1024  # px
+LOOKED_AT_CAP = 1 << 24  # pixels in which a region is looked for
+TOLERANCE = 0.1
+_NOTHING: Map[str, Any] = Map()
+
+
+@dataclass(frozen=True, slots=True)
+class Like:
+    """The pixels like the one `at` a place of `level`: of those of `rect` (None: of the frame) that differ by
+    `tolerance` at most, 0..1, in every premultiplied channel; `contiguous`: only those that hang together with it,
+    where gaps of up to `gap` pixels count as closed.
+
+    `of`: the name of what is looked at, None for all that is seen, SAME for the active layer.
+    """
+
+    at: tuple[int, int]
+    level: int = 0
+    rect: Rect | None = None
+    tolerance: float = TOLERANCE
+    gap: int = 0
+    contiguous: bool = True
+    of: str | Same | None = Same.SAME
+
+
+@dataclass(frozen=True, slots=True)
+class Fill:
+    """Fills a region with a brush, on a layer (None: the active one).  `open`: even if it reaches the border of where
+    it is looked for."""
+
+    brush: Brush
+    like: Like
+    open: bool = False
+    layer: str | None = None
+    extra: Map[str, Any] = _NOTHING
+
+
+def read_like(members: Fields, name: str) -> Like:
+    """Returns what the member of that name tells of a region."""
+    about = Fields(members.take(name), members.at(name))
+    level = about.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
+    x, y = about.integers("at", 2, limit=PLACE_LIMIT)
+    rect = None
+    if about.take("rect", None) is not None:
+        left, top, width, height = about.integers("rect", 4, limit=PLACE_LIMIT)
+        if width < 1 or height < 1 or width * height > LOOKED_AT_CAP:
+            raise about.fault("rect", f"[X, Y, W, H], W and H at least 1, and at most {LOOKED_AT_CAP} pixels")
+        rect = Rect.at(left, top, width, height)
+    of: str | Same | None = Same.SAME
+    if "of" in about:
+        of = None if about.take("of") is None else about.text("of")
+    return Like(
+        (x, y),
+        level,
+        rect,
+        about.number("tolerance", TOLERANCE, lo=0.0, hi=1.0),
+        about.integer("gap", 0, lo=0, hi=WIDEST_GAP),
+        about.flag("contiguous", True),
+        of,
+    )
+
+
+def write_like(like: Like) -> dict[str, Any]:
+    """Returns the object that `read_like` makes the same of; defaults are left out."""
+    out: dict[str, Any] = {"at": list(like.at), "level": like.level}
+    if like.rect is not None:
+        out["rect"] = [like.rect.x0, like.rect.y0, like.rect.width, like.rect.height]
+    if like.tolerance != TOLERANCE:
+        out["tolerance"] = plain(like.tolerance)
+    if like.gap:
+        out["gap"] = like.gap
+    if not like.contiguous:
+        out["contiguous"] = False
+    if not isinstance(like.of, Same):
+        out["of"] = like.of
+    return out
+
+
+def read_fill(members: Fields) -> Fill:
+    """Returns the command that fills."""
+    return Fill(
+        settings.from_json(members.take("brush", {}), members.at("brush")),
+        read_like(members, "like"),
+        members.flag("open", False),
+        None if members.take("layer", None) is None else members.text("layer"),
+        members.rest(),
+    )
+
+
+def write_fill(fill: Fill) -> dict[str, Any]:
+    """Returns the members of the command."""
+    out: dict[str, Any] = {"like": write_like(fill.like), "brush": settings.to_json(fill.brush)}
+    if fill.open:
+        out["open"] = True
+    if fill.layer is not None:
+        out["layer"] = fill.layer
+    return {**out, **thawed(fill.extra)}

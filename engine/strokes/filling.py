@@ -1,0 +1,125 @@
+"""Fills: a region is covered as by one stroke, and that does whatever a stroke of the brush would do there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from engine.brush import dynamics, edits, relief
+from engine.brush.checks import BrushError
+from engine.brush.covered import Looks, Read, Scene
+from engine.brush.foretell import AREA_CAP
+from engine.brush.mask import Coverage
+from engine.brush.settings import Brush
+from engine.brush.stamp import Edit
+from engine.canvas import commit, evaluate, layers
+from engine.canvas import growth as growths
+from engine.canvas.flatten import flattened
+from engine.canvas.growth import Growth
+from engine.canvas.layers import Layer
+from engine.canvas.tile_cache import TileCache
+from engine.numeric.address import Rect
+from engine.painting.commands import Fill
+from engine.painting.grown import threads
+from engine.painting.value import Painting, layer_for
+from engine.strokes.bed import lies_in
+from engine.strokes.example_stroke import change_of, check_alpha, grid_of, kind_of
+from engine.strokes.likeness import alike, taken, thinned
+from engine.strokes.paint_stroke import LiveStroke
+from engine.strokes.scenery import reader
+from engine.texture.planes import Planes
+
+
+def filled(painting: Painting, command: Fill, cache: TileCache | None = None) -> Painting:
+    """Returns the painting with a region filled, previewed where that grows an example.
+
+    Refusal, or BrushError, names what cannot be done, as for a stroke.
+    """
+    brush = command.brush
+    edits.check(brush)
+    base, layer = layer_for(painting, command.layer, "fill")
+    grows = kind_of(brush) is not LiveStroke
+    if grows:
+        check_alpha(layer, "fill")
+    region = alike(painting, command.like, command.open, cache)
+    pouring = Pouring(painting, layer, brush, cache)
+    after = pouring.grown(region) if grows else pouring.painted(region)
+    root = base.root
+    if after.pyramid is not layer.pyramid:
+        root = layers.with_pyramid(root, layer.name, after.pyramid)
+    if after.growth is not layer.growth:
+        root = layers.with_growth(root, layer.name, after.growth)
+    return base if root is base.root else replace(base, root=root)
+
+
+class Pouring:
+    """What a brush does to a region of a layer of a painting, all at once."""
+
+    def __init__(self, painting: Painting, layer: Layer, brush: Brush, cache: TileCache | None) -> None:
+        self._painting, self._layer, self._brush, self._cache = painting, layer, brush, cache
+
+    def grown(self, region: Coverage) -> Layer:
+        """Returns the layer with an example grown in a region, or with what was grown there at a depth taken away."""
+        brush, layer, level = self._brush, self._layer, region.level
+        grid = grid_of(brush, level)
+        change = change_of(brush, grid, self._painting, self._painting.seed)
+        rect, mask = _carried(region.rect, taken(region), grid - level)
+        return replace(layer, growth=growths.previewed(change(layer.growth, rect, mask)))
+
+    def painted(self, region: Coverage) -> Layer:
+        """Returns the layer with its paint edited; what is painted with examples is taken away with it, or made paint
+        where the region meets it."""
+        brush, layer, level = self._brush, self._layer, region.level
+        opacity = brush.opacity * float(dynamics.evaluate(brush.dynamics.get("opacity"), np.ones(1))[0])
+        coverage = thinned(region, min(opacity, 1.0))
+        if layer.growth and brush.row.takes_away and not layer.alpha_locked:
+            rect, mask = coverage.rect, taken(coverage)
+            layer = replace(layer, growth=growths.cut(layer.growth, level, rect, mask))
+        elif layer.growth and not brush.row.takes_away and _meets(layer.growth, coverage):
+            with threads() as pool:
+                layer = flattened(layer, self._cache, pool)
+        return replace(layer, pyramid=commit.commit(layer.pyramid, self._edit(layer, coverage), self._cache))
+
+    def _edit(self, layer: Layer, coverage: Coverage) -> Edit:
+        brush, painting, level, seed = self._brush, self._painting, coverage.level, self._painting.seed
+        textures, made = painting.known_textures, edits.class_of(brush.mode)
+        ink = made.ink_of(brush, textures, level, seed)
+        thins = relief.resolve(brush, textures, level, (seed, seed))
+        scene = self._scene(made.looks(brush, ink), coverage)
+
+        def read(rect: Rect) -> Planes:
+            return evaluate.evaluate(layer.pyramid, level, rect, self._cache)
+
+        return edits.edit(brush, coverage, ink, layer.alpha_locked, read, thins, scene)
+
+    def _scene(self, looks: Looks, coverage: Coverage) -> Scene:
+        """Returns what an op looks at: the pen's pressure is everywhere the greatest."""
+        painting, rect = self._painting, coverage.rect
+        if looks.whole and rect.area > AREA_CAP:
+            raise BrushError("fill", f"one of {rect.area} pixels", f"at most {AREA_CAP} of {looks.whole}")
+        source: Read | None = None
+        if looks.layer is not None:
+            source = reader(painting.root, looks.layer, coverage.level, self._cache)
+        corner, pressure = (rect.x0, rect.y0), coverage if looks.pressure else None
+        return Scene(source, corner, pressure, corner, painting.seed, {}, painting.arithmetic)
+
+
+def _meets(growth: Growth, coverage: Coverage) -> bool:
+    """Tells whether anything grown can be seen in tiles that are covered."""
+    return any(lies_in(growth, coverage.level, key.rect) for key in coverage.tiles)
+
+
+def _carried(rect: Rect, mask: np.ndarray, finer: int) -> tuple[Rect, np.ndarray]:
+    """Returns the pixels, so many levels finer, of a mask, bool (h, w) over a rectangle; coarser ones, if negative:
+    those whose middle it has."""
+    if finer >= 0:
+        side = 1 << finer
+        return rect.zoomed(finer), mask.repeat(side, axis=0).repeat(side, axis=1)
+    side = 1 << -finer
+    whole = rect.zoomed(finer)
+    rows = (np.arange(whole.height) * side + (side >> 1)) + (whole.y0 * side - rect.y0)
+    columns = (np.arange(whole.width) * side + (side >> 1)) + (whole.x0 * side - rect.x0)
+    there = ((rows >= 0) & (rows < rect.height))[:, None] & ((columns >= 0) & (columns < rect.width))
+    found: np.ndarray = mask[np.clip(rows, 0, rect.height - 1)][:, np.clip(columns, 0, rect.width - 1)] & there
+    return whole, found
