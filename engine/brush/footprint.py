@@ -15,6 +15,7 @@ import numpy as np
 
 from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
+from engine.brush.copies import NO_COPIES, Copies, one_by_one
 from engine.brush.dabs import Stroker
 from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
 from engine.brush.settings import Brush
@@ -42,12 +43,13 @@ class Footprint:
         finer: int = 0,
         tip: Pattern | None = None,
         within: Rect | None = None,
+        copies: Copies = NO_COPIES,
     ) -> None:
         dynamics = brush.dynamics
         for name in ("opacity", "flow"):
             dynamics = dynamics.delete(name) if name in dynamics else dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, dynamics=dynamics)
-        self._stroker = Stroker(self._brush)
+        self._stroker, self._copies = Stroker(self._brush), copies
         self._scale, self._tip = 2.0**finer, tip
         places = [value << finer if finer >= 0 else value >> -finer for value in origin]
         self._origin = places[0], places[1]
@@ -64,31 +66,38 @@ class Footprint:
         BrushError, at once, if the stroke becomes too large; the points may not be laid again then.
         """
         dabs = self._stroker.walk(points)
+        if self._within is None:
+            for part in one_by_one(dabs, self._copies):
+                self._count(*self._met(part))
+        laid = self._laid
+        self._laid += len(dabs)
+        return self._taken(dabs, laid)
+
+    def _met(self, dabs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns dabs as discs on the pixels that are taken, and the pixels that each may meet."""
+        dabs = dabs.copy()
         dabs[:, 0] = (dabs[:, 0] + self._shift[0]) * self._scale
         dabs[:, 1] = (dabs[:, 1] + self._shift[1]) * self._scale
         dabs[:, 2] *= self._scale
         discs = kernels.as_discs(dabs, 0.0, 0.0, kernels.no_bounds())
         if self._tip is None:
             discs = discs[discs[:, CEILING] >= _HALF]  # a pen that hardly touches lays very many dabs that take nothing
-        boxes = _boxes(discs)
-        if self._within is None:
-            self._count(discs, boxes)
-        laid = self._laid
-        self._laid += len(dabs)
-        return self._taken(discs, boxes, laid)
+        return discs, _boxes(discs)
 
-    def _taken(self, discs: np.ndarray, boxes: np.ndarray, laid: int) -> Iterator[tuple[Rect, np.ndarray]]:
+    def _taken(self, dabs: np.ndarray, laid: int) -> Iterator[tuple[Rect, np.ndarray]]:
         """Yields what dabs take; `laid` of the stroke's lie before them."""
-        for first, last, around in _groups(boxes):
-            box = around if self._within is None else around.intersect(self._within)
-            if box.empty:
-                continue
-            mask = np.zeros((box.height, box.width), np.bool_)
-            if self._tip is None:
-                _take(mask, discs[first:last], float(box.x0), float(box.y0))
-            else:
-                self._stamp(mask, discs, range(first, last), laid, box)
-            yield _moved(box, *self._origin), mask
+        for part in one_by_one(dabs, self._copies):
+            discs, boxes = self._met(part)
+            for first, last, around in _groups(boxes):
+                box = around if self._within is None else around.intersect(self._within)
+                if box.empty:
+                    continue
+                mask = np.zeros((box.height, box.width), np.bool_)
+                if self._tip is None:
+                    _take(mask, discs[first:last], float(box.x0), float(box.y0))
+                else:
+                    self._stamp(mask, discs, range(first, last), laid, box)
+                yield _moved(box, *self._origin), mask
 
     def _count(self, discs: np.ndarray, boxes: np.ndarray) -> None:
         widest = float(discs[:, ROUT].max()) - 0.5 if len(discs) else 0.0
@@ -113,7 +122,7 @@ class Footprint:
                     if place.empty:
                         continue
                     tile = np.zeros((TILE, TILE), np.float32)
-                    self._tip.lay(tile, discs, np.array([index]), laid, (x, y))
+                    self._tip.lay(tile, discs, np.array([index]), (laid, 1), (x, y))
                     mask[place.slices(box)] |= tile[place.slices(whole)] >= _HALF
 
 

@@ -67,14 +67,16 @@ class StrokeMask:
 
     So a dab's opacity is a ceiling that no number of dabs passes, and flow the rate at which M comes up to it; d is
     the profile of module `discs`, times what the pattern of `tip` has there, if there is one.  `origin`: the stroke's
-    origin, integers of any size.  Only touched tiles take memory, and of those only the ones that are not of one value.
+    origin, integers of any size; `each`: dabs that follow one another
+    as copies of one.  Only touched tiles take memory, and of those only the ones that are not of one value.
     """
 
     def __init__(
-        self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP, tip: Pattern | None = None
+        self, level: int, origin: tuple[int, int], tiles_cap: int = TILES_CAP, tip: Pattern | None = None, each: int = 1
     ) -> None:
         self.level = level
         self._tip = tip
+        self._each = each
         self._laid = 0  # dabs in all
         self.origin = origin
         self._tiles_cap = tiles_cap
@@ -173,7 +175,7 @@ class StrokeMask:
         if self._tip is None:
             kernels.lay(tile, discs, which, first, last, x * TILE, y * TILE)
         else:
-            self._tip.lay(tile, discs, which[first:last], self._laid, (x * TILE, y * TILE))
+            self._tip.lay(tile, discs, which[first:last], (self._laid, self._each), (x * TILE, y * TILE))
         self._tiles[key] = tile
         return True
 

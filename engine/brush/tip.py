@@ -56,14 +56,20 @@ class Pattern:
     key: int
 
     def lay(
-        self, coverage: np.ndarray, discs: np.ndarray, which: np.ndarray, number: int, corner: tuple[int, int]
+        self,
+        coverage: np.ndarray,
+        discs: np.ndarray,
+        which: np.ndarray,
+        count: tuple[int, int],
+        corner: tuple[int, int],
     ) -> None:
         """Lays the discs `which` into a tile's coverage, in order, each filled with the pattern.
 
-        `number`: of the stroke's dab that is the first of `discs`; `corner`: left and top of the tile, px.
+        `count`: the number of the stroke's dab that is the first of `discs`, and how many of them are copies of one;
+        `corner`: left and top of the tile, px.
         """
         if self.windows:
-            _lay_windows(coverage, discs, which, number, np.uint64(self.key), *corner, self.planes, self.sizes[0])
+            _lay_windows(coverage, discs, which, *count, np.uint64(self.key), *corner, self.planes, self.sizes[0])
         else:
             _lay_samples(coverage, discs, which, *corner, self.planes, self.sizes)
 
@@ -143,14 +149,23 @@ def _profile(dx2: np.float32, dy2: np.float32, inner: np.float32, scale: np.floa
 
 @kernel
 def _lay_windows(
-    coverage: Array, discs: Array, which: Array, number: int, key: np.uint64, left: int, top: int, field: Array, n: int
+    coverage: Array,
+    discs: Array,
+    which: Array,
+    number: int,
+    each: int,
+    key: np.uint64,
+    left: int,
+    top: int,
+    field: Array,
+    n: int,
 ) -> None:
     """M' = M + max(0, ceiling - M) rate d(r) t, t being a window of `field`, float32 (n n,), in whole pixels."""
     for index in which:
         disc = discs[index]
         cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
         ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
-        h = mix64(key ^ mix64(np.uint64(number + index)))
+        h = mix64(key ^ mix64(np.uint64((number + index) // each)))
         room = np.uint64(max(1, n - 2 * int(outer) - 3))
         x0 = math.floor(cx - outer) - np.int64((h & np.uint64(0xFFFFFFFF)) % room)
         y0 = math.floor(cy - outer) - np.int64((h >> np.uint64(32)) % room)

@@ -9,7 +9,6 @@ from typing import Protocol
 import numpy as np
 
 from engine.brush.dynamics import evaluate
-from engine.brush.settings import Brush
 from engine.canvas import growth as growths
 from engine.canvas.tile_cache import TileCache
 from engine.files.fault import FileError
@@ -43,10 +42,9 @@ class Remaker(Protocol):
         """Carries out a command."""
         ...
 
-    def begin(
-        self, level: int, origin: tuple[int, int], brush: Brush, layer: str | None = None, seed: int | None = None
-    ) -> Live:
-        """Begins a stroke."""
+    @property
+    def begin(self) -> Callable[..., Live]:
+        """Begins a stroke: level, origin, brush, layer, seed, copies."""
         ...
 
     def finish(self, live: Live) -> Painting:
@@ -123,7 +121,7 @@ class Replaying:
         return True
 
     def _begun(self, stroke: c.Stroke) -> Live:
-        live = self._session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed)
+        live = self._session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed, stroke.copies)
         live.extra = stroke.extra
         return live
 

@@ -14,11 +14,13 @@ from enum import IntEnum
 import numpy as np
 
 from engine.brush import settings
+from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields, dumps, loads
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, Command, Stroke, parse, to_json
 from engine.painting.points import POINT_COLUMNS
+from engine.painting.stroke_copies import read_copies, write_copies
 
 LENGTH = struct.Struct("<I")
 NUMBER = struct.Struct("<Q")
@@ -54,6 +56,7 @@ class Touch:
     origin: tuple[int, int]
     brush: Brush
     time: float | None = None
+    copies: Copies = NO_COPIES
 
 
 def told_object(value: Mapping[str, object]) -> bytes:
@@ -114,6 +117,8 @@ def told_touch(touch: Touch, brush: str) -> bytes:
     about: Members = {"level": touch.level, "origin": list(touch.origin)}
     if touch.time is not None:
         about["time"] = touch.time
+    if touch.copies:
+        about["copies"] = write_copies(touch.copies)
     text = told_object(about)
     return LENGTH.pack(len(text)) + text + brush.encode()
 
@@ -129,4 +134,4 @@ def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
     members = Fields(read_object(payload[LENGTH.size : end]), "touch")
     level = members.integer("level", lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
     origin = members.integers("origin", 2, limit=PLACE_LIMIT)
-    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None))
+    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None), read_copies(members))

@@ -145,7 +145,9 @@ class _Reader:
         seed = None if members.take("seed", None) is None else members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT)
         touch, extra = asked.touch, frozen(members.take("extra", {}))
         points.flags.writeable = False
-        self.story.commands.append(Stroke(touch.level, touch.origin, points, touch.brush, layer, seed, extra))
+        self.story.commands.append(
+            Stroke(touch.level, touch.origin, points, touch.brush, layer, seed, extra, touch.copies)
+        )
         asked.taken += count
         if last:
             self.story.asked.pop(number)

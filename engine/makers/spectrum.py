@@ -142,6 +142,8 @@ def _stroke(value: Any, where: str) -> c.Stroke:
         raise FieldError(f"{where}.origin", described(list(command.origin)), f"two integers within {_FURTHEST}")
     if command.layer not in (None, *SHEETS):
         raise FieldError(f"{where}.layer", repr(command.layer), f"one of {', '.join(SHEETS)}")
+    if command.copies:
+        raise FieldError(f"{where}.copies", f"{len(command.copies)} copies", "none: a spectrum has its own symmetry")
     return command
 
 

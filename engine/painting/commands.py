@@ -15,6 +15,7 @@ from immutables import Map
 
 from engine.brush import settings
 from engine.brush.checks import thawed
+from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.files.strict_json import Fields
 from engine.painting import fill_command, layer_commands, places
@@ -44,6 +45,7 @@ from engine.painting.places import RemoveBookmark as RemoveBookmark
 from engine.painting.places import RenameBookmark as RenameBookmark
 from engine.painting.places import View as View
 from engine.painting.points import plain, points_array, points_json
+from engine.painting.stroke_copies import read_copies, write_copies
 
 SEED_LIMIT = (1 << 63) - 1
 _NOTHING: Map[str, Any] = Map()
@@ -54,6 +56,7 @@ class Stroke:
     """One stroke.  `points`: float64 (n, 6), read-only, columns as POINT_COLUMNS, in pixels of `level` from `origin`.
 
     `layer`: its name, None for the active one.  `seed`: of the ink's textures; None for the painting's.
+    `copies`: where it is drawn again, in the same step.
     """
 
     level: int
@@ -63,6 +66,7 @@ class Stroke:
     layer: str | None = None
     seed: int | None = None
     extra: Map[str, Any] = _NOTHING
+    copies: Copies = NO_COPIES
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Stroke):
@@ -141,7 +145,8 @@ def _read_stroke(members: Fields) -> Stroke:
     brush = _read_brush(members)
     layer = None if members.take("layer", None) is None else members.text("layer")
     seed = None if members.take("seed", None) is None else members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT)
-    return Stroke(level, origin, points, brush, layer, seed, members.rest())
+    copies = read_copies(members)
+    return Stroke(level, origin, points, brush, layer, seed, members.rest(), copies)
 
 
 def _read_brush(members: Fields) -> Brush:
@@ -154,6 +159,8 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         out["layer"] = stroke.layer
     if stroke.seed is not None:
         out["seed"] = stroke.seed
+    if stroke.copies:
+        out["copies"] = write_copies(stroke.copies)
     return {
         **out,
         "brush": settings.to_json(stroke.brush),

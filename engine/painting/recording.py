@@ -21,7 +21,18 @@ from engine.files.fault import FileError
 from engine.files.strict_json import BYTES_CAP, Fields, dumps, loads
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import COARSE, EVERYWHERE, FINE, LIBRARY
-from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT, Command, DefineTexture, Fill, Redo, Undo, parse, to_json
+from engine.painting.commands import (
+    PLACE_LIMIT,
+    SEED_LIMIT,
+    Command,
+    DefineTexture,
+    Fill,
+    Redo,
+    Stroke,
+    Undo,
+    parse,
+    to_json,
+)
 from engine.painting.layer_commands import LayerCommand
 from engine.painting.layer_commands import version as layer_version
 from engine.painting.places import BookmarkCommand
@@ -96,7 +107,8 @@ def version_of(command: Command) -> int:
     region = isinstance(command, DefineTexture) and "region" in command.arguments
     if isinstance(command, LayerCommand):
         return layer_version(command)
-    return 2 if region or isinstance(command, BookmarkCommand | Fill) else 1
+    copied = isinstance(command, Stroke) and bool(command.copies)
+    return 2 if region or copied or isinstance(command, BookmarkCommand | Fill) else 1
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

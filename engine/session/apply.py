@@ -50,7 +50,14 @@ def apply(painting: Painting, command: c.Command, around: Around = NOWHERE) -> P
 
 def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
     live = kind_of(command.brush)(
-        painting, command.level, command.origin, command.brush, around.cache, command.layer, command.seed
+        painting,
+        command.level,
+        command.origin,
+        command.brush,
+        around.cache,
+        command.layer,
+        command.seed,
+        command.copies,
     )
     live.lay(command.points)
     return live.commit()

@@ -13,6 +13,7 @@ from typing import Any
 
 from immutables import Map
 
+from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.tile_cache import TileCache
@@ -102,10 +103,16 @@ class Session(Owned):
         return self._done(command, after)
 
     def begin(
-        self, level: int, origin: tuple[int, int], brush: Brush, layer: str | None = None, seed: int | None = None
+        self,
+        level: int,
+        origin: tuple[int, int],
+        brush: Brush,
+        layer: str | None = None,
+        seed: int | None = None,
+        copies: Copies = NO_COPIES,
     ) -> Live:
         """Returns a stroke whose points are still to come; hand it to `finish`."""
-        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed)
+        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed, copies)
 
     def finish(self, live: Live) -> Painting:
         """Returns the stroke done: the same as its command, without doing the work twice.  One without a point is

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.brush import ops, relief, tip
+from engine.brush.copies import copied, copied_places
 from engine.brush.dabs import Stroker
 from engine.brush.dynamics import knots_of
 from engine.brush.extent import WIDEST
@@ -45,18 +46,27 @@ def stroke_bounds(stroke: Stroke) -> Rect:
 
 def bounds_of(strokes: Sequence[Stroke]) -> list[Rect]:
     """Returns that of each of some strokes."""
-    starts = np.cumsum([0, *(len(stroke.points) for stroke in strokes[:-1])])
-    places = np.concatenate([stroke.points[:, :2] for stroke in strokes])
-    reach = np.array([_reach(stroke.brush) for stroke in strokes])[:, None]
-    low = np.floor(np.minimum.reduceat(places, starts) - reach).astype(int).tolist()
-    high = np.ceil(np.maximum.reduceat(places, starts) + reach).astype(int).tolist()
+    tables = [_places(stroke) for stroke in strokes]
+    starts = np.cumsum([0, *(len(table) for table in tables[:-1])])
+    at = np.concatenate(tables)
+    reach = np.array([_reach(stroke) for stroke in strokes])[:, None]
+    low = np.floor(np.minimum.reduceat(at, starts) - reach).astype(int).tolist()
+    high = np.ceil(np.maximum.reduceat(at, starts) + reach).astype(int).tolist()
     origins = (stroke.origin for stroke in strokes)
     return [Rect(x + x0, y + y0, x + x1, y + y1) for (x, y), (x0, y0), (x1, y1) in zip(origins, low, high, strict=True)]
 
 
-def _reach(brush: Brush) -> float:
+def _places(stroke: Stroke) -> np.ndarray:
+    """Returns where a stroke's points lie, in all of its copies: float64 (n, 2)."""
+    points = stroke.points[:, :2]
+    return copied_places(points, stroke.copies).reshape(-1, 2) if stroke.copies else points
+
+
+def _reach(stroke: Stroke) -> float:
     """Returns how far from its points a stroke's dabs may lie, pixels."""
+    brush = stroke.brush
     widest = brush.radius * max(factor for _, factor in knots_of(brush.dynamics.get("radius")))
+    widest *= max([1.0, *(copy.scale for copy in stroke.copies)])
     return widest + 2.0 + (WIDEST if brush.extent else 0.0)
 
 
@@ -105,7 +115,7 @@ class Covering:
         corner, dabs = _dabs(stroke, coarser)
         if not _keep_near(dabs, corner, rect.grown(parts.relief.reach + 1)):
             return None
-        mask = StrokeMask(at, corner, tip=parts.tip)
+        mask = StrokeMask(at, corner, tip=parts.tip, each=1 + len(stroke.copies))
         mask.paint(dabs)
         coverage = parts.relief.over(mask.coverage())
         out = np.zeros((rect.height, rect.width), np.float32)
@@ -142,7 +152,7 @@ def plain_over(strokes: Sequence[Stroke], level: int, rect: Rect) -> np.ndarray:
 def plainly(stroke: Stroke, level: int) -> bool:
     """Tells whether how much a stroke covers of pixels of a level follows from its dabs alone."""
     row = stroke.brush.row
-    return not row.grows and (stroke.level > level + _EXACT or spots.is_plain(stroke.brush))
+    return not (row.grows or stroke.copies) and (stroke.level > level + _EXACT or spots.is_plain(stroke.brush))
 
 
 def hides(brush: Brush) -> bool:
@@ -165,7 +175,7 @@ def _resolved(brush: Brush, level: int, textures: Textures, seeds: Seeds) -> _Pa
 
 def _dabs(stroke: Stroke, coarser: int) -> tuple[tuple[int, int], np.ndarray]:
     """Returns the stroke's origin and its dabs, float64 (n, 6), in pixels of a level so much coarser."""
-    dabs = Stroker(stroke.brush).walk(stroke.points)
+    dabs = np.concatenate([*copied(Stroker(stroke.brush).walk(stroke.points), stroke.copies)])
     x, y = stroke.origin
     corner = x >> coarser, y >> coarser
     if coarser:
@@ -188,7 +198,7 @@ def _keep_near(dabs: np.ndarray, corner: tuple[int, int], rect: Rect) -> bool:
 
 def _taken(stroke: Stroke, at: int, rect: Rect) -> np.ndarray | None:
     """Returns 1 where a stroke with an example takes pixels, 0 elsewhere: its dabs' shape is not looked at."""
-    found = Footprint(stroke.brush, stroke.origin, at - stroke.level, None, rect)
+    found = Footprint(stroke.brush, stroke.origin, at - stroke.level, None, rect, stroke.copies)
     out = np.zeros((rect.height, rect.width), np.float32)
     for part, mask in found.lay(stroke.points):
         meeting = part.intersect(rect)

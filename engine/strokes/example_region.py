@@ -90,7 +90,8 @@ def _stroke(members: Fields, picture: np.ndarray) -> np.ndarray:
         raise FieldError(f"{place}.origin", described(list(stroke.origin)), f"two integers within {_FURTHEST}")
     _, height, width = picture.shape
     taken = np.zeros((height, width), np.bool_)
-    lay(taken, Footprint(stroke.brush, stroke.origin, within=Rect(0, 0, width, height)), stroke.points)
+    footprint = Footprint(stroke.brush, stroke.origin, within=Rect(0, 0, width, height), copies=stroke.copies)
+    lay(taken, footprint, stroke.points)
     return taken
 
 

@@ -58,7 +58,7 @@ class LiveGrowth(Drawn):
         grid = grid_of(brush, level)
         shape = tip.resolve(brush, painting.textures, level, self.own)
         within = growths.bounds(self.layer.growth, grid) if brush.row.takes_away else None
-        begin = partial(Footprint, brush, self.origin, grid - level, shape, within)
+        begin = partial(Footprint, brush, self.origin, grid - level, shape, within, self.copies)
         self.bed = Bed(self.layer.growth, level, begin, change_of(brush, grid, painting, self.own))
 
     def lay(self, points: np.ndarray) -> Rect:

@@ -9,6 +9,7 @@ import numpy as np
 from immutables import Map
 
 from engine.brush import edits
+from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.canvas.layers import Group
 from engine.canvas.tile_cache import TileCache
@@ -28,6 +29,7 @@ class Drawn:
     points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
     `asked`: the number under which the journal knows its points.
     `own`: the seed of its random numbers, the painting's where its command (`seed`) has none.
+    `copies`: where it is drawn again; `areas`: what the last points laid may have changed, for it and each copy.
     BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
     """
 
@@ -40,13 +42,16 @@ class Drawn:
         cache: TileCache | None = None,
         layer: str | None = None,
         seed: int | None = None,
+        copies: Copies = NO_COPIES,
     ) -> None:
         edits.check(brush)
         self.base, self.layer = layer_for(painting, layer)
         self.before, self.cache = painting, cache
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
+        self.copies = copies
         self.own = painting.seed if seed is None else seed
         self.dropped = 0
+        self.areas: list[Rect] = []
         self.extra: Map[str, Any] = Map()
         self.asked: int | None = None
         self._named = layer
@@ -105,4 +110,4 @@ class Drawn:
             raise Refusal("stroke: found no point, expected one at least")
         points = np.concatenate(self._points)
         points.flags.writeable = False
-        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra)
+        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra, self.copies)

@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from engine.brush import copies as copying
 from engine.brush import edits, relief, tip
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
@@ -18,7 +19,7 @@ from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
-from engine.numeric.address import Rect
+from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.prediction import Predictor
 from engine.painting.grown import threads
 from engine.painting.value import Painting
@@ -40,22 +41,25 @@ class LiveStroke(Drawn):
         made = edits.class_of(brush.mode)
         self._stroker = Stroker(brush)
         self._tip = tip.resolve(brush, textures, level, own)
-        self._mask = StrokeMask(level, self.origin, tip=self._tip)
+        self._mask = self._new_mask()
         self._ink = made.ink_of(brush, textures, level, own)
         looks = made.looks(brush, self._ink)
         source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
-        self._scenery = Scenery(looks, brush, (level, self.origin), own, source)
+        self._scenery = Scenery(looks, brush, (level, self.origin), own, source, self.copies)
         self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
         self._edit: Edit | None = None
         self.flattened, self.bed = False, self._new_bed()
         self._meeting = Meeting(level, self.origin, brush.radius)
+
+    def _new_mask(self) -> StrokeMask:
+        return StrokeMask(self.level, self.origin, tip=self._tip, each=1 + len(self.copies))
 
     def _new_bed(self) -> Bed | None:
         if not self.brush.row.takes_away or not self.layer.growth or self.layer.alpha_locked:
             return None
         level = self.level
         within = growths.bounds(self.layer.growth, level)
-        begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within)
+        begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within, self.copies)
         return Bed(self.layer.growth, level, begin, lambda growth, rect, mask: growths.cut(growth, level, rect, mask))
 
     def lay(self, points: np.ndarray) -> Rect:
@@ -64,9 +68,18 @@ class LiveStroke(Drawn):
             return Rect(0, 0, 0, 0)
         try:
             dabs = self._stroker.walk(points)
-            dirty = tile_bounds(self._mask.paint(dabs))
+            touched: set[TileKey] = set()
+            for part in copying.copied(dabs, self.copies):
+                touched |= self._mask.paint(part)
+            dirty = tile_bounds(touched)
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
-            dirty = dirty.union(self._scenery.lay(points, self._mask))
+            whole = self._scenery.lay(points, self._mask)
+            self.areas = (
+                []
+                if not self.copies or not whole.empty
+                else copying.boxes(dabs, self.copies, self.origin, TILE + self._relief.reach)
+            )
+            dirty = dirty.union(whole)
             if self.bed is not None:
                 self.bed.lay(points)
         except BrushError:
@@ -81,7 +94,7 @@ class LiveStroke(Drawn):
     def _flatten(self, dabs: np.ndarray) -> None:
         """Makes paint of what is painted with examples on the layer, if the stroke meets any of it."""
         spread = max(self._relief.reach, self._relief.spread)
-        if self._meeting.any(self.layer.growth, dabs, spread):
+        if any(self._meeting.any(self.layer.growth, part, spread) for part in copying.copied(dabs, self.copies)):
             self.flattened = True
             with threads() as pool:
                 self.layer = flattened(self.layer, self.cache, pool)
@@ -91,10 +104,11 @@ class LiveStroke(Drawn):
     def _again(self) -> None:
         """Lays the points that were kept, and nothing else."""
         self._stroker = Stroker(self.brush)
-        self._mask = StrokeMask(self.level, self.origin, tip=self._tip)
+        self._mask = self._new_mask()
         self._edit = None
         for points in self._points:
-            self._mask.paint(self._stroker.walk(points))
+            for part in copying.copied(self._stroker.walk(points), self.copies):
+                self._mask.paint(part)
 
     @property
     def predictor(self) -> Predictor | None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from engine.brush.checks import BrushError
+from engine.brush.copies import NO_COPIES, Copies, copied
 from engine.brush.covered import Looks, Read, Scene
 from engine.brush.dabs import Stroker
 from engine.brush.foretell import AREA_CAP
@@ -30,7 +31,13 @@ class Scenery:
     """
 
     def __init__(
-        self, looks: Looks, brush: Brush, place: tuple[int, tuple[int, int]], seed: int, source: Read | None
+        self,
+        looks: Looks,
+        brush: Brush,
+        place: tuple[int, tuple[int, int]],
+        seed: int,
+        source: Read | None,
+        copies: Copies = NO_COPIES,
     ) -> None:
         level, self._origin = place
         self._looks, self._source = looks, source
@@ -38,6 +45,7 @@ class Scenery:
         self._brush = replace(brush, opacity=1.0, flow=1.0, hardness=1.0, dynamics=steady.set("opacity", "pressure"))
         self._stroker = Stroker(self._brush)
         self._mask = StrokeMask(level, self._origin)
+        self._copies = copies
         self._seed, self._start = seed, (0, 0)
         self._memo: dict[str, Predictor | None] = {}
         self._begun = False
@@ -55,7 +63,8 @@ class Scenery:
             left, top = (math.floor(value) for value in points[0, :2])
             self._start, self._begun = (self._origin[0] + left, self._origin[1] + top), True
         if self._looks.pressure:
-            self._mask.paint(self._stroker.walk(points))
+            for part in copied(self._stroker.walk(points), self._copies):
+                self._mask.paint(part)
         return rect
 
     @property

@@ -77,7 +77,8 @@ class Easel(Owned):
         if self.live is not None:
             self.finish()
         self.viewer.look_back(None)
-        self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed)
+        about = stroke.layer, stroke.seed, stroke.copies
+        self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, *about)
         self.live.extra = stroke.extra
 
     def extend(self, points: np.ndarray) -> None:
@@ -138,7 +139,7 @@ class Easel(Owned):
 
     def _grew(self, area: Rect) -> None:
         if self.live is not None and not area.empty:
-            self.viewer.grew(self.live.level, area)
+            self.viewer.grew(self.live.level, self.live.areas or [area])
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 

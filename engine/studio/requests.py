@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from engine.brush.copies import NO_COPIES, Copies
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
 from engine.studio.filing.film_requests import FilmRequest
@@ -88,12 +89,14 @@ class Do:
 
 @dataclass(frozen=True, slots=True)
 class Begin:
-    """The pen touches down: `radius` in pixels of `level`, points relative to `origin`, `time`, seconds since 1970."""
+    """The pen touches down: `radius` in pixels of `level`, points relative to `origin`, `time`, seconds since 1970;
+    `copies`: where it is drawn again."""
 
     level: int
     origin: tuple[int, int]
     brush: Brush
     time: float | None = None
+    copies: Copies = NO_COPIES
 
 
 @dataclass(frozen=True, slots=True)

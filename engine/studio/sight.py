@@ -96,3 +96,15 @@ def tile_rect(key: Key) -> Rect:
     """Gives the pixels that a screen tile covers."""
     _, x, y = key
     return Rect.at(x * q.SCREEN_TILE, y * q.SCREEN_TILE, q.SCREEN_TILE, q.SCREEN_TILE)
+
+
+def grown_parts(before: list[Rect], parts: list[Rect]) -> list[Rect]:
+    """Returns parts that grew: one by one where there are as many, else all of them around as one."""
+    if len(before) == len(parts):
+        return [one.union(other) for one, other in zip(before, parts, strict=True)]
+    if not before or not parts:
+        return before or parts
+    whole = before[0]
+    for part in (*before[1:], *parts):
+        whole = whole.union(part)
+    return [whole]

@@ -190,7 +190,9 @@ class Studio(Owned):
     def _begin(self, request: q.Begin) -> None:
         self.lab.settle()
         no_points, when = np.empty((0, 6)), members(request.time)
-        self.easel.begin(c.Stroke(request.level, request.origin, no_points, request.brush, extra=when))
+        self.easel.begin(
+            c.Stroke(request.level, request.origin, no_points, request.brush, extra=when, copies=request.copies)
+        )
 
     def _grow(self) -> None:
         self.grower.step()

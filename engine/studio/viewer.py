@@ -22,9 +22,8 @@ from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.moving import placed_stroke
-from engine.studio.sight import Key, Sight, tile_rect
+from engine.studio.sight import Key, Sight, grown_parts, tile_rect
 
-_NOTHING = Rect(0, 0, 0, 0)
 Above = Callable[[int, Rect, np.ndarray], np.ndarray]
 
 
@@ -43,7 +42,7 @@ class Viewer(Owned):
         self._subject = subject
         self.sight = Sight()
         self.above: Above = lambda level, rect, pixels: pixels  # lays over a picture what is not painted yet
-        self._fresh = _NOTHING  # pixels of the live stroke's level not sent yet
+        self._fresh: list[Rect] = []  # pixels of the live stroke's level not sent yet
         self._level = 0
         self._where: Areas = lambda level: []  # what is fresh is seen
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
@@ -52,30 +51,30 @@ class Viewer(Owned):
     @property
     def fresh(self) -> bool:
         """Tells whether there is paint of the stroke in progress that the window has not seen."""
-        return not self._fresh.empty
+        return bool(self._fresh)
 
     @property
     def pending(self) -> int:
         """Returns tiles to look at."""
         return len(self.sight.open) + self.fresh
 
-    def grew(self, level: int, area: Rect) -> None:
-        """The stroke in progress laid paint on `area` of its level."""
+    def grew(self, level: int, parts: list[Rect]) -> None:
+        """The stroke in progress laid paint on parts of its level, one for itself and for each of its copies."""
         more = self.fresh  # one change for all points between two pictures
-        self._level, self._fresh = level, self._fresh.union(area)
+        self._level, self._fresh = level, grown_parts(self._fresh, parts)
         self._where = placed_stroke.areas_of(self._subject.live, level, self._fresh)
         self.sight.grew(self._where, more)
 
     def changed(self, where: Areas) -> None:
         """The picture changed in the areas that `where` gives for a level; whatever was fresh is among them."""
-        self._fresh = _NOTHING
+        self._fresh = []
         self.sight.changed(where)
 
     def unsee(self, live: Live) -> None:
         """The preview of a stroke that came to nothing goes from the screen."""
         whole = live.flattened or live.bed is not None  # seen at other levels too
         own, rect = live.level, live.rect
-        seen = placed_stroke.areas_of(live, own, rect)
+        seen = placed_stroke.areas_of(live, own, [rect])
         self.changed(lambda level: None if whole else seen(level))
 
     def look_back(self, painting: Painting | None) -> None:
@@ -87,12 +86,12 @@ class Viewer(Owned):
 
     def forget(self) -> None:
         """Another painting is to be seen."""
-        self._fresh, self.looking = _NOTHING, None
+        self._fresh, self.looking = [], None
         self.sight.forget()
 
     def send_fresh(self) -> None:
         """Sends the part of the wanted tiles that the stroke in progress changed."""
-        self._fresh = _NOTHING
+        self._fresh = []
         for key in self.sight.meeting(self._where):
             self._bring_up_to_date(key)
 

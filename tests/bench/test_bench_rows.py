@@ -20,6 +20,7 @@ QUICK = (
     "matching",
     "example",
     "stroke",
+    "copies",
     "exporting",
     "looking",
     "memory",

@@ -19,17 +19,22 @@ from engine.strokes.paint_stroke import LiveStroke
 _COARSER = 4  # levels at which a stroke is seen, besides its own
 
 
-def areas_of(live: Live | None, level: int, area: Rect) -> Areas:
-    """Returns where an area of a stroke's level is seen: where it is, and through placements."""
+def areas_of(live: Live | None, level: int, parts: list[Rect]) -> Areas:
+    """Returns where parts of a stroke's level is seen: where it is, and through placements."""
     views = None if live is None else Views(live.root)
     if live is None or views is None or not views.any:
-        return lambda n: [area] if n == level else []
+        return lambda n: parts if n == level else []
     layer = live.layer.id
 
     @cache
     def where(n: int) -> list[Rect] | None:
-        placed = views.shown(layer, level, area, n)
-        return None if placed is None else ([area] if n == level else []) + placed
+        found = list(parts) if n == level else []
+        for part in parts:
+            placed = views.shown(layer, level, part, n)
+            if placed is None:
+                return None
+            found += placed
+        return found
 
     return where
 

@@ -41,7 +41,9 @@ class Sketch:
                 row = request.brush.row
                 self._open = row.lays_ink or row.takes_away
                 if self._open:
-                    stroke = LiveStroke(Painting(), request.level, request.origin, _plain(request.brush))
+                    stroke = LiveStroke(
+                        Painting(), request.level, request.origin, _plain(request.brush), copies=request.copies
+                    )
                     self._strokes.append((stroke, row.takes_away))
             case q.Points() if self._open:
                 stroke = self._strokes[-1][0]

@@ -50,7 +50,8 @@ class WaitingLine:
         self._queue.append(request)
         grown = self._sketch.add(request)
         if grown is not None and not grown[1].empty:
-            self._studio.easel.viewer.grew(*grown)
+            level, area = grown
+            self._studio.easel.viewer.grew(level, [area])
 
     def again(self) -> None:
         """Tries the first that wait, or compiles what they lack where their brush is as ready as it will be."""

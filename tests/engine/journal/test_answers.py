@@ -30,9 +30,9 @@ def points(n, seed=0):
     return np.column_stack([line, told.uniform(0.2, 1, n), np.zeros((n, 2)), np.arange(n) * 0.008])
 
 
-def draw(worker, count=20, seed=0, brush=None, end=True):
+def draw(worker, count=20, seed=0, brush=None, end=True, copies=()):
     """A stroke, as a window posts it."""
-    worker.post(q.Begin(0, (0, 0), brush or Brush(radius=8.0), time=1000.5))
+    worker.post(q.Begin(0, (0, 0), brush or Brush(radius=8.0), time=1000.5, copies=copies))
     for part in np.array_split(points(count, seed), 4):
         worker.post(q.Points(part))
     if end:

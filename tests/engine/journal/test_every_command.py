@@ -8,6 +8,7 @@ import pytest
 from test_answers import idle
 from test_recovering import left, painter
 
+from engine.brush.copies import Copy
 from engine.brush.settings import Brush
 from engine.journal import entries
 from engine.journal.heads import head_of_new
@@ -26,7 +27,9 @@ LINE.flags.writeable = False
 MORE = c.parse({"do": "undo", "newer": {"than": [1, 2, {"this": 0.1}]}}).extra
 # One of each: a command that is not here fails `test_no_command_is_missing`.
 SAMPLES = {
-    c.Stroke: c.Stroke(2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE),
+    c.Stroke: c.Stroke(
+        2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE, (Copy(0.6, -0.8, 3.25, 4.5, True),)
+    ),
     c.Fill: c.Fill(
         Brush(colour="#20a0f0"), c.Like((9, 9), 1, Rect(-5, 0, 90, 70), 0.25, 6, False, None), True, "sky", MORE
     ),

@@ -14,6 +14,7 @@ from test_killed import pixels
 
 from app.__main__ import main
 from engine.archive.opening import open_painting
+from engine.brush.copies import symmetric
 from engine.brush.settings import Brush
 from engine.journal import entries
 from engine.journal.heads import FileStamp, head_of_new
@@ -61,6 +62,16 @@ def saved(worker, path):
     found = []
     while not any(isinstance(result, results.Saved) for result in found):
         found += idle(worker)
+
+
+def test_the_copies_of_a_stroke_are_recovered_of_one_in_hand_too(tmp_path):
+    folder, copies = tmp_path / "p", symmetric((80.0, 90.0), 3, (0.6, 0.8))
+    one = painter(folder)
+    draw(one, 40, 1, copies=copies)
+    draw(one, 40, 2, end=False, copies=copies)
+    left(one)
+    (entry,) = entries.listed(folder)
+    assert [command.copies for command in recovered(entry.folder).session.log] == [copies, copies]
 
 
 def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
