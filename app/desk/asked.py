@@ -8,6 +8,7 @@ from pathlib import Path
 
 from app.canvas.view import Place
 from app.desk.known import Known
+from engine.painting.commands import Command
 from engine.painting.places import Bookmark
 from engine.studio.filing.film_requests import FilmWish
 from engine.studio.results import Overtaken
@@ -41,7 +42,8 @@ class Asked:
     unsaved changes are dealt with, `otherwise` if they are not to be, `why`: what would take the painting's place;
     `after_save`: goes on once the painting is saved, `after_film` once the film is made; `overtaken`: the save that is
     asked about; `quit`: the window is to go; `export_level`: how deep the exported picture goes; `texture`: a name
-    under which one is being made, which joins the ink when the painting has it; `film`: what is chosen of the film
+    under which one is being made, which joins the ink when the painting has it; `merge`: what merges layers once
+    that is told, ink going no finer than `merge_level`; `film`: what is chosen of the film
     that is asked for; `bringing`: a picture that was given to the painting, and to which place of the canvas."""
 
     dialog: str = ""
@@ -55,6 +57,8 @@ class Asked:
     quit: bool = False
     export_level: int = 0
     texture: str = ""
+    merge: Command | None = None
+    merge_level: int = 0
     film: FilmState = field(default_factory=FilmState)
     bringing: tuple[Path, Place] | None = None
 

@@ -34,6 +34,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 node.locked,
                 alpha_locked,
                 results.Shows(names[node.of] if node.of else None, node.pose) if isinstance(node, Placement) else None,
+                node.pyramid.finest if isinstance(node, Layer) else None,
             )
         )
         if isinstance(node, Group):

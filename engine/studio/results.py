@@ -75,7 +75,7 @@ class Shows:
 @dataclass(frozen=True, slots=True)
 class LayerRow:
     """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
-    what a placement shows, None where it is none."""
+    what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything."""
 
     name: str
     group: bool
@@ -88,6 +88,7 @@ class LayerRow:
     locked: bool
     alpha_locked: bool
     shows: Shows | None = None
+    finest: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

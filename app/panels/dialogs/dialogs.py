@@ -15,6 +15,7 @@ from app.panels.dialogs import file_browser
 from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
+from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
@@ -261,6 +262,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "unsaved": lambda desk: Unsaved(),
     "overtaken": _overtaken,
     "earlier": _earlier,
+    "merge": lambda desk: MergeDialog(),
     "unclosed": Cards,
     "bin": Bin,
     "keys": lambda desk: Keys(),

@@ -204,6 +204,7 @@ class LayersPanel:
             ("show_again", icons.LINK),
             ("raise", icons.UP),
             ("lower", icons.DOWN),
+            ("merge_down", icons.MERGE),
             ("remove", icons.DELETE),
         )
         for i, (name, icon) in enumerate(names):

@@ -1,0 +1,109 @@
+"""Actions that make one layer of several, or empty one; where ink would end as pixels, the artist is asked before."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from app.actions.action import Action as A
+from app.actions.action import active, chosen, ready
+from app.desk.desk import Desk
+from engine.painting import commands as c
+from engine.studio.requests import Do
+from engine.studio.results import LayerRow
+
+_PLAIN = "src-over"
+
+
+def below(desk: Desk) -> LayerRow | None:
+    """Returns the row right below the chosen one in its group."""
+    row = desk.known.active
+    rows = desk.known.scene.layers if desk.known.scene else ()
+    if row is None:
+        return None
+    return next((one for one in rows if one.parent == row.parent and one.position == row.position - 1), None)
+
+
+def rows_inside(rows: Sequence[LayerRow], name: str) -> list[LayerRow]:
+    """Returns what a group of a list holds, at any depth."""
+    found, inside = [], {name}
+    for row in rows:  # a group before what it holds
+        if row.parent in inside:
+            inside.add(row.name)
+            found.append(row)
+    return found
+
+
+def ends_at(rows: Sequence[LayerRow], plainly: Sequence[LayerRow]) -> int | None:
+    """Returns the finest level of merged rows, where their ink cannot stay ink; None where it can.  `plainly`: those
+    whose own way of mixing does not count."""
+    mixed = any(
+        row.shows is not None or (row not in plainly and (row.blend != _PLAIN or (row.group and row.opacity < 1)))
+        for row in rows
+        if row.visible
+    )
+    return max((row.finest for row in rows if row.finest is not None), default=0) if mixed else None
+
+
+def _ask(desk: Desk, command: c.Command, rows: Sequence[LayerRow], plainly: Sequence[LayerRow]) -> None:
+    level = ends_at(rows, plainly)
+    if level is None:
+        desk.post(Do(command))
+        return
+    desk.asked.merge, desk.asked.merge_level = command, level
+    desk.asked.show("merge")
+
+
+def _merge_down(desk: Desk) -> None:
+    upper, lower = desk.known.active, below(desk)
+    if upper is None or lower is None or desk.known.scene is None:
+        return
+    rows = desk.known.scene.layers
+    inner = [*rows_inside(rows, upper.name), *rows_inside(rows, lower.name)]
+    _ask(desk, c.MergeLayer(upper.name), [upper, lower, *inner], [lower])
+
+
+def _merge_group(desk: Desk) -> None:
+    row = desk.known.active
+    if row is not None and desk.known.scene is not None:
+        name = row.name if row.group else row.parent
+        assert name is not None
+        _ask(desk, c.FlattenGroup(name), rows_inside(desk.known.scene.layers, name), [])
+
+
+def _merge_visible(desk: Desk) -> None:
+    if desk.known.scene is not None:
+        _ask(desk, c.FlattenGroup(None), [row for row in desk.known.scene.layers if row.visible], [])
+
+
+def _clear(desk: Desk) -> None:
+    desk.post(Do(c.ClearLayer(active(desk))))
+
+
+def _on_another(desk: Desk) -> bool:
+    return chosen(desk) and below(desk) is not None
+
+
+def _grouped(desk: Desk) -> bool:
+    row = desk.known.active
+    return chosen(desk) and row is not None and (row.group or row.parent is not None)
+
+
+def _painted(desk: Desk) -> bool:
+    row = desk.known.active
+    return chosen(desk) and row is not None and not row.group and row.shows is None
+
+
+def _several(desk: Desk) -> bool:
+    return ready(desk) and desk.known.scene is not None and len(desk.known.scene.layers) > 1
+
+
+MERGING_ACTIONS: dict[str, A] = {
+    "merge_down": A(
+        "Merge down", "Layer", ("Ctrl+Alt+E",), "Make one layer of this and the one below", _merge_down, _on_another
+    ),
+    "merge_group": A("Merge group", "Layer", (), "Make one layer of the group", _merge_group, _grouped),
+    "merge_visible": A(
+        "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
+    ),
+    "clear": A("Clear", "Layer", (), "Take all paint off the layer", _clear, _painted),
+}  # fmt: skip
