@@ -15,11 +15,12 @@ from immutables import Map
 
 from engine.numeric.address import Rect
 from engine.studio.held.held_records import Held
+from engine.studio.layer_rows import LayerRow as LayerRow
+from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import Extent
 from engine.studio.past.past_records import PastResult
 
 if TYPE_CHECKING:
-    from engine.canvas.placing.pose import Pose
     from engine.painting.places import Bookmark
 
 
@@ -62,33 +63,6 @@ class Same:
 
     tiles: tuple[tuple[int, int, int], ...]
     revision: int
-
-
-@dataclass(frozen=True, slots=True)
-class Shows:
-    """What a placement shows, and where: the node of that name; None: the whole painting."""
-
-    name: str | None
-    pose: Pose
-
-
-@dataclass(frozen=True, slots=True)
-class LayerRow:
-    """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
-    what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything."""
-
-    name: str
-    group: bool
-    depth: int
-    parent: str | None
-    position: int
-    opacity: float
-    visible: bool
-    blend: str
-    locked: bool
-    alpha_locked: bool
-    shows: Shows | None = None
-    finest: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

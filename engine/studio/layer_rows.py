@@ -1,0 +1,36 @@
+"""The rows of the panel of layers, as the background worker tells them; light, as `results`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from engine.canvas.placing.pose import Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Shows:
+    """What a placement shows, and where: the node of that name; None: the whole painting."""
+
+    name: str | None
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class LayerRow:
+    """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
+    what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything."""
+
+    name: str
+    group: bool
+    depth: int
+    parent: str | None
+    position: int
+    opacity: float
+    visible: bool
+    blend: str
+    locked: bool
+    alpha_locked: bool
+    shows: Shows | None = None
+    finest: int | None = None
