@@ -9,7 +9,7 @@ from functools import partial
 from engine.archive.implied import Tile, without
 from engine.archive.manifest import Pack
 from engine.archive.packing import grouped, pack
-from engine.archive.shelf import as_filed, plain_size
+from engine.archive.shelf import as_filed
 from engine.numeric.arithmetic import COARSE
 from engine.painting.cascade import Cascade
 
@@ -27,7 +27,7 @@ def pack_jobs(stem: str, tiles: list[Tile], packs: list[Pack], values: Cascade |
     """Yields the packs of some tiles; `values` of their pyramid, if what ink implies of them may be left out."""
     for number, group in enumerate(grouped(tiles)):
         name = f"{stem}/{number}.tiles"
-        packs.append(Pack(name, len(group), sum(plain_size(record) for _, record in group)))
+        packs.append(Pack(name, len(group), sum(record.plain_size for _, record in group)))
         yield Job(name, partial(_packed, group, values))
 
 

@@ -27,7 +27,7 @@ from engine.archive import tilecode
 from engine.archive.earlier import packs_of_format_1, packs_of_format_2
 from engine.archive.implied import ABOVE, MOST, TERM_CAP, Coded, Implied, Tile
 from engine.archive.packfault import PackFault, need
-from engine.archive.shelf import Block, Filed, block_at, plain_size
+from engine.archive.shelf import Block, Filed, block_at
 from engine.canvas.store import Record
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
@@ -69,7 +69,7 @@ def _runs(tiles: Sequence[T], most: int, count: int) -> Iterator[Sequence[T]]:
     """Runs of at most `count` tiles whose data take no more than `most` bytes, if they are several."""
     start, size = 0, 0
     for stop, (_, record, *_) in enumerate(tiles):
-        own = plain_size(record)
+        own = record.plain_size
         if stop > start and (stop - start >= count or size + own > most):
             yield tiles[start:stop]
             start, size = stop, 0
@@ -105,8 +105,7 @@ def pack(tiles: Sequence[Coded], closely: bool = False) -> bytes:
         return [inks.setdefault(ink, len(inks)) for ink in found]
 
     for key, record, implied in tiles:
-        bits = record.held.bits if isinstance(record.held, Filed) else 8 * record.data.itemsize
-        line = [key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, bits, indices(record.inks)]
+        line = [key.level, f"{key.x:x}", f"{key.y:x}", *record.rect, 8 * record.held.itemsize, indices(record.inks)]
         more = [] if implied is None else [indices(implied.inks), list(implied.terms), implied.crc]
         lines.append([*line, *more])
     for run in _blocks(tiles):
@@ -346,7 +345,7 @@ def _put_off(stored: memoryview, plain: int, run: Sequence[_TileHead], form: _Fo
     need(form.places(_inflated(stored, plain), [head.shape for head in run]) is not None, *_OTHERS)
     block = Block(partial(_clipped, stored, plain, run, form), len(run), plain, stored)
     for number, head in enumerate(run):
-        held = Filed(block, number, form.size(head.shape, head.bits), head.bits)
+        held = Filed(block, number, head.bits)
         yield head.key, Record(head.rect, held, head.inks, 0), head.implied
 
 

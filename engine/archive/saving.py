@@ -125,7 +125,8 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
     waiting: deque[tuple[Job, Future[Product]]] = deque()
     shown: Future[list[tuple[Job, IO[bytes]]]] | None = None
     try:
-        with ThreadPoolExecutor(WORKERS, "save") as pool:
+        tight = memory.resident() > memory.budget()
+        with ThreadPoolExecutor(1 if tight else WORKERS, "save") as pool:
             shown = pool.submit(plan.pictures)
             try:
                 while plan.jobs:
@@ -148,7 +149,9 @@ def _made(plan: SavePlan, cancelled: Stop) -> Generator[tuple[Job, Product], Non
 def _next(waiting: deque[tuple[Job, Future[Product]]], cancelled: Stop) -> tuple[Job, Product]:
     check_cancelled(cancelled)
     job, future = waiting.popleft()
-    return job, future.result()
+    product = future.result()
+    memory.settle()  # what it took on the way is given back, not kept beside what the next one takes
+    return job, product
 
 
 def _add(writer: ZipWriter, name: str, product: Product, deflate: bool) -> None:

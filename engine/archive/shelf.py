@@ -40,17 +40,21 @@ class Block:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Filed:
-    """The data of a record, as they lie in a block at a place: `plain` bytes, of integers of so many `bits`."""
+    """The data of a record, as they lie in a block at a place: integers of so many `bits`."""
 
     block: Block
     number: int
-    plain: int
     bits: int
 
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
         return self.block.stored.nbytes // self.block.count + _TILE_OVERHEAD
+
+    @property
+    def itemsize(self) -> int:
+        """Counts the bytes of each of the data."""
+        return self.bits // 8
 
     def forget(self) -> None:
         """Lets the data go, which nobody asks for as they lie in the file."""
@@ -83,9 +87,9 @@ class Lessened:
         return self.filed.nbytes
 
     @property
-    def plain(self) -> int:
-        """Counts the bytes of the data."""
-        return self.filed.plain
+    def itemsize(self) -> int:
+        """Counts the bytes of each of the data."""
+        return self.filed.itemsize
 
     def made(self) -> np.ndarray:
         """Returns the data, read-only."""
@@ -136,12 +140,6 @@ class Shelf:
                     told[implied.inks] = implied.is_of(data)
                 count += not told[implied.inks]
         return count
-
-
-def plain_size(record: Record) -> int:
-    """Counts the bytes of a record's data, which need not be there for that."""
-    held = record.held
-    return held.plain if isinstance(held, Filed | Lessened) else record.data.nbytes
 
 
 def as_filed(pyramid: Pyramid, tiles: Sequence[tuple[TileKey, Record]]) -> list[Coded] | None:

@@ -24,6 +24,7 @@ def _zeros(planes: int) -> np.ndarray:
     return np.zeros((planes, TILE, TILE), np.float32)
 
 
+_AT_ONCE = 32  # tiles that are worked out together: where much ink lies, these take a hundred megabytes
 _BLANK, _TILE = Planes(_zeros(COLOURS)), Rect(0, 0, TILE, TILE)
 
 
@@ -72,14 +73,21 @@ def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -
             values[key] = value
         else:
             missing.append(key)
-    bounds = tile_bounds(missing)
-    if bounds.area > 4 * TILE * TILE * len(missing):
-        return values | {key: evaluate_sparse(pyramid, key.level, key.rect, cache) for key in missing}
-    whole = evaluate_sparse(pyramid, missing[0].level, bounds, cache) if missing else None
-    for key in missing:
-        if whole is None:
-            values[key] = None
-        else:
-            cut = np.ascontiguousarray(whole.data[:, *key.rect.slices(bounds)])
-            values[key] = without_empty_inks(Planes(cut, whole.inks))
+    for first in range(0, len(missing), _AT_ONCE):
+        values |= _evaluated(pyramid, missing[first : first + _AT_ONCE], cache)
+    return values
+
+
+def _evaluated(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
+    """Returns the values of some tiles of one level: worked out together, unless they lie far apart."""
+    bounds = tile_bounds(keys)
+    if bounds.area > 4 * TILE * TILE * len(keys):
+        return {key: evaluate_sparse(pyramid, key.level, key.rect, cache) for key in keys}
+    whole = evaluate_sparse(pyramid, keys[0].level, bounds, cache)
+    if whole is None:
+        return dict.fromkeys(keys)
+    values: dict[TileKey, Planes | None] = {}
+    for key in keys:
+        cut = np.ascontiguousarray(whole.data[:, *key.rect.slices(bounds)])
+        values[key] = without_empty_inks(Planes(cut, whole.inks))
     return values

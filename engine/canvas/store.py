@@ -22,6 +22,7 @@ import numpy as np
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.arithmetic import FINE
 from engine.numeric.grid import step_of
+from engine.texture.planes import COLOURS
 from engine.texture.record import Instance
 from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
@@ -36,6 +37,11 @@ class Coded(Protocol):
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
+        ...
+
+    @property
+    def itemsize(self) -> int:
+        """Counts the bytes of each of the data."""
         ...
 
     def made(self) -> np.ndarray:
@@ -70,6 +76,11 @@ class Record:
         if isinstance(held, OfSheets):
             return held.plain()
         return held if isinstance(held, SparsePlanes) else None
+
+    @property
+    def plain_size(self) -> int:
+        """Counts the bytes of the data, which need not be made for that."""
+        return (COLOURS + 3 * len(self.inks)) * self.rect.area * self.held.itemsize
 
     def exchange(self, held: np.ndarray | Coded) -> None:
         """Holds the same data in another form.  Other threads may read them meanwhile."""

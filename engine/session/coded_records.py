@@ -44,6 +44,11 @@ class CodedData:
         """Counts the bytes of memory that it takes."""
         return _OVERHEAD + (len(self.packed) if isinstance(self.packed, bytes) else 0)
 
+    @property
+    def itemsize(self) -> int:
+        """Counts the bytes of each of the data."""
+        return self.dtype.itemsize
+
     def plain(self) -> np.ndarray | SparsePlanes:
         """Returns what the record held."""
         return self.made()
@@ -83,10 +88,16 @@ class CodedData:
 @dataclass(frozen=True, eq=False, slots=True)
 class CodedSheets(CodedData, OfSheets):
     """The same of the sheets of many inks, the record's `stack`: of colour where `coloured`, and of those `inks` whose
-    sheets are not the very ones that the other record has."""
+    sheets are not the very ones that the other record has.  `size`: bytes of each of the data."""
 
     coloured: bool
     stack: tuple[Instance, ...]
+    size: int
+
+    @property
+    def itemsize(self) -> int:
+        """Counts the bytes of each of the data."""
+        return self.size
 
     def plain(self) -> SparsePlanes:
         """Returns the sheets."""
@@ -194,7 +205,7 @@ def _coded_sheets(record: Record, held: SparsePlanes, other: Record | None) -> t
     dtype = np.dtype(np.int16 if all(sheet.most < 1 << 15 for sheet in sheets) else np.int32)
     # wraps round, and back when it is added
     left = _sheets_over(held, rect, inks, dtype, coloured) - _sheets_over(base, rect, inks, dtype, coloured)
-    coded = CodedSheets(rect, inks, dtype, other, *_packed(left), coloured, record.inks)
+    coded = CodedSheets(rect, inks, dtype, other, *_packed(left), coloured, record.inks, held.itemsize)
     return coded, sum(sheet.nbytes for sheet in sheets)
 
 

@@ -8,8 +8,8 @@ from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
-from engine.canvas.store import RECORD_OVERHEAD, Pyramid, Record, changed_rects
-from engine.numeric.address import TileKey
+from engine.canvas.store import RECORD_OVERHEAD, Change, Pyramid, Record, changed_rects
+from engine.numeric.address import Rect, TileKey
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
@@ -18,24 +18,23 @@ OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and w
 
 def difference(old: Group, new: Group) -> tuple[int, int]:
     """Returns bytes that only `old` holds, and bytes that only `new` holds."""
-    before = {layer.id: layer for layer in layers.layers(old)}
-    after = {layer.id: layer for layer in layers.layers(new)}
-    lost = gained = 0
-    for number in before.keys() | after.keys():
-        one, other = before.get(number), after.get(number)
-        fewer, more = _regrown(one.growth if one else (), other.growth if other else ())
-        lost, gained = lost + fewer, gained + more
-        a, b = one.pyramid if one else None, other.pyramid if other else None
-        if a is b:
+    return alone(old, new), alone(new, old)
+
+
+def alone(far: Group, near: Group) -> int:
+    """Returns bytes that only one of two states of the layers, `far`, holds."""
+    there, held = {layer.id: layer for layer in layers.layers(near)}, 0
+    for layer in layers.layers(far):
+        other = there.get(layer.id)
+        held += _regrown(layer.growth, other.growth if other else ())
+        one, beside = layer.pyramid, other.pyramid if other else None
+        if one is beside:
             continue
-        if a is None or b is None or a.uid != b.uid:
-            lost += a.nbytes if a is not None else 0
-            gained += b.nbytes if b is not None else 0
+        if beside is None or one.uid != beside.uid:
+            held += one.nbytes
             continue
-        lost += sum(_alone(record, beside) for _, record, beside in _only(a, b))
-        gained += sum(_alone(record, beside) for _, record, beside in _only(b, a))
-        lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
-    return lost, gained
+        held += sum(_alone(record, found) for _, record, found in _only(one, beside)) + _waiting(one, beside)
+    return held
 
 
 def _alone(record: Record, beside: Record | None) -> int:
@@ -51,12 +50,12 @@ def _waiting(one: Pyramid, other: Pyramid) -> int:
     return sum(waits.nbytes for waits in one.waiting() if waits.change.serial not in there)
 
 
-def _regrown(old: Growth, new: Growth) -> tuple[int, int]:
-    """Returns the same of what was painted on a layer with examples."""
-    if old is new:
-        return 0, 0
-    before, after = growths.arrays(old), growths.arrays(new)
-    return sum(n for k, n in before.items() if k not in after), sum(n for k, n in after.items() if k not in before)
+def _regrown(one: Growth, other: Growth) -> int:
+    """Returns the bytes of what was painted on a layer with examples that another state has not."""
+    if one is other:
+        return 0
+    there = growths.arrays(other)
+    return sum(size for array, size in growths.arrays(one).items() if array not in there)
 
 
 def changed_records(far: Group, near: Group) -> Iterator[OnlyHere]:
@@ -89,16 +88,38 @@ def lost_records(old: Group, new: Group) -> Iterator[Record]:
 def _only(one: Pyramid, other: Pyramid) -> Iterator[OnlyHere]:
     """Yields the records of one state that another of the same line of history does not share, and what that has in
     their places."""
+    folded = _folded_between(one, other)
     for level, stored in one.levels.items():
         there = other.levels.get(level)
         if there is stored:
             continue
-        # Folded in between, records changed wherever a stroke had waited; and several commits met the same tiles.
-        if one.settled != other.settled or len(rects := changed_rects(other, one, level)) > 1:
-            places = ((TileKey(level, *place), record) for place, record in stored.items())
-        else:
-            places = (found for rect in rects for found in one.records(level, rect.grown(_AROUND)))
-        for key, record in places:
+        for key, record in _places(one, level, _rewritten(one, other, folded, level)):
             beside = there.get((key.x, key.y)) if there is not None else None
             if beside is not record:
                 yield key, record, beside
+
+
+def _folded_between(one: Pyramid, other: Pyramid) -> list[Change]:
+    """Returns the commits of which what they leave of finer detail waits in one of two states alone: records changed
+    wherever it lay."""
+    if one.waits is other.waits:
+        return []
+    here, there = ({waits.change.serial: waits.change for waits in state.waiting()} for state in (one, other))
+    return [(here.get(serial) or there[serial]) for serial in here.keys() ^ there.keys()]
+
+
+def _rewritten(one: Pyramid, other: Pyramid, folded: list[Change], level: int) -> list[Rect]:
+    """Returns rectangles of a level out of which both states have the same records."""
+    rects = [rect.grown(_AROUND) for rect in changed_rects(other, one, level)]
+    return rects + [change.reach(level).grown(_AROUND) for change in folded if change.level < level]
+
+
+def _places(pyramid: Pyramid, level: int, rects: list[Rect]) -> Iterator[tuple[TileKey, Record]]:
+    """Yields the records of a level that meet any of some rectangles, each once."""
+    stored = pyramid.levels[level]
+    if len(rects) == 1:
+        yield from pyramid.records(level, rects[0])
+    elif sum(rect.within_tiles().area for rect in rects) >= len(stored):  # that many would be looked for
+        yield from ((TileKey(level, *place), record) for place, record in stored.items())
+    else:
+        yield from {key: record for rect in rects for key, record in pyramid.records(level, rect)}.items()

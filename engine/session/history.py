@@ -29,6 +29,9 @@ from engine.session.line import StepLine, Undoable
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
 _AT_ONCE = 256 << 10  # bytes of data that are coded in one piece of work
 _SHARE = 2  # so many bytes are coded for each that a step brings, where nobody rested
+_TIGHT_PART = 4  # of the limit: what steps may hold while memory is tight
+_TIGHT_AT_ONCE = 4 << 20  # bytes of data that a step has coded then, beside its share
+_TIGHT_STEPS = 8  # that are put away on disk with it
 
 
 class HeldSteps(NamedTuple):
@@ -159,7 +162,9 @@ class History(Owned):
         while cap == 0 and len(done) > self._keep:  # a replay's: nobody goes back to them, so nobody codes them
             done.forget()
             self.forgotten += 1
-        if done.plain and self.held > limit / 2:
+        if self.tight and self.held > limit / _TIGHT_PART:
+            done.press(_SHARE * done.entries[-1].held + _TIGHT_AT_ONCE, _TIGHT_STEPS)
+        elif done.plain and self.held > limit / 2:
             done.code(_SHARE * done.entries[-1].held)
         while done.plain and self.held > limit:
             done.code()

@@ -12,7 +12,7 @@ from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
-from engine.session.differing import apart_records, difference
+from engine.session.differing import alone, apart_records
 
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 
@@ -109,20 +109,22 @@ class StepLine:
         self._ways.forget()
         self.held = self._coded = self._away = 0
 
-    def code(self, size: float = math.inf) -> None:
-        """Codes the farthest step that is not coded yet: so many bytes of its data, or all that is left of them."""
+    def code(self, size: float = math.inf) -> float:
+        """Codes the farthest step that is not coded yet: so many bytes of its data, or all that is left of them.
+        Returns how many bytes fewer it was, 0 or less for none."""
         entry = self.entries[self._coded]
         if self._begun is None:
             self._begun = self._pieces(entry.step)
         for done in self._begun:
             size -= done
             if size <= 0.0:
-                return
+                return size
         self._begun = None
         held = _held_now(entry.step, self._undone)
         self.held += held - entry.held
         entry.held, entry.coded = held, True
         self._coded += 1
+        return size
 
     def put_away(self) -> None:
         """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
@@ -132,6 +134,13 @@ class StepLine:
         entry.held -= saved
         self.held -= saved
         self._away += 1
+
+    def press(self, size: float, count: int) -> None:
+        """Codes so many bytes of the farthest steps, and puts so many steps away on disk."""
+        while self.plain and size > 0.0:
+            size = self.code(size)
+        for _ in range(min(count, self.in_memory)):
+            self.put_away()
 
     def _pieces(self, step: Undoable) -> Iterator[int]:
         """Codes one record of a step's far end after the other; yields the bytes of data that were looked at."""
@@ -167,5 +176,4 @@ def _alone(step: Undoable, undone: bool) -> int:
 
 def _held_now(step: Undoable, undone: bool) -> int:
     """Counts the bytes that it takes now."""
-    lost, gained = difference(step.before.root, step.after.root)
-    return (gained if undone else lost) + STEP_OVERHEAD
+    return alone(*_ends(step, undone)) + STEP_OVERHEAD

@@ -99,6 +99,11 @@ class SparsePlanes:
         """Gives the smaller integer that holds all of it."""
         return np.int16 if max([sheet.most for sheet in self._sheets]) < 1 << 15 else np.int32
 
+    @property
+    def itemsize(self) -> int:
+        """Counts its bytes."""
+        return np.dtype(self.kind).itemsize
+
     def made(self) -> np.ndarray:
         """Returns the planes, int16 or int32 as they need it."""
         out = self.over(self.rect, tuple(self.inks), self.kind)

@@ -16,7 +16,7 @@ from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import coded_records
 from engine.session import history as histories
-from engine.session.coded_records import WAY, CodedData, Ways, decode, encode, joined_bytes, split_bytes
+from engine.session.coded_records import WAY, CodedData, CodedSheets, Ways, decode, encode, joined_bytes, split_bytes
 from engine.session.differing import difference
 from engine.session.history import History
 from engine.session.replay import replay
@@ -337,3 +337,40 @@ def test_layers_that_were_removed_are_coded_and_plain_again_when_they_are_back()
     assert all(isinstance(record.held, np.ndarray) for record in records(session.painting))
     assert contents(session.painting) == before
     check_what_is_held(session)
+
+
+def test_while_memory_is_tight_each_step_codes_old_ones_and_puts_them_away_though_nobody_rests(monkeypatch, tmp_path):
+    spill = Spill(tmp_path)
+    monkeypatch.setattr(coded_records, "spill", lambda: spill)
+    monkeypatch.setattr(histories, "_TIGHT_AT_ONCE", 1 << 16)
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(16 << 20), history=History(4 << 20))
+    states, held = [], []
+    for n in range(60):
+        session.history.tight = n >= 30
+        session.do(stroke(n))
+        states.append((session.painting, contents(session.painting)))
+        held.append(session.history.held)
+    assert held[29] > 1 << 20
+    assert held[-1] < (1 << 20) + 2 * max(step.lost for step in session.history.steps.done)
+    assert spill.held
+    assert session.history.undo_count == 60
+    for painting, wanted in states:
+        assert contents(painting) == wanted
+    spill.close()
+
+
+@settings(deadline=None, max_examples=10)
+@given(st.lists(ACTS, min_size=2, max_size=8))
+def test_how_many_bytes_data_take_is_known_however_they_are_held(acts):
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(4 << 20))
+    many = [stroke(n, ink=[{"texture": "rock", "colour": "#ffffff", "period": 16 + n}]) for n in range(9)]
+    for act in (*(act for act in acts if isinstance(act, c.Stroke | c.Undo)), *many):
+        session.do(act)
+    code_all(session.history)
+    kinds = set()
+    for state in (*(step.before for step in session.history.steps.done), session.painting):
+        for record in records(state):
+            size, itemsize = record.plain_size, record.held.itemsize
+            assert (size, itemsize) == (record.data.nbytes, record.data.itemsize)
+            kinds.add(type(record.held))
+    assert {np.ndarray, SparsePlanes, CodedData, CodedSheets} >= kinds >= {np.ndarray, CodedData}

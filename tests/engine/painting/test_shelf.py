@@ -149,7 +149,7 @@ def test_a_block_is_decoded_once_for_all_of_its_tiles():
     block = Block(
         lambda: asked.append(1) or [np.full((4, 2, 2), n, np.int16) for n in range(3)], 3, 96, memoryview(b"x" * 30)
     )
-    held = [Filed(block, n, 32, 16) for n in range(3)]
+    held = [Filed(block, n, 16) for n in range(3)]
     assert [int(h.made()[0, 0, 0]) for h in held] == [0, 1, 2]
     assert len(asked) == 1
     held[1].forget()
