@@ -8,6 +8,7 @@ from app.actions.action import Action as A
 from app.actions.action import active, chosen, next_layer_name, ready
 from app.desk.desk import Desk
 from app.desk.known import moved_by
+from engine.canvas.node_checks import REFERENCE
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -44,6 +45,20 @@ def _nudges(x: int, y: int) -> Callable[[Desk], None]:
     return do
 
 
+def _is_reference(desk: Desk) -> bool:
+    row = desk.known.active
+    return row is not None and row.reference
+
+
+def _can_be_reference(desk: Desk) -> bool:
+    row = desk.known.active
+    return ready(desk) and row is not None and not row.group
+
+
+def _toggle_reference(desk: Desk) -> None:
+    desk.post(Do(c.SetLayer(active(desk), role="" if _is_reference(desk) else REFERENCE)))
+
+
 def _remove(desk: Desk) -> None:
     desk.post(Do(c.RemoveLayer(active(desk))))
 
@@ -68,6 +83,15 @@ LAYER_ACTIONS: dict[str, A] = {
     "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer", _duplicate, chosen),
     "show_again": A(
         "Show again", "Layer", (), "Show the layer once more: what is painted on it shows there", _show_again, chosen
+    ),
+    "reference": A(
+        "Reference",
+        "Layer",
+        (),
+        "To look at while you paint: no export and no film shows it",
+        _toggle_reference,
+        _can_be_reference,
+        _is_reference,
     ),
     "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
     "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),

@@ -10,7 +10,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from engine.canvas.layers import Group
+from engine.canvas.layers import Group, pictured
 from engine.files.atomic import replacing
 from engine.files.fault import WriteError
 from engine.files.png_writer import PngWriter
@@ -44,7 +44,8 @@ def shown_root(picture: Picture) -> Group:
     """Returns the layers that a picture shows, grown to the end and with nothing pending; LayerError if there is none
     of that name."""
     root = picture.painting.root
-    return folded_layers(settled_root(root) if picture.layer is None else settled_alone(root, picture.layer))
+    shown = settled_root(pictured(root)) if picture.layer is None else settled_alone(root, picture.layer)
+    return folded_layers(shown)
 
 
 Write = Callable[[BinaryIO, tuple[int, int], int, Iterator[np.ndarray]], None]

@@ -38,7 +38,8 @@ from engine.texture.image import ImageSource
 from engine.texture.placed import PlacedInk
 from engine.texture.table import TextureError
 
-FORMAT = 5  # of paintings of the grid of 2^-12, and of those with placements
+FORMAT = 6  # of paintings with references
+PLACED_FORMAT = 5  # of others with placements, or of the grid of 2^-12
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
 MANIFEST_AGAIN = "inkfall/manifest-again.json"  # the same, without its own sum, at the other end of the file
@@ -164,11 +165,13 @@ def manifest_json(
 
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
-    if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
+    if any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root)):
         return FORMAT
+    if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
+        return PLACED_FORMAT
     records = (record for layer in layers.layers(painting.root) for _, record in layer.pyramid.all_records())
     placed = any(isinstance(ink, PlacedInk) for record in records for ink in record.inks)
-    return FORMAT if placed else FINE_FORMAT
+    return PLACED_FORMAT if placed else FINE_FORMAT
 
 
 def _pack_json(pack: Pack) -> list[Any]:
@@ -189,6 +192,8 @@ def _node_json(
         "blend": node.blend,
         "locked": node.locked,
     }
+    if not isinstance(node, Group) and node.role:
+        common["role"] = node.role
     if isinstance(node, Layer):
         stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
         ground = {"ground": grounds.to_json(laid[node.id])} if node.id in laid else {}
@@ -282,6 +287,8 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
         "blend": members.text("blend"),
         "locked": members.flag("locked"),
     }
+    if kind != "group" and "role" in members:
+        common["role"] = members.text("role")
     if kind == "layer":
         held.packs[common["id"]] = _packs(members)
         ground = members.take("ground", None)

@@ -236,7 +236,7 @@ class SavePlan:
 
     def pictures(self) -> list[tuple[Job, IO[bytes]]]:
         """Returns the PNGs of all layers, of them together, and the thumbnail."""
-        root, level, places = self._painting.root, self._level, self._places
+        root, level, places = layers.pictured(self._painting.root), self._level, self._places
         files: dict[str, SpooledPng] = {}
         try:
             for layer in layers.layers(root):
@@ -278,7 +278,7 @@ class SavePlan:
         ):
             level -= 1
             frame = self._painting.frame.zoomed(level)
-        read = strips(self._painting.root, level, frame, self._cancelled)
+        read = strips(layers.pictured(self._painting.root), level, frame, self._cancelled)
         planes = np.concatenate([planes.copy() for planes in read], axis=1)
         png = SpooledPng(Rect(0, 0, *size), 1)
         png.rows(to_rgba8(box_reduce(planes, *size)))
@@ -303,7 +303,7 @@ class SavePlan:
             place.x0 - self._frame.x0,
             place.y0 - self._frame.y0,
             node.opacity,
-            node.visible,
+            node.visible and not node.role,
             blend.BLENDS[node.blend].op,
             node.locked,
             node.name == self._painting.active,

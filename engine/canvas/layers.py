@@ -11,7 +11,17 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from engine.canvas.node_checks import MAX_NAME, LayerError, allowed, check_common, check_flags, check_name, insist
+from engine.canvas.node_checks import (
+    MAX_NAME,
+    REFERENCE,
+    LayerError,
+    allowed,
+    check_common,
+    check_flags,
+    check_name,
+    check_role,
+    insist,
+)
 from engine.canvas.placing.placement import Placement
 from engine.canvas.store import Pyramid
 
@@ -27,7 +37,8 @@ class Layer:
 
     `id`: a number that stays when the layer is renamed, unique in its painting, used in files.  `opacity`: 0..1.
     `blend`: a row of `BLENDS`.  `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
-    `pyramid`: the paint; `growth`: what was painted with examples, over it.
+    `pyramid`: the paint; `growth`: what was painted with examples, over it.  `role`: "" for a part of the picture, or
+    REFERENCE.
     """
 
     id: int
@@ -39,10 +50,12 @@ class Layer:
     alpha_locked: bool = False
     pyramid: Pyramid = field(default_factory=Pyramid)
     growth: Growth = ()
+    role: str = ""
 
     def __post_init__(self) -> None:
         check_common(self)
         check_flags(self, ("visible", "locked", "alpha_locked"))
+        check_role(self, self.role)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +87,9 @@ Node = Layer | Group | Placement
 Trail = tuple[int, ...]  # positions from the root down to a node
 EMPTY = Group(0, "root")
 _SETTABLE = {
-    Layer: ("opacity", "visible", "blend", "locked", "alpha_locked"),
+    Layer: ("opacity", "visible", "blend", "locked", "alpha_locked", "role"),
     Group: ("opacity", "visible", "blend", "locked", "isolated"),
-    Placement: ("opacity", "visible", "blend", "locked", "of", "pose", "part", "repeat"),
+    Placement: ("opacity", "visible", "blend", "locked", "of", "pose", "part", "repeat", "role"),
 }
 
 
@@ -281,6 +294,14 @@ def _repainted(root: Group, name: str, **paint: Any) -> Group:
     i = trail[-1]
     painted = replace(node, **paint)
     return _edited(root, trail[:-1], lambda siblings: (*siblings[:i], painted, *siblings[i + 1 :]))
+
+
+def pictured(root: Group) -> Group:
+    """Returns the tree as the picture has it: references hidden; the tree itself if it shows none."""
+    shown = (node for node in walk(root) if not isinstance(node, Group) and node.visible)
+    for name in [node.name for node in shown if not isinstance(node, Group) and node.role == REFERENCE]:
+        root = set_fields(root, name, visible=False)
+    return root
 
 
 def move(root: Group, name: str, group: str | None, to: int) -> Group:

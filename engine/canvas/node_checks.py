@@ -10,6 +10,8 @@ from typing import Protocol
 from engine.numeric.blend import BLENDS
 
 MAX_NAME = 200  # characters
+REFERENCE = "reference"  # the role of what is looked at while one paints, and is no part of the picture
+ROLES = "", REFERENCE
 
 
 class LayerError(ValueError):
@@ -65,6 +67,11 @@ def check_common(node: Common) -> None:
     number = isinstance(opacity, int | float) and not isinstance(opacity, bool) and math.isfinite(opacity)
     insist(node.name, "opacity", opacity, number and 0 <= opacity <= 1, "a number from 0 to 1")
     insist(node.name, "blend", node.blend, node.blend in BLENDS, "one of " + ", ".join(BLENDS))
+
+
+def check_role(node: Common, role: object) -> None:
+    """Raises LayerError unless it can be a node's role."""
+    insist(node.name, "role", role, role in ROLES, f'"{REFERENCE}", or none')
 
 
 def check_flags(node: Common, names: Sequence[str]) -> None:

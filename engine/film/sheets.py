@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.film.aim import Aim, Crop
 from engine.numeric.address import Rect
@@ -175,7 +176,7 @@ class Sheets:
 
     def _evaluate(self, sheet: Sheet, rect: Rect, painting: Painting, planes: np.ndarray) -> None:
         def evaluate(piece: Rect) -> None:
-            pixels = composite(painting.root, sheet.level, piece, piece_reader(sheet.level, piece))
+            pixels = composite(layers.pictured(painting.root), sheet.level, piece, piece_reader(sheet.level, piece))
             pixels[:3] += UNDER - UNDER * pixels[3]
             pixels[:3] *= 255.0
             planes[:, *piece.slices(sheet.rect)] = np.rint(pixels[:3])

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from engine.canvas import layers
 from engine.film import tip_mark
 from engine.film.aim import Aim
 from engine.film.beats import Beat, beats, seen_from
@@ -89,7 +90,7 @@ class Shooting:
             aims = self.aims()
             if self._film.making is None:
                 assert self._painting is not None
-                painting = replace(self._painting, root=folded_layers(self._painting.root))
+                painting = replace(self._painting, root=folded_layers(layers.pictured(self._painting.root)))
                 ahead = stack.enter_context(ThreadPoolExecutor(1, "inkfall film ahead"))
                 sheets = Sheets(plan(aims, self._film.size), pool, ahead)
                 yield from _flown(sheets, painting, self._film.size, self.count, pool)

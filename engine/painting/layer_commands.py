@@ -40,6 +40,7 @@ class AddPicture:
     texture: str
     level: int = 0
     at: tuple[int, int] = (0, 0)
+    role: str = ""
     group: str | Same | None = Same.SAME
     to: int | None = None
     extra: Extra = _NOTHING
@@ -144,6 +145,7 @@ class SetLayer:
     locked: bool | None = None
     alpha_locked: bool | None = None
     isolated: bool | None = None
+    role: str | None = None
     placing: Placing | None = None
     extra: Extra = _NOTHING
 
@@ -179,7 +181,12 @@ def _new_place(members: Fields) -> Members:
 def _picture(members: Fields) -> Members:
     level = members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
     x, y = members.integers("at", 2, (0, 0), limit=PLACE_LIMIT)
-    return {"texture": members.text("texture"), "level": level, "at": (x, y)}
+    role = _role(members, "role") if "role" in members else ""
+    return {"texture": members.text("texture"), "level": level, "at": (x, y), "role": role}
+
+
+def _role(members: Fields, name: str) -> str:
+    return "" if members.take(name) is None else str(members.text(name))
 
 
 def _opacity(members: Fields, name: str) -> float:
@@ -194,6 +201,7 @@ _SETTABLE: tuple[tuple[str, Reader], ...] = (
     ("locked", Fields.flag),
     ("alpha_locked", Fields.flag),
     ("isolated", Fields.flag),
+    ("role", _role),
 )
 
 
@@ -292,5 +300,5 @@ def write_layer(command: LayerCommand) -> Members:
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    placed = isinstance(command, SetLayer) and command.placing is not None
-    return 2 if placed or isinstance(command, _OF_VERSION_2) else 1
+    newer = isinstance(command, SetLayer) and not (command.placing is None and command.role is None)
+    return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

@@ -46,7 +46,15 @@ def _shown_from_beside(root: Group, node: Layer | Group, pose: Pose) -> Group:
     """Returns the tree with a placement in a node's place, right above the node, which is hidden."""
     source = replace(node, name=layers.free_name(root, f"{node.name} (source)"), visible=False)
     shown = Placement(
-        layers.next_id(root), node.name, node.opacity, node.visible, node.blend, node.locked, node.id, pose
+        layers.next_id(root),
+        node.name,
+        node.opacity,
+        node.visible,
+        node.blend,
+        node.locked,
+        node.id,
+        pose,
+        role=node.role if isinstance(node, Layer) else "",
     )
     group, position = layers.place(root, node.name)
     return layers.insert(layers.substitute(root, node.name, source), shown, group, position + 1)

@@ -29,7 +29,7 @@ def with_picture(painting: Painting, command: AddPicture) -> Painting:
         found = "no texture" if texture is None else "a texture without a picture"
         raise LayerError(f"layer {command.name!r}: found {found} {command.texture!r}, expected one that is a picture")
     paint = laid_picture(texture.source.data, command.level, command.at, painting.grid)
-    return with_node(painting, Layer(layers.next_id(painting.root), command.name, pyramid=paint))
+    return with_node(painting, Layer(layers.next_id(painting.root), command.name, pyramid=paint, role=command.role))
 
 
 def laid_picture(planes: np.ndarray, level: int, at: tuple[int, int], grid: int) -> Pyramid:

@@ -20,7 +20,8 @@ class Shows:
 @dataclass(frozen=True, slots=True)
 class LayerRow:
     """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
-    what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything."""
+    what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
+    `reference`: it is no part of the picture."""
 
     name: str
     group: bool
@@ -34,3 +35,4 @@ class LayerRow:
     alpha_locked: bool
     shows: Shows | None = None
     finest: int | None = None
+    reference: bool = False

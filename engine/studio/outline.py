@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
+from engine.canvas.node_checks import REFERENCE
 from engine.canvas.placing.placement import Placement
 from engine.studio import results
 
@@ -35,6 +36,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 alpha_locked,
                 results.Shows(names[node.of] if node.of else None, node.pose) if isinstance(node, Placement) else None,
                 node.pyramid.finest if isinstance(node, Layer) else None,
+                not isinstance(node, Group) and node.role == REFERENCE,
             )
         )
         if isinstance(node, Group):

@@ -4,6 +4,7 @@ import os
 import subprocess
 import threading
 import time
+import zipfile
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -94,6 +95,17 @@ def test_a_picture_dropped_on_the_canvas_is_laid_there_as_a_layer_that_can_be_mo
     until(lambda: shows(app.screen()[406:515, 517:682], stone))
     app.keys("ctrl+z", "ctrl+z")
     until(lambda: not shows(app.screen()[406:515, 517:682], stone))
+
+
+def test_a_picture_can_be_brought_in_as_a_reference_that_no_export_shows(program, stone):
+    app = program()
+    app.settled()
+    Drag(app.display, window_of(app), stone).drop(500, 400)
+    app.click("Reference")
+    until(lambda: shows(app.screen()[346:455, 417:582], stone))
+    app.save_as(app.folder / "ours.ora")
+    with zipfile.ZipFile(app.folder / "ours.ora") as file, Image.open(file.open("mergedimage.png")) as merged:
+        assert not np.asarray(merged)[..., 3].any()
 
 
 def longest(app, act):

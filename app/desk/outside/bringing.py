@@ -11,6 +11,7 @@ from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
 from app.desk.outside.pictured import free_layer_name, free_texture_name
 from app.desk.previews import PICTURES
+from engine.canvas.node_checks import REFERENCE
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 
@@ -31,6 +32,7 @@ class _Lay(FileWork):
     path: Path
     place: Place
     level: int
+    role: str = ""
 
     def carry_out(self) -> tuple[int, int]:
         from engine.files.images import picture_size  # here: it takes its time to load
@@ -42,8 +44,8 @@ class _Lay(FileWork):
         texture, at = free_texture_name(desk, self.path.stem), (x - found[0] // 2, y - found[1] // 2)
         desk.post(Do(DefineTexture(texture, "image", Map({"path": str(self.path.absolute())}))))
         name = free_layer_name(desk, self.path.stem)
-        desk.post(Do(AddPicture(name, texture, self.level, at)))
-        desk.say(f"“{name}” is a layer: drag it where it belongs")
+        desk.post(Do(AddPicture(name, texture, self.level, at, self.role)))
+        desk.say(f"Drag “{name}” where it belongs")
         desk.hand.use("move")
 
 
@@ -52,3 +54,9 @@ def as_layer(desk: Desk, path: Path, place: Place) -> None:
     can be moved."""
     desk.say(f"Bringing in {path.name}")
     desk.work(_Lay(path, place, desk.view.shown_level))
+
+
+def as_reference(desk: Desk, path: Path, place: Place) -> None:
+    """Lays a picture likewise, to be looked at and picked from while one paints; it is no part of what is exported."""
+    desk.say(f"Bringing in {path.name}")
+    desk.work(_Lay(path, place, desk.view.shown_level, REFERENCE))

@@ -40,6 +40,9 @@ class BringIn:
         if w.default_button("Layer", "Lay it on a layer of its own, where it was dropped; then move it", width=wide):
             bringing.as_layer(desk, self._path, self._place)
             return True
+        if w.text_button("Reference", "To look at and pick from while you paint; never exported", width=wide):
+            bringing.as_reference(desk, self._path, self._place)
+            return True
         if w.text_button("Texture", "Paint with it: it joins the ink", width=wide):
             pictured.from_file(desk, self._path)
             return True

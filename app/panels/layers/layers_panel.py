@@ -146,7 +146,8 @@ class LayersPanel:
 
     def _name(self, desk: Desk, row: LayerRow) -> None:
         active = desk.known.scene is not None and desk.known.scene.active == row.name
-        signs = (f" {icons.LOCK}" if row.locked else "") + (f" {icons.ALPHA_LOCK}" if row.alpha_locked else "")
+        told = (row.reference, icons.REFERENCE), (row.locked, icons.LOCK), (row.alpha_locked, icons.ALPHA_LOCK)
+        signs = "".join(f" {sign}" for shown, sign in told if shown)
         quiet = theme.TEXT if row.visible else theme.QUIET
         imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))
         imgui.push_style_var(imgui.StyleVar_.selectable_text_align, ImVec2(0.0, 0.5))
@@ -164,6 +165,7 @@ class LayersPanel:
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
         blend = dict(blend_titles(desk.known.tables)).get(row.blend, row.blend)
         whole = f"{row.name}\n" if shown != row.name else ""
+        about += "Reference: not exported  " if row.reference else ""
         w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from engine.canvas.node_checks import check_common, check_flags, insist
+from engine.canvas.node_checks import check_common, check_flags, check_role, insist
 from engine.canvas.placing.pose import FARTHEST, FINEST, UNMOVED, Pose, SourcePart
 
 
@@ -30,10 +30,12 @@ class Placement:
     pose: Pose = UNMOVED
     part: SourcePart | None = None
     repeat: bool = False
+    role: str = ""
 
     def __post_init__(self) -> None:
         check_common(self)
         check_flags(self, ("visible", "locked", "repeat"))
+        check_role(self, self.role)
         wrong = self.pose.wrong()
         if wrong is not None:
             insist(self.name, wrong[0], wrong[1], False, wrong[2])

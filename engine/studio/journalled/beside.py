@@ -22,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.archive.saving_turn import SAVING
+from engine.canvas.layers import pictured
 from engine.checks.owned import Owned
 from engine.files.atomic import replacing
 from engine.files.fault import Cancelled, FileError
@@ -213,7 +214,7 @@ def write_picture(folder: Path, painting: Painting) -> None:
     while max(frame.width, frame.height) > SMALL:
         level -= 1
         frame = painting.frame.zoomed(level)
-    planes = np.concatenate([strip.copy() for strip in strips(painting.root, level, frame)], axis=1)
+    planes = np.concatenate([strip.copy() for strip in strips(pictured(painting.root), level, frame)], axis=1)
     with replacing(folder / PICTURE_FILE) as file:
         write_png(file, to_rgba8(planes))
 

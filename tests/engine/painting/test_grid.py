@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.__main__ import main
-from engine.archive.manifest import FINE_FORMAT, FORMAT
+from engine.archive.manifest import FINE_FORMAT, PLACED_FORMAT
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
@@ -131,7 +131,7 @@ def test_a_painting_keeps_its_grid_saved_opened_and_painted_on(tmp_path, grid):
     save(path, Snapshot(session.painting, written))
     with zipfile.ZipFile(path) as file:
         manifest = json.loads(file.read("inkfall/manifest.json"))
-    assert (manifest["unit"], manifest["inkfall"]) == (f"2^-{grid}", FORMAT if grid == 12 else FINE_FORMAT)
+    assert (manifest["unit"], manifest["inkfall"]) == (f"2^-{grid}", PLACED_FORMAT if grid == 12 else FINE_FORMAT)
     opened = open_painting(path)
     assert opened.native
     assert_same(session.painting, opened.painting)

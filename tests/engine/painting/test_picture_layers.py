@@ -1,17 +1,25 @@
 """Pictures that are laid on layers of their own: a pixel on a pixel, at any level."""
 
+import io
+import json
+import zipfile
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
+from engine.archive.export import Picture, export
 from engine.archive.imports import open_image
+from engine.archive.manifest import FORMAT
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
+from engine.files.images import read_image
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import COARSE, EVERYWHERE, FINE
 from engine.numeric.grid import snapped_to, step_of
@@ -27,6 +35,16 @@ SIDES = 150, 97  # pixels
 
 def shown(painting, level, rect):
     return composite(painting.root, level, rect, layer_planes)
+
+
+def done(session, told):
+    session.do(c.parse(told))
+    return session
+
+
+def export_of(session, folder, **more):
+    export(folder / "out.png", Picture(session.painting, **more))
+    return read_image(folder / "out.png")[0]
 
 
 @pytest.fixture(scope="module", params=["opaque", "clear", "deep"])
@@ -116,3 +134,31 @@ def test_it_is_of_version_2_and_is_told_as_it_was():
     command = c.parse(told)
     assert c.to_json(command) == told
     assert version_of(command) == 2
+
+
+def test_a_reference_is_seen_while_one_paints_and_never_in_what_is_written(photo, tmp_path):
+    session = laid(photo)
+    plain = done(session, {"do": "layer", "add": "Paper", "to": 0, "group": None})
+    bare = export_of(plain, tmp_path)
+    done(session, {"do": "layer", "set": "Sea", "role": "reference"})
+    reference = export_of(session, tmp_path)
+    assert not np.array_equal(reference, bare)
+    assert not reference.any()
+    assert shown(session.painting, 0, Rect(0, 0, *SIDES)).any()  # on the canvas it is
+    assert export_of(session, tmp_path, layer="Sea").any()  # and where it is asked for by name
+    save(tmp_path / "sea.ora", Snapshot(session.painting, session.recording()))
+    with zipfile.ZipFile(tmp_path / "sea.ora") as file:
+        told = json.loads(file.read("inkfall/manifest.json"))
+        assert told["inkfall"] == FORMAT
+        assert 'name="Sea"' in file.read("stack.xml").decode()
+        assert 'visibility="hidden"' in file.read("stack.xml").decode()
+        merged = np.asarray(Image.open(io.BytesIO(file.read("mergedimage.png"))))
+    assert not merged[..., 3].any()
+    opened = open_painting(tmp_path / "sea.ora").painting
+    assert layers.find(opened.root, "Sea") == replace(
+        layers.find(session.painting.root, "Sea"), pyramid=layers.find(opened.root, "Sea").pyramid
+    )
+    done(session, {"do": "layer", "set": "Sea", "c": [0.6, 0.8]})
+    assert not export_of(session, tmp_path).any()  # moved, it is one still
+    done(session, {"do": "undo", "count": 2})
+    assert np.array_equal(export_of(session, tmp_path), bare)

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from engine.archive.export import Picture, export
-from engine.archive.manifest import FORMAT, format_of
+from engine.archive.manifest import FINE_FORMAT, PLACED_FORMAT, format_of
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
@@ -199,8 +199,8 @@ def test_a_painting_is_opened_as_it_was_saved(placed, tmp_path):
 
 
 def test_only_a_painting_with_placements_is_of_the_newest_format(placed):
-    assert format_of(placed[0]) == FORMAT
-    assert format_of(done(stroke(1)).painting) == FORMAT - 1
+    assert format_of(placed[0]) == PLACED_FORMAT
+    assert format_of(done(stroke(1)).painting) == FINE_FORMAT
 
 
 def test_other_programs_see_what_placements_show(placed, tmp_path):
@@ -236,7 +236,7 @@ def test_one_layer_is_baked_as_it_was_shown(tmp_path):
     save(tmp_path / "a.ora", Snapshot(painting))
     found = open_painting(tmp_path / "a.ora").painting
     np.testing.assert_array_equal(picture(found, 4, WINDOW.zoomed(4)), copy[4])
-    assert format_of(found) == FORMAT
+    assert format_of(found) == PLACED_FORMAT
     session.do(c.parse({"do": "undo"}))
     assert isinstance(layers.find(session.painting.root, "Copy"), Placement)
 
