@@ -16,17 +16,7 @@ from engine.numeric.address import Rect
 from engine.painting.layering.placing_members import Placing
 from engine.studio import results
 from engine.studio.held.held_records import Held
-from engine.studio.results import (
-    FilmLength,
-    Growing,
-    LayerRow,
-    Note,
-    Opening,
-    Prepared,
-    Ready,
-    Scene,
-    Writing,
-)
+from engine.studio.results import FilmLength, Growing, LayerRow, Note, Opening, Prepared, Ready, Scene, Writing
 
 FIRST_FRAME = Rect(0, 0, 1024, 768)  # that is shown until the engine tells of a painting
 

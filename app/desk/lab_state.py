@@ -12,8 +12,8 @@ from engine.brush.ops import chosen
 from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
 from engine.studio.requests import Request
-from engine.studio.results import LabScene
 from engine.studio.textures.texture_requests import LabRest, LabSet, LabUse
+from engine.studio.textures.texture_results import LabScene
 
 SETTLE = 0.15  # seconds without change before strokes are shown with the texture
 FIRST = Map({"shape": "noise", "b": 1.4})  # the shape of a lab just opened

@@ -12,8 +12,8 @@ from immutables import Map
 from app.desk.knots import Knots
 from engine.numeric.address import Rect
 from engine.studio.requests import Request
-from engine.studio.results import MatchScene
 from engine.studio.textures.texture_requests import MatchSet, MatchUse
+from engine.studio.textures.texture_results import MatchScene
 
 SIZES = (128, 256, 512)
 LEVELS, ORIENTATIONS, ITERATIONS = 4, 4, 5

@@ -15,6 +15,7 @@ from engine.numeric.colour import to_rgba8
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.easel import Easel
+from engine.studio.textures import texture_results as tr
 
 _MOST = 1 << 22  # pixels looked at; a larger rectangle is looked at from a coarser level
 _STRIP = 256  # rows read in one step
@@ -28,7 +29,7 @@ class Examiner(Owned):
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
-        self._work: Iterator[results.Found] | None = None
+        self._work: Iterator[tr.Found] | None = None
         self.handlers: dict[type, Callable[[Any], None]] = {q.Analyse: self._ask}
 
     @property
@@ -50,15 +51,15 @@ class Examiner(Owned):
     def _ask(self, request: q.Analyse) -> None:
         self._work = None if request.area is None else self._found(request.level, request.area)
 
-    def _found(self, level: int, area: Rect) -> Iterator[results.Found]:
+    def _found(self, level: int, area: Rect) -> Iterator[tr.Found]:
         """Everything known so far, again and again."""
         while area.area > _MOST:
             level, area = level - 1, area.zoomed(-1)
         lines = {"Size": f"{area.width:,} × {area.height:,} px", "Level": str(level)}
         pictures: list[str] = []
 
-        def told(done: bool = False) -> results.Found:
-            return results.Found(Map(lines), rings, tuple(pictures), done)
+        def told(done: bool = False) -> tr.Found:
+            return tr.Found(Map(lines), rings, tuple(pictures), done)
 
         rings: tuple[tuple[float, float, float], ...] = ()
         pixels = np.empty((area.height, area.width, 4), np.uint8)

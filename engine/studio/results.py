@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from immutables import Map
 
 from engine.numeric.address import Rect
 from engine.studio.held.held_records import Held
@@ -19,6 +18,7 @@ from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import Extent
 from engine.studio.past.past_records import PastResult
+from engine.studio.textures.texture_results import TextureResult
 
 if TYPE_CHECKING:
     from engine.painting.places import Bookmark
@@ -166,72 +166,6 @@ class PicturePart:
     pixels: np.ndarray
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RegionScene:
-    """The region of an example that is painted, whose picture is "region IDENT".
-
-    `size`: width, height; `steps`: taken so far; `inside`: bool (h, w), read-only, `share` of
-    all pixels, 0..1; `modified`: whether there are others
-    than when it was saved; `opaque`: whether the example has no holes.
-    """
-
-    ident: str
-    size: tuple[int, int]
-    steps: tuple[Map[str, Any], ...]
-    inside: np.ndarray
-    share: float
-    can_undo: bool
-    can_redo: bool
-    modified: bool
-    opaque: bool
-
-
-@dataclass(frozen=True, slots=True)
-class LabScene:
-    """What the lab's panel shows besides the pictures "lab spectrum", "lab texture", "lab stroke", "lab near".
-
-    `shapes`: the rows of `shapes.SHAPES`; `silent`: nothing sounds, the texture is flat; `using`: the texture of the
-    painting that follows the lab; `version`: another number, and that texture has changed.
-    """
-
-    shapes: tuple[Any, ...]
-    strokes: int
-    can_undo: bool
-    can_redo: bool
-    silent: bool
-    using: str = ""
-    version: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """A part of what Analyse asked for; those not found yet are missing.  `lines`: by name of the facts, how each
-    reads; `rings`: frequency in cycles per pixel, power and that of the all-pole model, of each ring; pictures come as
-    Picture, under the names in `pictures`."""
-
-    lines: Map[str, str]
-    rings: tuple[tuple[float, float, float], ...] = ()
-    pictures: tuple[str, ...] = ()
-    done: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class MatchScene:
-    """What the matching panel shows besides the pictures "match example", "match second", "match texture".
-
-    `done`: how far the texture is, 0..1; `levels`, `orientations`: of its pyramid; `colours`: of its axes, sRGB;
-    `fault`: what is wrong with what was asked for; `making`: the texture being made for use.
-    """
-
-    done: float = 0.0
-    levels: int = 0
-    orientations: int = 0
-    colours: tuple[tuple[float, float, float], ...] = ()
-    sizes: tuple[tuple[int, int], ...] = ()  # width and height of the examples
-    fault: str = ""
-    making: str = ""
-
-
 @dataclass(frozen=True, slots=True)
 class Picked:
     """The colour under a Pick, straight sRGB and alpha 0..1."""
@@ -353,11 +287,8 @@ Result = (
     | PaintMap
     | Pending
     | Writing
-    | LabScene
     | PicturePart
-    | RegionScene
-    | Found
-    | MatchScene
+    | TextureResult
     | GotReady
     | Filming
     | FilmLength

@@ -15,8 +15,8 @@ from app.desk.examples import example_state, own_example_files
 from app.desk.examples.example_state import Entry
 from app.desk.examples.example_use import choose, gather, take_example
 from app.desk.examples.region_state import RegionState
-from engine.studio.results import RegionScene
 from engine.studio.textures.texture_requests import RegionClose, RegionOpen, RegionSaved
+from engine.studio.textures.texture_results import RegionScene
 from engine.texture.example.parameters import Parameters
 
 

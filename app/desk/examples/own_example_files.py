@@ -17,8 +17,8 @@ from app.desk.examples import example_state
 from app.desk.examples.example_state import BASE, MASK, NAME_CAP, PARAMETERS, PICTURE, STEPS, Entry, sha_of
 from engine.brush.checks import thawed
 from engine.files.atomic import replacing
-from engine.studio.results import RegionScene
 from engine.studio.textures.texture_requests import RegionOpen
+from engine.studio.textures.texture_results import RegionScene
 from engine.texture.example.parameters import Parameters
 
 SIDE = 1024  # pixels along an example, at most

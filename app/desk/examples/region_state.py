@@ -9,8 +9,8 @@ from typing import Any
 from immutables import Map
 
 from engine.studio.requests import Request
-from engine.studio.results import RegionScene
 from engine.studio.textures.texture_requests import RegionDo, RegionTravel
+from engine.studio.textures.texture_results import RegionScene
 
 RADII = (0.5, 300.0)
 WAYS = ("in", "out", "colour")

@@ -20,7 +20,8 @@ from app.panels.examples.own_examples import OwnExamples
 from app.panels.examples.region_panel import RegionPanel
 from app.panels.panel import Painting, Panel
 from app.tools.painting_gestures import paint_region
-from engine.studio.results import Picture, RegionScene, Scene
+from engine.studio.results import Picture, Scene
+from engine.studio.textures.texture_results import RegionScene
 
 TILE = 68.0  # side of a thumbnail, points, at least
 NAME = 0.82  # of the font's size

@@ -13,7 +13,7 @@ from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from engine.numeric.address import Rect
 from engine.studio.requests import Analyse
-from engine.studio.results import Found
+from engine.studio.textures.texture_results import Found
 
 _PICTURES = (
     ("analysis power", "Power spectrum", "How strong each frequency is; zero in the middle, strongest is light"),

@@ -17,8 +17,8 @@ from app.panels.controls import widgets as w
 from app.panels.lab.lab_settings import LabSettings
 from app.panels.panel import Painting, Panel
 from app.tools.painting_gestures import paint_lab
-from engine.studio.results import LabScene
 from engine.studio.textures.texture_requests import LabStep
+from engine.studio.textures.texture_results import LabScene
 
 FIELD = 360  # pixels of an endless field that the preview shows along a side
 HALF = 0.564  # of the radial window's width: within it, it is more than half as strong as in the middle

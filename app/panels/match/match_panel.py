@@ -20,7 +20,7 @@ from app.panels.controls import widgets as w
 from app.panels.controls.widgets import Col
 from app.panels.match.match_settings import MatchSettings
 from app.panels.panel import Panel
-from engine.studio.results import MatchScene
+from engine.studio.textures.texture_results import MatchScene
 
 REPEATS = 1.35  # tiles of 256 pixels that the preview shows along a side
 _USES = (

@@ -25,7 +25,7 @@ from engine.painting.textures import Texture
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.easel import Easel
-from engine.studio.textures import swatches, texture_requests
+from engine.studio.textures import swatches, texture_requests, texture_results
 from engine.studio.textures.lab_spectrum import LabSpectrum
 from engine.texture.image import ImageSource
 
@@ -114,7 +114,7 @@ class Lab(Owned):
         silent = self._texture is None or not self._texture.any()
         rows = tuple(shapes.SHAPES.values())
         known = self._spectrum.steps
-        self._easel.send(results.LabScene(rows, *known, silent, self._used[0], self._version))
+        self._easel.send(texture_results.LabScene(rows, *known, silent, self._used[0], self._version))
 
     # --- the texture -------------------------------------------------------------------------------------------------
 

@@ -29,6 +29,7 @@ from engine.painting.capture import PictureSource
 from engine.studio import faults, results
 from engine.studio.easel import Easel
 from engine.studio.textures import texture_requests as tq
+from engine.studio.textures import texture_results as tr
 from engine.texture.image import ImageSource
 from engine.texture.matching import Pattern
 from engine.texture.mixing import SplitColours
@@ -83,16 +84,16 @@ class Matcher(Owned):
                 self._advance(work)
         except (FieldError, FileError) as error:
             self._drop(work)
-            self._easel.send(results.MatchScene(fault=str(error)))
+            self._easel.send(tr.MatchScene(fault=str(error)))
         except Exception as error:
             self._drop(work)  # it would fail again
-            self._easel.send(results.MatchScene(fault=faults.words(error)))
+            self._easel.send(tr.MatchScene(fault=faults.words(error)))
             raise
 
     def _set(self, request: tq.MatchSet) -> None:
         if request.arguments is None:
             self._preview, self._shown = None, ()
-            self._easel.send(results.MatchScene())
+            self._easel.send(tr.MatchScene())
         else:
             self._preview = _Work(request.maker, request.arguments)
 
@@ -167,7 +168,7 @@ class Matcher(Owned):
         making = self._wanted[0].name if self._wanted else ""
         shape = pattern.shape
         self._easel.send(
-            results.MatchScene(work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making)
+            tr.MatchScene(work.done, shape.levels, shape.orientations, _colours(pattern), sizes, making=making)
         )
 
 

@@ -22,6 +22,7 @@ from engine.painting.points import rounded
 from engine.strokes.example_region import followed, lay, round_brush
 from engine.studio import results
 from engine.studio.textures import texture_requests as tq
+from engine.studio.textures import texture_results as tr
 
 KEPT = 100  # states before the present one that are held as pixels; those before them are painted anew
 DIM, TINT = np.float32(0.22), np.array((28, 32, 40), np.float32)  # how much of what is outside shows over what; sRGB
@@ -124,9 +125,9 @@ class _Painted:
             box = box.grown(1).intersect(self.whole)  # the edge lies outside
             self.dirty = box if self.dirty is None else self.dirty.union(box)
 
-    def scene(self, ident: str) -> results.RegionScene:
+    def scene(self, ident: str) -> tr.RegionScene:
         """Returns what the panel shows of it."""
-        return results.RegionScene(
+        return tr.RegionScene(
             ident,
             (self.whole.width, self.whole.height),
             self.now.steps,

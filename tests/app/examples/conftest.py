@@ -7,8 +7,8 @@ from app.desk.desk import Desk
 from app.desk.examples import example_state, example_work
 from app.desk.files import carried_out
 from app.desk.stock import TakeStock
-from engine.studio.results import RegionScene
 from engine.studio.textures.region_strokes import Regions
+from engine.studio.textures.texture_results import RegionScene
 
 
 @pytest.fixture

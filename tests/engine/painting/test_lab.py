@@ -22,6 +22,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
 from engine.studio.textures import texture_requests as tq
+from engine.studio.textures import texture_results as tr
 
 RING = tq.LabSet((64, 64), (Map({"shape": "ring"}),), seed=3)
 WHITE = Brush(radius=5, colour="#ffffff")
@@ -45,7 +46,7 @@ class Desk:
 
     @property
     def scene(self):
-        return next(r for r in reversed(self.sent) if isinstance(r, results.LabScene))
+        return next(r for r in reversed(self.sent) if isinstance(r, tr.LabScene))
 
     def stroke(self, *points, brush=WHITE, kept=True):
         rows = [np.array([[x, y, 1.0, 0, 0, 0]]) for x, y in points]
@@ -270,7 +271,7 @@ def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
     desk.studio.do(q.Analyse(0, Rect(0, 0, 64, 64)))
     desk.studio.step()
     desk.ask(q.Analyse(0, Rect(0, 0, 96, 64)))
-    found = [r for r in desk.sent if isinstance(r, results.Found)]
+    found = [r for r in desk.sent if isinstance(r, tr.Found)]
     assert [r.done for r in found].count(True) == 1
     assert found[-1].done
     assert found[-1].lines["Size"] == "96 × 64 px"
@@ -281,12 +282,12 @@ def test_analysis_comes_piece_by_piece_and_the_newest_counts(desk):
     assert found[-1].rings
     desk.studio.do(q.Analyse(0, Rect(0, 0, 64, 64)))
     desk.ask(q.Analyse())
-    assert [r for r in desk.sent if isinstance(r, results.Found)][-1] is found[-1]
+    assert [r for r in desk.sent if isinstance(r, tr.Found)][-1] is found[-1]
 
 
 def test_analysis_of_nothing(desk):
     desk.ask(q.Analyse(0, Rect(-3, 5, 30, 25)))
-    found = [r for r in desk.sent if isinstance(r, results.Found)][-1]
+    found = [r for r in desk.sent if isinstance(r, tr.Found)][-1]
     assert found.done
     assert found.lines["Colours"] == "1"
 

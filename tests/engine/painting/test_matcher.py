@@ -16,6 +16,7 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.studio import Studio
 from engine.studio.textures import texture_requests as tq
+from engine.studio.textures import texture_results as tr
 
 
 class Desk:
@@ -41,7 +42,7 @@ class Desk:
 
     @property
     def scene(self):
-        return next(r for r in reversed(self.sent) if isinstance(r, results.MatchScene))
+        return next(r for r in reversed(self.sent) if isinstance(r, tr.MatchScene))
 
 
 @pytest.fixture

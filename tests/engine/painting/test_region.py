@@ -10,6 +10,7 @@ from engine.numeric.address import Rect
 from engine.strokes.example_region import followed
 from engine.studio import results
 from engine.studio.textures import texture_requests as tq
+from engine.studio.textures import texture_results as tr
 from engine.studio.textures.region_strokes import KEPT, Regions, over_paper, region_picture
 
 HEIGHT, WIDTH = 40, 60
@@ -39,7 +40,7 @@ class Post:
 
     def _take(self, result):
         self.sent.append(result)
-        if isinstance(result, results.RegionScene):
+        if isinstance(result, tr.RegionScene):
             self.scene = result
         else:
             self.seen[result.area.slices(WHOLE)] = result.pixels
@@ -105,7 +106,7 @@ def test_only_the_last_of_many_changes_is_shown():
     post = Post()
     post.sent.clear()
     post.do(*[INVERT] * 9)
-    assert [type(result) for result in post.sent] == [results.PicturePart, results.RegionScene]
+    assert [type(result) for result in post.sent] == [results.PicturePart, tr.RegionScene]
     assert post.scene.inside.all()
 
 
