@@ -100,6 +100,7 @@ def test_a_picture_dropped_on_the_canvas_is_laid_there_as_a_layer_that_can_be_mo
 def test_a_picture_can_be_brought_in_as_a_reference_that_no_export_shows(program, stone):
     app = program()
     app.settled()
+    app.do("mousemove", 500, 400)
     Drag(app.display, window_of(app), stone).drop(500, 400)
     app.click("Reference")
     until(lambda: shows(app.screen()[346:455, 417:582], stone))
