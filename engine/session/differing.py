@@ -2,43 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterable, Iterator
 
 from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
-from engine.canvas.store import RECORD_OVERHEAD, Change, Pyramid, Record, changed_rects
+from engine.canvas.store import RECORD_OVERHEAD, Change, Level, Pyramid, Record, changed_rects
 from engine.numeric.address import Rect, TileKey
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
+_NOTHING = Level()
 OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
 def difference(old: Group, new: Group) -> tuple[int, int]:
     """Returns bytes that only `old` holds, and bytes that only `new` holds."""
-    return alone(old, new), alone(new, old)
-
-
-def alone(far: Group, near: Group) -> int:
-    """Returns bytes that only one of two states of the layers, `far`, holds."""
-    there, held = {layer.id: layer for layer in layers.layers(near)}, 0
-    for layer in layers.layers(far):
-        other = there.get(layer.id)
-        held += _regrown(layer.growth, other.growth if other else ())
-        one, beside = layer.pyramid, other.pyramid if other else None
-        if one is beside:
+    before = {layer.id: layer for layer in layers.layers(old)}
+    after = {layer.id: layer for layer in layers.layers(new)}
+    lost = gained = 0
+    for number in before.keys() | after.keys():
+        one, other = before.get(number), after.get(number)
+        lost += _regrown(one.growth if one else (), other.growth if other else ())
+        gained += _regrown(other.growth if other else (), one.growth if one else ())
+        a, b = one.pyramid if one else None, other.pyramid if other else None
+        if a is b:
             continue
-        if beside is None or one.uid != beside.uid:
-            held += one.nbytes
+        if a is None or b is None or a.uid != b.uid:
+            lost += a.nbytes if a is not None else 0
+            gained += b.nbytes if b is not None else 0
             continue
-        held += sum(_alone(record, found) for _, record, found in _only(one, beside)) + _waiting(one, beside)
-    return held
+        for _, here, there in _apart(a, b):
+            lost += _alone(here, there)
+            gained += _alone(there, here)
+        lost, gained = lost + _waiting(a, b), gained + _waiting(b, a)
+    return lost, gained
 
 
-def _alone(record: Record, beside: Record | None) -> int:
+def _alone(record: Record | None, beside: Record | None) -> int:
     """Returns the bytes that a record does not share with the one in its place."""
+    if record is None:
+        return 0
     if beside is not None and isinstance(record.held, SparsePlanes) and isinstance(beside.held, SparsePlanes):
         return record.held.alone(beside.held) + RECORD_OVERHEAD
     return record.nbytes
@@ -88,15 +94,20 @@ def lost_records(old: Group, new: Group) -> Iterator[Record]:
 def _only(one: Pyramid, other: Pyramid) -> Iterator[OnlyHere]:
     """Yields the records of one state that another of the same line of history does not share, and what that has in
     their places."""
+    return ((key, record, beside) for key, record, beside in _apart(one, other) if record is not None)
+
+
+def _apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record | None, Record | None]]:
+    """Yields the places where two states of a line of history have other records, and what each has there."""
     folded = _folded_between(one, other)
-    for level, stored in one.levels.items():
-        there = other.levels.get(level)
-        if there is stored:
+    for level in {*one.levels, *other.levels}:
+        here, there = one.levels.get(level, _NOTHING), other.levels.get(level, _NOTHING)
+        if here is there:
             continue
-        for key, record in _places(one, level, _rewritten(one, other, folded, level)):
-            beside = there.get((key.x, key.y)) if there is not None else None
-            if beside is not record:
-                yield key, record, beside
+        for place in _places(_rewritten(one, other, folded, level), here, there):
+            record, beside = here.get(place), there.get(place)
+            if record is not beside:
+                yield TileKey(level, *place), record, beside
 
 
 def _folded_between(one: Pyramid, other: Pyramid) -> list[Change]:
@@ -109,17 +120,16 @@ def _folded_between(one: Pyramid, other: Pyramid) -> list[Change]:
 
 
 def _rewritten(one: Pyramid, other: Pyramid, folded: list[Change], level: int) -> list[Rect]:
-    """Returns rectangles of a level out of which both states have the same records."""
+    """Returns rectangles of tiles of a level, out of which both states have the same records."""
     rects = [rect.grown(_AROUND) for rect in changed_rects(other, one, level)]
-    return rects + [change.reach(level).grown(_AROUND) for change in folded if change.level < level]
+    rects += [change.reach(level).grown(_AROUND) for change in folded if change.level < level]
+    return [rect.within_tiles() for rect in rects]
 
 
-def _places(pyramid: Pyramid, level: int, rects: list[Rect]) -> Iterator[tuple[TileKey, Record]]:
-    """Yields the records of a level that meet any of some rectangles, each once."""
-    stored = pyramid.levels[level]
-    if len(rects) == 1:
-        yield from pyramid.records(level, rects[0])
-    elif sum(rect.within_tiles().area for rect in rects) >= len(stored):  # that many would be looked for
-        yield from ((TileKey(level, *place), record) for place, record in stored.items())
-    else:
-        yield from {key: record for rect in rects for key, record in pyramid.records(level, rect)}.items()
+def _places(rects: list[Rect], here: Level, there: Level) -> Iterable[tuple[int, int]]:
+    """Returns the places in some rectangles of tiles, each once; where they are many, those that have records instead:
+    columns and rows."""
+    if sum(rect.area for rect in rects) > len(here) + len(there):
+        return itertools.chain(here, (place for place in there if place not in here))
+    found = ((x, y) for x0, y0, x1, y1 in rects for y in range(y0, y1) for x in range(x0, x1))
+    return found if len(rects) == 1 else dict.fromkeys(found)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from engine.canvas import layers
 from engine.canvas.layers import Group
 from engine.canvas.store import Record
 from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
-from engine.session.differing import alone, apart_records
+from engine.session.differing import apart_records, difference
 
 STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
 
@@ -29,11 +29,13 @@ class Undoable:
 
 @dataclass(eq=False, slots=True)
 class StepEntry:
-    """A step in a line; `held`: bytes that its far end alone takes now; `coded`: whether these are coded."""
+    """A step in a line; `held`: bytes that its far end alone takes now; `coded`: whether these are coded; `records`:
+    what is coded of it and lies in memory."""
 
     step: Undoable
     held: int
     coded: bool = False
+    records: list[Record] = field(default_factory=list)
 
 
 class StepLine:
@@ -114,7 +116,7 @@ class StepLine:
         Returns how many bytes fewer it was, 0 or less for none."""
         entry = self.entries[self._coded]
         if self._begun is None:
-            self._begun = self._pieces(entry.step)
+            self._begun = self._pieces(entry)
         for done in self._begun:
             size -= done
             if size <= 0.0:
@@ -129,8 +131,9 @@ class StepLine:
     def put_away(self) -> None:
         """Puts what the farthest coded step in memory holds away on disk, as far as there is room."""
         entry = self.entries[self._away]
-        coded = (record.held for _, record, _ in apart_records(*_ends(entry.step, self._undone)))
+        coded = (record.held for record in entry.records)
         saved = sum(put_away(held) for held in coded if isinstance(held, CodedData))
+        entry.records.clear()
         entry.held -= saved
         self.held -= saved
         self._away += 1
@@ -142,14 +145,16 @@ class StepLine:
         for _ in range(min(count, self.in_memory)):
             self.put_away()
 
-    def _pieces(self, step: Undoable) -> Iterator[int]:
+    def _pieces(self, entry: StepEntry) -> Iterator[int]:
         """Codes one record of a step's far end after the other; yields the bytes of data that were looked at."""
-        far, near = _ends(step, self._undone)
+        far, near = _ends(entry.step, self._undone)
+        entry.records.clear()
         elsewhere = [layer.pyramid for layer in layers.layers(near)]
         for key, record, other in apart_records(far, near):
             if not any(pyramid.holds(key, record) for pyramid in elsewhere):  # a copy of a layer shares its records
                 size = record.held.nbytes
                 self._code(record, other)
+                entry.records.append(record)
                 yield size
 
     def _code(self, record: Record, other: Record | None) -> None:
@@ -176,4 +181,5 @@ def _alone(step: Undoable, undone: bool) -> int:
 
 def _held_now(step: Undoable, undone: bool) -> int:
     """Counts the bytes that it takes now."""
-    return alone(*_ends(step, undone)) + STEP_OVERHEAD
+    lost, gained = difference(step.before.root, step.after.root)
+    return (gained if undone else lost) + STEP_OVERHEAD
