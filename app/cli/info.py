@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from engine.archive.imports import Opened
     from engine.canvas.growth import Plot
     from engine.canvas.layers import Group, Node
+    from engine.canvas.selecting.selection import Selection
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
     from engine.session.painted_here import ShownStroke
@@ -112,9 +113,16 @@ def facts(found: Opened) -> dict[str, Any]:
         "bytes": sum(record.nbytes for record in records),
         "textures": {name: texture.kind for name, texture in sorted(painting.textures.items())},
         "bookmarks": [write_bookmark(mark) for mark in painting.bookmarks.values()],
+        "selected": None if painting.selection is None else selection(painting.selection),
+        "selections": {name: selection(kept) for name, kept in sorted(painting.selections.items())},
         "commands": None if found.recording is None else len(found.recording.commands),
         "notes": list(found.notes),
     }
+
+
+def selection(kept: Selection) -> dict[str, Any]:
+    """Tells a selection: its bounds, or those of all that it is not (`inverse`), and its bytes."""
+    return {"inverse": kept.inverse, "bounds": painted_bounds(kept.pyramid), "bytes": kept.pyramid.nbytes}
 
 
 def _row(root: Group, node: Node) -> dict[str, Any]:
@@ -201,6 +209,13 @@ def _painted(pyramid: Pyramid, level: int, rect: Rect) -> Rect | None:
     )
 
 
+def _line_of_selection(kept: dict[str, Any]) -> str:
+    if kept["bounds"] is None:
+        return "everything"
+    level, x, y, width, height = kept["bounds"]
+    return f"{'all but ' if kept['inverse'] else ''}within {width} x {height} at {x}, {y} of level {level}"
+
+
 def _print(told: dict[str, Any]) -> None:
     frame = told["frame"]
     print(f"{told['file']}: {told['file_bytes']:,} bytes, frame {frame[2]} x {frame[3]} at {frame[0]}, {frame[1]}")
@@ -219,6 +234,9 @@ def _print(told: dict[str, Any]) -> None:
     for mark in told["bookmarks"]:
         (x, y), (width, height) = mark["origin"], mark["size"]
         print(f"bookmark: {mark['name']!r}, {width:g} x {height:g} at {x}, {y} of level {mark['level']:g}")
+    for name, kept in (("what is selected", told["selected"]), *told["selections"].items()):
+        if kept is not None:
+            print(f"selection: {name}, {_line_of_selection(kept)}")
     if told["commands"] is not None:
         print(f"recording: {told['commands']} commands")
 

@@ -6,7 +6,7 @@ that grid, premultiplied and sRGB-encoded.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,6 +16,8 @@ from engine.archive import grounds, plot_files
 from engine.archive.grounds import GroundEntry
 from engine.archive.implied import TEXTURES
 from engine.archive.plot_files import ExampleEntry, PlotEntry
+from engine.archive.selected import selection_files
+from engine.archive.selected.selection_files import Chosen, SelectionEntry
 from engine.brush.checks import frozen, thawed
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
@@ -38,7 +40,7 @@ from engine.texture.image import ImageSource
 from engine.texture.placed import PlacedInk
 from engine.texture.table import TextureError
 
-FORMAT = 6  # of paintings with references
+FORMAT = 6  # of paintings with selections or references
 PLACED_FORMAT = 5  # of others with placements, or of the grid of 2^-12
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
@@ -93,6 +95,7 @@ class Manifest:
     notes: tuple[str, ...] = ()
     arithmetic: int = LIBRARY
     grid: int = FINE
+    selections: tuple[SelectionEntry, ...] = ()
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -109,9 +112,10 @@ class Manifest:
                 raise FieldError(f"textures.{name}.{error.place}", error.found, error.expected) from None
         return Map(made)
 
-    def painting(self, root: Group, textures: Map[str, Texture]) -> Painting:
-        """Returns the painting of layers and textures."""
-        return Painting(self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid)
+    def painting(self, root: Group, textures: Map[str, Texture], chosen: Chosen = Chosen()) -> Painting:  # noqa: B008
+        """Returns the painting of layers, textures and selections."""
+        own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
+        return Painting(*own, *chosen)
 
     def grown_bytes(self) -> int:
         """Returns what all that was painted with examples takes in memory, about; FieldError if an example cannot
@@ -130,6 +134,7 @@ def manifest_json(
     plots: Mapping[int, list[PlotEntry]],
     pictures: list[PictureEntry],
     members: Mapping[str, tuple[int, str]],
+    selections: Sequence[SelectionEntry] = (),
 ) -> dict[str, Any]:
     """Returns the JSON of a painting's manifest."""
     frame = painting.frame
@@ -156,6 +161,7 @@ def manifest_json(
         },
         **({"bookmarks": list(map(write_bookmark, painting.bookmarks.values()))} if painting.bookmarks else {}),
         **({"synthesis": SYNTHESIS, "examples": plot_files.examples_json(examples)} if examples else {}),
+        **selection_files.selections_told(selections, _pack_json),
         "pictures": {
             p.sha: {"name": p.name, "size": list(p.size), "packs": [_pack_json(k) for k in p.packs]} for p in pictures
         },
@@ -165,7 +171,8 @@ def manifest_json(
 
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
-    if any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root)):
+    roles = any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root))
+    if roles or painting.selection is not None or painting.selections:
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
@@ -247,6 +254,7 @@ def parse_manifest(value: Any) -> Manifest:
         *_bookmarks(members.take("bookmarks", [])),
         members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
         held.grid,
+        selection_files.read_selections(members.take("selections", []), _packs),
     )
 
 

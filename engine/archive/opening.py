@@ -22,6 +22,7 @@ from engine.archive.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack,
 from engine.archive.members import LOST, PIECE, WORKERS, Members, Stored
 from engine.archive.packing import unpack
 from engine.archive.plot_files import Mark, Nursery
+from engine.archive.selected import selection_files
 from engine.archive.shelf import Shelf, shelved
 from engine.canvas import layers
 from engine.canvas.layers import Group
@@ -131,6 +132,7 @@ class _Opening:
     def native(self, manifest: Manifest, members: Members) -> Opened:
         """Returns the painting that a manifest tells of."""
         packs = [p for group in manifest.packs.values() for p in group]
+        packs += [p for selection in manifest.selections for p in selection.packs]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
         most = self._total + manifest.grown_bytes()
@@ -140,7 +142,9 @@ class _Opening:
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
         textures = manifest.textures_with(sources)
-        painting = manifest.painting(root, textures)
+        read = partial(self._tiles, members=members, sources={})
+        chosen = selection_files.with_tiles_of(manifest.selections, manifest.grid, read, self._levels)
+        painting = manifest.painting(root, textures, chosen)
         recording, lost = self._recording()
         notes = (*manifest.notes, *lost)
         if other:

@@ -27,6 +27,7 @@ from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.plot_files import PlotEntry
 from engine.archive.saving_turn import SAVING
+from engine.archive.selected import selection_files
 from engine.archive.spooled_png import SpooledPng
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node, isolation
@@ -205,8 +206,9 @@ class SavePlan:
         stored = [job for layer in layers.layers(painting.root) for job in self._tile_jobs(layer)]
         grown = [job for layer in layers.layers(painting.root) for job in self._growth_jobs(layer)]
         seen = [job for source in pictures.sources(painting).values() for job in self._picture_jobs(source)]
+        self._selections, chosen = selection_files.entries_of(painting, pack_jobs)
         self._recording = recording
-        self.jobs = deque([*seen, *laid, *stored, *grown])  # the recording needs the pictures, so they follow it
+        self.jobs = deque([*seen, *laid, *stored, *grown, *chosen])  # the recording needs pictures: they follow it
         shown: list[Layer | Placement] = [*layers.layers(painting.root), *self._placements]
         self._shown = [*map(_png_name, shown), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
@@ -366,7 +368,8 @@ class SavePlan:
         writer.fill(MANIFEST, self._manifest(members).ljust(writer.written[MANIFEST].size))
 
     def _manifest(self, members: dict[str, tuple[int, str]]) -> bytes:
-        told = manifest_json(self._painting, self._packs, self._grounds, self._plots, self._pictures, members)
+        held = self._packs, self._grounds, self._plots, self._pictures
+        told = manifest_json(self._painting, *held, members, self._selections)
         return dumps(told).encode()
 
 

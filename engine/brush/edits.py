@@ -10,9 +10,9 @@ from engine.brush.covered import Covered, Read, Scene
 from engine.brush.ink import Ink
 from engine.brush.mask import Coverage, StrokeMask
 from engine.brush.modes import MODES
-from engine.brush.relief import Relief
 from engine.brush.settings import Brush
 from engine.brush.stamp import Edit
+from engine.brush.thinning import Thinning
 
 
 def check(brush: Brush, where: str = "brush") -> None:
@@ -43,14 +43,14 @@ def edit(
     ink: Ink | None,
     alpha_locked: bool = False,
     read: Read | None = None,
-    relief: Relief | None = None,
+    relief: Thinning | None = None,
     scene: Scene | None = None,
 ) -> Edit:
     """Returns the edit that a stroke makes: `mask` as it is now, whatever is painted later.
 
     `ink` is what the mode's class made of the brush (`Covered.ink_of`), `scene` what it asked to see
     (`Covered.looks`); `read` gives the old values of any rectangle of the stroke's level; `relief` (`relief.resolve`)
-    thins the coverage.  BrushError if the brush's mode makes no edits.
+    thins the coverage, and a selection may after it.  BrushError if the brush's mode makes no edits.
     """
     coverage = mask.coverage() if isinstance(mask, StrokeMask) else mask
     if relief is not None:

@@ -15,7 +15,7 @@ alone, so a stroke in progress looks as it will once it is done.  In order:
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -28,6 +28,7 @@ from engine.brush.mask import Coverage
 from engine.brush.parts import Surface
 from engine.brush.rim import Rim, Tiles
 from engine.brush.settings import Brush
+from engine.brush.thinning import LazyTiles
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.elementary import log2
 from engine.numeric.kernel import kernel
@@ -152,7 +153,8 @@ class Relief:
         stain = None
         if self.rim is not None and self.rim.colour is not None:
             stain = _Stain(self, coverage.tiles, self.rim, self.rim.colour)
-        return Coverage(coverage.level, _Thinned(self, coverage.tiles), coverage.rect, stain)
+        tiles = coverage.tiles
+        return Coverage(coverage.level, LazyTiles(tiles, lambda key: self.made(tiles, key).tile), coverage.rect, stain)
 
     def made(self, tiles: Tiles, key: TileKey) -> _Made:
         """Returns one tile of a coverage, thinned."""
@@ -195,25 +197,6 @@ class _Stain:
     def part(self, key: TileKey) -> np.ndarray | None:
         depths = self.relief.made(self.tiles, key).depths
         return None if depths is None else self.rim.stain(depths)
-
-
-class _Thinned(Mapping[TileKey, "np.ndarray | float"]):
-    """The tiles of a coverage, thinned when they are asked for."""
-
-    def __init__(self, relief: Relief, tiles: Tiles) -> None:
-        self._relief, self._tiles = relief, tiles
-
-    def __getitem__(self, key: TileKey) -> np.ndarray | float:
-        return self._relief.made(self._tiles, key).tile
-
-    def __iter__(self) -> Iterator[TileKey]:
-        return iter(self._tiles)
-
-    def __len__(self) -> int:
-        return len(self._tiles)
-
-    def __contains__(self, key: object) -> bool:
-        return key in self._tiles
 
 
 def resolve(

@@ -15,9 +15,14 @@ def blurred(mask: np.ndarray, sigma: float) -> np.ndarray:
 
     Outside, there is nothing.
     """
+    return softened(mask, sigma)
+
+
+def softened(values: np.ndarray, sigma: float) -> np.ndarray:
+    """Returns any values, (h, w), under such a Gaussian, as `blurred`."""
     reach = int(_REACH * sigma + 0.5)
     weights = mapped(exp, np.square(np.arange(-reach, reach + 1) / sigma) * -0.5)
-    half = np.ascontiguousarray(mask.T, np.float64)
+    half = np.ascontiguousarray(values.T, np.float64)
     for _ in range(2):
         out = np.zeros_like(half)
         _blur(half, weights / _total(weights), out)

@@ -18,7 +18,7 @@ from engine.brush.checks import thawed
 from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.files.strict_json import Fields
-from engine.painting import fill_command, layer_commands, places
+from engine.painting import fill_command, layer_commands, places, select_commands
 from engine.painting.fill_command import Fill as Fill
 from engine.painting.fill_command import Like as Like
 from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
@@ -45,6 +45,7 @@ from engine.painting.places import RemoveBookmark as RemoveBookmark
 from engine.painting.places import RenameBookmark as RenameBookmark
 from engine.painting.places import View as View
 from engine.painting.points import plain, points_array, points_json
+from engine.painting.select_commands import Select as Select
 from engine.painting.stroke_copies import read_copies, write_copies
 
 SEED_LIMIT = (1 << 63) - 1
@@ -118,7 +119,7 @@ class Swap:
     extra: Map[str, Any] = _NOTHING
 
 
-Command = Stroke | Fill | LayerCommand | Undo | Redo | View | DefineTexture | Swap | places.BookmarkCommand
+Command = Stroke | Fill | LayerCommand | Undo | Redo | View | DefineTexture | Swap | Select | places.BookmarkCommand
 
 
 def parse(value: Any, where: str = "") -> Command:
@@ -228,6 +229,7 @@ COMMANDS: dict[str, Form] = {
     "view": Form((View,), places.read_view, places.write_view),
     "texture": Form((DefineTexture,), _read_texture, _write_texture),
     "swap": Form((Swap,), _read_swap, _write_swap),
+    "select": Form((Select,), select_commands.read_select, select_commands.write_select),
     "bookmark": Form((Bookmark, RemoveBookmark, RenameBookmark), places.read_bookmark, places.write_bookmark),
 }
 NAMES = {record: name for name, form in COMMANDS.items() for record in form.records}

@@ -28,6 +28,7 @@ from engine.painting.commands import (
     DefineTexture,
     Fill,
     Redo,
+    Select,
     Stroke,
     Undo,
     parse,
@@ -108,7 +109,7 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     copied = isinstance(command, Stroke) and bool(command.copies)
-    return 2 if region or copied or isinstance(command, BookmarkCommand | Fill) else 1
+    return 2 if region or copied or isinstance(command, BookmarkCommand | Fill | Select) else 1
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

@@ -8,6 +8,7 @@ from immutables import Map
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.selecting.selection import NONE_SAVED, Saved, Selection
 from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE, LIBRARY
@@ -26,7 +27,8 @@ class Painting:
     """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;
     `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name;
     `arithmetic`: in which its pixels are worked out, that of its recording; `grid`: on which the values of its layers
-    lie, by its bits, for as long as it lives."""
+    lie, by its bits, for as long as it lives; `selection`: what strokes are limited to, None for nothing in particular;
+    `selections`: those kept by name."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
@@ -36,6 +38,8 @@ class Painting:
     bookmarks: Bookmarks = field(default_factory=lambda: NO_BOOKMARKS)
     arithmetic: int = LIBRARY
     grid: int = FINE
+    selection: Selection | None = None
+    selections: Saved = field(default_factory=lambda: NONE_SAVED)
 
     @property
     def known_textures(self) -> Map[str, Texture]:

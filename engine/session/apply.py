@@ -24,6 +24,7 @@ from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture
+from engine.session.selecting import selected
 from engine.strokes.example_stroke import kind_of, swapped
 from engine.strokes.filling import filled
 
@@ -188,6 +189,10 @@ def _bookmark(painting: Painting, command: BookmarkCommand, around: Around) -> P
     return replace(painting, bookmarks=bookmarks_after(painting.bookmarks, command))
 
 
+def _choose(painting: Painting, command: c.Select, around: Around) -> Painting:
+    return selected(painting, command)
+
+
 _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
     c.Fill: _fill,
@@ -206,6 +211,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.SetLayer: _set,
     c.DefineTexture: _texture,
     c.Swap: _swap,
+    c.Select: _choose,
     **dict.fromkeys(_BOOKMARKS, _bookmark),
 }
 # The commands that undo takes back.  Selecting is no step, nor is defining a texture: strokes keep the one they had.

@@ -134,6 +134,8 @@ class Steps(Owned):
         if isinstance(command, c.Fill):  # of layers without paint it changes only that there is one
             painting = _painted_on(now.painting, command.layer)
             return _State(painting, step, now.laid, painting.active)
+        if isinstance(command, c.Select):  # what is selected depends on paint, which is not here
+            return replace(now, step=step, active=now.painting.active)
         painting, laid = _applied(now.painting, command), now.laid
         if isinstance(command, c.DuplicateLayer) and painting is not now.painting:
             for one, copy in _copied(painting.root, command):

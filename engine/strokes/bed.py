@@ -88,9 +88,12 @@ class Meeting:
     """Whether a stroke meets what is painted with examples: by squares of its dabs, so that it does not matter how many
     of them come at once."""
 
-    def __init__(self, level: int, origin: tuple[int, int], radius: float) -> None:
+    def __init__(
+        self, level: int, origin: tuple[int, int], radius: float, limited: Callable[[Rect], bool] | None = None
+    ) -> None:
         self._level, self._origin = level, origin
         self._side = max(_LEAST_SQUARE, 1 << math.ceil(log2(radius + 1.0)) >> _SQUARES)
+        self._limited = limited  # whether any pixel of a rectangle of the level may change
         self._known: set[tuple[int, int]] = set()
 
     def any(self, growth: Growth, dabs: np.ndarray, spread: int) -> bool:
@@ -106,7 +109,10 @@ class Meeting:
                         continue
                     self._known.add((x, y))
                     corner = self._origin[0] + x * side, self._origin[1] + y * side
-                    if lies_in(growth, self._level, Rect.at(*corner, side, side)):
+                    square = Rect.at(*corner, side, side)
+                    if self._limited is not None and not self._limited(square):
+                        continue
+                    if lies_in(growth, self._level, square):
                         return True
         return False
 

@@ -59,7 +59,10 @@ class LiveGrowth(Drawn):
         shape = tip.resolve(brush, painting.textures, level, self.own)
         within = growths.bounds(self.layer.growth, grid) if brush.row.takes_away else None
         begin = partial(Footprint, brush, self.origin, grid - level, shape, within, self.copies)
-        self.bed = Bed(self.layer.growth, level, begin, change_of(brush, grid, painting, self.own))
+        change = change_of(brush, grid, painting, self.own)
+        self.bed = Bed(
+            self.layer.growth, level, begin, change if self.limit is None else self.limit.within(change, grid)
+        )
 
     def lay(self, points: np.ndarray) -> Rect:
         """As `LiveStroke.lay`, but nothing looks different before the bed is followed."""

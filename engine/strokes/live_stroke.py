@@ -12,6 +12,7 @@ from engine.brush import edits
 from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.canvas.layers import Group
+from engine.canvas.selecting.limit import Limit
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.prediction import Predictor
@@ -28,7 +29,8 @@ class Drawn:
     `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
     points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
     `asked`: the number under which the journal knows its points.
-    `own`: the seed of its random numbers, the painting's where its command (`seed`) has none.
+    `own`: the seed of its random numbers, the painting's where its command (`seed`) has none; `limit`: what the
+    painting's selection leaves of it, None where that is all.
     `copies`: where it is drawn again; `areas`: what the last points laid may have changed, for it and each copy.
     BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
     """
@@ -50,6 +52,7 @@ class Drawn:
         self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
         self.copies = copies
         self.own = painting.seed if seed is None else seed
+        self.limit = Limit.of(painting.selection, level, cache)
         self.dropped = 0
         self.areas: list[Rect] = []
         self.extra: Map[str, Any] = Map()

@@ -14,9 +14,11 @@ from engine.brush.dabs import Stroker
 from engine.brush.footprint import Footprint
 from engine.brush.mask import StrokeMask
 from engine.brush.stamp import Edit
+from engine.brush.thinning import Thinning
 from engine.canvas import commit, evaluate, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
+from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
 from engine.numeric.address import TILE, Rect, TileKey
@@ -47,9 +49,10 @@ class LiveStroke(Drawn):
         source = None if looks.layer is None else reader(self.base.root, looks.layer, level, self.cache)
         self._scenery = Scenery(looks, brush, (level, self.origin), own, source, self.copies)
         self._relief = relief.resolve(brush, textures, level, (own, self.before.seed))
+        self._thinning: Thinning = self._relief if self.limit is None else self.limit.after(self._relief)
         self._edit: Edit | None = None
         self.flattened, self.bed = False, self._new_bed()
-        self._meeting = Meeting(level, self.origin, brush.radius)
+        self._meeting = Meeting(level, self.origin, brush.radius, None if self.limit is None else self.limit.meets)
 
     def _new_mask(self) -> StrokeMask:
         return StrokeMask(self.level, self.origin, tip=self._tip, each=1 + len(self.copies))
@@ -60,7 +63,11 @@ class LiveStroke(Drawn):
         level = self.level
         within = growths.bounds(self.layer.growth, level)
         begin = partial(Footprint, self.brush, self.origin, 0, self._tip, within, self.copies)
-        return Bed(self.layer.growth, level, begin, lambda growth, rect, mask: growths.cut(growth, level, rect, mask))
+
+        def cut(growth: Growth, rect: Rect, mask: np.ndarray) -> Growth:
+            return growths.cut(growth, level, rect, mask)
+
+        return Bed(self.layer.growth, level, begin, cut if self.limit is None else self.limit.within(cut, level))
 
     def lay(self, points: np.ndarray) -> Rect:
         """Lays the dabs of more points; returns what of the level they may have changed."""
@@ -133,7 +140,7 @@ class LiveStroke(Drawn):
         if self._edit is None:
             locked = self.layer.alpha_locked
             scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
-            self._edit = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._relief, scene)
+            self._edit = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._thinning, scene)
         return self._edit
 
     def _read(self, rect: Rect) -> Planes:

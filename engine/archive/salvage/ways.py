@@ -22,6 +22,7 @@ from engine.archive.salvage.damaged_layer import rebuilt
 from engine.archive.salvage.remains import Remains
 from engine.archive.salvage.seen import Shown
 from engine.archive.saving import MERGED, shown_level
+from engine.archive.selected.selection_files import LEFT_OUT
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group, Layer
@@ -143,7 +144,8 @@ class _Parts:
         if self._unseen:
             root, told = _with_seen(remains, painting)
             painting = replace(painting, root=root)
-        notes = (IN_PART, *self._notes, *told, *manifest.notes, *steps_missing(remains))
+        told = (*told, *manifest.notes, *((LEFT_OUT,) if manifest.selections else ()))
+        notes = (IN_PART, *self._notes, *told, *steps_missing(remains))
         return Opened(painting, notes, False, None, remains.pictures, tuple(self._marks))
 
     def _layer(self, layer: Layer) -> tuple[Pyramid, Growth]:

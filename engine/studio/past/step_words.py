@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from engine.painting import commands as c
+from engine.painting.select_commands import Named, Whole
 from engine.painting.times import time_of
 from engine.session.steps import LoggedStep
 from engine.studio.past.past_records import PastStep
@@ -40,9 +41,28 @@ def _title(command: c.Command) -> str:
             return f"Move “{name}”"
         case c.SetLayer():
             return _setting(command)
+        case c.Select():
+            return _selecting(command)
         case c.Swap(example=example):
             return f"Swap for {example}"
     return type(command).__name__
+
+
+_JOINING = {"replace": "Select", "add": "Select more", "subtract": "Select less", "intersect": "Select in both"}
+_WHOLE = {"all": "Select all", "none": "Select nothing", "invert": "Invert selection"}
+
+
+def _selecting(command: c.Select) -> str:
+    match command.source:
+        case Whole(what=what):
+            return _WHOLE[what]
+        case None:
+            changes = {"Grow": command.grow > 0, "Shrink": command.grow < 0, "Feather": command.feather > 0}
+            first = next((name for name, given in changes.items() if given), None)
+            return f"Keep selection “{command.keep}”" if first is None else f"{first} selection"
+        case Named(name=name):
+            return f"{_JOINING[command.op]}: “{name}”"
+    return _JOINING[command.op]
 
 
 def _setting(command: c.SetLayer) -> str:

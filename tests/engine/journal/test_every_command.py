@@ -18,7 +18,7 @@ from engine.journal.story import read_story
 from engine.journal.volume import End
 from engine.numeric.address import Rect
 from engine.painting import commands as c
-from engine.painting import places
+from engine.painting import places, select_commands
 from engine.studio import requests as q
 from engine.studio.filing.recovering import recovered
 
@@ -49,6 +49,7 @@ SAMPLES = {
     c.Redo: c.Redo(1),
     c.View: c.View(1.5, (3, 4.5), (800, 600)),
     c.DefineTexture: c.DefineTexture("grit", "rock", c.parse({"do": "undo", "period": 64}).extra),
+    c.Select: c.Select(select_commands.Box(0, Rect(2, 3, 40, 50), True), "add", 0, -1.5, 2, "sun", MORE),
     c.Swap: c.Swap(0, (5, 6), "leaves", "sky", 0.5, 2),
     c.FlattenGroup: c.FlattenGroup(None),
     places.Bookmark: places.Bookmark("shore", 3.5, (1.5, 2), (800, 600), 12.0),

@@ -1,0 +1,1 @@
+"""Selections in a painting's file."""

@@ -1,0 +1,115 @@
+"""Selections in a painting's file: their packs, and how the manifest tells of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeVar
+
+from immutables import Map
+
+from engine.archive.grounds import with_tiles
+from engine.archive.implied import Coded, ordered
+from engine.canvas.attenuate import fold
+from engine.canvas.selecting.selection import NONE_SAVED, Saved, Selection
+from engine.canvas.store import Pyramid, Record
+from engine.checks.field_error import FieldError
+from engine.files.strict_json import Fields, is_name
+from engine.numeric.address import TileKey
+from engine.painting.layering.placing_members import Members
+from engine.painting.value import Painting
+
+Packs = list[Any]  # of `manifest.Pack`s
+MOST_SELECTIONS = 4096  # of one painting
+LEFT_OUT = "what was selected is left out"
+
+
+@dataclass(frozen=True)
+class SelectionEntry:
+    """A selection kept under a name; None: what is selected.  `packs`: where its tiles are."""
+
+    name: str | None
+    inverse: bool
+    packs: Packs
+    commits: int = 0
+
+
+class Chosen(NamedTuple):
+    """What is selected, and what is kept by name."""
+
+    selection: Selection | None = None
+    saved: Saved = NONE_SAVED
+
+
+J = TypeVar("J")
+
+
+def entries_of(
+    painting: Painting, packed: Callable[[str, list[tuple[TileKey, Record]], Packs], Iterator[J]]
+) -> tuple[list[SelectionEntry], list[J]]:
+    """Returns the selections of a painting, and what makes their members: `packed`, of the stem of their names and of
+    tiles, which notes the packs."""
+    named: list[tuple[str | None, Selection]] = [(name, one) for name, one in sorted(painting.selections.items())]
+    if painting.selection is not None:
+        named.append((None, painting.selection))
+    entries, jobs = list[SelectionEntry](), list[J]()
+    for number, (name, selection) in enumerate(named):
+        pyramid = fold(selection.pyramid)
+        entries.append(SelectionEntry(name, selection.inverse, [], pyramid.commits))
+        tiles = ordered(list(pyramid.all_records()))
+        jobs += packed(f"inkfall/selections/{number}", tiles, entries[-1].packs)
+    return entries, jobs
+
+
+def selections_told(entries: Sequence[SelectionEntry], packs: Callable[[Any], Packs]) -> Members:
+    """Tells selections as members of the manifest; nothing where there is none.  `packs` tells of one pack."""
+    if not entries:
+        return {}
+    return {
+        "selections": [
+            {
+                **({"name": entry.name} if entry.name is not None else {}),
+                "inverse": entry.inverse,
+                "commits": entry.commits,
+                "packs": [packs(pack) for pack in entry.packs],
+            }
+            for entry in entries
+        ]
+    }
+
+
+def read_selections(value: Any, packs: Callable[[Fields], Sequence[object]]) -> tuple[SelectionEntry, ...]:
+    """Reads the member; FieldError names what is wrong.  `packs` reads those of one."""
+    if not isinstance(value, list) or len(value) > MOST_SELECTIONS:
+        raise FieldError("manifest.selections", "another form", f"a list of at most {MOST_SELECTIONS}")
+    out, names = [], set[str | None]()
+    for i, one in enumerate(value):
+        members = Fields(one, f"selections[{i}]")
+        name = members.take("name", None)
+        if name in names or not (name is None or is_name(name)):
+            raise members.fault("name", "a text that no other has")
+        names.add(name)
+        commits = members.integer("commits", lo=0, hi=1 << 62)
+        out.append(SelectionEntry(name, members.flag("inverse"), list(packs(members)), commits))
+    return tuple(out)
+
+
+def with_tiles_of(
+    entries: Sequence[SelectionEntry],
+    grid: int,
+    tiles: Callable[[Any], Iterator[Coded]],
+    levels: Callable[[Sequence[Coded]], Mapping[int, dict[tuple[int, int], Record]]],
+) -> Chosen:
+    """Returns selections of a file; `tiles` reads packs, `levels` lays them out.  One with ink, which none has, is
+    refused by FieldError."""
+    chosen, saved = None, dict[str, Selection]()
+    for entry in entries:
+        found = list(tiles(entry.packs))
+        if any(record.inks or implied for _, record, implied in found):
+            raise FieldError("selections", "ink", "tiles without ink")
+        pyramid = with_tiles(Pyramid(grid=grid, commits=entry.commits), dict(levels(found)))
+        if entry.name is None:
+            chosen = Selection(pyramid, entry.inverse)
+        else:
+            saved[entry.name] = Selection(pyramid, entry.inverse)
+    return Chosen(chosen, Map(saved))
