@@ -349,7 +349,8 @@ class SavePlan:
     def begin(self, writer: ZipWriter) -> None:
         """Adds the recording, and leaves room for the manifest, whose sums are known at the end."""
         if self._recording is not None:
-            writer.add(RECORDING, _told(self._recording), deflate=True)
+            told = b"".join(line.encode() + b"\n" for line in self._recording.lines())
+            writer.add(RECORDING, told, deflate=True)
         widest = dict.fromkeys([*self.told, MANIFEST_AGAIN], (1 << 62, "0" * 64))
         writer.reserve(MANIFEST, len(self._manifest(widest)))
 
@@ -396,7 +397,3 @@ def shown_level(frame: Rect) -> int:
 
 def _png_name(node: Layer | Placement) -> str:
     return f"data/L{node.id}.png"
-
-
-def _told(recording: Recording) -> bytes:
-    return b"".join(line.encode() + b"\n" for line in recording.lines())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from immutables import Map
@@ -96,7 +96,7 @@ class SourceForm(NamedTuple):
 
     record: type
     read: Callable[[Fields, str], Source]
-    write: Callable[[Any], Members]
+    write: Callable[..., Members]
 
 
 def _read_box(members: Fields, name: str) -> Box:

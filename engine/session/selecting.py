@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from engine.brush import relief, tip
 from engine.brush.dabs import Stroker
@@ -108,4 +107,4 @@ def _lined(painting: Painting, line: Line) -> Coverage:
 
 
 # Of each source that covers a part of the canvas by itself: what that is, at its own level.
-COVERAGES: dict[type[Source], Callable[[Painting, Any], Coverage]] = {Box: _boxed, Line: _lined}
+COVERAGES: dict[type[Source], Callable[..., Coverage]] = {Box: _boxed, Line: _lined}

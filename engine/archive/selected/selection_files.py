@@ -61,7 +61,7 @@ def entries_of(
     return entries, jobs
 
 
-def selections_told(entries: Sequence[SelectionEntry], packs: Callable[[Any], Packs]) -> Members:
+def selections_told(entries: Sequence[SelectionEntry], packs: Callable[..., Packs]) -> Members:
     """Tells selections as members of the manifest; nothing where there is none.  `packs` tells of one pack."""
     if not entries:
         return {}
@@ -78,7 +78,7 @@ def selections_told(entries: Sequence[SelectionEntry], packs: Callable[[Any], Pa
     }
 
 
-def read_selections(value: Any, packs: Callable[[Fields], Sequence[object]]) -> tuple[SelectionEntry, ...]:
+def read_selections(value: object, packs: Callable[[Fields], Sequence[object]]) -> tuple[SelectionEntry, ...]:
     """Reads the member; FieldError names what is wrong.  `packs` reads those of one."""
     if not isinstance(value, list) or len(value) > MOST_SELECTIONS:
         raise FieldError("manifest.selections", "another form", f"a list of at most {MOST_SELECTIONS}")
@@ -97,7 +97,7 @@ def read_selections(value: Any, packs: Callable[[Fields], Sequence[object]]) -> 
 def with_tiles_of(
     entries: Sequence[SelectionEntry],
     grid: int,
-    tiles: Callable[[Any], Iterator[Coded]],
+    tiles: Callable[[Packs], Iterator[Coded]],
     levels: Callable[[Sequence[Coded]], Mapping[int, dict[tuple[int, int], Record]]],
 ) -> Chosen:
     """Returns selections of a file; `tiles` reads packs, `levels` lays them out.  One with ink, which none has, is
