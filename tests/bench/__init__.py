@@ -40,6 +40,7 @@ class Skipped:
 BENCHES = {
     "view": "a 1920 x 1080 view from its parent level, against copying the bytes that it moves",
     "dab": "soft dabs into the coverage of a stroke, and through texture into pixels",
+    "place": "placements at 1920 x 1080 beside their source, and pictures that contain themselves",
     "raster": "a soft dab of each raster-op through texture into pixels, against copying its bytes",
     "spectral": "a painted spectrum to its preview, and the endless field of sparse convolution",
     "matching": "a texture matched to an example, 256 to 256 and to 512, against peers and against its transforms",
