@@ -15,9 +15,11 @@ from typing import Protocol
 import numpy as np
 
 from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
+from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.through import UNPLACED, Seen, looked_through, set_in
+from engine.canvas.placing.through import UNPLACED, Seen, looked_through
+from engine.canvas.placing.turns import turns_of
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
 
@@ -195,7 +197,7 @@ def _pixels(source: Layer | Placed, level: int, rect: Rect, read: Read, seen: Se
         return looked_through(lambda at, part: read(layer, at, part), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)
     if source.place is not None:
-        return _turns(source, level, rect, read, through)
+        return _turns(source, level, rect, read, seen)
     if not source.placement.repeat and not through.whole(level) and source.sources.turns(source.placement.of):
         # What is turned in it is not sampled twice, but once, through both similarities.
         part = through.meets(level, rect)
@@ -209,36 +211,50 @@ def _pixels(source: Layer | Placed, level: int, rect: Rect, read: Read, seen: Se
     return looked_through(picture if cell is None else repeated(picture, cell), level, rect, through)
 
 
-def _turns(source: Placed, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> np.ndarray | None:
     """As `_pixels`, of a placement that lies in what it shows: turn by turn, each read straight through all of them.
 
-    What lies above it is read inwards, what lies below outwards, from the first turn that is opaque: at every depth
-    only as many turns as are seen, if nothing lies above.
+    What lies above it is read inwards, what lies below outwards, from the innermost turn on that holds all of the
+    rectangle, until less than 2^-12 of a pixel is left to be seen.
     """
-    plan, at = source.steps, source.place
+    part = outer.meets(level, rect)
+    if part.empty:
+        return None
+    turns, plan, at = turns_of(source.placement, outer.unclipped), source.steps, source.place
     assert at is not None
-    whole = rect
     own, below, above = plan[at], plan[:at], plan[at + 1 :]
-    inwards: list[tuple[Seen, Rect, _Found]] = []
-    while True:
-        part = seen.meets(level, rect)
-        if part.empty or seen.vanishes(level):
-            break
-        over = _gather(above, level, part, read, seen) if above else []
-        inwards.append((seen, part, over))
-        if len(over) and _covers(*over[0]):
-            break
-        seen, rect = seen.of(source.placement), part
-    pixels: np.ndarray | None = None
-    inner = Rect(0, 0, 0, 0)
-    for seen, part, over in reversed(inwards):
-        found: _Found = [] if pixels is None else [(own, blend.flat(set_in(pixels, inner, part)))]
-        if not (found and _covers(*found[0])) and not (over and _covers(*over[0])):
-            found = [*_gather(below, level, part, read, seen), *found]
-        drawn = _draw([*found, *over], part.area, [], 0)
-        drawn = None if drawn is None else drawn.reshape(4, part.height, part.width)
-        pixels, inner = None if drawn is None else seen.clipped(drawn, level, part, part), part
-    return None if pixels is None else set_in(pixels, inner, whole)
+
+    def drawn(plan: tuple[CompositeStep, ...], turn: int, shown: Rect) -> np.ndarray | None:
+        pixels = _draw(_gather(plan, level, shown, read, turns[turn].unclipped), shown.area, [], 0)
+        return None if pixels is None else pixels.reshape(4, shown.height, shown.width)
+
+    def both(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
+        seen = turns[turn].unclipped
+        under, over = (_gather(steps, level, shown, read, seen) for steps in (below, above))
+        middle: _Found = [] if inner is None else [(own, blend.flat(inner))]
+        pixels = _draw([*under, *middle, *over], shown.area, [], 0)
+        return None if pixels is None else pixels.reshape(4, shown.height, shown.width)
+
+    if own.opacity != 1 or not all(step.over for step in above):
+        pixels = unrolled.all_turns(turns, level, part, both)
+    else:
+        pixels = unrolled.below(turns, level, part, lambda turn, shown, _: drawn(below, turn, shown))
+        if above:
+            layers = _only_layers(above)
+            front = unrolled.above(turns, layers, level, part, lambda turn, shown, _: drawn(above, turn, shown))
+            pixels = unrolled.laid(front, pixels)
+    return None if pixels is None else outer.clipped(pixels, level, part, rect)
+
+
+def _only_layers(plan: tuple[CompositeStep, ...]) -> list[Layer] | None:
+    """Returns the layers that are composited; None if there are placements among them."""
+    out: list[Layer] = []
+    for step in plan:
+        inner = _only_layers(step.source) if isinstance(step.source, tuple) else [step.source]
+        if inner is None or not all(isinstance(one, Layer) for one in inner):
+            return None
+        out += [one for one in inner if isinstance(one, Layer)]
+    return out
 
 
 def _picture(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:

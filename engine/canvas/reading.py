@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from engine.canvas.evaluate import evaluate, evaluate_sparse, shown
 from engine.canvas.growth import Growth, meets, over
 from engine.canvas.layers import Layer
 from engine.canvas.tile_cache import TileCache
-from engine.numeric.address import Rect
-from engine.texture.planes import Planes
+from engine.numeric.address import TILE, Rect, TileKey
+from engine.texture.planes import COLOURS, Planes
+
+_FULL = 1.34  # times as large a rectangle may be as what is worked out of it
+_WORTH = 48 * 48  # pixels of a rectangle from which on whole tiles are worked out for it
 
 
 def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None = None) -> np.ndarray | None:
@@ -24,6 +29,36 @@ def layer_planes(layer: Layer, level: int, rect: Rect, cache: TileCache | None =
         found = evaluate_sparse(layer.pyramid, level, rect, cache, lent=True)
         paint = None if found is None else found.rgba
     return covered(paint, layer.growth, level, rect)
+
+
+def kept_planes(layer: Layer, level: int, rect: Rect, cache: TileCache) -> np.ndarray | None:
+    """As `layer_planes`, of what is seen elsewhere than it lies: whole tiles are worked out and kept, as most of them
+    are asked for again, by what is seen beside this."""
+    pyramid = layer.pyramid
+    if rect.area < _WORTH or pyramid.bare is not None:
+        return layer_planes(layer, level, rect, cache)
+    found = {key: cache.view(pyramid, key) for key in rect.tiles(level)}
+    for block in _blocks([key for key, (known, _) in found.items() if not known]):
+        whole = evaluate_sparse(pyramid, level, block, cache, lent=True)
+        for key in block.tiles(level):
+            if key in found:
+                found[key] = True, None if whole is None else whole.cut(*key.rect.slices(block))
+    out: np.ndarray | None = None
+    made = np.empty if all(value is not None for _, value in found.values()) else np.zeros
+    for key, (_, value) in found.items():
+        if value is not None:
+            out = made((COLOURS, rect.height, rect.width), np.float32) if out is None else out
+            part = key.rect.intersect(rect)
+            out[:, *part.slices(rect)] = value.data[:COLOURS, *part.slices(key.rect)]
+    return covered(out, layer.growth, level, rect)
+
+
+def _blocks(missing: list[TileKey]) -> list[Rect]:
+    """Returns squares of 2 x 2 tiles that hold some tiles; one rectangle where they fill most of it."""
+    blocks = {(key.x // 2, key.y // 2) for key in missing}
+    squares = [Rect.at(x * 2 * TILE, y * 2 * TILE, 2 * TILE, 2 * TILE) for x, y in blocks]
+    whole = functools.reduce(Rect.union, squares, Rect(0, 0, 0, 0))
+    return [whole] if 0 < whole.area <= _FULL * sum(square.area for square in squares) else squares
 
 
 def covered(paint: np.ndarray | None, growth: Growth, level: int, rect: Rect) -> np.ndarray | None:

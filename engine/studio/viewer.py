@@ -9,7 +9,7 @@ import numpy as np
 
 from engine.canvas.composite import composite
 from engine.canvas.layers import Layer
-from engine.canvas.reading import covered, layer_planes
+from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
@@ -140,7 +140,9 @@ class Viewer(Owned):
         live, cache = self._subject.live, self._subject.session.cache
         if isinstance(live, LiveStroke) and layer.name == live.layer.name and placed_stroke.reaches(live, level, rect):
             return placed_stroke.from_afar(live, layer, level, rect, cache)
-        return self._read(layer, level, rect)
+        if isinstance(live, LiveStroke) and layer.name == live.layer.name:
+            return self._read(layer, level, rect)
+        return kept_planes(layer, level, rect, cache)
 
     def _pick(self, request: q.Pick) -> None:
         pixel = self.picture(request.level, Rect.at(request.x, request.y, 1, 1))[:, 0, 0]

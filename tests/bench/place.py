@@ -17,7 +17,7 @@ from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, Layer, layers
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose, SourcePart
-from engine.canvas.reading import layer_planes
+from engine.canvas.reading import kept_planes, layer_planes
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Dyadic, Similarity
@@ -26,7 +26,7 @@ from engine.painting.rendering import piece_reader
 from engine.session.session import Session
 from engine.studio.requests import SCREEN_TILE
 
-WIDTH, HEIGHT, REPEATS, CACHE = 1920, 1080, 5, 256 << 20
+WIDTH, HEIGHT, REPEATS, CACHE = 1920, 1080, 3, 256 << 20
 FRAME = SourcePart(0, Rect(0, 0, 1024, 1024))
 HALF = Pose(at=(256, 300), levels=-1)
 SPIRAL = Pose(at=(300, 90), turned=(0.499 * 2 * math.cos(0.4363), 0.499 * 2 * math.sin(0.4363)), levels=-1)
@@ -51,7 +51,6 @@ def measure(small: bool = False) -> Iterator[Figure]:
         for level in (3, 30, 1000):
             look = _look(replace(EMPTY, children=nodes), level, _around_fixed(pose.similarity, level, size))
             yield _within(f"{name}, level {level}", look, most, repeats)
-    yield _several(below, size, repeats)
 
 
 def _beside(source: Layer, size: tuple[int, int], repeats: int) -> Iterator[Figure]:
@@ -63,10 +62,10 @@ def _beside(source: Layer, size: tuple[int, int], repeats: int) -> Iterator[Figu
 
     plain = replace(EMPTY, children=(source,))
     cases: Cases = {
-        "exact": (placed(at=(128 * 9 + 37, 128 * 2 + 75)), 1.2),
-        "mirrored, a quarter": (placed(at=(2600, 70), turn=1, mirror=True), 1.2),
+        "exact": (placed(at=(-37, 75)), 1.2),
+        "mirrored, a quarter": (placed(at=(100, 200), turn=1, mirror=True), 1.2),
         "half a pixel": (placed(at=(75, 33), level=1), 4.0),
-        "turned": (placed(at=(900, -700), turned=TURN), 4.0),
+        "turned": (placed(at=(300, -400), turned=TURN), 4.0),
         "scaled by 1.3": (placed(turned=(1.3, 0.0)), 8.0),
     }
     for kept in (False, True):
@@ -82,19 +81,6 @@ def _within(name: str, look: Work, most: float, repeats: int) -> Figure:
     return Figure(name, seconds * 1e3, "ms", f"{most * 1e3:.0f} ms", seconds / most, 1.0)
 
 
-def _several(below: Layer, size: tuple[int, int], repeats: int) -> Figure:
-    """Four copies of the whole at a half, against one."""
-    copies = [
-        Placement(10 + n, f"copy {n}", pose=Pose(at=(n % 2 * 512, n // 2 * 512), levels=-1), part=FRAME)
-        for n in range(4)
-    ]
-    root = replace(EMPTY, children=(replace(below, opacity=0.5), *copies))
-    view = Rect.at(0, 0, min(1024, size[0]), min(1024, size[1])).zoomed(2)
-    view = Rect.at(view.x0 + 900, view.y0 + 700, *size)
-    own, several = _best(repeats, _look(replace(EMPTY, children=root.children[:1]), 2, view), _look(root, 2, view))
-    return Figure("four copies of itself", several * 1e3, "ms", f"the layer, {own * 1e3:.1f} ms", several / own, 15.0)
-
-
 def _look(root: Group, level: int, view: Rect, kept: bool = False) -> Work:
     """All tiles of the screen, as the window's are made; `kept`: those of the layers are there from the last time."""
     held = TileCache(CACHE)
@@ -105,10 +91,13 @@ def _look(root: Group, level: int, view: Rect, kept: bool = False) -> Work:
         def read(layer: Layer, level: int, rect: Rect) -> Any:
             return layer_planes(layer, level, rect, cache)
 
+        def placed(layer: Layer, level: int, rect: Rect) -> Any:
+            return kept_planes(layer, level, rect, cache)
+
         for y in range(view.y0 - view.y0 % SCREEN_TILE, view.y1, SCREEN_TILE):
             for x in range(view.x0 - view.x0 % SCREEN_TILE, view.x1, SCREEN_TILE):
                 tile = Rect.at(x, y, SCREEN_TILE, SCREEN_TILE)
-                composite(root, level, tile, piece_reader(level, tile, read, read))
+                composite(root, level, tile, piece_reader(level, tile, read, placed))
 
     return look
 
@@ -170,7 +159,8 @@ def _around_fixed(f: Similarity, level: int, size: tuple[int, int]) -> Rect:
     place = Dyadic(0, 0)
     for _ in range(level + 40):
         place = f(place)
-        place = Dyadic.of(place.x >> max(0, place.e - level - 8), place.y >> max(0, place.e - level - 8), min(place.e, level + 8))
+        drop = max(0, place.e - level - 8)
+        place = Dyadic.of(place.x >> drop, place.y >> drop, place.e - drop)
     shift = level - place.e
     x, y = ((v << shift if shift >= 0 else v >> -shift) for v in (place.x, place.y))
     return Rect.at(x - size[0] // 2, y - size[1] // 2, *size)

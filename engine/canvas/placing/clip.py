@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,6 +16,7 @@ from engine.numeric.kernel import kernel
 from engine.numeric.similarity import Dyadic, Similarity
 
 _BITS = 20  # of the fractions of places in the part
+_KEPT = 4096  # bounds of clips
 _FAR = 1 << 60  # beyond which a side is beside every pixel of a tile, in 2^-20 pixels
 
 
@@ -31,7 +33,7 @@ class Clip:
 
     def bounds(self, level: int) -> Rect:
         """Returns the pixels of a level that meet it."""
-        return self.similarity.shown(self.part.rect, self.part.level, level)
+        return _bounds(self, level)
 
     def on_pixels(self, level: int) -> bool:
         """Tells whether it is a rectangle of whole pixels of a level."""
@@ -49,6 +51,11 @@ class Clip:
                 if not (part.x0 << 8 <= u < part.x1 << 8 and part.y0 << 8 <= v < part.y1 << 8):
                     return False
         return True
+
+
+@functools.lru_cache(_KEPT)  # it is asked for by every tile of the screen
+def _bounds(clip: Clip, level: int) -> Rect:
+    return clip.similarity.shown(clip.part.rect, clip.part.level, level)
 
 
 def within(clips: Sequence[Clip], level: int, rect: Rect) -> Rect:

@@ -6,6 +6,7 @@ so nothing is resampled twice.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,28 +22,39 @@ from engine.texture.placed import oriented
 _FINER = 2  # levels by which a source may be read finer, and averaged, where its move is by parts of pixels
 _SURE, _FINEST = 192, 4200  # bits of c, and of t below level 0, that are kept of many turns in one another
 _LEAST = -1.0  # log2 of the pixels along what is shown that count as none
+_KEPT = 4096  # placements
 _SMALL = 1 << 18  # pixels of a clipped source at its aligned level up to which that is done from any level
 
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """How a source is seen: through which similarity, and cut by which parts of it and of what shows it."""
+    """How a source is seen: through which similarity, and cut by which parts of it and of what shows it.
+
+    `own`: the innermost of the clips, also where somebody else cuts by it.
+    """
 
     similarity: Similarity = IDENTITY
     clips: tuple[Clip, ...] = ()
     repeats: bool = False  # whether a part of a source is repeated on the way
+    own: Clip | None = None
 
     def of(self, placement: Placement) -> Seen:
         """Returns how a placement's source is seen where the placement itself is seen so."""
+        if self is UNPLACED:
+            return seen_first(placement)
+        return self._then(placement)
+
+    def _then(self, placement: Placement) -> Seen:
         similarity = placement.pose.similarity.then(self.similarity).cut(_SURE, _FINEST)
-        clips = self.clips
+        clips, own = self.clips, self.own
         if placement.part is not None and not placement.repeat:
-            clips = Clip(placement.part, similarity), *clips
-        return Seen(similarity, clips, self.repeats or placement.repeat)
+            own = Clip(placement.part, similarity)
+            clips = own, *clips
+        return Seen(similarity, clips, self.repeats or placement.repeat, own)
 
     @property
     def unclipped(self) -> Seen:
-        """Gives the same without clips."""
+        """Gives the same where somebody else cuts by the clips."""
         return replace(self, clips=())
 
     @property
@@ -59,7 +71,7 @@ class Seen:
         by = 0 if aligned is None else max(0, aligned - level)
         if by <= _FINER:
             return by
-        small = bool(self.clips) and self.clips[0].bounds(level + by).area <= _SMALL
+        small = self.own is not None and self.own.bounds(level + by).area <= _SMALL
         return by if small else None
 
     def whole(self, level: int) -> bool:
@@ -68,9 +80,9 @@ class Seen:
 
     def vanishes(self, level: int) -> bool:
         """Tells whether what is seen is less than half a pixel wide; never of all of a source."""
-        if not self.clips:
+        if self.own is None:
             return False
-        part = self.clips[0].part
+        part = self.own.part
         side = max(part.rect.width, part.rect.height).bit_length() - part.level
         return level + side + self.similarity.log_scale < _LEAST
 
@@ -84,6 +96,12 @@ class Seen:
 
 
 UNPLACED = Seen()
+
+
+@functools.lru_cache(_KEPT)  # it is asked for by every tile of the screen
+def seen_first(placement: Placement) -> Seen:
+    """Returns how a placement's source is seen."""
+    return UNPLACED._then(placement)
 
 
 def looked_through(picture: Picture, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
@@ -105,8 +123,10 @@ def looked_through(picture: Picture, level: int, rect: Rect, seen: Seen) -> np.n
 
 def _beyond(seen: Seen, level: int) -> Rect | None:
     """Returns the pixels of the source's level that its own clip leaves."""
-    own = next((clip.part for clip in seen.clips if clip.similarity == seen.similarity), None)
-    return None if own is None else own.rect.zoomed(source_level(seen.similarity, level) - own.level)
+    if seen.own is None or seen.own.similarity != seen.similarity:
+        return None
+    own = seen.own.part
+    return own.rect.zoomed(source_level(seen.similarity, level) - own.level)
 
 
 def _turned(picture: Picture, similarity: Similarity, level: int, rect: Rect) -> np.ndarray | None:

@@ -1,0 +1,121 @@
+"""The turns of a picture that contains itself laid over one another, as many as are seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from engine.canvas.layers import Layer
+from engine.canvas.placing.clip import clipped
+from engine.canvas.placing.through import set_in
+from engine.canvas.placing.turns import Turns
+from engine.numeric.address import Rect
+from engine.numeric.kernel import kernel
+
+HIDING = np.float32(1 - 2.0**-12)  # alpha in front of a pixel from which on nothing behind it counts
+
+
+# Composites what a turn shows of a rectangle, uncut, around what lies in it: float32 (4, h, w), a new array; or None.
+Draw = Callable[[int, Rect, "np.ndarray | None"], "np.ndarray | None"]
+
+
+def all_turns(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+    """Returns the picture in a rectangle, from the innermost turn outwards: float32 (4, h, w), None where empty."""
+    shown: list[Rect] = []
+    part = turns.within(0, level, rect)
+    while not part.empty:
+        shown.append(part)
+        part = turns.within(len(shown), level, part)
+    pixels: np.ndarray | None = None
+    for turn in reversed(range(len(shown))):
+        inner = None if pixels is None else set_in(pixels, shown[turn + 1], shown[turn])
+        pixels = _cut(turns, turn, level, shown[turn], draw(turn, shown[turn], inner))
+    return None if pixels is None else set_in(pixels, shown[0], rect)
+
+
+def below(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+    """As `all_turns`, of what lies below the placement: one turn is laid behind those within it, from the innermost on
+    that holds the rectangle, until all is hidden."""
+    first = turns.holding(level, rect)
+    shown: list[Rect] = []
+    part = turns.within(first, level, rect)
+    while not part.empty:
+        shown.append(part)
+        part = turns.within(first + len(shown), level, part)
+    pixels: np.ndarray | None = None
+    for n in reversed(range(len(shown))):
+        part = shown[n]
+        pixels = None if pixels is None else set_in(pixels, shown[n + 1], part)
+        pixels = _behind(pixels, turns, first + n, level, part, draw)
+    if not shown:
+        return None
+    pixels = None if pixels is None else set_in(pixels, shown[0], rect)
+    for turn in reversed(range(first)):
+        if pixels is not None and hides(pixels):
+            break
+        pixels = _behind(pixels, turns, turn, level, rect, draw)
+    return pixels
+
+
+def _behind(
+    pixels: np.ndarray | None, turns: Turns, turn: int, level: int, rect: Rect, draw: Draw
+) -> np.ndarray | None:
+    """Returns pixels with a turn laid behind them, cut by its frame."""
+    if pixels is None or not hides(pixels):
+        drawn = draw(turn, rect, None)
+        if pixels is None:
+            pixels = drawn
+        elif drawn is not None:
+            pixels = np.array(pixels, np.float32, order="C")
+            lay_behind(pixels, drawn)
+    return _cut(turns, turn, level, rect, pixels)
+
+
+def above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+    """As `all_turns`, of what lies above the placement, which lays all over nothing: from the outermost turn inwards,
+    until all is hidden.  `layers`: all that is drawn, if there are no placements among it."""
+    first = 0 if layers is None else turns.empty(layers, level, rect)
+    front: np.ndarray | None = None
+    turn, part = first, turns.within(first, level, rect)
+    while not part.empty:
+        drawn = _cut(turns, turn, level, part, draw(turn, part, None))
+        if drawn is not None:
+            front = np.zeros((4, rect.height, rect.width), np.float32) if front is None else front
+            if lay_behind(front[:, *part.slices(rect)], np.ascontiguousarray(drawn)):
+                break
+        turn += 1
+        part = turns.within(turn, level, part)
+    return front
+
+
+def laid(front: np.ndarray | None, back: np.ndarray | None) -> np.ndarray | None:
+    """Returns one picture over another; `front` is written to."""
+    if front is not None and back is not None:
+        lay_behind(front, np.ascontiguousarray(back))
+    return back if front is None else front
+
+
+def _cut(turns: Turns, turn: int, level: int, rect: Rect, pixels: np.ndarray | None) -> np.ndarray | None:
+    clip = turns[turn].own
+    return None if pixels is None or clip is None else clipped(pixels, (clip,), level, rect)
+
+
+def hides(pixels: np.ndarray) -> bool:
+    """Tells whether nothing that lies behind pixels counts."""
+    return bool((pixels[3] > HIDING).all())
+
+
+@kernel
+def lay_behind(front: np.ndarray, behind: np.ndarray) -> bool:
+    """Lays pixels behind others, both premultiplied float32 (4, h, w); one of which less than 2^-12 is left stays as
+    it is.  Returns whether all do now."""
+    one, hidden = np.float32(1), True
+    for y in range(front.shape[1]):
+        for x in range(front.shape[2]):
+            if front[3, y, x] <= HIDING:
+                left = one - front[3, y, x]
+                for c in range(4):
+                    front[c, y, x] += left * behind[c, y, x]
+                hidden &= front[3, y, x] > HIDING
+    return hidden
