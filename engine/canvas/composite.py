@@ -19,7 +19,7 @@ from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import UNPLACED, Seen, looked_through
-from engine.canvas.placing.turns import turns_of
+from engine.canvas.placing.self_turns import turns_of
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
 
@@ -238,11 +238,11 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
     if own.opacity != 1 or not all(step.over for step in above):
         pixels = unrolled.all_turns(turns, level, part, both)
     else:
-        pixels = unrolled.below(turns, level, part, lambda turn, shown, _: drawn(below, turn, shown))
+        pixels = unrolled.lying_below(turns, level, part, lambda turn, shown, _: drawn(below, turn, shown))
         if above:
             layers = _only_layers(above)
-            front = unrolled.above(turns, layers, level, part, lambda turn, shown, _: drawn(above, turn, shown))
-            pixels = unrolled.laid(front, pixels)
+            front = unrolled.lying_above(turns, layers, level, part, lambda turn, shown, _: drawn(above, turn, shown))
+            pixels = unrolled.laid_over(front, pixels)
     return None if pixels is None else outer.clipped(pixels, level, part, rect)
 
 

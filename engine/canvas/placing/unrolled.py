@@ -9,7 +9,7 @@ import numpy as np
 from engine.canvas.layers import Layer
 from engine.canvas.placing.clip import clipped
 from engine.canvas.placing.through import set_in
-from engine.canvas.placing.turns import Turns
+from engine.canvas.placing.self_turns import Turns
 from engine.numeric.address import Rect
 from engine.numeric.kernel import kernel
 
@@ -34,7 +34,7 @@ def all_turns(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | 
     return None if pixels is None else set_in(pixels, shown[0], rect)
 
 
-def below(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+def lying_below(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
     """As `all_turns`, of what lies below the placement: one turn is laid behind those within it, from the innermost on
     that holds the rectangle, until all is hidden."""
     first = turns.holding(level, rect)
@@ -72,7 +72,7 @@ def _behind(
     return _cut(turns, turn, level, rect, pixels)
 
 
-def above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
     """As `all_turns`, of what lies above the placement, which lays all over nothing: from the outermost turn inwards,
     until all is hidden.  `layers`: all that is drawn, if there are no placements among it."""
     first = 0 if layers is None else turns.empty(layers, level, rect)
@@ -89,7 +89,7 @@ def above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, 
     return front
 
 
-def laid(front: np.ndarray | None, back: np.ndarray | None) -> np.ndarray | None:
+def laid_over(front: np.ndarray | None, back: np.ndarray | None) -> np.ndarray | None:
     """Returns one picture over another; `front` is written to."""
     if front is not None and back is not None:
         lay_behind(front, np.ascontiguousarray(back))
