@@ -18,8 +18,8 @@ from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.through import UNPLACED, Seen, looked_through
 from engine.canvas.placing.self_turns import turns_of
+from engine.canvas.placing.through import UNPLACED, Seen, looked_through
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from engine.canvas.layers import Layer
 from engine.canvas.placing.clip import clipped
-from engine.canvas.placing.through import set_in
 from engine.canvas.placing.self_turns import Turns
+from engine.canvas.placing.through import set_in
 from engine.numeric.address import Rect
 from engine.numeric.kernel import kernel
 
