@@ -24,7 +24,8 @@ def _zeros(planes: int) -> np.ndarray:
     return np.zeros((planes, TILE, TILE), np.float32)
 
 
-_AT_ONCE = 32  # tiles that are worked out together: where much ink lies, these take a hundred megabytes
+_FIRST = 16  # tiles that are worked out together, until one knows how much ink lies there
+_PIECE = 32 << 20  # bytes of tiles that are worked out together then
 _BLANK, _TILE = Planes(_zeros(COLOURS)), Rect(0, 0, TILE, TILE)
 
 
@@ -73,8 +74,13 @@ def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -
             values[key] = value
         else:
             missing.append(key)
-    for first in range(0, len(missing), _AT_ONCE):
-        values |= _evaluated(pyramid, missing[first : first + _AT_ONCE], cache)
+    size, first = _FIRST, 0
+    while first < len(missing):
+        found = _evaluated(pyramid, missing[first : first + size], cache)
+        values |= found
+        first += size
+        most = max((value.data.nbytes for value in found.values() if value is not None), default=0)
+        size = max(_PIECE // most, 1) if most else _FIRST
     return values
 
 

@@ -15,8 +15,8 @@ from engine.session.paging import Paging
 
 SMALLEST_CACHE = 16 << 20  # bytes of evaluated tiles that are worth more than the room they take
 _APART = 32 << 20  # bytes that the process grows by before it is looked after again
-_PASSING = 192 << 20  # bytes that come and go at once, as a save takes them, for which there is room: at most these
-_PASSING_PART = 6  # and of the budget such a part
+_PASSING = 256 << 20  # bytes that come and go at once, as a save takes them, for which there is room: at most these
+_PASSING_PART = 4  # and of the budget such a part
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
 _AGAIN = 2.0  # seconds after which it is, at the latest: giving back takes a hundredth of that

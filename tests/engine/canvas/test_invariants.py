@@ -10,6 +10,7 @@ from engine.brush.edits import edit as edit_of
 from engine.brush.ink import resolve
 from engine.brush.mask import StrokeMask
 from engine.brush.settings import Brush
+from engine.canvas import painted as painting
 from engine.canvas.attenuate import fold
 from engine.canvas.commit import commit
 from engine.canvas.dither import NO_DITHER
@@ -291,6 +292,34 @@ def test_an_edit_of_many_megapixels_equals_the_same_edit_in_parts(limit, monkeyp
     assert [(k, r.rect) for k, r in by_slabs.all_records()] == [(k, r.rect) for k, r in at_once.all_records()]
     pairs = zip(by_slabs.all_records(), at_once.all_records(), strict=True)
     assert all((a.data == b.data).all() for (_, a), (_, b) in pairs)
+
+
+@pytest.mark.parametrize("with_cache", [False, True])
+def test_tiles_worked_out_a_few_at_a_time_are_those_worked_out_together(with_cache, monkeypatch):
+    """However many of them are: where much ink lies they are few, as all together take hundreds of megabytes."""
+    base, sizes, results = painted(9), [], []
+    edit = ArrayEdit(1, -311, -203, np.full((700, 900), 0.5, np.float32), np.full((4, 700, 900), 0.25, np.float32))
+    plain = painting.evaluate_sparse
+
+    def evaluate_sparse(pyramid, level, rect, cache):
+        found = plain(pyramid, level, rect, cache)
+        sizes.append(0 if found is None else found.data.nbytes)
+        return found
+
+    monkeypatch.setattr(painting, "evaluate_sparse", evaluate_sparse)
+    for first, piece in ((1, 1 << 18), (1 << 20, 1 << 40)):
+        monkeypatch.setattr(painting, "_FIRST", first)
+        monkeypatch.setattr(painting, "_PIECE", piece)
+        sizes.clear()
+        results.append((commit(base, edit, TileCache(64 << 20) if with_cache else None), max(sizes), len(sizes)))
+    (few, most_of_few, pieces), (together, most_of_all, whole) = results
+    assert whole == 1
+    assert pieces > 20
+    assert most_of_few < most_of_all / 20
+    pairs = zip(few.all_records(), together.all_records(), strict=True)
+    for (key, one), (place, other) in pairs:
+        assert (key, one.rect, one.inks) == (place, other.rect, other.inks)
+        assert (one.data == other.data).all()
 
 
 def test_a_thin_stroke_across_a_wide_canvas_takes_memory_for_the_stroke_alone(monkeypatch):
