@@ -13,7 +13,7 @@ import glfw  # isort: skip
 import moderngl
 from imgui_bundle.imgui import backends
 
-from app import cursor, theme
+from app import cursor, guide_marks, theme
 from app.actions.file_actions import close
 from app.callbacks import Callbacks
 from app.canvas.gallery import Gallery
@@ -173,7 +173,9 @@ class Window:
         with self._guard.spare_drawing("drawing the canvas's marks"):
             cursor.draw_frame(self.desk)
             cursor.draw_growing(self.desk)
+            guide_marks.draw_guides(self.desk)
             cursor.draw_outline(self.desk)
+            guide_marks.draw_copies(self.desk)
             box_marks.draw(self.desk)
         with self._guard.spare_drawing("laying out the panels"):
             self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")

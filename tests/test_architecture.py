@@ -32,7 +32,7 @@ ORDER = (
     ("app.desk",),
     ("app.actions", "app.tools"),
     ("app.panels",),
-    ("app.router", "app.cursor", "app.wanted_tiles", "app.news", "app.pace", "app.drawing"),
+    ("app.router", "app.cursor", "app.guide_marks", "app.wanted_tiles", "app.news", "app.pace", "app.drawing"),
     ("app.callbacks", "app.decoration"),
     ("app.window",),
     ("app.loop",),

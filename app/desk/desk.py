@@ -15,6 +15,7 @@ from app.canvas.glide import Glide
 from app.canvas.view import Place, View, view_of
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
+from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
@@ -113,6 +114,7 @@ class Desk:
     recovery: RecoveryState = field(default_factory=RecoveryState)
     past: PastState = field(default_factory=PastState)
     places: PlaceState = field(default_factory=PlaceState)
+    guides: GuideState = field(default_factory=GuideState)
     moving: MoveState = field(default_factory=MoveState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references

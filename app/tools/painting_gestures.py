@@ -11,6 +11,7 @@ from app.desk import palette
 from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples import example_use
+from app.desk.guides import symmetry
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.trace import trace, trace_points
@@ -48,7 +49,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
     smoother = Smoother(desk.hand.stabiliser)
-    desk.post(Begin(level, origin, brush))
+    desk.post(Begin(level, origin, brush, copies=symmetry.copies_at(desk, level, origin)))
     desk.painting = True
     done = False
     try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from app import icons
 from app.tools.asking_gestures import pick
 from app.tools.gesture import Tool
+from app.tools.guide_gestures import move_guide
 from app.tools.moving_gestures import move
 from app.tools.painting_gestures import paint
 from app.tools.view_gestures import pan, turn, zoom
@@ -13,6 +14,9 @@ TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
     "move": Tool(
         "Move", icons.MOVE, move, "Drag the layer; its handles scale and turn it, with Shift by steps.  Nothing is lost"
+    ),
+    "guides": Tool(
+        "Move guides", icons.GUIDES, move_guide, "Drag the centre of the symmetry, or turn its axis; by 15° with Shift"
     ),
     "pan": Tool("Pan", icons.HAND, pan, "Drag the picture (Space or the middle button with any tool)"),
     "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),

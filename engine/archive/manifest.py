@@ -30,6 +30,7 @@ from engine.files.strict_json import Fields
 from engine.numeric.address import TILE, Rect
 from engine.numeric.arithmetic import EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
+from engine.painting.guiding.guides import NO_GUIDES, Guides, read_guides, write_guide
 from engine.painting.layering.placing_members import Placing, read_placing, write_placing
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT, read_grid
@@ -40,7 +41,7 @@ from engine.texture.image import ImageSource
 from engine.texture.placed import PlacedInk
 from engine.texture.table import TextureError
 
-FORMAT = 6  # of paintings with selections or references
+FORMAT = 6  # of paintings with selections, references or guides
 PLACED_FORMAT = 5  # of others with placements, or of the grid of 2^-12
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
@@ -96,6 +97,7 @@ class Manifest:
     arithmetic: int = LIBRARY
     grid: int = FINE
     selections: tuple[SelectionEntry, ...] = ()
+    guides: Guides = field(default_factory=lambda: NO_GUIDES)
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -115,7 +117,7 @@ class Manifest:
     def painting(self, root: Group, textures: Map[str, Texture], chosen: Chosen = Chosen()) -> Painting:  # noqa: B008
         """Returns the painting of layers, textures and selections."""
         own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
-        return Painting(*own, *chosen)
+        return Painting(*own, *chosen, guides=self.guides)
 
     def grown_bytes(self) -> int:
         """Returns what all that was painted with examples takes in memory, about; FieldError if an example cannot
@@ -160,6 +162,7 @@ def manifest_json(
             for name, t in sorted(painting.textures.items())
         },
         **({"bookmarks": list(map(write_bookmark, painting.bookmarks.values()))} if painting.bookmarks else {}),
+        **({"guides": list(map(write_guide, painting.guides.values()))} if painting.guides else {}),
         **({"synthesis": SYNTHESIS, "examples": plot_files.examples_json(examples)} if examples else {}),
         **selection_files.selections_told(selections, _pack_json),
         "pictures": {
@@ -172,7 +175,7 @@ def manifest_json(
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
     roles = any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root))
-    if roles or painting.selection is not None or painting.selections:
+    if roles or painting.guides or painting.selection is not None or painting.selections:
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
@@ -237,6 +240,7 @@ def parse_manifest(value: Any) -> Manifest:
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
         raise members.fault("active", "the name of a layer")
+    guides, left_out = read_guides(members.take("guides", []))
     return Manifest(
         Rect.at(x, y, width, height),
         members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
@@ -251,10 +255,11 @@ def parse_manifest(value: Any) -> Manifest:
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
-        *_bookmarks(members.take("bookmarks", [])),
+        *_bookmarks(members.take("bookmarks", []), left_out),
         members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
         held.grid,
         selection_files.read_selections(members.take("selections", []), _packs),
+        guides,
     )
 
 
@@ -343,9 +348,9 @@ def _picture(sha: str, value: Any) -> PictureEntry:
     return PictureEntry(members.text("name"), sha, (width, height), _packs(members))
 
 
-def _bookmarks(value: object) -> tuple[Bookmarks, tuple[str, ...]]:
-    """Returns the bookmarks that can be read, and a line for each that cannot: no paint depends on them."""
-    bookmarks, notes = NO_BOOKMARKS, list[str]()
+def _bookmarks(value: object, notes: list[str]) -> tuple[Bookmarks, tuple[str, ...]]:
+    """Returns the bookmarks that can be read, after `notes` a line for each that cannot: no paint hangs on them."""
+    bookmarks, notes = NO_BOOKMARKS, list(notes)
     for i, told in enumerate(value if isinstance(value, list) else [value]):
         try:
             command = read_bookmark(Fields(told, f"bookmarks[{i}]"))

@@ -21,6 +21,9 @@ from engine.files.strict_json import Fields
 from engine.painting import fill_command, layer_commands, places, select_commands
 from engine.painting.fill_command import Fill as Fill
 from engine.painting.fill_command import Like as Like
+from engine.painting.guiding import guides
+from engine.painting.guiding.guides import Guide as Guide
+from engine.painting.guiding.guides import RemoveGuide as RemoveGuide
 from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
 from engine.painting.layer_commands import AddLayer as AddLayer
 from engine.painting.layer_commands import AddPicture as AddPicture
@@ -119,7 +122,19 @@ class Swap:
     extra: Map[str, Any] = _NOTHING
 
 
-Command = Stroke | Fill | LayerCommand | Undo | Redo | View | DefineTexture | Swap | Select | places.BookmarkCommand
+Command = (
+    Stroke
+    | Fill
+    | LayerCommand
+    | Undo
+    | Redo
+    | View
+    | DefineTexture
+    | Swap
+    | Select
+    | places.BookmarkCommand
+    | guides.GuideCommand
+)
 
 
 def parse(value: Any, where: str = "") -> Command:
@@ -231,5 +246,6 @@ COMMANDS: dict[str, Form] = {
     "swap": Form((Swap,), _read_swap, _write_swap),
     "select": Form((Select,), select_commands.read_select, select_commands.write_select),
     "bookmark": Form((Bookmark, RemoveBookmark, RenameBookmark), places.read_bookmark, places.write_bookmark),
+    "guide": Form((Guide, RemoveGuide), guides.read_guide, guides.write_guide),
 }
 NAMES = {record: name for name, form in COMMANDS.items() for record in form.records}

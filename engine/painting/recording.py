@@ -34,6 +34,7 @@ from engine.painting.commands import (
     parse,
     to_json,
 )
+from engine.painting.guiding.guides import GuideCommand
 from engine.painting.layer_commands import LayerCommand
 from engine.painting.layer_commands import version as layer_version
 from engine.painting.places import BookmarkCommand
@@ -109,7 +110,7 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     copied = isinstance(command, Stroke) and bool(command.copies)
-    return 2 if region or copied or isinstance(command, BookmarkCommand | Fill | Select) else 1
+    return 2 if region or copied or isinstance(command, BookmarkCommand | Fill | Select | GuideCommand) else 1
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

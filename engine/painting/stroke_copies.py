@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from engine.brush.copies import NO_COPIES, Copies, Copy, symmetric
 from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_number
@@ -29,7 +27,7 @@ def read_copies(members: Fields) -> Copies:
     return tuple(_copy(row, f"{place}[{i}]") for i, row in enumerate(rows)) if rows else NO_COPIES
 
 
-def write_copies(copies: Copies) -> list[list[Any]]:
+def write_copies(copies: Copies) -> list[list[float | bool]]:
     """Tells copies; `read_copies` is the inverse."""
     return [[*map(plain, copy[:4]), True] if copy.mirror else list(map(plain, copy[:4])) for copy in copies]
 
@@ -40,15 +38,18 @@ def fits(copy: Copy) -> bool:
     return near and _SMALLEST <= copy.scale <= _LARGEST
 
 
-def _copy(row: Any, place: str) -> Copy:
-    good = type(row) is list and len(row) in (4, 5) and all(map(is_number, row[:4]))
-    if not good or (len(row) == 5 and not isinstance(row[4], bool)):
-        raise FieldError(place, described(row), "[re, im, x, y, mirror], four numbers and true or false")
+def _copy(row: object, place: str) -> Copy:
+    expected = "[re, im, x, y, mirror], four numbers and true or false"
+    if not isinstance(row, list) or len(row) not in (4, 5) or not all(map(is_number, row[:4])):
+        raise FieldError(place, described(row), expected)
+    mirror = row[4] if len(row) == 5 else False
+    if not isinstance(mirror, bool):
+        raise FieldError(place, described(row), expected)
     try:
         re, im, x, y = (float(value) + 0.0 for value in row[:4])
     except OverflowError:
         raise FieldError(place, described(row), "numbers near the origin") from None
-    copy = Copy(re, im, x, y, len(row) == 5 and row[4])
+    copy = Copy(re, im, x, y, mirror)
     if max(abs(re), abs(im)) > _LARGEST or not fits(copy):
         raise FieldError(place, described(row), "a scale from 2^-10 to 2^10, and x and y within 2^30")
     return copy

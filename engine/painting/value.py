@@ -13,6 +13,7 @@ from engine.canvas.store import Pyramid
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE, LIBRARY
 from engine.painting.commands import Same
+from engine.painting.guiding.guides import NO_GUIDES, Guides
 from engine.painting.places import NO_BOOKMARKS, Bookmarks
 from engine.painting.recording import DEFAULT_FRAME, Header
 from engine.painting.textures import Texture, built_in
@@ -28,7 +29,7 @@ class Painting:
     `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name;
     `arithmetic`: in which its pixels are worked out, that of its recording; `grid`: on which the values of its layers
     lie, by its bits, for as long as it lives; `selection`: what strokes are limited to, None for nothing in particular;
-    `selections`: those kept by name."""
+    `selections`: those kept by name; `guides`: what one draws by, by name."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
@@ -40,6 +41,7 @@ class Painting:
     grid: int = FINE
     selection: Selection | None = None
     selections: Saved = field(default_factory=lambda: NONE_SAVED)
+    guides: Guides = field(default_factory=lambda: NO_GUIDES)
 
     @property
     def known_textures(self) -> Map[str, Texture]:

@@ -18,6 +18,7 @@ from engine.checks.field_error import FieldError
 from engine.makers.makers import define
 from engine.painting import commands as c
 from engine.painting.grown import settled_root
+from engine.painting.guiding.guides import GuideCommand, guides_after
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
@@ -193,6 +194,10 @@ def _choose(painting: Painting, command: c.Select, around: Around) -> Painting:
     return selected(painting, command)
 
 
+def _guide(painting: Painting, command: GuideCommand, around: Around) -> Painting:
+    return replace(painting, guides=guides_after(painting.guides, command))
+
+
 _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Stroke: _stroke,
     c.Fill: _fill,
@@ -213,6 +218,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Swap: _swap,
     c.Select: _choose,
     **dict.fromkeys(_BOOKMARKS, _bookmark),
+    **dict.fromkeys(c.COMMANDS["guide"].records, _guide),
 }
 # The commands that undo takes back.  Selecting is no step, nor is defining a texture: strokes keep the one they had.
 STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.DefineTexture, *_BOOKMARKS}

@@ -165,5 +165,6 @@ class Easel(Owned):
             serial=self.serial,
             name=self.name,
             bookmarks=tuple(painting.bookmarks.values()),
+            guides=tuple(painting.guides.values()),
         )
         self.send(scene)

@@ -21,7 +21,7 @@ from engine.studio.past.past_records import PastResult
 from engine.studio.textures.texture_results import TextureResult
 
 if TYPE_CHECKING:
-    from engine.painting.places import Bookmark
+    from engine.painting.commands import Bookmark, Guide
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +83,7 @@ class Scene:
     serial: int = 0  # another number: another painting
     name: str = ""  # what one without a file is called
     bookmarks: tuple[Bookmark, ...] = ()  # in the order in which they were made
+    guides: tuple[Guide, ...] = ()  # and so are these
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,8 +224,7 @@ class Pending:
 
 @dataclass(frozen=True, slots=True)
 class Writing:
-    """How many files are being written, whether the painting's own is among them, and how far what is painted with
-    examples has been grown for them: the part done, 0..1."""
+    """How many files are being written, whether the painting's own is among them, and the part grown for them, 0..1."""
 
     files: int = 0
     saving: bool = False

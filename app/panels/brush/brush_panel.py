@@ -19,6 +19,7 @@ from app.panels.brush import example_section
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
+from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
@@ -53,6 +54,7 @@ class BrushPanel:
     def __init__(self) -> None:
         self._texturing, self._curves = Texturing(), CurveEditor()
         self._operations, self._saving, self._list = Operations(), SaveBrush(), BrushList()
+        self._symmetry = SymmetrySection()
         self._sections: dict[str, Callable[[Desk], None]] = {
             "eraser": example_section.draw_eraser,
             "operations": self._operations.draw,
@@ -92,6 +94,8 @@ class BrushPanel:
             unfolded += special if section in _TALL else 0.0
             self._settings(desk)
         unfolded += self._texturing.draw(desk)
+        if w.section("Symmetry", "Strokes painted several times in one step", opened=False):
+            unfolded += _height_of(lambda: self._symmetry.draw(desk))
         if w.section("Pen pressure", "What the pen's pressure changes", opened=False):
             unfolded += _height_of(lambda: self._dynamics(desk))
         self._below = imgui.get_cursor_pos().y - top - unfolded

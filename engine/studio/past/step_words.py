@@ -43,6 +43,8 @@ def _title(command: c.Command) -> str:
             return _setting(command)
         case c.Select():
             return _selecting(command)
+        case c.Guide(name=name) | c.RemoveGuide(name=name):
+            return f"Guide “{name}”" if isinstance(command, c.Guide) else f"No guide “{name}”"
         case c.Swap(example=example):
             return f"Swap for {example}"
     return type(command).__name__

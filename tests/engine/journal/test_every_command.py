@@ -55,6 +55,8 @@ SAMPLES = {
     places.Bookmark: places.Bookmark("shore", 3.5, (1.5, 2), (800, 600), 12.0),
     places.RenameBookmark: places.RenameBookmark("shore", "coast"),
     places.RemoveBookmark: places.RemoveBookmark("coast"),
+    c.Guide: c.Guide("axis", "symmetry", 3, (1 << 80, -4), ((0.5, 1.25), (30.0, -4.0)), 5, True, True, MORE),
+    c.RemoveGuide: c.RemoveGuide("axis"),
 }
 UNDOABLE = (c.Swap, c.RenameLayer, c.AddPicture)  # which need more than a layer "sky" there
 

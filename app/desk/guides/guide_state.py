@@ -1,0 +1,22 @@
+"""What the window knows of guides besides those of the painting."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from engine.painting.guiding.guides import Guide
+
+
+class Held(NamedTuple):
+    """A guide as it is while it is moved, in the painting of a serial number, until that has it."""
+
+    guide: Guide
+    serial: int
+
+
+@dataclass(slots=True)
+class GuideState:
+    """`held`: the guide in hand."""
+
+    held: Held | None = None

@@ -1,0 +1,77 @@
+"""The guides drawn over the canvas: thin lines, light and dark, and handles while the tool for guides is chosen."""
+
+from __future__ import annotations
+
+import math
+
+from imgui_bundle import ImVec2, imgui
+
+from app import theme
+from app.desk.desk import Desk
+from app.desk.guides import symmetry
+from app.tools.tools import TOOLS
+
+_SIDES = 24  # of a handle's circle
+
+
+def draw_guides(desk: Desk) -> None:
+    """Draws the symmetry's lines from its centre to the edges of the screen."""
+    guide = symmetry.guide_of(desk)
+    if guide is None or guide.off:
+        return
+    x, y = desk.view.to_screen(symmetry.centre_of(guide))
+    a, b, c, d = desk.view.matrix()
+    strong = 1.0 if desk.hand.tool == "guides" else 0.6
+    for dx, dy in symmetry.axes(guide):
+        ends = half_line((x, y), (a * dx + b * dy, c * dx + d * dy), (desk.view.width, desk.view.height))
+        if ends is not None:
+            _line(desk, *ends, strong)
+    if desk.hand.tool == "guides":
+        for at in symmetry.handles(desk, guide):
+            _handle(desk, at)
+
+
+def draw_copies(desk: Desk) -> None:
+    """Draws a faint circle where each copy of the brush is."""
+    guide = symmetry.guide_of(desk)
+    shown = TOOLS[desk.hand.tool].outline and (desk.pointer.over_canvas or desk.painting)
+    if guide is None or guide.off or not shown:
+        return
+    x, y = desk.view.to_screen(symmetry.centre_of(guide))
+    painter, radius = imgui.get_background_draw_list(), max(1.5, desk.hand.brush.radius)
+    dx, dy = desk.pointer.x - x, desk.pointer.y - y
+    for copy in symmetry.on_screen(desk.view, guide):
+        right, down = copy.moved(dx, dy)
+        at = ImVec2(x + right, y + down)
+        painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.3), 0, 1.2 * desk.scale)
+        painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.4), 0, 1.0 * desk.scale)
+
+
+def half_line(
+    start: tuple[float, float], way: tuple[float, float], size: tuple[float, float]
+) -> tuple[tuple[float, float], tuple[float, float]] | None:
+    """Returns the part on a screen of `size` of the half line from `start` on; None where it does not meet it."""
+    low, high = 0.0, math.inf
+    for at, step, side in zip(start, way, size, strict=True):
+        if abs(step) < 1e-12:
+            if not 0.0 <= at <= side:
+                return None
+            continue
+        near, far = sorted((-at / step, (side - at) / step))
+        low, high = max(low, near), min(high, far)
+    if low >= high or high is math.inf:
+        return None
+    (x, y), (dx, dy) = start, way
+    return (x + low * dx, y + low * dy), (x + high * dx, y + high * dy)
+
+
+def _line(desk: Desk, start: tuple[float, float], end: tuple[float, float], strong: float) -> None:
+    painter = imgui.get_background_draw_list()
+    for width, grey, alpha in ((2.0 * desk.scale, 0.0, 0.25 * strong), (1.0, 1.0, 0.6 * strong)):
+        painter.add_line(ImVec2(*start), ImVec2(*end), theme.packed((grey,) * 3, alpha), width)
+
+
+def _handle(desk: Desk, at: tuple[float, float]) -> None:
+    painter, radius = imgui.get_background_draw_list(), 6.0 * desk.scale
+    painter.add_circle_filled(ImVec2(*at), radius, theme.packed((0.0, 0.0, 0.0), 0.5), _SIDES)
+    painter.add_circle(ImVec2(*at), radius, theme.packed((1.0, 1.0, 1.0), 0.95), _SIDES, 1.6 * desk.scale)

@@ -1,0 +1,1 @@
+"""What one draws by: guides of a painting."""
