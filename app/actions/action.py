@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.desk.desk import Desk
+from app.desk.naming import free_name
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -52,14 +53,6 @@ def posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
 def next_layer_name(desk: Desk, stem: str) -> str:
     """`stem` with the first number that no layer has yet."""
     return free_name(stem, {row.name for row in desk.known.scene.layers} if desk.known.scene else set())
-
-
-def free_name(stem: str, taken: set[str]) -> str:
-    """`stem` with the first number that is not taken yet."""
-    n = 1
-    while f"{stem} {n}" in taken:
-        n += 1
-    return f"{stem} {n}"
 
 
 def active(desk: Desk) -> str:

@@ -10,6 +10,7 @@ from app.actions.edit_actions import EDIT_ACTIONS
 from app.actions.file_actions import FILE_ACTIONS
 from app.actions.layer_actions import LAYER_ACTIONS
 from app.actions.merging_actions import MERGING_ACTIONS
+from app.actions.placement_actions import PLACEMENT_ACTIONS
 from app.actions.tool_actions import TOOL_ACTIONS
 from app.actions.view_actions import VIEW_ACTIONS
 from app.desk import offers
@@ -21,6 +22,7 @@ ACTIONS: dict[str, Action] = {
     **TOOL_ACTIONS,
     **LAYER_ACTIONS,
     **MERGING_ACTIONS,
+    **PLACEMENT_ACTIONS,
     **VIEW_ACTIONS,
     "keys": Action("Keys…", "Help", ("F1",), "All keys in one list", asks("keys")),
     "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),

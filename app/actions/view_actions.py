@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable
 
 from app.actions.action import Action as A
-from app.actions.action import Check, always, free_name, ready
+from app.actions.action import Check, always, ready
 from app.desk.desk import Desk
+from app.desk.naming import free_name
 from app.desk.places import going
 from engine.studio.requests import Do
 

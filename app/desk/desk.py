@@ -61,13 +61,13 @@ def _no_thumbnails(_entries: tuple[Entry, ...], _side: int) -> None:
 
 
 class Message(NamedTuple):
-    """A line in the status line, until a time by the monotonic clock.  `offer`: the action, a row of
-    ACTIONS in app.actions, that does something about it; the line is void when that is not to be done any more."""
+    """A line in the status line, until a time by the monotonic clock.  `offers`: the actions, rows of
+    ACTIONS in app.actions, that do something about it; the line is void when none is to be done any more."""
 
     text: str = ""
     bad: bool = False
     until: float = 0.0
-    offer: str = ""
+    offers: tuple[str, ...] = ()
 
 
 def _no_previews(_folder: Path, _rows: Iterable[FileRow], _side: int) -> None:
@@ -127,9 +127,10 @@ class Desk:
         """Takes over what has become known: other values for members of `known`."""
         self.known = replace(self.known, **known)
 
-    def say(self, text: str, bad: bool = False, offer: str = "") -> None:
-        """Shows a line in the status line for some seconds; with a button for an action that it may `offer`."""
-        self.message = Message(text, bad, time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1), offer)
+    def say(self, text: str, bad: bool = False, offer: str = "", offers: tuple[str, ...] = ()) -> None:
+        """Shows a line in the status line for some seconds; with buttons for an action that it may `offer`, or more."""
+        until = time.monotonic() + MESSAGE_SECONDS * (2 if bad else 1)
+        self.message = Message(text, bad, until, (offer,) if offer else offers)
 
     def told(self, note: Note) -> None:
         """Shows what the engine tells: for some seconds, or until it is dealt with."""

@@ -97,17 +97,18 @@ def _says(desk: Desk) -> bool:
     """Tells whether there is a message, and it still holds."""
     message = desk.message
     return time.monotonic() < message.until and (
-        not message.offer or desk.painting or ACTIONS[message.offer].when(desk)
+        not message.offers or desk.painting or any(ACTIONS[offer].when(desk) for offer in message.offers)
     )
 
 
 def _message(desk: Desk) -> None:
     """Draws it, with a button for what it offers."""
-    text, bad, _, offer = desk.message
+    text, bad, _, offers = desk.message
     sign = f"{icons.WARNING}  " if bad else ""
     imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
-    if offer:
-        _button(desk, offer)
+    for offer in offers:
+        if ACTIONS[offer].when(desk):
+            _button(desk, offer)
 
 
 def _offer(desk: Desk, text: str, action: str) -> None:

@@ -11,14 +11,13 @@ from app.desk.moving import held_box
 from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, place_of, spot
 from app.desk.moving.move_state import Label, Trial
 from app.desk.moving.poses import Spin, exact, factor, respun, shifted, spin_of
+from app.desk.moving.setting_down import set_copy_down, set_down
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.numeric.similarity import Dyadic
-from engine.painting.layer_commands import SetLayer
 from engine.painting.layering.placing_members import Placing
-from engine.studio.moving.move_requests import Extent, Try
-from engine.studio.requests import Do
+from engine.studio.moving.move_requests import Try
 from engine.studio.results import LayerRow
 
 Way = Callable[
@@ -29,7 +28,7 @@ Way = Callable[
 def move(desk: Desk, first: PenEvent) -> Gesture:
     """The layer, group or placement that is chosen follows the pointer; by a handle of its box it is scaled or turned.
 
-    It is seen there at once, and done when it is let go, as one step.
+    It is seen there at once, and done when it is let go, as one step.  With Alt held, a copy of it is moved.
     """
     row = desk.known.active
     if row is None or desk.past.looking is not None:
@@ -40,44 +39,32 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
         return
     box = held_box.seen_box(desk)
     desk.moving.grip = (box.grip(first.x, first.y) if box is not None else "") or INSIDE
+    copying = desk.pointer.alt and desk.moving.grip == INSIDE
     way, start = _way(desk, row, first), desk.moving.pose(desk.known, row)
     event, pose, done = first, start, False
     try:
         while event.kind not in ENDS:
-            pose = _tried(desk, row, way(event), pose)
+            pose = _tried(desk, row, (pose, copying), way(event))
             event = yield
         done = event.kind == "up"
     finally:
         desk.moving.label, desk.moving.grip = None, ""
         if done and pose != start:
-            set_down(desk, row, pose)
+            (set_copy_down if copying else set_down)(desk, row, pose)
         else:
             desk.moving.trial = None
             desk.post(Try(row.name, None))
 
 
-def set_down(desk: Desk, row: LayerRow, pose: Pose) -> None:
-    """Moves the layer, group or placement to a pose, as one step; its box is there at once."""
-    desk.post(Do(SetLayer(row.name, placing=Placing.at_pose(pose))))
-    held = held_box.part(desk, row)
-    if held is not None and row.shows is None and not row.group and pose.similarity.quarter is not None:
-        desk.moving.trial = None  # it stays a layer, elsewhere
-        level = held.level - pose.levels
-        there = SourcePart(level, pose.similarity.shown(held.rect, held.level, level))
-        desk.moving.extent = Extent(row.name, there)
-    else:
-        desk.moving.trial = Trial(desk.known.scene, row.name, pose)
-
-
-def _tried(desk: Desk, row: LayerRow, found: tuple[Pose, str], before: Pose) -> Pose:
-    """Shows it where it is now, and returns that; where it was before, if it cannot be there."""
-    pose, text = found
+def _tried(desk: Desk, row: LayerRow, before: tuple[Pose, bool], found: tuple[Pose, str]) -> Pose:
+    """Shows it, or a copy of it, where it is now, and returns that; where it was before, if it cannot be there."""
+    (was, copying), (pose, text) = before, found
     if pose.wrong() is not None:
-        return before
-    desk.moving.label = Label(text, exact(pose, desk.view.shown_level))
-    if pose != before:
+        return was
+    desk.moving.label = Label(f"copy  {text}" if copying else text, exact(pose, desk.view.shown_level))
+    if pose != was:
         desk.moving.trial = Trial(desk.known.scene, row.name, pose)
-        desk.post(Try(row.name, Placing.at_pose(pose)))
+        desk.post(Try(row.name, Placing.at_pose(pose), copying))
     return pose
 
 

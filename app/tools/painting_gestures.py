@@ -12,6 +12,7 @@ from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.guides import symmetry
+from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.trace import trace, trace_points
@@ -27,20 +28,29 @@ def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, sta
     return [x, y, pressure, event.tilt_x, event.tilt_y, event.time - start]
 
 
-def paint(desk: Desk, first: PenEvent) -> Gesture:
-    """Returns a stroke, at the level that is shown."""
+def _refused(desk: Desk) -> bool:
+    """Says why nothing can be painted now, if that is so."""
     if desk.known.opening and not desk.known.ready:  # who paints before the engine is there paints on a new painting
         desk.say("The paint engine is still loading")
-        return
+        return True
     if desk.past.looking is not None:
         desk.say("This is an earlier step: nothing can be painted on it", bad=True, offer="now")
-        return
+        return True
     layer = desk.known.active
     if layer is not None and layer.locked:
         desk.say(f"Layer “{layer.name}” is locked", bad=True)
+        return True
+    return False
+
+
+def paint(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke, at the level that is shown; on a placement, on what it shows."""
+    if _refused(desk):
         return
-    if layer is not None and layer.shows is not None:
-        desk.say(f"“{layer.name}” shows “{layer.shows.name or 'the painting'}”: paint on that", bad=True)
+    layer = desk.known.active
+    aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and layer.shows is not None else None
+    if isinstance(aim, str):
+        desk.say(aim, bad=True, offers=("source", "independent"))
         return
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
@@ -49,18 +59,24 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
     smoother = Smoother(desk.hand.stabiliser)
-    desk.post(Begin(level, origin, brush, copies=symmetry.copies_at(desk, level, origin)))
+    copies = symmetry.copies_at(desk, level, origin)
+    aimed = None if aim is None else aim.begun(level, origin)
+    if aimed is None:
+        desk.post(Begin(level, origin, brush, copies=copies))
+    else:
+        desk.post(Begin(aimed.level, aimed.origin, brush, aimed.layer, copies=aimed.copies(copies)))
     desk.painting = True
     done = False
     try:
         event = first
         while True:
             if event.kind in ("down", "move"):
-                _post(desk, smoother.add(np.array([_point(desk.view, level, origin, event, first.time)])))
+                points = np.array([_point(desk.view, level, origin, event, first.time)])
+                _post_aimed(desk, smoother.add(points), aimed)
             if event.kind in ENDS:
                 break
             event = yield
-        _post(desk, smoother.finish())
+        _post_aimed(desk, smoother.finish(), aimed)
         done = True
     finally:
         desk.painting = False
@@ -68,6 +84,10 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         trace("a stroke is posted" if done else "a stroke is dropped")
     if brush.row.lays_ink:
         desk.hand.remember()
+
+
+def _post_aimed(desk: Desk, points: np.ndarray, aimed: Aimed | None) -> None:
+    _post(desk, points if aimed is None else aimed.points(points))
 
 
 def paint_lab(desk: Desk, first: PenEvent) -> Gesture:

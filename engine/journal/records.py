@@ -50,13 +50,15 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Touch:
-    """How a stroke begins: where, with what brush, and when, where the window tells (seconds since 1970)."""
+    """How a stroke begins: where, with what brush, and when, where the window tells (seconds since 1970); `layer`: None
+    for the active one."""
 
     level: int
     origin: tuple[int, int]
     brush: Brush
     time: float | None = None
     copies: Copies = NO_COPIES
+    layer: str | None = None
 
 
 def told_object(value: Mapping[str, object]) -> bytes:
@@ -119,6 +121,8 @@ def told_touch(touch: Touch, brush: str) -> bytes:
         about["time"] = touch.time
     if touch.copies:
         about["copies"] = write_copies(touch.copies)
+    if touch.layer is not None:
+        about["layer"] = touch.layer
     text = told_object(about)
     return LENGTH.pack(len(text)) + text + brush.encode()
 
@@ -134,4 +138,6 @@ def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
     members = Fields(read_object(payload[LENGTH.size : end]), "touch")
     level = members.integer("level", lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
     origin = members.integers("origin", 2, limit=PLACE_LIMIT)
-    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None), read_copies(members))
+    layer = None if members.take("layer", None) is None else members.text("layer")
+    copies = read_copies(members)
+    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None), copies, layer)

@@ -106,10 +106,11 @@ class RenameLayer:
 
 @dataclass(frozen=True, slots=True)
 class DuplicateLayer:
-    """A copy named `to`, just above the original."""
+    """A copy named `to`, just above the original; elsewhere, if it has a `placing`, as a `SetLayer` has it."""
 
     name: str
     to: str
+    placing: Placing | None = None
     extra: Extra = _NOTHING
 
 
@@ -162,6 +163,11 @@ def _no_more(members: Fields) -> Members:
 
 def _new_name(members: Fields) -> Members:
     return {"to": members.text("to")}
+
+
+def _copy(members: Fields) -> Members:
+    placing = read_placing(members)
+    return {**_new_name(members), "placing": None if placing == Placing() else placing}
 
 
 def _group(members: Fields) -> str | Same | None:
@@ -232,7 +238,7 @@ LAYER_FORMS: dict[str, LayerForm] = {
     "select": LayerForm(SelectLayer, _no_more),
     "remove": LayerForm(RemoveLayer, _no_more),
     "rename": LayerForm(RenameLayer, _new_name),
-    "duplicate": LayerForm(DuplicateLayer, _new_name),
+    "duplicate": LayerForm(DuplicateLayer, _copy),
     "move": LayerForm(MoveLayer, _position),
     "set": LayerForm(SetLayer, _settings),
 }
@@ -300,5 +306,6 @@ def write_layer(command: LayerCommand) -> Members:
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    newer = isinstance(command, SetLayer) and not (command.placing is None and command.role is None)
+    newer = isinstance(command, SetLayer) and command.role is not None
+    newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
     return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

@@ -154,6 +154,9 @@ def _rename(painting: Painting, command: c.RenameLayer, around: Around) -> Paint
 def _duplicate(painting: Painting, command: c.DuplicateLayer, around: Around) -> Painting:
     root = layers.duplicate(painting.root, command.name, command.to)
     copied = isinstance(layers.find(root, command.to), Layer)
+    if command.placing is not None:
+        made = replace(painting, root=root, active=command.to)
+        return _set(made, c.SetLayer(command.to, placing=command.placing), around)
     return replace(painting, root=root, active=command.to if copied else painting.active)
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from engine.canvas import layers
 from engine.canvas.flatten import flattened
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.bake import baked
 from engine.canvas.placing.placement import Placement
@@ -32,14 +32,28 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
     return replace(painting, root=_shown_from_beside(painting.root, node, pose))
 
 
-def tried(painting: Painting, name: str, placing: Placing) -> Painting:
-    """Returns how a painting looks with a node elsewhere, made at once: no paint is touched."""
+def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -> Painting:
+    """Returns how a painting looks with a node, or a copy of it, elsewhere, made at once: no paint is touched."""
     node = layers.find(painting.root, name)
-    if isinstance(node, Placement):
+    if copy:
+        root = _shown_besides(painting.root, node, placing)
+    elif isinstance(node, Placement):
         root = layers.substitute(painting.root, name, replace(node, pose=placing.posed(node.pose)))
     else:
         root = _shown_from_beside(painting.root, node, placing.posed(UNMOVED))
     return replace(painting, root=root)
+
+
+def _shown_besides(root: Group, node: Node, placing: Placing) -> Group:
+    """Returns the tree with a placement of a node, or of what that shows, right above it."""
+    number, name = layers.next_id(root), layers.free_name(root, f"{node.name} copy")
+    if isinstance(node, Placement):
+        shown = replace(node, id=number, name=name, pose=placing.posed(node.pose))
+    else:
+        pose = placing.posed(UNMOVED)
+        shown = Placement(number, name, node.opacity, node.visible, node.blend, node.locked, node.id, pose)
+    group, position = layers.place(root, node.name)
+    return layers.insert(root, shown, group, position + 1)
 
 
 def _shown_from_beside(root: Group, node: Layer | Group, pose: Pose) -> Group:

@@ -138,7 +138,8 @@ class Steps(Owned):
             return replace(now, step=step, active=now.painting.active)
         painting, laid = _applied(now.painting, command), now.laid
         if isinstance(command, c.DuplicateLayer) and painting is not now.painting:
-            for one, copy in _copied(painting.root, command):
+            copied = _applied(now.painting, replace(command, placing=None))  # moved, they have the same numbers
+            for one, copy in _copied(copied.root, command):
                 laid = laid.set(copy.id, laid.get(one.id))
         if isinstance(
             command, c.RemoveLayer | c.MergeLayer | c.FlattenGroup

@@ -90,11 +90,12 @@ class Do:
 @dataclass(frozen=True, slots=True)
 class Begin:
     """The pen touches down: `radius` in pixels of `level`, points relative to `origin`, `time`, seconds since 1970;
-    `copies`: where it is drawn again."""
+    `layer`: None for the active one; `copies`: where it is drawn again."""
 
     level: int
     origin: tuple[int, int]
     brush: Brush
+    layer: str | None = None
     time: float | None = None
     copies: Copies = NO_COPIES
 

@@ -190,9 +190,8 @@ class Studio(Owned):
     def _begin(self, request: q.Begin) -> None:
         self.lab.settle()
         no_points, when = np.empty((0, 6)), members(request.time)
-        self.easel.begin(
-            c.Stroke(request.level, request.origin, no_points, request.brush, extra=when, copies=request.copies)
-        )
+        about = request.level, request.origin, no_points, request.brush, request.layer
+        self.easel.begin(c.Stroke(*about, extra=when, copies=request.copies))
 
     def _grow(self) -> None:
         self.grower.step()

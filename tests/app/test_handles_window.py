@@ -56,6 +56,7 @@ def test_a_corner_scales_by_powers_of_two_exactly_and_escape_gives_it_up(app, tm
     drag(app, (x1, y1), ((x0 + x1) // 2, (y0 + y1) // 2))
     app.box("exactly 50 %")
     app.do("key", "Escape")
+    app.until_gone("exactly 50 %")
     app.do("mouseup", 1)
     app.keys("b")
     assert app.comes_to(painted)
@@ -98,3 +99,60 @@ def test_the_handle_above_turns_as_one_step_and_back_to_nothing_lost(app, tmp_pa
     assert app.comes_to(once)
     app.keys("ctrl+z")
     assert app.comes_to(painted)
+
+
+def test_alt_drags_a_copy_in_one_step(app, tmp_path):
+    painted = app.canvas()
+    app.keys("v")
+    handles(app)
+    app.do("keydown", "alt")
+    drag(app, (500, 357), (580, 437))
+    app.box("exactly copy  +80, +80 px")
+    app.do("mouseup", 1)
+    app.do("keyup", "alt")
+    app.box("Layer 1 copy 1")
+    app.keys("b")
+    both = app.canvas_unlike(painted)
+    by = np.abs(both - painted).max(axis=2) > 20
+    old = np.abs(painted - np.roll(painted, (40, 40), axis=(0, 1))).max(axis=2) > 20
+    assert by[: 380 - 60].sum() < 0.2 * old.sum()  # what was there is there
+    app.keys("ctrl+z")
+    assert app.comes_to(painted)
+    app.until_gone("Layer 1 copy 1")
+
+
+def test_a_stroke_on_what_is_shown_again_paints_its_source_too(app):
+    once = app.canvas()
+    app.click("show_again")
+    app.box("Layer 1 again")
+    app.canvas_unlike(once)
+    app.click("Layer 1 again")
+    app.settled()
+    app.keys("v")
+    drag(app, (500, 300), (500, 480))
+    app.do("mouseup", 1)
+    app.keys("b")
+    apart = app.canvas()
+    app.stroke((600, 600), (700, 620))
+    both = app.canvas_unlike(apart)
+    rows = np.flatnonzero((np.abs(both - apart).max(axis=2) > 40).any(axis=1)) + 60
+    assert {row for row in rows if row > 590}
+    assert {row for row in rows if row < 500}  # on the layer itself
+    app.keys("ctrl+z")
+    assert app.comes_to(apart)
+
+
+def test_painting_on_what_is_turned_offers_what_can_be_done(app):
+    app.keys("v")
+    handles(app)
+    x, y = app.at("turn handle")
+    drag(app, (x, y), (x + 60, y + 20))
+    app.do("mouseup", 1)
+    app.keys("b")
+    turned = app.canvas()
+    app.stroke((600, 500), (700, 520))
+    app.box("Go to source", "status")
+    app.click("Make independent", "status")
+    app.settled()
+    app.stroke((600, 500), (700, 520))
+    app.canvas_unlike(turned)

@@ -33,6 +33,6 @@ def hover(desk: Desk) -> None:
 
 
 def wants(desk: Desk) -> None:
-    """Posts what the tool lacks."""
-    if desk.hand.tool == TOOL:
+    """Posts what the tool lacks, or an action that waits."""
+    if desk.hand.tool == TOOL or desk.moving.waits is not None:
         desk.moving.wants(desk.post, desk.known, desk.view.shown_level)

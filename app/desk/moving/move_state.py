@@ -31,12 +31,15 @@ class Label(NamedTuple):
 @dataclass(slots=True)
 class MoveState:
     """`extent`: how far it reaches; `trial`: where it is seen while it is dragged; `label`: what is told of that;
-    `grip`: what of its box the pointer is over, or holds."""
+    `grip`: what of its box the pointer is over, or holds; `waits`: what is done as soon as it is known how far it
+    reaches."""
 
     extent: Extent | None = None
     trial: Trial | None = None
     label: Label | None = None
     grip: str = ""
+    waits: Callable[[], None] | None = None
+    _told: Scene | None = None  # the one that `extent` is of
     _asked: tuple[str, int, Scene | None] | None = None
 
     def pose(self, known: Known, row: LayerRow) -> Pose:
@@ -59,5 +62,16 @@ class MoveState:
             post(AskExtent(row.name, level))
 
     def told(self, extent: Extent) -> None:
-        """Takes the answer."""
+        """Takes the answer, and does what waits for it."""
         self.extent = extent
+        self._told = None if self._asked is None else self._asked[2]
+        waits, self.waits = self.waits, None
+        if waits is not None:
+            waits()
+
+    def sure(self, known: Known, do: Callable[[], None]) -> None:
+        """Does something for which it must be known how far the chosen one reaches now: at once, or when it is."""
+        if self._told is known.scene and self.extent is not None:
+            do()
+        else:
+            self.waits = do

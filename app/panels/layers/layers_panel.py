@@ -204,6 +204,7 @@ class LayersPanel:
             ("add_group", icons.GROUP),
             ("duplicate", icons.COPY),
             ("show_again", icons.LINK),
+            ("independent", icons.UNLINK),
             ("raise", icons.UP),
             ("lower", icons.DOWN),
             ("merge_down", icons.MERGE),

@@ -150,7 +150,8 @@ def _answer(found: Recovered, folder: Path, asked: Unanswered) -> None:
         touch, extra = asked.touch, members(asked.touch.time)
         if len(points):
             points.flags.writeable = False
-            command = c.Stroke(touch.level, touch.origin, points, touch.brush, extra=extra, copies=touch.copies)
+            about = touch.level, touch.origin, points, touch.brush, touch.layer
+            command = c.Stroke(*about, extra=extra, copies=touch.copies)
         if not asked.finished:
             found.missing.append(f"the end of the last stroke: {len(points)} of its points are there")
     before = len(found.session.log)

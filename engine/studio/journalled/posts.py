@@ -73,7 +73,8 @@ class Posts:
         else:
             if self._brush[0] is not request.brush:
                 self._brush = request.brush, told_brush(request.brush)
-            touch = Touch(request.level, request.origin, request.brush, request.time, request.copies)
+            about = request.level, request.origin, request.brush, request.time
+            touch = Touch(*about, request.copies, request.layer)
             number = self._stroke = self.journal.begin(told_touch(touch, self._brush[1]))
         with self._lock:
             self._open[number] = request

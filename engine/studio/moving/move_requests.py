@@ -10,10 +10,12 @@ from engine.painting.layering.placing_members import Placing
 
 @dataclass(frozen=True, slots=True)
 class Try:
-    """Shows a layer, group or placement elsewhere, and changes nothing; None: as the painting has it."""
+    """Shows a layer, group or placement elsewhere, or a `copy` of it besides, and changes nothing; None: as the
+    painting has it."""
 
     name: str
     placing: Placing | None
+    copy: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -50,9 +50,9 @@ class Moves(Owned):
             self._easel.send(Extent(request.name, None))
 
     def _try(self, request: Try) -> None:
-        painting = self._easel.session.painting
+        painting, placing = self._easel.session.painting, request.placing
         try:
-            seen = None if request.placing is None else tried(painting, request.name, request.placing)
+            seen = None if placing is None else tried(painting, request.name, placing, request.copy)
         except LayerError:  # it is gone meanwhile
             seen = None
         if self._easel.live is None:

@@ -39,7 +39,8 @@ class Sketch:
         match request:
             case q.Begin():
                 row = request.brush.row
-                self._open = row.lays_ink or row.takes_away
+                seen = request.layer is None  # one on another layer is seen elsewhere, by placements
+                self._open = seen and (row.lays_ink or row.takes_away)
                 if self._open:
                     stroke = LiveStroke(
                         Painting(), request.level, request.origin, _plain(request.brush), copies=request.copies

@@ -87,7 +87,9 @@ COMMANDS = st.one_of(
     st.builds(c.SelectLayer, names, later),
     st.builds(c.RemoveLayer, names, later),
     st.builds(c.RenameLayer, names, names, later),
-    st.builds(c.DuplicateLayer, names, names, later),
+    st.builds(
+        c.DuplicateLayer, names, names, st.none() | placings.filter(lambda placing: placing != c.Placing()), later
+    ),
     st.builds(c.MoveLayer, names, positions, groups, later),
     st.builds(
         c.SetLayer,

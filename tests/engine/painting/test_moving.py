@@ -143,3 +143,30 @@ def test_what_is_dragged_is_seen_and_nothing_has_changed():
     np.testing.assert_array_equal(studio.easel.viewer.picture(0, tile), seen)
     assert studio.easel.session.painting is not before
     assert replace(before, root=before.root).root is before.root
+
+
+@pytest.mark.parametrize("where", [{"at": [30, -7]}, {"turn": 1, "levels": -1}, TURNED])
+def test_a_copy_is_laid_elsewhere_in_one_step(where):
+    session = painted({"do": "layer", "set": "Layer 1", "opacity": 0.5})
+    before = session.painting
+    copy = c.parse({"do": "layer", "duplicate": "Layer 1", "to": "Copy", **where})
+    seen = picture(tried(before, "Layer 1", copy.placing, copy=True))
+    session.do(copy)
+    np.testing.assert_array_equal(picture(session.painting), seen)
+    assert session.painting.active == "Copy"
+    assert layers.find(session.painting.root, "Layer 1") is layers.find(before.root, "Layer 1")
+    again = Session()
+    for command in session.log:
+        again.do(c.parse(c.to_json(command)))
+    np.testing.assert_array_equal(picture(again.painting), seen)
+    session.do(c.Undo())
+    np.testing.assert_array_equal(picture(session.painting), picture(before))
+    assert session.steps.count == 3
+
+
+def test_a_copy_of_a_placement_shows_the_same_source():
+    session = painted({"do": "layer", "add": "Again", "kind": "placement", "of": "Layer 1", **TURNED})
+    session.do(c.parse({"do": "layer", "duplicate": "Again", "to": "Copy", "at": [50, 0]}))
+    copy, one = (layers.find(session.painting.root, name) for name in ("Copy", "Again"))
+    assert copy.of == one.of
+    assert copy.pose == replace(one.pose, at=(50, 0))
