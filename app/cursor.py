@@ -27,6 +27,7 @@ _SHAPES = {
 }
 # By eighths of a turn from the right, clockwise, of which every other half is the same.
 _WAYS = glfw.RESIZE_EW_CURSOR, glfw.RESIZE_NWSE_CURSOR, glfw.RESIZE_NS_CURSOR, glfw.RESIZE_NESW_CURSOR
+_AROUND = 0.6  # how dark paper is around the frame
 
 
 def shape(desk: Desk, panning: bool) -> int:
@@ -59,8 +60,25 @@ def draw_frame(desk: Desk) -> None:
     painter = imgui.get_background_draw_list()
     far = 4.0 * (view.width + view.height)
     a, b, c, d = (ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in corners)
+    if desk.known.paper is not None:
+        _draw_desk(a, b, c, d, far)
     for width, colour in ((1.8 * desk.scale, theme.packed((0.0,) * 3, 0.25)), (1.0, theme.packed((1.0,) * 3, 0.35))):
         painter.add_quad(a, b, c, d, colour, width)
+
+
+def _draw_desk(a: ImVec2, b: ImVec2, c: ImVec2, d: ImVec2, far: float) -> None:
+    """Darkens the paper around the frame, which goes on without end: `a` to `d` are the frame's corners, in order."""
+    painter, shade = imgui.get_background_draw_list(), theme.packed((0.0,) * 3, _AROUND)
+    wide, tall = math.hypot(b.x - a.x, b.y - a.y), math.hypot(d.x - a.x, d.y - a.y)
+    if wide == 0 or tall == 0:
+        return
+    u, v = (b - a) * (far / wide), (d - a) * (far / tall)
+    outer, inner = (a - u - v, b + u - v, c + u + v, d - u + v), (a, b, c, d)
+    flags, painter.flags = painter.flags, 0  # smoothed, the parts would show seams
+    for i in range(4):
+        j = (i + 1) % 4
+        painter.add_quad_filled(outer[i], outer[j], inner[j], inner[i], shade)
+    painter.flags = flags
 
 
 def draw_outline(desk: Desk) -> None:

@@ -22,7 +22,8 @@ from engine.studio.results import Patch
 
 FADE = 0.13  # seconds
 ANCESTORS = 12  # levels up that are searched for something to show
-LIGHT, DARK = 0.955, 0.225  # greys of the paper and of the desk around it
+LIGHT, DARK = 0.955, 0.225  # greys of the squares where there is no paper, and of the desk around them
+CONTRAST = 0.045  # of the squares
 SQUARE = 16  # side of the paper's squares, pixels of the view's level
 Insets = tuple[float, float, float, float]
 Row = tuple[float, ...]
@@ -60,6 +61,7 @@ class ScreenPlan:
     frame: Rect | None
     insets: Insets
     uploads: int  # of tiles, so far
+    colour: str | None = None  # of the paper, "#rrggbb"; None: squares
     paper: list[Row] = field(default_factory=list)
     whole: list[Row] = field(default_factory=list)
     fading: list[Row] = field(default_factory=list)
@@ -188,7 +190,7 @@ class Screen:
     def draw(self, plan: ScreenPlan) -> None:
         """Draws the canvas."""
         view = plan.view
-        self._set_uniforms(view, plan.frame)
+        self._set_uniforms(view, plan.frame, plan.colour)
         self.ctx.viewport = (0, 0, view.width, view.height)
         self.ctx.scissor = _free(view, plan.insets)
         self.ctx.disable(moderngl.BLEND)
@@ -203,7 +205,7 @@ class Screen:
             self._fading.draw(plan.fading)
         self.ctx.scissor = None
 
-    def _set_uniforms(self, view: View, frame: Rect | None) -> None:
+    def _set_uniforms(self, view: View, frame: Rect | None, colour: str | None) -> None:
         a, b, c, d = view.matrix()
         for one in (self._paper, self._whole, self._fading):
             one.program["size"], one.program["turn"] = (view.width, view.height), (a, b, c, d)
@@ -217,14 +219,26 @@ class Screen:
         p["inverse"], p["frame"] = (a, c, b, d), frame_on_screen(view, frame)
         p["pitch"] = tuple(1 / (SQUARE * view.scale(level)) for level in levels)
         p["phase"], p["blend"] = tuple(phase), view.fraction
-        p["light"], p["dark"] = LIGHT, DARK
+        light: tuple[float, ...] = (LIGHT,) * 3
+        dark: tuple[float, ...] = (DARK,) * 3
+        if colour is not None:
+            light = dark = tuple(int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        p["light"], p["dark"], p["contrast"] = light, dark, CONTRAST if colour is None else 0.0
 
-    def plan(self, view: View, frame: Rect | None, now: float, insets: Insets = (0.0, 0.0, 0.0, 0.0)) -> ScreenPlan:
+    def plan(
+        self,
+        view: View,
+        frame: Rect | None,
+        now: float,
+        insets: Insets = (0.0, 0.0, 0.0, 0.0),
+        paper: str | None = None,
+    ) -> ScreenPlan:
         """Returns what to draw, decided before anything is drawn.
 
-        `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom.
+        `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom; `paper`:
+        its colour, None where there is none.
         """
-        plan = ScreenPlan(view, frame, insets, self._uploads)
+        plan = ScreenPlan(view, frame, insets, self._uploads, paper)
         exact = not view.fraction and not view.angle
         for tile in cells(view, view.shown_level):
             held = self._touch(tile)

@@ -27,6 +27,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("painting", metavar="PAINTING.ora")
     parser.add_argument("out", metavar="OUT", help=" ".join(ENDINGS))
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="level, and rectangle in its pixels")
+    parser.add_argument("--transparent", action="store_true", help="without the paper")
     parser.add_argument("--layer", metavar="NAME", help="only this layer or group")
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits of each channel")
     parser.add_argument(
@@ -89,6 +90,7 @@ def _picture(options: argparse.Namespace, found: Opened, ending: str) -> None:
     write = write_folder if ending in MANY_FILES else write_tiff_ladder if options.pyramid else export
     most = SIDE if ending in MANY_FILES else None
     picture = picture_of(found.painting, options.rect, options.layer, options.depth, most)
+    picture = replace(picture, transparent=options.transparent)
     with Progress("writing", 100) as tell:
         if options.dask is None:
             write(options.out, picture, tell.part)

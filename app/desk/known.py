@@ -52,6 +52,11 @@ class Known:
         return self.scene.frame if self.scene else FIRST_FRAME
 
     @property
+    def paper(self) -> str | None:
+        """Returns the colour of the ground under all layers; None where there is none."""
+        return self.scene.paper if self.scene else None
+
+    @property
     def modified(self) -> bool:
         """Tells whether the painting has changes that are not saved."""
         return self.scene is not None and self.scene.modified

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import BinaryIO
 
@@ -26,13 +26,15 @@ PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """What to export: `rect` of `level` (None: the frame, seen at that level), of all layers or the one named."""
+    """What to export: `rect` of `level` (None: the frame, seen at that level), of all layers or the one named;
+    `transparent`: without the paper."""
 
     painting: Painting
     level: int = 0
     rect: Rect | None = None
     layer: str | None = None
     depth: int = 8
+    transparent: bool = False
 
     @property
     def area(self) -> Rect:
@@ -44,6 +46,7 @@ def shown_root(picture: Picture) -> Group:
     """Returns the layers that a picture shows, grown to the end and with nothing pending; LayerError if there is none
     of that name."""
     root = picture.painting.root
+    root = replace(root, paper=None) if picture.transparent else root
     shown = settled_root(pictured(root)) if picture.layer is None else settled_alone(root, picture.layer)
     return folded_layers(shown)
 

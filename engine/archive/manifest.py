@@ -7,7 +7,7 @@ that grid, premultiplied and sRGB-encoded.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from immutables import Map
@@ -33,7 +33,7 @@ from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.guiding.guides import NO_GUIDES, Guides, read_guides, write_guide
 from engine.painting.layering.placing_members import Placing, read_placing, write_placing
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
-from engine.painting.recording import SIDE_LIMIT, read_grid
+from engine.painting.recording import SIDE_LIMIT, read_grid, read_paper
 from engine.painting.textures import Texture
 from engine.painting.value import Painting
 from engine.texture.example import SYNTHESIS
@@ -41,7 +41,7 @@ from engine.texture.image import ImageSource
 from engine.texture.placed import PlacedInk
 from engine.texture.table import TextureError
 
-FORMAT = 6  # of paintings with selections, references or guides
+FORMAT = 6  # of paintings with selections, references, guides or paper
 PLACED_FORMAT = 5  # of others with placements, or of the grid of 2^-12
 FINE_FORMAT = 4  # of others; 3: packs of the second format; 2: nothing of examples; 1: no colour left to ink
 MANIFEST = "inkfall/manifest.json"
@@ -98,6 +98,7 @@ class Manifest:
     grid: int = FINE
     selections: tuple[SelectionEntry, ...] = ()
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
+    paper: str | None = None
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -116,6 +117,7 @@ class Manifest:
 
     def painting(self, root: Group, textures: Map[str, Texture], chosen: Chosen = Chosen()) -> Painting:  # noqa: B008
         """Returns the painting of layers, textures and selections."""
+        root = replace(root, paper=self.paper)
         own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
         return Painting(*own, *chosen, guides=self.guides)
 
@@ -149,6 +151,7 @@ def manifest_json(
         **({"grid": painting.grid} if painting.grid != FINE else {}),
         "frame": [frame.x0, frame.y0, frame.width, frame.height],
         "seed": painting.seed,
+        **({"paper": painting.paper} if painting.paper is not None else {}),
         **({"arithmetic": painting.arithmetic} if painting.arithmetic != LIBRARY else {}),
         "active": painting.active,
         "layers": [_node_json(node, packs, laid, plots) for node in painting.root.children],
@@ -175,7 +178,8 @@ def manifest_json(
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
     roles = any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root))
-    if roles or painting.guides or painting.selection is not None or painting.selections:
+    chosen = painting.selection is not None or painting.selections
+    if roles or chosen or painting.guides or painting.paper is not None:
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
@@ -260,6 +264,7 @@ def parse_manifest(value: Any) -> Manifest:
         held.grid,
         selection_files.read_selections(members.take("selections", []), _packs),
         guides,
+        read_paper(members) if version > PLACED_FORMAT else None,
     )
 
 

@@ -25,10 +25,12 @@ from engine.archive.grounds import GroundEntry
 from engine.archive.implied import needed, ordered
 from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
+from engine.archive.others.paper_picture import paper_names, paper_pictures, with_paper
+from engine.archive.others.spooled_png import SpooledPng
+from engine.archive.others.stack_sums import with_sums
 from engine.archive.plot_files import PlotEntry
 from engine.archive.saving_turn import SAVING
 from engine.archive.selected import selection_files
-from engine.archive.spooled_png import SpooledPng
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node, isolation
 from engine.canvas.placing import loops
@@ -210,7 +212,7 @@ class SavePlan:
         self._recording = recording
         self.jobs = deque([*seen, *laid, *stored, *grown, *chosen])  # the recording needs pictures: they follow it
         shown: list[Layer | Placement] = [*layers.layers(painting.root), *self._placements]
-        self._shown = [*map(_png_name, shown), MERGED, THUMB]
+        self._shown = [*map(_png_name, shown), *paper_names(painting.paper), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
         recorded = [] if recording is None else [RECORDING]
         self.told = ["mimetype", *recorded, *self.names, "stack.xml"]  # those that the manifest names
@@ -255,6 +257,7 @@ class SavePlan:
                 alone = layers.alone(placement, root)
                 for planes in strips(alone, level, places[placement.id], self._cancelled):
                     png.rows(to_rgba8(planes))
+            files |= paper_pictures(self._painting.paper, self._frame, len(self._shown))
             files[THUMB] = self._thumbnail()
             drawn = [(Job(name, bytes), png.finished()) for name, png in files.items()]
             return [*self._grounds_shown(), *drawn]
@@ -358,7 +361,9 @@ class SavePlan:
         """Adds stack.xml and the manifest, which tell of all that went before, and fills the room that was left."""
         root = self._entry(self._painting.root)
         assert isinstance(root, StackEntry)
-        root = _with_sums(root, {name: entry.sha256 for name, entry in writer.written.items()})
+        root = with_sums(
+            with_paper(root, self._painting.paper), {name: entry.sha256 for name, entry in writer.written.items()}
+        )
         attributes = {"format": str(format_of(self._painting)), "manifest": MANIFEST}
         text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
         writer.add("stack.xml", text, deflate=True)
@@ -372,17 +377,6 @@ class SavePlan:
         held = self._packs, self._grounds, self._plots, self._pictures
         told = manifest_json(self._painting, *held, members, self._selections)
         return dumps(told).encode()
-
-
-def _with_sums(stack: StackEntry, sums: dict[str, str]) -> StackEntry:
-    """Returns the tree with the SHA-256 of each layer's picture: shows later whether another program changed it."""
-    children = tuple(
-        _with_sums(child, sums)
-        if isinstance(child, StackEntry)
-        else replace(child, ours={**child.ours, "sha256": sums[child.src]})
-        for child in stack.children
-    )
-    return replace(stack, children=children)
 
 
 def shown_level(frame: Rect) -> int:

@@ -34,16 +34,30 @@ class Read(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Paper:
+    """The ground under all layers, of one colour "#rrggbb", opaque and without end."""
+
+    colour: str
+
+    def planes(self, rect: Rect) -> np.ndarray:
+        """Returns its pixels, (4, h, w), not to be written to."""
+        out = np.ones((4, rect.height, rect.width), np.float32)
+        for c in range(3):
+            out[c] = np.float32(int(self.colour[1 + 2 * c : 3 + 2 * c], 16)) / np.float32(255)
+        return out
+
+
+@dataclass(frozen=True, slots=True)
 class CompositeStep:
-    """One operation on the picture so far: its source is a layer, the steps of an isolated group, or what a placement
-    shows.
+    """One operation on the picture so far: its source is a layer, the steps of an isolated group, what a placement
+    shows, or the paper.
 
     `over`: the operator is src-over.
     """
 
     row: blend.Blend
     opacity: np.float32
-    source: Layer | tuple[CompositeStep, ...] | Placed
+    source: Layer | tuple[CompositeStep, ...] | Placed | Paper
     over: bool
 
     @property
@@ -133,13 +147,21 @@ def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, .
     return tuple(out)
 
 
+def _whole(root: Group) -> tuple[CompositeStep, ...]:
+    """Returns the steps of a root, over its paper."""
+    plan = steps(root)
+    if root.paper is None:
+        return plan
+    return (CompositeStep(blend.BLENDS["src-over"], np.float32(1), Paper(root.paper), True), *plan)
+
+
 def blocks(root: Group, level: int, rect: Rect, read: Read) -> Iterator[tuple[Rect, np.ndarray | None]]:
     """(place, pixels) of every block of `rect`, row by row; together they tile it.
 
     The pixels are float32 (4, h, w), premultiplied, clamped for display (0 <= alpha <= 1, 0 <= colour <= alpha), valid
     until the next block is asked for; None where the picture is empty.  A pixel's value does not depend on `rect`.
     """
-    plan = steps(root)
+    plan = _whole(root)
     buffers: list[np.ndarray] = []
     for y0 in range(rect.y0 - rect.y0 % BLOCK, rect.y1, BLOCK):
         for x0 in range(rect.x0 - rect.x0 % BLOCK, rect.x1, BLOCK):
@@ -156,7 +178,7 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     if out is None:
         out = np.empty((4, rect.height, rect.width), np.float32)
     if 0 < rect.area <= AT_ONCE and out.flags.c_contiguous:
-        if _draw(_gather(steps(root), level, rect, read, UNPLACED), rect.area, [out.reshape(-1)], 0) is None:
+        if _draw(_gather(_whole(root), level, rect, read, UNPLACED), rect.area, [out.reshape(-1)], 0) is None:
             out[:] = 0
         return out
     for place, pixels in blocks(root, level, rect, read):
@@ -190,8 +212,10 @@ def _covers(step: CompositeStep, source: np.ndarray | _Found | None) -> bool:
     return step.may_cover and isinstance(source, np.ndarray) and bool(source[3, 0] >= 1) and blend.opaque(source)
 
 
-def _pixels(source: Layer | Placed, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
     """Returns the pixels of a layer, or what a placement shows, through a similarity: (4, h, w), None if empty."""
+    if isinstance(source, Paper):
+        return source.planes(rect)
     if isinstance(source, Layer):
         layer = source
         return looked_through(lambda at, part: read(layer, at, part), level, rect, seen)

@@ -60,7 +60,9 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """Layers and groups composited as one.  `isolated`: see `passes_through`.  `locked` locks all that is inside."""
+    """Layers and groups composited as one.  `isolated`: see `passes_through`.  `locked` locks all that is inside.
+
+    `paper`: of a root alone, the colour "#rrggbb" of the ground under all layers; None: there is none."""
 
     id: int
     name: str
@@ -70,6 +72,7 @@ class Group:
     locked: bool = False
     isolated: bool = True
     children: tuple[Node, ...] = ()
+    paper: str | None = None
 
     def __post_init__(self) -> None:
         check_common(self)

@@ -78,6 +78,7 @@ def captured(members: Fields, root: Group) -> np.ndarray:
     if abs(level) > LEVEL_LIMIT or width < 1 or height < 1 or (width * height) << (2 * detail) > PIXELS_CAP:
         raise members.fault("rect", f"[L, X, Y, W, H] of at most {PIXELS_CAP} pixels at the finest level")
     name = members.text("layer", None)
+    root = replace(root, paper=None)  # what is taken is paint: where there is none, there is no picture
     shown = settled_root(root) if name is None else settled_alone(root, name)
     rect = Rect.at(x, y, width, height).zoomed(detail)
     return snapped(np.concatenate([strip.copy() for strip in strips(shown, level + detail, rect)], axis=1))

@@ -7,6 +7,7 @@ V is the oldest version of the format that knows all that the recording tells.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -40,7 +41,7 @@ from engine.painting.layer_commands import version as layer_version
 from engine.painting.places import BookmarkCommand
 
 VERSION = 2  # that is read; older ones too
-VERSION_OF_GRIDS = 2  # from which on the header tells the grid
+VERSION_OF_GRIDS = 2  # from which on the header tells the grid, and the paper
 TOTAL_CAP = 2 << 30  # bytes of a recording
 COMMANDS_CAP = 4_000_000
 BLANK_CAP = 1_000_000  # blank lines
@@ -48,6 +49,7 @@ TELL_LINES, TELL_BYTES = 4096, 1 << 20  # from one word about how far it is to t
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
 BytesRead = Callable[[int], object] | None
+_COLOUR = re.compile("#[0-9a-fA-F]{6}")
 _BOM = b"\xef\xbb\xbf"
 T = TypeVar("T")
 
@@ -55,13 +57,15 @@ T = TypeVar("T")
 @dataclass(frozen=True, slots=True)
 class Header:
     """`frame`: level-0 pixels; `seed`: of every texture that is not given its own; `arithmetic`: in which pixels are
-    worked out, `grid`: on which their values lie, both for as long as the painting lives."""
+    worked out, `grid`: on which their values lie, both for as long as the painting lives; `paper`: the colour of the
+    ground under all layers, None where there is none."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
     extra: Map[str, Any] = field(default_factory=Map)
     arithmetic: int = LIBRARY
     grid: int = FINE
+    paper: str | None = None
 
     def to_json(self, version: int = 1) -> dict[str, Any]:
         """Tells the header as the first line of a recording of `version` or later does; `parse_header` is the inverse.
@@ -70,10 +74,12 @@ class Header:
         one, and where a member of that name, which says nothing in version 1, would be taken for it.
         """
         frame = [self.frame.x0, self.frame.y0, self.frame.width, self.frame.height]
-        version = max(version, self.arithmetic, VERSION_OF_GRIDS if self.grid != FINE else 1)
-        other = {"arithmetic": self.arithmetic} if self.arithmetic < version else {}
+        version = max(version, self.arithmetic, VERSION_OF_GRIDS if self.grid != FINE or self.paper is not None else 1)
+        other: dict[str, object] = {"arithmetic": self.arithmetic} if self.arithmetic < version else {}
         if self.grid != FINE or (version >= VERSION_OF_GRIDS and "grid" in self.extra):
             other["grid"] = self.grid
+        if self.paper is not None or (version >= VERSION_OF_GRIDS and "paper" in self.extra):
+            other["paper"] = self.paper
         return {"inkfall": version, "frame": frame, "seed": self.seed, **thawed(self.extra), **other}
 
 
@@ -216,7 +222,8 @@ def parse_header(value: Any) -> Header:
     seed = members.integer("seed", 0, lo=-SEED_LIMIT, hi=SEED_LIMIT)
     arithmetic = members.integer("arithmetic", EVERYWHERE, lo=LIBRARY, hi=EVERYWHERE) if version > 1 else LIBRARY
     grid = read_grid(members) if version >= VERSION_OF_GRIDS else FINE
-    return Header(Rect.at(x, y, width, height), seed, members.rest(), arithmetic, grid)
+    paper = read_paper(members) if version >= VERSION_OF_GRIDS else None
+    return Header(Rect.at(x, y, width, height), seed, members.rest(), arithmetic, grid, paper)
 
 
 def read_grid(members: Fields) -> int:
@@ -225,6 +232,14 @@ def read_grid(members: Fields) -> int:
     if type(grid) is not int or grid not in (COARSE, FINE):
         raise members.fault("grid", f"{FINE} or {COARSE}")
     return grid
+
+
+def read_paper(members: Fields) -> str | None:
+    """Returns the member `paper` of a header or a manifest, a colour in small letters; None where there is none."""
+    paper = members.take("paper", None)
+    if paper is not None and not (isinstance(paper, str) and _COLOUR.fullmatch(paper)):
+        raise members.fault("paper", 'a colour "#rrggbb" or null')
+    return None if paper is None else paper.lower()
 
 
 def write(recording: Recording, path: str | os.PathLike[str]) -> None:

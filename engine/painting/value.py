@@ -44,6 +44,11 @@ class Painting:
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
 
     @property
+    def paper(self) -> str | None:
+        """Gives the colour of the ground under all layers; None where there is none."""
+        return self.root.paper
+
+    @property
     def known_textures(self) -> Map[str, Texture]:
         """Gives the textures that a brush may name: those defined, and those that need no definition, each in the
         painting's arithmetic."""
@@ -52,12 +57,15 @@ class Painting:
 
 def first_painting(header: Header) -> Painting:
     """Returns the painting that a recording begins with."""
-    return Painting(header.frame, header.seed, arithmetic=header.arithmetic, grid=header.grid)
+    root = layers.EMPTY if header.paper is None else replace(layers.EMPTY, paper=header.paper)
+    return Painting(header.frame, header.seed, root, arithmetic=header.arithmetic, grid=header.grid)
 
 
 def header_for(painting: Painting) -> Header:
     """Returns the header of the recording of a painting."""
-    return Header(painting.frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid)
+    return Header(
+        painting.frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid, paper=painting.paper
+    )
 
 
 def blank(painting: Painting) -> Painting:

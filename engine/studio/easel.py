@@ -153,6 +153,7 @@ class Easel(Owned):
         scene = results.Scene(
             frame=painting.frame,
             layers=tuple(rows(painting.root)),
+            paper=painting.paper,
             active=painting.active,
             can_undo=self.session.can_undo,
             can_redo=self.session.can_redo,

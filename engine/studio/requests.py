@@ -34,11 +34,13 @@ SCREEN_TILE = 256  # pixels along a side of a screen tile
 
 @dataclass(frozen=True, slots=True)
 class New:
-    """A new painting with a frame in level-0 pixels, its values on a grid of so many bits."""
+    """A new painting with a frame in level-0 pixels, its values on a grid of so many bits, on a paper of a colour
+    "#rrggbb", or on none."""
 
     frame: Rect
     seed: int = 0
     grid: int = FINE
+    paper: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -76,6 +76,7 @@ class Scene:
     can_redo: bool
     modified: bool
     path: Path | None
+    paper: str | None = None  # its colour
     textures: tuple[str, ...] = ()  # names of those defined
     texture_kinds: tuple[tuple[str, str], ...] = ()  # and the kind of each
     definitions: tuple[tuple[str, str, Mapping[str, Any]], ...] = ()  # and its parameters: name, kind, these

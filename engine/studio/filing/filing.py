@@ -132,7 +132,7 @@ class Filing(Owned):
 
     def _new(self, request: q.New) -> None:
         self.openings.cancel()
-        header = Header(request.frame, request.seed, arithmetic=NEWEST, grid=request.grid)
+        header = Header(request.frame, request.seed, arithmetic=NEWEST, grid=request.grid, paper=request.paper)
         self.replace(Document(first_painting(header), header=header))
 
     def _open(self, request: q.Open) -> None:
