@@ -233,9 +233,7 @@ def parse_manifest(value: Any) -> Manifest:
     for name, expected in _CONSTANTS.items():
         if members.take(name, expected="a value") != expected:
             raise members.fault(name, repr(expected))
-    x, y, width, height = members.integers("frame", 4, limit=PLACE_LIMIT)
-    if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
-        raise members.fault("frame", "a width and height from 1 to 2^40")
+    frame = _frame(members)
     held = _Held(read_grid(members) if version > FINE_FORMAT else FINE)
     if members.take("unit", expected="a value") != _UNIT.format(held.grid):
         raise members.fault("unit", repr(_UNIT.format(held.grid)))
@@ -246,7 +244,7 @@ def parse_manifest(value: Any) -> Manifest:
         raise members.fault("active", "the name of a layer")
     guides, left_out = read_guides(members.take("guides", []))
     return Manifest(
-        Rect.at(x, y, width, height),
+        frame,
         members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT),
         active,
         root,
@@ -266,6 +264,13 @@ def parse_manifest(value: Any) -> Manifest:
         guides,
         read_paper(members) if version > PLACED_FORMAT else None,
     )
+
+
+def _frame(members: Fields) -> Rect:
+    x, y, width, height = members.integers("frame", 4, limit=PLACE_LIMIT)
+    if not (1 <= width <= SIDE_LIMIT and 1 <= height <= SIDE_LIMIT):
+        raise members.fault("frame", "a width and height from 1 to 2^40")
+    return Rect.at(x, y, width, height)
 
 
 @dataclass(frozen=True)
