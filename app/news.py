@@ -9,10 +9,12 @@ from app.desk import flight
 from app.desk.desk import Desk, Hear
 from app.desk.files import Done
 from app.desk.known import Known, known_after
+from app.desk.outside import clipboard
 from app.desk.recovery import recovery_work
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
+from engine.studio.copy_records import Copied
 from engine.studio.moving.move_requests import Extent
 from engine.studio.results import Result
 
@@ -63,6 +65,7 @@ HEARS: dict[type, Hear] = {
     results.Scene: _scene,
     results.Overtaken: _overtaken,
     results.Picked: _picked,
+    Copied: clipboard.copied,
     results.Looked: flight.fly,
     Extent: lambda desk, extent, now: desk.moving.told(extent),
     results.Whole: lambda desk, whole, now: desk.show(whole),

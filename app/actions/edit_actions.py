@@ -6,6 +6,7 @@ from app.actions.action import Action as A
 from app.actions.action import posts, ready, to_now
 from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
+from app.desk.outside import clipboard
 from engine.painting import commands as c
 
 
@@ -40,6 +41,10 @@ EDIT_ACTIONS: dict[str, A] = {
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", posts(c.Redo), _can_redo),
     "here": A("What was painted here?", "Edit", ("W",), "The strokes that show at a place", _asks_here, ready),
     "now": A("Back to now", "Edit", (), "See the painting as it is, after looking back", to_now, _looking_back),
+    "copy_picture": A(
+        "Copy picture", "Edit", ("Ctrl+Shift+C",), "Copy the whole frame, for other programs", clipboard.copy, ready
+    ),
+    "paste": A("Paste picture", "Edit", ("Ctrl+V",), "Lay the clipboard’s picture on a layer", clipboard.paste, ready),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
     "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
 }  # fmt: skip

@@ -106,6 +106,7 @@ def _message(desk: Desk) -> None:
     text, bad, _, offers = desk.message
     sign = f"{icons.WARNING}  " if bad else ""
     imgui.text_colored(theme.vec(theme.WARN if bad else theme.TEXT), sign + text)
+    w.named(text)
     for offer in offers:
         if ACTIONS[offer].when(desk):
             _button(desk, offer)

@@ -15,6 +15,7 @@ import numpy as np
 from engine.brush.copies import NO_COPIES, Copies
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
+from engine.studio.copy_records import CopyPicture
 from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
@@ -242,6 +243,7 @@ Request = (
     | Prepare
     | PastRequest
     | Tend
+    | CopyPicture
     | MoveRequest
 )
 

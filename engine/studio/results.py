@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
 from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
@@ -283,6 +284,7 @@ Result = (
     | Overtaken
     | Picture
     | Picked
+    | Copied
     | Looked
     | Sought
     | PaintMap

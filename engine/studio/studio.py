@@ -19,6 +19,7 @@ from engine.painting.times import members, timed
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.atlas.atlas import Atlas
+from engine.studio.copying import Copyist
 from engine.studio.easel import Easel
 from engine.studio.examine import Examiner
 from engine.studio.filing.filing import Filing
@@ -107,6 +108,7 @@ class Studio(Owned):
             _of(HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
             _of(Matcher(easel)),
+            _of(Copyist(easel)),
             _of(Examiner(easel)),
             _of(Atlas(easel)),
             _of(past),

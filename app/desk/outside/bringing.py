@@ -31,7 +31,6 @@ def offer(desk: Desk, path: Path, place: Place | None = None) -> None:
 class _Lay(FileWork):
     path: Path
     place: Place
-    level: int
     role: str = ""
 
     def carry_out(self) -> tuple[int, int]:
@@ -40,23 +39,29 @@ class _Lay(FileWork):
         return picture_size(self.path)
 
     def arrive(self, desk: Desk, found: tuple[int, int]) -> None:
-        x, y = self.place.pixel(self.level)
-        texture, at = free_texture_name(desk, self.path.stem), (x - found[0] // 2, y - found[1] // 2)
-        desk.post(Do(DefineTexture(texture, "image", Map({"path": str(self.path.absolute())}))))
-        name = free_layer_name(desk, self.path.stem)
-        desk.post(Do(AddPicture(name, texture, self.level, at, self.role)))
-        desk.say(f"Drag “{name}” where it belongs")
-        desk.hand.use("move")
+        lay(desk, self.path, self.path.stem, found, self.place, self.role)
+
+
+def lay(desk: Desk, path: Path, stem: str, size: tuple[int, int], place: Place, role: str = "") -> None:
+    """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place."""
+    level = desk.view.shown_level
+    x, y = place.pixel(level)
+    texture, at = free_texture_name(desk, stem), (x - size[0] // 2, y - size[1] // 2)
+    desk.post(Do(DefineTexture(texture, "image", Map({"path": str(path.absolute())}))))
+    name = free_layer_name(desk, stem)
+    desk.post(Do(AddPicture(name, texture, level, at, role)))
+    desk.say(f"Drag “{name}” where it belongs")
+    desk.hand.use("move")
 
 
 def as_layer(desk: Desk, path: Path, place: Place) -> None:
     """Lays a picture on a layer of its own, a pixel on a pixel of the level seen, with its middle at a place; then it
     can be moved."""
     desk.say(f"Bringing in {path.name}")
-    desk.work(_Lay(path, place, desk.view.shown_level))
+    desk.work(_Lay(path, place))
 
 
 def as_reference(desk: Desk, path: Path, place: Place) -> None:
     """Lays a picture likewise, to be looked at and picked from while one paints; it is no part of what is exported."""
     desk.say(f"Bringing in {path.name}")
-    desk.work(_Lay(path, place, desk.view.shown_level, REFERENCE))
+    desk.work(_Lay(path, place, REFERENCE))

@@ -1,0 +1,56 @@
+"""Pictures that go to other programs and come from them, over the clipboard of a real display."""
+
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+OTHER = """
+import sys, time, copykitten
+if sys.argv[1] == "give":
+    copykitten.copy_image(bytes([200, 40, 30, 255]) * 120 * 80, 120, 80)
+    print("given", flush=True)
+    time.sleep(60)
+else:
+    pixels, width, height = copykitten.paste_image()
+    print(width, height, *pixels[(height // 2 * width + width // 2) * 4:][:4])
+"""
+
+
+def other(app, *words) -> subprocess.Popen:
+    environment = {"DISPLAY": app.display, "PATH": "/usr/bin:/bin"}
+    return subprocess.Popen([sys.executable, "-c", OTHER, *words], env=environment, stdout=subprocess.PIPE, text=True)
+
+
+def test_a_picture_of_another_program_is_pasted_as_a_layer_and_the_frame_is_copied_for_it(program):
+    app = program()
+    app.settled()
+    with other(app, "give") as giver:
+        assert giver.stdout.readline() == "given\n"
+        app.do("mousemove", 640, 300)
+        app.keys("ctrl+v")
+        red = app.until(lambda screen: _red(screen).sum() > 4000)
+        rows, columns = np.nonzero(_red(red))
+        assert 1.4 < np.ptp(columns) / np.ptp(rows) < 1.6  # 120 x 80
+        giver.kill()
+    app.wait_for("where it belongs")
+    app.keys("ctrl+shift+c")
+    app.wait_for("Copied 1280")
+    time.sleep(0.2)
+    with other(app, "take") as taker:
+        assert taker.communicate(timeout=60)[0].split() == ["1280", "800", "200", "40", "30", "255"]
+
+
+def test_a_clipboard_without_a_picture_is_told_in_a_line(program):
+    app = program()
+    app.settled()
+    app.do("mousemove", 640, 300)
+    app.keys("ctrl+v")
+    app.wait_for("clipboard: found no picture on it, expected one")
+
+
+def _red(screen):
+    return (screen[..., 0] > 150) & (screen[..., 1] < 80) & (screen[..., 2] < 80)
