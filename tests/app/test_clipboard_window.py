@@ -53,4 +53,6 @@ def test_a_clipboard_without_a_picture_is_told_in_a_line(program):
 
 
 def _red(screen):
+    """Where the canvas is red."""
+    screen = screen[140:650, 280:960]
     return (screen[..., 0] > 150) & (screen[..., 1] < 80) & (screen[..., 2] < 80)
