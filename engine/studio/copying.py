@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from engine.canvas.reading import layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
+from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.copy_records import Copied, CopyPicture
 from engine.studio.easel import Easel
@@ -28,7 +28,7 @@ class Copyist(Owned):
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
         self._work: Iterator[Copied | None] | None = None
-        self.handlers: dict[type, Callable[[Any], None]] = {CopyPicture: self._ask}
+        self.handlers: q.Handlers = {CopyPicture: self._ask}
 
     @property
     def pending(self) -> bool:

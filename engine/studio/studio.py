@@ -107,10 +107,7 @@ class Studio(Owned):
             _of(travels),
             _of(HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
-            _of(Matcher(easel)),
-            _of(Copyist(easel)),
-            _of(Examiner(easel)),
-            _of(Atlas(easel)),
+            *map(_of, (Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel))),
             _of(past),
             Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
         )

@@ -38,10 +38,10 @@ def test_a_picture_of_another_program_is_pasted_as_a_layer_and_the_frame_is_copi
         giver.kill()
     app.wait_for("where it belongs")
     app.keys("ctrl+shift+c")
-    app.wait_for("Copied 1280")
+    app.wait_for("Copied 1024")
     time.sleep(0.2)
     with other(app, "take") as taker:
-        assert taker.communicate(timeout=60)[0].split() == ["1280", "800", "200", "40", "30", "255"]
+        assert taker.communicate(timeout=60)[0].split() == ["1024", "768", "200", "40", "30", "255"]
 
 
 def test_a_clipboard_without_a_picture_is_told_in_a_line(program):

@@ -79,6 +79,6 @@ def copy(desk: Desk) -> None:
     desk.post(CopyPicture(0, desk.known.frame))
 
 
-def copied(desk: Desk, told: Copied, _now: float) -> None:
+def put(desk: Desk, told: Copied, _now: float) -> None:
     """Puts a picture on the clipboard."""
     desk.work(_Copy(told.pixels))
