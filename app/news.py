@@ -65,7 +65,7 @@ HEARS: dict[type, Hear] = {
     results.Scene: _scene,
     results.Overtaken: _overtaken,
     results.Picked: _picked,
-    Copied: clipboard.put,
+    Copied: clipboard.give_away,
     results.Looked: flight.fly,
     Extent: lambda desk, extent, now: desk.moving.told(extent),
     results.Whole: lambda desk, whole, now: desk.show(whole),

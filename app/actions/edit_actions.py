@@ -42,7 +42,7 @@ EDIT_ACTIONS: dict[str, A] = {
     "here": A("What was painted here?", "Edit", ("W",), "The strokes that show at a place", _asks_here, ready),
     "now": A("Back to now", "Edit", (), "See the painting as it is, after looking back", to_now, _looking_back),
     "copy_picture": A(
-        "Copy picture", "Edit", ("Ctrl+Shift+C",), "Copy the whole frame, for other programs", clipboard.copy, ready
+        "Copy picture", "Edit", ("Ctrl+Shift+C",), "Copy the whole frame, for other programs", clipboard.ask_copy, ready
     ),
     "paste": A("Paste picture", "Edit", ("Ctrl+V",), "Lay the clipboard’s picture on a layer", clipboard.paste, ready),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),

@@ -68,6 +68,10 @@ class Work(NamedTuple):
     handlers: q.Handlers = _NO_REQUESTS
 
 
+def _each(*parts: Part) -> tuple[Work, ...]:
+    return tuple(_of(part) for part in parts)
+
+
 def _of(part: Part) -> Work:
     return Work(lambda: part.pending, part.step, part.handlers)
 
@@ -107,7 +111,7 @@ class Studio(Owned):
             _of(travels),
             _of(HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
-            *map(_of, (Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel))),
+            *_each(Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),
             Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
         )

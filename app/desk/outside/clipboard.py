@@ -74,11 +74,11 @@ class _Copy(FileWork):
         desk.say(f"Copied {width} × {height} pixels")
 
 
-def copy(desk: Desk) -> None:
+def ask_copy(desk: Desk) -> None:
     """Asks for the frame, as it would be exported, which goes to the clipboard as soon as it is there."""
     desk.post(CopyPicture(0, desk.known.frame))
 
 
-def put(desk: Desk, told: Copied, _now: float) -> None:
+def give_away(desk: Desk, told: Copied, _now: float) -> None:
     """Puts a picture on the clipboard."""
     desk.work(_Copy(told.pixels))
