@@ -26,6 +26,7 @@ from engine.painting import commands as c
 from engine.session.session import Session
 
 LAYERS, LEVELS = 3, range(-2, 7)
+SWEEP = 250  # strokes down through the levels and up again: what one costs hangs on its level
 SPAN = 4000  # pixels of level 0 that is painted on
 POINTS, AT_ONCE = 24, 4
 RADII = (1.5, 3.0, 3.0, 6.0, 6.0, 9.0, 9.0, 30.0, 60.0)
@@ -37,13 +38,11 @@ def main(count: int, each: int, seed: int) -> Iterator[dict[str, Any]]:
     session, rng = Session(), np.random.default_rng(seed)
     for number in range(1, LAYERS + 1):
         session.do(c.AddLayer(f"Layer {number}"))
-    spent, level = [], 0
+    spent = []
     for done in range(each, count + 1, each):
         start, begun = time.process_time(), time.monotonic()
-        for _ in range(each):
-            if rng.random() < 0.1:
-                level = int(np.clip(level + rng.integers(-1, 2), LEVELS[0], LEVELS[-1]))
-            _stroke(session, level, rng)
+        for number in range(done - each, done):
+            _stroke(session, level_of(number), rng)
             if rng.random() < 0.05:
                 session.do(c.Undo(1))
             while session.room.pending:
@@ -53,6 +52,12 @@ def main(count: int, each: int, seed: int) -> Iterator[dict[str, Any]]:
     yield {"last to median": spent[-1] / float(np.median(spent)), "bound": STEADY}
     yield from _filed(session)
     yield _undone(session)
+
+
+def level_of(number: int) -> int:
+    """Returns the level of a stroke: from the coarsest to the finest and back, so many strokes at each."""
+    part = number % SWEEP / SWEEP
+    return LEVELS[int(len(LEVELS) * min(2.0 * part, 2.0 - 2.0 * part) * 0.9999)]
 
 
 def _stroke(session: Session, level: int, rng: np.random.Generator) -> None:

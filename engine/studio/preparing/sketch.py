@@ -12,12 +12,14 @@ import numpy as np
 from engine.brush.checks import BrushError
 from engine.brush.settings import Brush
 from engine.kernel_cache import NotCompiled, refusing
-from engine.numeric.address import Rect
+from engine.numeric.address import Rect, TileKey
 from engine.painting.points import rounded
 from engine.painting.value import Painting
 from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
 
+_FEW = 8  # strokes that are kept as such; what those before them come to is kept as pixels
+_Sheet = dict[TileKey, np.ndarray]  # float32 (5, 128, 128): paint, premultiplied, and how much stays of what lies below
 _KEPT = ("radius", "hardness", "opacity", "flow", "spacing", "colour", "dynamics")
 
 
@@ -26,11 +28,13 @@ class Sketch:
 
     def __init__(self) -> None:
         self._strokes: list[tuple[LiveStroke, bool]] = []  # and whether it erases
+        self._sheets: dict[int, _Sheet] = {}  # by level, what strokes before these come to
+        self._rects: dict[int, list[Rect]] = {}  # and where they lie
         self._open = False  # the last one has its pen down
 
     def begin(self, requests: Iterable[q.Request]) -> None:
         """Shows the strokes of these, and no others."""
-        self._strokes, self._open = [], False
+        self._strokes, self._sheets, self._rects, self._open = [], {}, {}, False
         for request in requests:
             self.add(request)
 
@@ -41,6 +45,8 @@ class Sketch:
                 row = request.brush.row
                 seen = request.layer is None  # one on another layer is seen elsewhere, by placements
                 self._open = seen and (row.lays_ink or row.takes_away)
+                while len(self._strokes) >= _FEW:
+                    self._lay(*self._strokes.pop(0))
                 if self._open:
                     stroke = LiveStroke(
                         Painting(), request.level, request.origin, _plain(request.brush), copies=request.copies
@@ -62,15 +68,39 @@ class Sketch:
 
     def rects(self, level: int) -> list[Rect]:
         """Returns the pixels of a level that they may cover."""
-        return [stroke.rect for stroke, _ in self._strokes if stroke.level == level and not stroke.empty]
+        laid = [stroke.rect for stroke, _ in self._strokes if stroke.level == level and not stroke.empty]
+        return self._rects.get(level, []) + laid
 
     def over(self, level: int, rect: Rect, pixels: np.ndarray) -> np.ndarray:
         """Returns a picture of a rectangle, float32 (4, h, w), premultiplied, with them above it."""
+        sheets = [(key, found) for key, found in self._sheets.get(level, {}).items() if key.rect.meets(rect)]
+        pixels = pixels.copy() if sheets else pixels
+        for key, sheet in sheets:
+            part = key.rect.intersect(rect)
+            seen, own = pixels[:, *part.slices(rect)], sheet[:, *part.slices(key.rect)]
+            seen[...] = seen * own[4] + own[:4]
         for stroke, erases in self._strokes:
             if stroke.level == level and not stroke.empty and stroke.rect.meets(rect):
                 paint = stroke.preview(rect).rgba
                 pixels = pixels * (1.0 - paint[3]) + (0.0 if erases else paint)
         return pixels
+
+    def _lay(self, stroke: LiveStroke, erases: bool) -> None:
+        """Lays a stroke over what those before it come to: a mask each, while kernels are compiled for a minute, would
+        take hundreds of megabytes."""
+        if stroke.empty:
+            return
+        self._rects.setdefault(stroke.level, []).append(stroke.rect)
+        sheet = self._sheets.setdefault(stroke.level, {})
+        for key in stroke.rect.tiles(stroke.level):
+            paint = stroke.preview(key.rect).rgba
+            if paint[3].any():
+                old, keep = sheet.get(key), 1.0 - paint[3]
+                new = np.concatenate([np.zeros_like(paint) if erases else paint, keep[None]])
+                if old is not None:
+                    new[:4] += old[:4] * keep
+                    new[4] *= old[4]
+                sheet[key] = new
 
 
 def _plain(brush: Brush) -> Brush:
