@@ -118,6 +118,21 @@ def draw_growing(desk: Desk) -> None:
         painter.path_stroke(theme.packed((1.0, 1.0, 1.0), 0.95), 2.5 * desk.scale)
 
 
+def draw_shape(desk: Desk) -> None:
+    """Draws what is about to be selected."""
+    shape, far = desk.selecting.shape, 4.0 * (desk.view.width + desk.view.height)
+    if len(shape) < 2:
+        return
+    ends = (desk.view.to_screen(place) for place in shape)
+    points: list[ImVec2 | tuple[int | float, int | float] | list[int | float]] = [
+        ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in ends
+    ]
+    closed = int(imgui.ImDrawFlags_.closed if desk.selecting.closed else imgui.ImDrawFlags_.none)
+    painter = imgui.get_background_draw_list()
+    for width, grey, alpha in ((2.6, 0.0, 0.55), (1.2, 1.0, 0.9)):
+        painter.add_polyline(points, theme.packed((grey,) * 3, alpha), width * desk.scale, closed)
+
+
 def apart(places: list[tuple[float, float]], least: float) -> list[tuple[float, float]]:
     """Returns those that no place before them is nearer to than that: as marks they would lie on one another."""
     found: list[tuple[float, float]] = []

@@ -10,6 +10,7 @@ import imgui_bundle  # before glfw, so that both use one libglfw
 import glfw  # isort: skip
 from imgui_bundle import imgui
 
+from app.canvas.ant_line import AntLine, AntPlan
 from app.canvas.overlay import Overlay
 from app.canvas.screen import Screen, ScreenPlan
 from app.desk.desk import Desk
@@ -23,6 +24,8 @@ class Drawing:
     def __init__(self, window: Any, screen: Screen, overlay: Overlay) -> None:
         self._window, self._screen, self._overlay = window, screen, overlay
         self._plan: ScreenPlan | None = None  # of the canvas, as it was last drawn
+        self._line = AntLine(screen.ctx)
+        self._ants: AntPlan | None = None
         self.drawn = False
 
     def draw(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
@@ -31,11 +34,15 @@ class Drawing:
         data = imgui.get_draw_data()
         plan = self._screen.plan(desk.view, desk.known.frame, now, desk.insets, desk.known.paper)
         told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
-        self.drawn = told or plan != self._plan or exposed
+        rim = desk.selecting.ants
+        ants = self._line.plan(rim, now)
+        self.drawn = told or plan != self._plan or ants != self._ants or exposed
         if self.drawn:
-            self._plan = plan
+            self._plan, self._ants = plan, ants
             self._overlay.redraw(data)
             self._screen.draw(plan)
+            if ants is not None and rim is not None:
+                self._line.draw(ants, rim, desk.view, desk.insets, desk.scale)
             self._overlay.draw(data)
             glfw.swap_buffers(self._window)
         return plan.moving

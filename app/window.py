@@ -42,10 +42,18 @@ from app.router import Router
 from app.trace import trace_rest
 from app.wanted_tiles import Tiles
 from engine.studio import results
+from engine.studio.selecting.ants_records import Ants
 from engine.studio.worker import Worker
 
 _FAULT = results.Note("A fault in Inkfall", True, fault=True, stays=True, offers=("copy_details",), about="fault")
 DOUBLE = 0.5  # seconds from one click to the next, at most, that are a double click
+
+
+def _ants(desk: Desk, ants: Ants, _now: float) -> None:
+    desk.selecting.ants = ants
+
+
+_ANTS: dict[type, Hear] = {Ants: _ants}
 
 
 class Window:
@@ -90,7 +98,7 @@ class Window:
             return [lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels)]
         if kind is results.PicturePart:
             return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
-        return [hears[kind] for hears in (self.tiles.hears, self.engine.hears) if kind in hears]
+        return [hears[kind] for hears in (self.tiles.hears, self.engine.hears, _ANTS) if kind in hears]
 
     def _dropped(self, path: Path) -> bool:
         """Takes a file that was dropped on the window: it is a panel's, or a picture to
@@ -147,6 +155,7 @@ class Window:
         with spare("asking for what is to be seen"):
             if desk.known.ready:
                 self.tiles.wants(desk)
+                desk.selecting.wants(desk.post, desk.view)
                 held_box.wants(desk)
                 self.layout.wants(desk, now)
         if desk.painting and self.news.take_from((self.engine.paint,), now):  # what came of this frame's points
@@ -176,6 +185,7 @@ class Window:
             guide_marks.draw_guides(self.desk)
             cursor.draw_outline(self.desk)
             guide_marks.draw_copies(self.desk)
+            cursor.draw_shape(self.desk)
             box_marks.draw(self.desk)
         with self._guard.spare_drawing("laying out the panels"):
             self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
@@ -190,7 +200,8 @@ class Window:
         """Sleeps until the next frame; `moving`: what the last one gave."""
         trace_rest(not moving and self.engine.worker.settled, (self.desk.pointer.x, self.desk.pointer.y))
         with self._guard.spare("on an event of the window system"):  # what its callbacks raised
-            self.pace.wait(moving, self.desk.painting, imgui.get_io().want_text_input)
+            blinks = imgui.get_io().want_text_input or self.desk.selecting.selected
+            self.pace.wait(moving, self.desk.painting, blinks)
 
     def closed(self) -> bool:
         """Tells whether the window is to go; asks about unsaved changes first."""

@@ -11,6 +11,7 @@ from app.actions.file_actions import FILE_ACTIONS
 from app.actions.layer_actions import LAYER_ACTIONS
 from app.actions.merging_actions import MERGING_ACTIONS
 from app.actions.placement_actions import PLACEMENT_ACTIONS
+from app.actions.select_actions import SELECT_ACTIONS
 from app.actions.tool_actions import TOOL_ACTIONS
 from app.actions.view_actions import VIEW_ACTIONS
 from app.desk import offers
@@ -21,6 +22,7 @@ ACTIONS: dict[str, Action] = {
     **EDIT_ACTIONS,
     **TOOL_ACTIONS,
     **LAYER_ACTIONS,
+    **SELECT_ACTIONS,
     **MERGING_ACTIONS,
     **PLACEMENT_ACTIONS,
     **VIEW_ACTIONS,
@@ -28,7 +30,7 @@ ACTIONS: dict[str, Action] = {
     "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
     "about": Action("About Inkfall…", "Help", (), "What this program is", asks("about")),
 }  # fmt: skip
-MENUS = ("File", "Edit", "Tools", "Layer", "View", "Go", "Help")
+MENUS = ("File", "Edit", "Tools", "Layer", "Select", "View", "Go", "Help")
 
 
 def by_key(keys: str) -> Action | None:

@@ -192,7 +192,7 @@ class Screen:
         view = plan.view
         self._set_uniforms(view, plan.frame, plan.colour)
         self.ctx.viewport = (0, 0, view.width, view.height)
-        self.ctx.scissor = _free(view, plan.insets)
+        self.ctx.scissor = free_part(view, plan.insets)
         self.ctx.disable(moderngl.BLEND)
         self._paper.draw(plan.paper)
         if self._array is not None:
@@ -278,7 +278,7 @@ class Screen:
                 self._descendants(plan, view, child, depth - 1)
 
 
-def _free(view: View, insets: Insets) -> tuple[int, int, int, int]:
+def free_part(view: View, insets: Insets) -> tuple[int, int, int, int]:
     """Returns the part of the screen that panels leave free, as GL has it: x, y of the lower left corner, width,
     height."""
     left, top, right, bottom = (max(0, math.floor(inset)) for inset in insets)

@@ -26,6 +26,7 @@ from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
+from app.desk.selecting.select_state import SelectState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.filing.opening_requests import CancelOpening, Show
@@ -116,6 +117,7 @@ class Desk:
     places: PlaceState = field(default_factory=PlaceState)
     guides: GuideState = field(default_factory=GuideState)
     moving: MoveState = field(default_factory=MoveState)
+    selecting: SelectState = field(default_factory=SelectState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

@@ -8,8 +8,10 @@ from app.tools.gesture import Tool
 from app.tools.guide_gestures import move_guide
 from app.tools.moving_gestures import move
 from app.tools.painting_gestures import paint
+from app.tools.selecting_gestures import ellipse, lasso, polygon, rectangle
 from app.tools.view_gestures import pan, turn, zoom
 
+_JOINING = "; Shift adds, Alt takes away, both leave what both have"
 TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
     "move": Tool(
@@ -24,4 +26,8 @@ TOOLS: dict[str, Tool] = {
     "pick": Tool(
         "Pick colour", icons.PICK, pick, "Take a colour from the picture (Ctrl or the right button with any tool)"
     ),
+    "rectangle": Tool("Rectangle", icons.SQUARE, rectangle, f"Drag to select a rectangle{_JOINING}"),
+    "ellipse": Tool("Ellipse", icons.CIRCLE, ellipse, f"Drag to select an ellipse{_JOINING}"),
+    "lasso": Tool("Lasso", icons.LASSO, lasso, f"Drag around what is to be selected{_JOINING}"),
+    "polygon": Tool("Polygon", icons.POLYGON, polygon, "Click the corners; a double click closes it (Esc: not now)"),
 }

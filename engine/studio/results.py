@@ -19,6 +19,7 @@ from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import Extent
 from engine.studio.past.past_records import PastResult
+from engine.studio.selecting.ants_records import Ants
 from engine.studio.textures.texture_results import TextureResult
 
 if TYPE_CHECKING:
@@ -299,6 +300,7 @@ Result = (
     | Growing
     | PastResult
     | Extent
+    | Ants
     | Held
 )
 

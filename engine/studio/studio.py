@@ -35,6 +35,7 @@ from engine.studio.past.past_list import PastList
 from engine.studio.past.trail import Trail
 from engine.studio.past.travels import Travels
 from engine.studio.ready import ready
+from engine.studio.selecting.ants import AntsFinder
 from engine.studio.textures import swatch_files, swatches
 from engine.studio.textures.lab import Lab
 from engine.studio.textures.matcher import Matcher
@@ -96,13 +97,13 @@ class Studio(Owned):
         self.filing, self.lab, self.grower = Filing(easel, post, preferences), Lab(easel), Grower(easel)
         self.holding: Holding | None = None
         self._answers = None if posts is None else _answers(easel, self.filing, posts)
-        viewer, trail = easel.viewer, Trail(easel)
-        travels = Travels(trail)
+        viewer, travels = easel.viewer, Travels(trail := Trail(easel))
         past = PastList(trail, travels)
         # From the most urgent: first what the pen just painted, on the canvas or in a region.
         self._rows = (
             Work(lambda: easel.behind, easel.follow),
             Work(lambda: viewer.fresh, viewer.send_fresh),
+            _of(AntsFinder(easel)),
             _of(Regions(send)),
             _of(self.lab),
             _of(Moves(easel)),

@@ -48,6 +48,18 @@ _TALL = ("operations",)  # sections of a mode for which the list of presets make
 PREVIEW = (228, 54)  # of the stroke of the brush as it is, points
 
 
+def _tool_row(desk: Desk, names: list[tuple[str, str, bool]], side: float, gap: float | None = None) -> float:
+    """Draws buttons of tools, and returns the gap between them: as wide as the panel lets it be, if none is given."""
+    if gap is None:
+        gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
+    for i, (name, icon, on) in enumerate(names):
+        if i:
+            imgui.same_line(0, gap)
+        if w.icon_button(name, icon, actions.tip(name), on=on, size=side):
+            actions.perform(desk, actions.ACTIONS[name])
+    return gap
+
+
 class BrushPanel:
     """Draws the left column."""
 
@@ -120,12 +132,9 @@ class BrushPanel:
             ("eraser", icons.ERASER, desk.hand.tool == "brush" and desk.hand.erasing),
         ]
         names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
-        gap = (imgui.get_content_region_avail().x - side * len(names)) / (len(names) - 1)
-        for i, (name, icon, on) in enumerate(names):
-            if i:
-                imgui.same_line(0, gap)
-            if w.icon_button(name, icon, actions.tip(name), on=on, size=side):
-                actions.perform(desk, actions.ACTIONS[name])
+        gap = _tool_row(desk, names, side)
+        selecting = ("rectangle", "ellipse", "lasso", "polygon")
+        _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in selecting], side, gap)
 
     def _modes(self, desk: Desk) -> None:
         """Buttons side by side, each as wide as its word asks for."""

@@ -17,6 +17,7 @@ from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
+from app.panels.dialogs.select_dialogs import ChangeSelection, KeepSelection, KeptSelections
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import COARSE, FINE
@@ -268,6 +269,9 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "export": lambda desk: ExportDepth(),
     "export to": file_browser.exporting,
     "film": lambda desk: FilmDialog(),
+    "select_change": lambda desk: ChangeSelection(),
+    "select_keep": lambda desk: KeepSelection(),
+    "select_kept": lambda desk: KeptSelections(),
     "film to": file_browser.filming,
     "filming": lambda desk: FilmBeingMade(),
     "texture picture": file_browser.choosing_texture,

@@ -1,0 +1,1 @@
+"""The selection as the window knows it."""

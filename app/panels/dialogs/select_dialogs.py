@@ -1,0 +1,91 @@
+"""The windows about what is selected: its rim, the name to keep it under, those that are kept."""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.desk.desk import Desk
+from app.panels.controls import widgets as w
+from engine.painting.commands import Select
+from engine.painting.select_commands import JOIN_OPS, WIDEST_RIM, Named
+from engine.studio.requests import Do
+
+_WIDE = 16  # ems of a field
+_JOINS = {"replace": "Select", "add": "Add", "subtract": "Subtract", "intersect": "Intersect"}
+_HINTS = {
+    "replace": "Select this in place of what is selected",
+    "add": "Select this as well",
+    "subtract": "Take this from what is selected",
+    "intersect": "Leave what both have",
+}
+
+
+class ChangeSelection:
+    """Grows, shrinks or feathers it, by pixels of what is seen."""
+
+    title = "Change the selection"
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws the contents; False when it is done."""
+        state, level = desk.selecting, desk.view.shown_level
+        imgui.set_next_item_width(_WIDE * imgui.get_font_size())
+        _, state.amount = imgui.slider_int("Pixels", state.amount, 1, 64)
+        state.amount = max(1, min(int(WIDEST_RIM), state.amount))
+        w.named("select amount")
+        w.tooltip("By so many pixels of what you see; Ctrl-click to type")
+        ways = (
+            ("Grow", "Move the rim out", Select(level=level, grow=float(state.amount))),
+            ("Shrink", "Move the rim in", Select(level=level, grow=-float(state.amount))),
+            ("Feather", "Soften the rim", Select(level=level, feather=float(state.amount))),
+        )
+        for label, hint, command in ways:
+            if w.text_button(label, hint):
+                desk.post(Do(command))
+                return False
+            imgui.same_line()
+        return not w.text_button("Cancel", "Leave it as it is")
+
+
+class KeepSelection:
+    """Asks for a name."""
+
+    title = "Keep the selection"
+
+    def __init__(self) -> None:
+        self._name = ""
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws the contents; False when it is done."""
+        imgui.set_next_item_width(_WIDE * imgui.get_font_size())
+        _, self._name = imgui.input_text("Name", self._name)
+        w.named("selection name")
+        w.tooltip("One of that name that is kept is replaced")
+        name = self._name.strip()[:120]
+        imgui.begin_disabled(not name)
+        kept = w.text_button("Keep", "Keep it with the painting")
+        imgui.end_disabled()
+        if kept and name:
+            desk.post(Do(Select(keep=name)))
+            return False
+        imgui.same_line()
+        return not w.text_button("Cancel", "Keep nothing")
+
+
+class KeptSelections:
+    """Lists those that are kept."""
+
+    title = "Kept selections"
+
+    def draw(self, desk: Desk) -> bool:
+        """Draws the contents; False when it is done."""
+        for name in desk.selecting.saved:
+            imgui.push_id(name)
+            for op in JOIN_OPS:
+                if w.text_button(_JOINS[op], _HINTS[op]):
+                    desk.post(Do(Select(Named(name, saved=True), op, desk.view.shown_level)))
+                    imgui.pop_id()
+                    return False
+                imgui.same_line()
+            imgui.text_unformatted(name)
+            imgui.pop_id()
+        return not w.text_button("Close", "Leave what is selected as it is")

@@ -1,0 +1,1 @@
+"""What the window sees of the selection."""

@@ -1,0 +1,31 @@
+"""What the window asks of the selection, and what it hears."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.numeric.address import Rect
+
+
+@dataclass(frozen=True, slots=True)
+class AskAnts:
+    """Asks for the rim of what is selected in a rectangle of a level, now and whenever that changes.  The newest
+    counts."""
+
+    level: int
+    area: Rect
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ants:
+    """`selected`: whether anything in particular is; `saved`: the names of kept selections; `lines`: the rim of what is
+    selected at least half, float32 (n, 4): x0, y0, x1, y1 in pixels of `level` from the corner of `area`, along pixels'
+    edges."""
+
+    selected: bool
+    saved: tuple[str, ...]
+    level: int
+    area: Rect
+    lines: np.ndarray

@@ -1,0 +1,62 @@
+"""The rim of what is selected, as the window is told it."""
+
+import numpy as np
+
+from engine.canvas.selecting import outlines
+from engine.canvas.selecting.joining import joined_with
+from engine.canvas.selecting.selection import EVERYTHING
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.studio.easel import Easel
+from engine.studio.selecting.ants import AntsFinder, rim
+from engine.studio.selecting.ants_records import AskAnts
+
+AREA = Rect(-10, -20, 290, 280)
+
+
+def sides(lines):
+    return sorted(tuple(int(v) for v in line) for line in lines)
+
+
+def test_a_rectangle_has_four_sides_and_its_inverse_the_same():
+    selection = joined_with(None, outlines.boxed(0, Rect(5, 7, 205, 150), "here"), "replace", 16)
+    expected = [(15, 27, 15, 170), (15, 27, 215, 27), (15, 170, 215, 170), (215, 27, 215, 170)]
+    assert sides(rim(selection, 0, AREA)) == expected
+    assert sides(rim(selection.inverted(), 0, AREA)) == expected
+    assert not len(rim(EVERYTHING, 0, AREA))
+
+
+def test_the_rim_parts_all_that_is_selected_from_what_is_not():
+    """Every pixel's side with another one's is crossed by lines as often as the two differ."""
+    selection = joined_with(None, outlines.rounded_off(0, Rect(3, 9, 180, 140), "here"), "replace", 16)
+    inside = selection.chosen(0, AREA)
+    beside = np.zeros((AREA.height, AREA.width + 1), bool)
+    above = np.zeros((AREA.height + 1, AREA.width), bool)
+    for x0, y0, x1, y1 in rim(selection, 0, AREA).astype(int):
+        if x0 == x1:
+            beside[y0:y1, x0] = True
+        else:
+            above[y0, x0:x1] = True
+    assert (beside[:, 1:-1] == (inside[:, 1:] != inside[:, :-1])).all()
+    assert (above[1:-1] == (inside[1:] != inside[:-1])).all()
+
+
+def test_it_is_told_when_it_changes_and_not_for_strokes():
+    sent = []
+    easel = Easel(sent.append)
+    finder = AntsFinder(easel)
+    finder.handlers[AskAnts](AskAnts(0, AREA))
+    assert not finder.pending
+    easel.carry_out(c.parse({"do": "select", "rect": [0, 5, 7, 200, 143], "keep": "one"}))
+    assert finder.pending
+    finder.step()
+    assert (sent[-1].selected, sent[-1].saved, len(sent[-1].lines)) == (True, ("one",), 4)
+    easel.carry_out(c.parse({"do": "stroke", "points": [[20, 20], [60, 60]]}))
+    assert not finder.pending
+    finder.handlers[AskAnts](AskAnts(1, AREA))
+    assert finder.pending
+    finder.step()
+    easel.carry_out(c.parse({"do": "select", "none": True}))
+    finder.step()
+    assert not finder.pending
+    assert not sent[-1].selected
