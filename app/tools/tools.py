@@ -26,8 +26,8 @@ TOOLS: dict[str, Tool] = {
     "pick": Tool(
         "Pick colour", icons.PICK, pick, "Take a colour from the picture (Ctrl or the right button with any tool)"
     ),
-    "rectangle": Tool("Rectangle", icons.SQUARE, rectangle, f"Drag to select a rectangle{_JOINING}"),
-    "ellipse": Tool("Ellipse", icons.CIRCLE, ellipse, f"Drag to select an ellipse{_JOINING}"),
+    "rectangle": Tool("Rectangle", icons.SELECT_BOX, rectangle, f"Drag to select a rectangle{_JOINING}"),
+    "ellipse": Tool("Ellipse", icons.SELECT_ROUND, ellipse, f"Drag to select an ellipse{_JOINING}"),
     "lasso": Tool("Lasso", icons.LASSO, lasso, f"Drag around what is to be selected{_JOINING}"),
     "polygon": Tool("Polygon", icons.POLYGON, polygon, "Click the corners; a double click closes it (Esc: not now)"),
 }
