@@ -14,6 +14,7 @@ from app.panels.colour.colour_panel import ColourPanel
 from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
 from app.panels.layers.layers_panel import LayersPanel
+from app.panels.moving import move_bar
 from app.panels.panel import Painting
 from app.panels.places.place_field import PlaceField
 from app.panels.strip import StripPanel
@@ -27,6 +28,7 @@ _FIXED = (
     | imgui.WindowFlags_.no_saved_settings
     | imgui.WindowFlags_.no_bring_to_front_on_focus
 )
+_SCROLLS_NOT = imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse
 
 
 class Layout:
@@ -36,6 +38,7 @@ class Layout:
         self._guard = guard
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip, self.place_field = Dialogs(), StripPanel(), PlaceField()
+        self.move_bar = move_bar.MoveBar()
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup, self._strip = False, ""
 
@@ -86,6 +89,7 @@ class Layout:
                 wide = desk.view.width - left - (0.0 if under else right)
                 self._open_strip(desk, (left, desk.view.height - bottom, wide, tall))
         self._make_room(desk, (left, top, right, bottom))
+        self._bar(desk, (left, top))
         with self._guard.spare_drawing("drawing a dialog"):
             self.dialogs.draw(desk)
         with self._guard.spare_drawing("drawing the field for a place"):
@@ -123,6 +127,19 @@ class Layout:
                 self.strip.draw(desk)
         imgui.end()
         imgui.pop_style_color()
+
+    def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
+        """Draws the numbers of what is moved over the canvas, so that nothing gives way to them."""
+        if not self.move_bar.wanted(desk):
+            return
+        margin, high = 8 * desk.scale, imgui.get_frame_height() + 12 * desk.scale
+        wide = min(move_bar.BAR_WIDTH * imgui.get_font_size(), desk.view.width - corner[0] - 2 * margin)
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 6) * desk.scale)
+        if self._begin("move bar", (corner[0] + margin, corner[1] + margin, wide, high), _SCROLLS_NOT):
+            with self._guard.spare_drawing("drawing the numbers of what is moved"):
+                self.move_bar.draw(desk)
+        imgui.end()
+        imgui.pop_style_var()
 
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:
         """What was in the middle stays there when the strip opens or closes."""

@@ -10,7 +10,7 @@ from app.desk.desk import Desk
 from app.desk.moving import held_box
 from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, place_of, spot
 from app.desk.moving.move_state import Label, Trial
-from app.desk.moving.poses import Spin, exact, factor, respun, shifted, spin_of
+from app.desk.moving.poses import Spin, exact, factor, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_copy_down, set_down
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
@@ -135,18 +135,6 @@ def _away(view: View, event: PenEvent, place: Dyadic) -> tuple[float, float]:
     x, y = view.centre.pixel(level)
     (ax, ay), (bx, by) = (at.offset(level, x, y) for at in (view.to_canvas(event.x, event.y), place_of(place)))
     return ax - bx, ay - by
-
-
-def scale_text(spin: Spin) -> str:
-    """Returns a scale as it is read."""
-    if abs(spin.levels) > 20:
-        return f"2^{spin.doublings:.2f}".removesuffix(".00")
-    return f"{100 * math.ldexp(spin.size, spin.levels):.4g} %"
-
-
-def turn_text(spin: Spin) -> str:
-    """Returns an angle as it is read."""
-    return f"{spin.degrees:.1f}".removesuffix(".0") + "°"
 
 
 def _signed(value: int) -> str:

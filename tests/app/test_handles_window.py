@@ -156,3 +156,29 @@ def test_painting_on_what_is_turned_offers_what_can_be_done(app):
     app.settled()
     app.stroke((600, 500), (700, 520))
     app.canvas_unlike(turned)
+
+
+def test_numbers_are_typed_and_what_is_turned_back_or_mirrored_twice_is_as_it_was(app):
+    painted = app.canvas()
+    app.keys("v")
+    corners = handles(app)
+    for typed in ("30", "0"):
+        app.click("angle field")
+        app.keys("ctrl+a")
+        app.type(typed)
+        app.keys("Return")
+        app.park()
+        app.box("sampled" if typed == "30" else "exact")
+    for name in ("mirror_layer", "mirror_layer_down"):
+        for _ in range(2):
+            app.click(name)
+            app.settled()
+    np.testing.assert_allclose(handles(app), corners, atol=1)
+    app.keys("b")
+    assert app.comes_to(painted)
+    app.keys(*["ctrl+z"] * 4)
+    assert app.comes_to(painted)
+    app.keys("ctrl+z")
+    app.canvas_unlike(painted)
+    app.keys("ctrl+z")
+    assert app.comes_to(painted)

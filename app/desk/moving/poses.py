@@ -123,3 +123,15 @@ def exact(pose: Pose, level: int) -> bool:
 def factor(value: float) -> float:
     """Returns a factor of scaling within what one drag does."""
     return min(max(value, 2.0**_SMALLEST), 2.0**_LARGEST)
+
+
+def scale_text(spin: Spin) -> str:
+    """Returns a scale as it is read."""
+    if abs(spin.levels) > 20:
+        return f"2^{spin.doublings:.2f}".removesuffix(".00")
+    return f"{100 * math.ldexp(spin.size, spin.levels):.4g} %"
+
+
+def turn_text(spin: Spin) -> str:
+    """Returns an angle as it is read."""
+    return f"{spin.degrees:.1f}".removesuffix(".0") + "°"
