@@ -88,7 +88,7 @@ class MoveBar:
                 _apply(desk, row, (text, typed), (pose, part, level))
             imgui.same_line(0, 0.7 * imgui.get_font_size())
         imgui.end_disabled()
-        for name, icon in (("mirror_layer", icons.ACROSS), ("mirror_layer_down", icons.UPRIGHT)):
+        for name, icon in (("mirror_layer", icons.MIRROR_ACROSS), ("mirror_layer_down", icons.MIRROR_DOWN)):
             action = actions.ACTIONS[name]
             if w.icon_button(name, icon, actions.tip(name), enabled=action.when(desk)):
                 actions.perform(desk, action)
