@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from app.actions.action import Action as A
-from app.actions.action import active, chosen, ready
+from app.actions.action import active, asks, chosen, ready
 from app.desk.desk import Desk
 from engine.painting import commands as c
 from engine.studio.requests import Do
@@ -97,6 +97,14 @@ def _several(desk: Desk) -> bool:
     return ready(desk) and desk.known.scene is not None and len(desk.known.scene.layers) > 1
 
 
+def _any(desk: Desk) -> bool:
+    return ready(desk) and desk.known.scene is not None and bool(desk.known.scene.layers)
+
+
+def _clear_outside(desk: Desk) -> None:
+    desk.post(Do(c.ClearLayer(None, outside=True)))
+
+
 MERGING_ACTIONS: dict[str, A] = {
     "merge_down": A(
         "Merge down", "Layer", ("Ctrl+Alt+E",), "Make one layer of this and the one below", _merge_down, _on_another
@@ -105,5 +113,9 @@ MERGING_ACTIONS: dict[str, A] = {
     "merge_visible": A(
         "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
     ),
-    "clear": A("Clear", "Layer", (), "Take all paint off the layer", _clear, _painted),
+    "clear": A("Clear", "Layer", (), "Take the paint off the layer, or what is selected of it", _clear, _painted),
+    "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
+    "clear_outside": A(
+        "Delete outside the frame", "Layer", (), "Take off all layers what lies outside the frame", _clear_outside, _any
+    ),
 }  # fmt: skip

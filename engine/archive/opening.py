@@ -146,6 +146,8 @@ class _Opening:
         chosen = selection_files.with_tiles_of(manifest.selections, manifest.grid, read, self._levels)
         painting = manifest.painting(root, textures, chosen)
         recording, lost = self._recording()
+        if recording is not None and recording.header.frame != painting.frame:
+            painting = replace(painting, begun=recording.header.frame)
         notes = (*manifest.notes, *lost)
         if other:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"

@@ -39,6 +39,8 @@ from engine.painting.layer_commands import RemoveLayer as RemoveLayer
 from engine.painting.layer_commands import RenameLayer as RenameLayer
 from engine.painting.layer_commands import SelectLayer as SelectLayer
 from engine.painting.layer_commands import SetLayer as SetLayer
+from engine.painting.layering.frame_command import SetFrame as SetFrame
+from engine.painting.layering.frame_command import read_frame, write_frame
 from engine.painting.layering.placing_members import Placing as Placing
 from engine.painting.layering.placing_members import Same as Same
 from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT
@@ -126,6 +128,7 @@ Command = (
     Stroke
     | Fill
     | LayerCommand
+    | SetFrame
     | Undo
     | Redo
     | View
@@ -239,6 +242,7 @@ COMMANDS: dict[str, Form] = {
     "stroke": Form((Stroke,), _read_stroke, _write_stroke),
     "fill": Form((Fill,), fill_command.read_fill, fill_command.write_fill),
     "layer": Form(layer_commands.RECORDS, layer_commands.read_layer, layer_commands.write_layer),
+    "frame": Form((SetFrame,), read_frame, write_frame),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), places.read_view, places.write_view),

@@ -73,9 +73,11 @@ class FlattenGroup:
 
 @dataclass(frozen=True, slots=True)
 class ClearLayer:
-    """Takes all paint off a layer."""
+    """Takes the paint off a layer that is selected, or all of it where nothing is; `outside`: off a layer, or all of
+    them (None), what lies outside the frame."""
 
-    name: str
+    name: str | None
+    outside: bool = False
     extra: Extra = _NOTHING
 
 
@@ -161,6 +163,10 @@ def _no_more(members: Fields) -> Members:
     return {}
 
 
+def _outside(members: Fields) -> Members:
+    return {"outside": members.flag("outside", False)}
+
+
 def _new_name(members: Fields) -> Members:
     return {"to": members.text("to")}
 
@@ -234,7 +240,7 @@ LAYER_FORMS: dict[str, LayerForm] = {
     "bake": LayerForm(BakePlacement, _no_more),
     "merge": LayerForm(MergeLayer, _no_more),
     "flatten": LayerForm(FlattenGroup, _no_more),
-    "clear": LayerForm(ClearLayer, _no_more),
+    "clear": LayerForm(ClearLayer, _outside),
     "select": LayerForm(SelectLayer, _no_more),
     "remove": LayerForm(RemoveLayer, _no_more),
     "rename": LayerForm(RenameLayer, _new_name),
@@ -263,6 +269,7 @@ LayerCommand = (
     | MoveLayer
     | SetLayer
 )
+_OF_ALL = ("flatten", "clear")  # the verbs whose name may be null: the whole painting
 _OF_VERSION_2 = AddPicture | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer
 _KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPlacement: "placement"}  # of those that are no `AddLayer`
 RECORDS: tuple[type, ...] = (*_KIND_NAMES, *(form.record for form in LAYER_FORMS.values()))
@@ -277,7 +284,7 @@ def read_layer(members: Fields) -> LayerCommand:
     verbs = [verb for verb in LAYER_FORMS if verb in members]
     if len(verbs) != 1:
         raise FieldError(members.place, " and ".join(verbs) or "none", f"exactly one of {', '.join(LAYER_FORMS)}")
-    whole = verbs[0] == "flatten" and members.take("flatten") is None
+    whole = verbs[0] in _OF_ALL and members.take(verbs[0]) is None
     name = None if whole else members.text(verbs[0])
     record, read = LAYER_FORMS[verbs[0]]
     more: Members = {}

@@ -38,6 +38,7 @@ from engine.painting.commands import (
 from engine.painting.guiding.guides import GuideCommand
 from engine.painting.layer_commands import LayerCommand
 from engine.painting.layer_commands import version as layer_version
+from engine.painting.layering.frame_command import SetFrame
 from engine.painting.places import BookmarkCommand
 
 VERSION = 2  # that is read; older ones too
@@ -116,7 +117,9 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     copied = isinstance(command, Stroke) and bool(command.copies)
-    return 2 if region or copied or isinstance(command, BookmarkCommand | Fill | Select | GuideCommand) else 1
+    return (
+        2 if region or copied or isinstance(command, SetFrame | BookmarkCommand | Fill | Select | GuideCommand) else 1
+    )
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

@@ -42,6 +42,11 @@ class Painting:
     selection: Selection | None = None
     selections: Saved = field(default_factory=lambda: NONE_SAVED)
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
+    begun: Rect | None = None
+
+    def framed(self, frame: Rect) -> Painting:
+        """Returns the same paint in another frame."""
+        return replace(self, frame=frame, begun=self.frame if self.begun is None else self.begun)
 
     @property
     def paper(self) -> str | None:
@@ -63,9 +68,8 @@ def first_painting(header: Header) -> Painting:
 
 def header_for(painting: Painting) -> Header:
     """Returns the header of the recording of a painting."""
-    return Header(
-        painting.frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid, paper=painting.paper
-    )
+    frame = painting.frame if painting.begun is None else painting.begun
+    return Header(frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid, paper=painting.paper)
 
 
 def blank(painting: Painting) -> Painting:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from engine.canvas import layers
+from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.merging.cleared import framing, without
 from engine.canvas.merging.merged import merged_paint
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import loops
@@ -67,15 +69,30 @@ def flattened_whole(painting: Painting) -> Painting:
     return _with_active(painting, layers.checked(replace(root, children=children)), gone, made.name)
 
 
-def cleared(painting: Painting, name: str) -> Painting:
-    """Returns the painting with nothing on a layer."""
-    node = layers.find(painting.root, name)
+def cleared(painting: Painting, name: str | None, outside: bool = False) -> Painting:
+    """Returns the painting without what is selected of a layer, or all where nothing is; `outside`: without what lies
+    outside the frame on it, or on any layer that is not locked (None)."""
+    root = painting.root
+    if name is None:
+        free = [layer for layer in layers.layers(root) if not layers.is_locked(root, layer.name)]
+        for layer in free:
+            root = layers.substitute(root, layer.name, _emptied(painting, layer, outside))
+        return replace(painting, root=root)
+    node = layers.find(root, name)
     if not isinstance(node, Layer):
         raise LayerError(f"layer {name!r}: found no layer of paint, expected one to clear")
-    if layers.is_locked(painting.root, name):
+    if layers.is_locked(root, name):
         raise LayerError(f"layer {name!r}: found it locked, expected one that is not")
-    empty = replace(node, pyramid=Pyramid(grid=painting.grid, commits=node.pyramid.commits), growth=())
-    return replace(painting, root=layers.substitute(painting.root, name, empty))
+    return replace(painting, root=layers.substitute(root, name, _emptied(painting, node, outside)))
+
+
+def _emptied(painting: Painting, layer: Layer, outside: bool) -> Layer:
+    limit = framing(painting.frame) if outside else painting.selection
+    if limit is None:
+        return replace(layer, pyramid=Pyramid(grid=painting.grid, commits=layer.pyramid.commits), growth=())
+    paint = flattened(layer).pyramid if layer.growth else layer.pyramid
+    left = without(paint, limit)
+    return layer if left is layer.pyramid else replace(layer, pyramid=left, growth=())
 
 
 def _made(node: Node, paint: Pyramid, blend: str) -> Layer:

@@ -15,6 +15,7 @@ from app.panels.dialogs import file_browser
 from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
+from app.panels.dialogs.frame_dialog import FrameDialog
 from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
 from app.panels.dialogs.select_dialogs import ChangeSelection, KeepSelection, KeptSelections
@@ -284,6 +285,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "unsaved": lambda desk: Unsaved(),
     "overtaken": _overtaken,
     "earlier": _earlier,
+    "frame": lambda desk: FrameDialog(desk.known.frame),
     "merge": lambda desk: MergeDialog(),
     "unclosed": Cards,
     "bin": Bin,

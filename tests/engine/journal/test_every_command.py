@@ -38,6 +38,7 @@ SAMPLES = {
     c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),
     c.BakePlacement: c.BakePlacement("sky again"),
     c.MergeLayer: c.MergeLayer("sky again"),
+    c.SetFrame: c.SetFrame(Rect.at(-3, 4, 500, 400)),
     c.ClearLayer: c.ClearLayer("sky"),
     c.SelectLayer: c.SelectLayer("sky"),
     c.RemoveLayer: c.RemoveLayer("cloud"),
