@@ -2,6 +2,7 @@
 
 BRUSH = "\uf1fc"
 ERASER = "\uf12d"
+FILL = "\uf575"
 SMOOTH = "\uf043"
 PICK = "\uf1fb"
 HAND = "\uf256"

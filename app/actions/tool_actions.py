@@ -7,7 +7,9 @@ from collections.abc import Callable
 from app.actions.action import Action as A
 from app.actions.action import Check, always, ready, to_now
 from app.desk.desk import Desk
+from app.desk.filling.fill_state import unbounded
 from app.desk.guides import symmetry
+from engine.studio.requests import Do
 
 
 def _tool(name: str) -> Callable[[Desk], None]:
@@ -50,11 +52,23 @@ def _escape(desk: Desk) -> None:
     desk.hand.use("brush")
 
 
+def _leaks(desk: Desk) -> bool:
+    return desk.known.ready and desk.filling.last is not None and desk.notices.about("fill")
+
+
+def _fill_all(desk: Desk) -> None:
+    if desk.filling.last is not None:
+        desk.notices.settle("fill")
+        desk.post(Do(unbounded(desk.filling.last)))
+
+
 TOOL_ACTIONS: dict[str, A] = {
     "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), always, _is("brush")),
     "eraser": A("Eraser", "Tools", ("E",), "Erase; again to paint", _toggle_eraser, always, _erasing),
     "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), always, _is("pick")),
     "move": A("Move", "Tools", ("V",), "Drag the layer", _tool("move"), always, _is("move")),
+    "fill": A("Fill", "Tools", ("G",), "Fill a region with the brush", _tool("fill"), always, _is("fill")),
+    "fill_all": A("Fill all the same", "Tools", (), "Fill up to the end of what is looked at", _fill_all, _leaks),
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),

@@ -115,5 +115,5 @@ VIEW_ACTIONS: dict[str, A] = {
     "nearest": A("Nearest paint", "Go", ("Home",), "Go to the nearest paint", going.go_to_nearest, _lost),
     "type_place": A("Go to place", "Go", ("Ctrl+L",), "Type or copy level and place", _type_place),
     "bookmark": A("Bookmark this view", "Go", ("Ctrl+B",), "Keep this view under a name", _bookmark, ready),
-    "places": A("Places", "Go", ("G",), "Bookmarks, and a map of the paint", _strip("places"), ready, _open("places")),
+    "places": A("Places", "Go", ("J",), "Bookmarks, and a map of the paint", _strip("places"), ready, _open("places")),
 }  # fmt: skip

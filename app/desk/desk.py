@@ -15,6 +15,7 @@ from app.canvas.glide import Glide
 from app.canvas.view import Place, View, view_of
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
+from app.desk.filling.fill_state import FillState
 from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand
 from app.desk.known import Known
@@ -114,6 +115,7 @@ class Desk:
     examples: ExampleState = field(default_factory=ExampleState)
     recovery: RecoveryState = field(default_factory=RecoveryState)
     past: PastState = field(default_factory=PastState)
+    filling: FillState = field(default_factory=FillState)
     places: PlaceState = field(default_factory=PlaceState)
     guides: GuideState = field(default_factory=GuideState)
     moving: MoveState = field(default_factory=MoveState)

@@ -15,6 +15,7 @@ from engine.painting.commands import DefineTexture
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
+WITH_BRUSH = ("brush", "fill")  # tools that lay what the brush lays
 BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
 
@@ -108,3 +109,8 @@ class Hand:
             self.colours.remove(self.colour)
         self.colours.insert(0, self.colour)
         del self.colours[HISTORY:]
+
+
+def go_on_with_brush(hand: Hand) -> None:
+    """Chooses the brush, unless a tool that works with it is chosen."""
+    hand.use(hand.tool if hand.tool in WITH_BRUSH else "brush")

@@ -12,6 +12,7 @@ OF_A_PAINTING = (
     "painting",
     "grown",
     "elsewhere",
+    "fill",
 )  # what notices are about that end with the painting
 
 

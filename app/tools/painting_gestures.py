@@ -28,7 +28,7 @@ def _point(view: View, level: int, origin: tuple[int, int], event: PenEvent, sta
     return [x, y, pressure, event.tilt_x, event.tilt_y, event.time - start]
 
 
-def _refused(desk: Desk) -> bool:
+def refused(desk: Desk) -> bool:
     """Says why nothing can be painted now, if that is so."""
     if desk.known.opening and not desk.known.ready:  # who paints before the engine is there paints on a new painting
         desk.say("The paint engine is still loading")
@@ -45,7 +45,7 @@ def _refused(desk: Desk) -> bool:
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:
     """Returns a stroke, at the level that is shown; on a placement, on what it shows."""
-    if _refused(desk):
+    if refused(desk):
         return
     layer = desk.known.active
     aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and layer.shows is not None else None

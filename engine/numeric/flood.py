@@ -195,16 +195,23 @@ def _grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
     free = known.reshape(-1)
     queue, other = np.empty(4096 + width, np.int64), np.empty(4096 + width, np.int64)
     count = others = 0
+    top, bottom, left, right = height, 0, width, 0  # of the own front
     for y in range(1, height - 1):
         own, out = core[y], known[y]
         for x in range(width):
             out[x] = _OWN if own[x] == _OWN else (_OTHER if own[x] == _FREE else out[x])
         if count + width > queue.shape[0]:
             queue = _longer(queue)
+        before = count
+        count = _fronts(core, y, 1, width - 1, _OWN, queue, count)
+        if count > before:
+            top, bottom = min(top, y), y + 1
+            left, right = min(left, queue[before] - y * width), max(right, queue[count - 1] - y * width + 1)
+    far = 2 * steps  # others from beyond come too late
+    for y in range(max(1, top - far), min(height - 1, bottom + far)):
         if others + width > other.shape[0]:
             other = _longer(other)
-        count = _fronts(core, y, _OWN, queue, count)
-        others = _fronts(core, y, _FREE, other, others)
+        others = _fronts(core, y, max(1, left - far), min(width - 1, right + far), _FREE, other, others)
     done = others_done = 0
     for _ in range(steps):
         queue, done, count = _ring(free, width, queue, done, count, np.uint8(_OWN))
@@ -212,10 +219,10 @@ def _grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
 
 
 @inner
-def _fronts(core: np.ndarray, y: int, kind: int, queue: np.ndarray, count: int) -> int:
-    """Lists the pixels of a row of the core, of one kind, beside which there are others than the core's."""
+def _fronts(core: np.ndarray, y: int, first: int, end: int, kind: int, queue: np.ndarray, count: int) -> int:
+    """Lists the pixels of a part of a row of the core, of one kind, beside which there are others than the core's."""
     above, own, below, start = core[y - 1], core[y], core[y + 1], y * core.shape[1]
-    for x in range(1, own.shape[0] - 1):
+    for x in range(first, end):
         inside = own[x - 1] != _SHUT and own[x + 1] != _SHUT and above[x] != _SHUT and below[x] != _SHUT
         if own[x] == kind and not inside:
             queue[count] = start + x

@@ -42,14 +42,20 @@ class Like:
 
 @dataclass(frozen=True, slots=True)
 class Fill:
-    """Fills a region with a brush, on a layer (None: the active one).  `open`: even if it reaches the border of where
-    it is looked for."""
+    """Fills a region, or (without `like`) what is selected, at `level`, with a brush, on a layer (None: the active
+    one).  `open`: even if the region reaches the border of where it is looked for."""
 
     brush: Brush
-    like: Like
+    like: Like | None = None
     open: bool = False
     layer: str | None = None
+    level: int = 0
     extra: Map[str, Any] = _NOTHING
+
+
+def place_of(fill: Fill) -> tuple[int, Rect | None]:
+    """Returns the level at which a fill is done, and where its region is looked for, if it says so."""
+    return (fill.level, None) if fill.like is None else (fill.like.level, fill.like.rect)
 
 
 def read_like(members: Fields, name: str) -> Like:
@@ -95,18 +101,24 @@ def write_like(like: Like) -> dict[str, Any]:
 
 def read_fill(members: Fields) -> Fill:
     """Returns the command that fills."""
+    like = None if members.take("like", None) is None else read_like(members, "like")
     return Fill(
         settings.from_json(members.take("brush", {}), members.at("brush")),
-        read_like(members, "like"),
+        like,
         members.flag("open", False),
         None if members.take("layer", None) is None else members.text("layer"),
-        members.rest(),
+        members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT) if like is None else 0,
+        extra=members.rest(),
     )
 
 
 def write_fill(fill: Fill) -> dict[str, Any]:
     """Returns the members of the command."""
-    out: dict[str, Any] = {"like": write_like(fill.like), "brush": settings.to_json(fill.brush)}
+    out: dict[str, Any] = {"brush": settings.to_json(fill.brush)}
+    if fill.like is not None:
+        out["like"] = write_like(fill.like)
+    elif fill.level:
+        out["level"] = fill.level
     if fill.open:
         out["open"] = True
     if fill.layer is not None:

@@ -15,6 +15,7 @@ from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
+from engine.painting.fill_command import Like, read_like, write_like
 from engine.painting.layer_commands import Extra
 from engine.painting.layering.placing_members import Members
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
@@ -71,7 +72,7 @@ class Whole:
     what: str
 
 
-Source = Box | Line | Named | Whole
+Source = Box | Line | Named | Whole | Like
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +152,7 @@ SOURCES: dict[str, SourceForm] = {
     "saved": SourceForm(
         Named, lambda members, name: Named(members.text(name), True), lambda named: {"saved": named.name}
     ),
+    "like": SourceForm(Like, read_like, lambda like: {"like": write_like(like)}),
     "all": SourceForm(Whole, _read_whole, lambda whole: {whole.what: True}),
     "none": SourceForm(Whole, _read_whole, lambda whole: {whole.what: True}),
     "invert": SourceForm(Whole, _read_whole, lambda whole: {whole.what: True}),

@@ -23,6 +23,10 @@ class Refusal(ValueError):
     """A command that cannot be done on this painting: `str()` is one line; the painting is as before."""
 
 
+class Leak(Refusal):
+    """A region to be filled that goes on beyond where it is looked for."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Painting:
     """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;

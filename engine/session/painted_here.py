@@ -24,6 +24,7 @@ from engine.painting import commands as c
 from engine.painting.textures import Texture
 from engine.painting.times import untimed
 from engine.painting.value import Painting
+from engine.session.poured_here import Before, Poured
 from engine.session.steps import Definitions, LoggedStep, Steps
 from engine.strokes.coverage_at import Covering, Seeds, bounds_of, hides, near, plain_over, plainly
 from engine.texture.table import KINDS
@@ -102,11 +103,11 @@ class _Candidate(NamedTuple):
 class PaintedHere:
     """Finds the strokes that show at places of one painting; what is learnt of its strokes is kept for the next place.
 
-    `cache`: of the painting's tiles.
+    `cache`: of the painting's tiles; `before`: gives the painting that a step was done on, where it is at hand.
     """
 
-    def __init__(self, cache: TileCache | None = None) -> None:
-        self._cache = cache
+    def __init__(self, cache: TileCache | None = None, before: Before = lambda step: None) -> None:
+        self._cache, self._poured = cache, Poured(before, cache)
         self._covering = Covering()
         self._bounds: dict[int, tuple[c.Stroke, Rect]] = {}  # by the index of the step
         self._made: dict[int, tuple[Definitions, dict[str, Texture]]] = {}  # by the definitions' identity
@@ -138,7 +139,7 @@ class PaintedHere:
         for sheet, weight, plain in _sheets(painting.root, 1.0, True):
             alpha = self._alpha(sheet, place)
             yield ()
-            near = yield from self._near(laid.get(sheet.name, []), place)
+            near = yield from self._near(laid.get(sheet.name, []), place, painting.frame)
             if near:
                 grounds.append(_Ground.of(sheet.name, alpha, seen * weight, place, near))
             seen *= 1.0 - alpha * weight if plain else 1.0
@@ -176,6 +177,10 @@ class PaintedHere:
         alike: dict[int, list[int]] = {}
         for n, (step, stroke) in enumerate(some):
             level, rect = fine if stroke.level > place.level else (place.level, place.rect)  # no finer than it is
+            if isinstance(step.command, c.Fill):
+                poured = self._poured.over(step, step.command, level, rect)
+                out[n] = 0.0 if poured is None else poured
+                continue
             if plainly(stroke, level):
                 alike.setdefault(stroke.level, []).append(n)
                 continue
@@ -189,7 +194,7 @@ class PaintedHere:
         return out
 
     def _near(
-        self, strokes: Sequence[LoggedStep], place: CanvasPixel
+        self, strokes: Sequence[LoggedStep], place: CanvasPixel, frame: Rect
     ) -> Generator[tuple[ShownStroke, ...], None, list[tuple[LoggedStep, c.Stroke]]]:
         """Returns the strokes whose bounds meet the place, the newest first."""
         there: dict[int, Rect] = {}
@@ -198,7 +203,10 @@ class PaintedHere:
             some = strokes[start : start + _BOUND_AT_ONCE]
             self._bound([step for step in some if self._bounds.get(step.index, _UNBOUND)[0] is not step.command])
             for step in some:
-                stroke, around = self._bounds[step.index]
+                if isinstance(step.command, c.Fill):
+                    stroke, around = self._poured.stroke(step, step.command, frame)
+                else:
+                    stroke, around = self._bounds[step.index]
                 if stroke.level not in there:
                     there[stroke.level] = near(stroke.level, place.level, place.rect)
                 if there[stroke.level].meets(around):
@@ -208,10 +216,10 @@ class PaintedHere:
 
     def _bound(self, steps: Sequence[LoggedStep]) -> None:
         """Learns the bounds of strokes."""
-        strokes = [step.command for step in steps if isinstance(step.command, c.Stroke)]
+        strokes = {step.index: step.command for step in steps if isinstance(step.command, c.Stroke)}
         if strokes:
-            for step, stroke, bounds in zip(steps, strokes, bounds_of(strokes), strict=True):
-                self._bounds[step.index] = stroke, bounds
+            for (index, stroke), bounds in zip(strokes.items(), bounds_of([*strokes.values()]), strict=True):
+                self._bounds[index] = stroke, bounds
 
     def _textures(self, definitions: Definitions, painting: Painting) -> dict[str, Texture]:
         """Returns textures as they were; one whose picture the painting has no more is as it is now, if it is there."""
@@ -236,7 +244,7 @@ def _next(strokes: Iterator[_Candidate], effort: int, level: int) -> list[_Candi
     some: list[_Candidate] = []
     while effort > 0 and (one := next(strokes, None)) is not None:
         some.append(one)
-        effort -= 1 if plainly(one.stroke, level) else _OWN_MASK
+        effort -= 1 if plainly(one.stroke, level) and isinstance(one.step.command, c.Stroke) else _OWN_MASK
     return some
 
 

@@ -18,8 +18,10 @@ from engine.canvas.selecting.occupied import alpha_at
 from engine.canvas.selecting.rims import rim_moved
 from engine.canvas.selecting.selection import EVERYTHING, Selection
 from engine.canvas.store import Pyramid
+from engine.painting.fill_command import Like
 from engine.painting.select_commands import Box, Line, Named, Select, Source, Whole
 from engine.painting.value import Painting, Refusal
+from engine.strokes.likeness import alike
 
 
 def selected(painting: Painting, command: Select) -> Painting:
@@ -106,5 +108,10 @@ def _lined(painting: Painting, line: Line) -> Coverage:
     return thinning.over(mask.coverage())
 
 
+def _alike(painting: Painting, like: Like) -> Coverage:
+    """Returns the region of a pixel, as far as it is looked for."""
+    return alike(painting, like, True, None, "select")
+
+
 # Of each source that covers a part of the canvas by itself: what that is, at its own level.
-COVERAGES: dict[type[Source], Callable[..., Coverage]] = {Box: _boxed, Line: _lined}
+COVERAGES: dict[type[Source], Callable[..., Coverage]] = {Box: _boxed, Line: _lined, Like: _alike}

@@ -105,7 +105,7 @@ class Steps(Owned):
         return self._now.painting.root
 
     def strokes(self, layer: Layer) -> Iterator[LoggedStep]:
-        """Yields the strokes on a layer, by its name now, the newest first."""
+        """Yields the strokes and fills on a layer, by its name now, the newest first."""
         laid = self._now.laid.get(layer.id)
         while laid is not None:
             yield laid.step
@@ -129,11 +129,8 @@ class Steps(Owned):
     def _after(self, step: LoggedStep) -> _State:
         """Returns the state after a step on the present one."""
         now, command = self._now, step.command
-        if isinstance(command, c.Stroke):
+        if isinstance(command, c.Stroke | c.Fill):
             return self._after_stroke(step, command)
-        if isinstance(command, c.Fill):  # of layers without paint it changes only that there is one
-            painting = _painted_on(now.painting, command.layer)
-            return _State(painting, step, now.laid, painting.active)
         if isinstance(command, c.Select):  # what is selected depends on paint, which is not here
             return replace(now, step=step, active=now.painting.active)
         painting, laid = _applied(now.painting, command), now.laid
@@ -148,7 +145,7 @@ class Steps(Owned):
             laid = Map({number: last for number, last in laid.items() if number in held})
         return _State(painting, step, laid, painting.active)
 
-    def _after_stroke(self, step: LoggedStep, stroke: c.Stroke) -> _State:
+    def _after_stroke(self, step: LoggedStep, stroke: c.Stroke | c.Fill) -> _State:
         now = self._now
         try:
             painting, layer = layer_for(now.painting, stroke.layer)
@@ -168,14 +165,6 @@ class Steps(Owned):
         first = self._now.active if redone else found.active
         kept = active if active is not None and layers.has(found.root, active) else first
         self._now = replace(self._now, painting=replace(found, active=kept))
-
-
-def _painted_on(painting: Painting, layer: str | None) -> Painting:
-    """Returns the painting with the layer that is painted on; the same where that does not fit."""
-    try:
-        return layer_for(painting, layer)[0]
-    except (Refusal, LayerError):
-        return painting
 
 
 def _applied(painting: Painting, command: c.Command) -> Painting:

@@ -6,7 +6,7 @@ than three levels finer than the pixels, its dabs are laid smaller, and what thi
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -205,6 +205,14 @@ def _taken(stroke: Stroke, at: int, rect: Rect) -> np.ndarray | None:
         view = out[meeting.slices(rect)]
         np.maximum(view, mask[meeting.slices(part)], out=view)
     return out if out.any() else None
+
+
+def carried_to(covered: Callable[[Rect], np.ndarray], at: int, level: int, rect: Rect) -> np.ndarray:
+    """Returns a coverage of level `at`, which `covered` gives over any rectangle there, as it is over `rect` of another
+    level: float32 (h, w)."""
+    there = rect.zoomed(at - level) if at >= level else _ancestors(rect, level - at)[-1]
+    found: np.ndarray = _carried(covered(there)[None], at, level, rect)[0]
+    return found
 
 
 def _looked_at(stroke_level: int, level: int, rect: Rect) -> tuple[int, Rect]:

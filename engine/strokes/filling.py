@@ -13,17 +13,20 @@ from engine.brush.foretell import AREA_CAP
 from engine.brush.mask import Coverage
 from engine.brush.settings import Brush
 from engine.brush.stamp import Edit
+from engine.brush.thinning import Thinning
 from engine.canvas import commit, evaluate, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Layer
+from engine.canvas.selecting.limit import Limit
+from engine.canvas.selecting.occupied import alpha_at
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import Fill
 from engine.painting.grown import threads
-from engine.painting.value import Painting, layer_for
-from engine.strokes.bed import lies_in
+from engine.painting.value import Painting, Refusal, layer_for
+from engine.strokes.bed import Change, lies_in
 from engine.strokes.example_stroke import change_of, check_alpha, grid_of, kind_of
 from engine.strokes.likeness import alike, taken, thinned
 from engine.strokes.paint_stroke import LiveStroke
@@ -42,8 +45,8 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
     grows = kind_of(brush) is not LiveStroke
     if grows:
         check_alpha(layer, "fill")
-    region = alike(painting, command.like, command.open, cache)
-    pouring = Pouring(painting, layer, brush, cache)
+    region, limit = _region(painting, command, cache)
+    pouring = Pouring(painting, layer, brush, cache, limit)
     after = pouring.grown(region) if grows else pouring.painted(region)
     root = base.root
     if after.pyramid is not layer.pyramid:
@@ -53,17 +56,44 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
     return base if root is base.root else replace(base, root=root)
 
 
+def covered_by(painting: Painting, command: Fill, cache: TileCache | None = None) -> Coverage:
+    """Returns how much of each pixel of its level a fill covers, at most."""
+    region, limit = _region(painting, command, cache)
+    left = region if limit is None else limit.over(region)
+    return left if kind_of(command.brush) is not LiveStroke else thinned(left, _opacity(command.brush))
+
+
+def _region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple[Coverage, Limit | None]:
+    """Returns what is to be covered, and what the selection leaves of that: all, where it is the selection itself."""
+    if command.like is not None:
+        region = alike(painting, command.like, command.open, cache)
+        return region, Limit.of(painting.selection, region.level, cache)
+    selection = painting.selection
+    if selection is None:
+        raise Refusal("fill: found nothing selected and no like, expected one of them")
+    if selection.inverse:
+        raise Refusal("fill: found a selection without bounds, expected one with bounds, or like")
+    return alpha_at(selection.pyramid, command.level, "fill"), None
+
+
+def _opacity(brush: Brush) -> float:
+    """Returns the opacity under the pen's full pressure."""
+    return min(brush.opacity * float(dynamics.evaluate(brush.dynamics.get("opacity"), np.ones(1))[0]), 1.0)
+
+
 class Pouring:
     """What a brush does to a region of a layer of a painting, all at once."""
 
-    def __init__(self, painting: Painting, layer: Layer, brush: Brush, cache: TileCache | None) -> None:
-        self._painting, self._layer, self._brush, self._cache = painting, layer, brush, cache
+    def __init__(
+        self, painting: Painting, layer: Layer, brush: Brush, cache: TileCache | None, limit: Limit | None
+    ) -> None:
+        self._painting, self._layer, self._brush, self._cache, self._limit = painting, layer, brush, cache, limit
 
     def grown(self, region: Coverage) -> Layer:
         """Returns the layer with an example grown in a region, or with what was grown there at a depth taken away."""
         brush, layer, level = self._brush, self._layer, region.level
         grid = grid_of(brush, level)
-        change = change_of(brush, grid, self._painting, self._painting.seed)
+        change = self._limited(change_of(brush, grid, self._painting, self._painting.seed), grid)
         rect, mask = _carried(region.rect, taken(region), grid - level)
         return replace(layer, growth=growths.previewed(change(layer.growth, rect, mask)))
 
@@ -71,12 +101,12 @@ class Pouring:
         """Returns the layer with its paint edited; what is painted with examples is taken away with it, or made paint
         where the region meets it."""
         brush, layer, level = self._brush, self._layer, region.level
-        opacity = brush.opacity * float(dynamics.evaluate(brush.dynamics.get("opacity"), np.ones(1))[0])
-        coverage = thinned(region, min(opacity, 1.0))
+        coverage = thinned(region, _opacity(brush))
         if layer.growth and brush.row.takes_away and not layer.alpha_locked:
             rect, mask = coverage.rect, taken(coverage)
-            layer = replace(layer, growth=growths.cut(layer.growth, level, rect, mask))
-        elif layer.growth and not brush.row.takes_away and _meets(layer.growth, coverage):
+            change = self._limited(lambda growth, rect, mask: growths.cut(growth, level, rect, mask), level)
+            layer = replace(layer, growth=change(layer.growth, rect, mask))
+        elif layer.growth and not brush.row.takes_away and self._meets(layer.growth, coverage):
             with threads() as pool:
                 layer = flattened(layer, self._cache, pool)
         return replace(layer, pyramid=commit.commit(layer.pyramid, self._edit(layer, coverage), self._cache))
@@ -85,13 +115,22 @@ class Pouring:
         brush, painting, level, seed = self._brush, self._painting, coverage.level, self._painting.seed
         textures, made = painting.known_textures, edits.class_of(brush.mode)
         ink = made.ink_of(brush, textures, level, seed)
-        thins = relief.resolve(brush, textures, level, (seed, seed))
+        own = relief.resolve(brush, textures, level, (seed, seed))
+        thins: Thinning = own if self._limit is None else self._limit.after(own)
         scene = self._scene(made.looks(brush, ink), coverage)
 
         def read(rect: Rect) -> Planes:
             return evaluate.evaluate(layer.pyramid, level, rect, self._cache)
 
         return edits.edit(brush, coverage, ink, layer.alpha_locked, read, thins, scene)
+
+    def _limited(self, change: Change, level: int) -> Change:
+        return change if self._limit is None else self._limit.within(change, level)
+
+    def _meets(self, growth: Growth, coverage: Coverage) -> bool:
+        """Tells whether anything grown can be seen in tiles that are covered, and selected."""
+        keys = [key for key in coverage.tiles if self._limit is None or self._limit.meets(key.rect)]
+        return any(lies_in(growth, coverage.level, key.rect) for key in keys)
 
     def _scene(self, looks: Looks, coverage: Coverage) -> Scene:
         """Returns what an op looks at: the pen's pressure is everywhere the greatest."""
@@ -103,11 +142,6 @@ class Pouring:
             source = reader(painting.root, looks.layer, coverage.level, self._cache)
         corner, pressure = (rect.x0, rect.y0), coverage if looks.pressure else None
         return Scene(source, corner, pressure, corner, painting.seed, {}, painting.arithmetic)
-
-
-def _meets(growth: Growth, coverage: Coverage) -> bool:
-    """Tells whether anything grown can be seen in tiles that are covered."""
-    return any(lies_in(growth, coverage.level, key.rect) for key in coverage.tiles)
 
 
 def _carried(rect: Rect, mask: np.ndarray, finer: int) -> tuple[Rect, np.ndarray]:

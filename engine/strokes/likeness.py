@@ -17,11 +17,7 @@ from engine.numeric.address import TILE, Rect, TileKey
 from engine.painting.fill_command import LOOKED_AT_CAP, Like
 from engine.painting.grown import settled_alone, settled_root
 from engine.painting.layering.placing_members import Same
-from engine.painting.value import Painting, Refusal
-
-
-class Leak(Refusal):
-    """A region that goes on beyond where it was looked for."""
+from engine.painting.value import Leak, Painting, Refusal
 
 
 def alike(painting: Painting, like: Like, open_too: bool, cache: TileCache | None, what: str = "fill") -> Coverage:

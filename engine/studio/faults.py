@@ -14,7 +14,7 @@ from engine.canvas.node_checks import LayerError
 from engine.checks.field_error import FieldError
 from engine.files.fault import Cancelled, FileError
 from engine.numeric.formula import FormulaError
-from engine.painting.value import Refusal
+from engine.painting.value import Leak, Refusal
 from engine.studio.results import Note
 
 EXPECTED = (FileError, FieldError, FormulaError, LayerError, Refusal, Cancelled, MemoryError)
@@ -25,6 +25,7 @@ OFFERS: dict[str, tuple[str, ...]] = {
     "export": ("try_again",),
     "open": ("try_again", "open"),
 }
+LEAKS = "It runs out of what you see: fill all the same?"
 NO_ROOM, LOGGED = ("free_space",), ("copy_details",)  # about a full disk; about a fault
 LOGGER = logging.getLogger("inkfall")
 
@@ -35,6 +36,8 @@ def told(error: Exception, doing: str, about: str = "", path: Path | None = None
     `doing`: what was being done; `about`: a row of OFFERS, then the line stays with what can be done about it, to the
     file `path`, if it is not the one that the error names.
     """
+    if isinstance(error, Leak):
+        return Note(LEAKS, True, stays=True, offers=("fill_all",), about="fill")
     fault = not isinstance(error, EXPECTED)
     if fault:
         LOGGER.error("a fault, %s", doing, exc_info=error)

@@ -40,7 +40,7 @@ def shows(program, *names):
 
 def test_going_from_place_to_place(program, painting):
     window = program(str(painting))
-    window.keys("g")
+    window.keys("j")
     shows(window, "bookmark mill", "spot 9")
     home = next(name for _, name in window.boxes() if name.startswith("status: Level"))
     window.click("bookmark mill")

@@ -21,6 +21,7 @@ QUICK = (
     "example",
     "stroke",
     "copies",
+    "flooding",
     "exporting",
     "looking",
     "memory",

@@ -9,6 +9,7 @@ from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_state
 from app.desk.examples.example_state import Entry
+from app.desk.hand import go_on_with_brush
 from engine.brush.settings import Brush
 from engine.painting.commands import Swap
 from engine.studio.requests import Do, GetReady
@@ -57,7 +58,7 @@ def take_example(desk: Desk) -> None:
     name, needs = state.needs(entry)
     others = (need for need in desk.hand.needs if need.name != name)
     desk.hand.take(replace(desk.hand.brush, mode="example", example=name), needs=(*others, *needs))
-    desk.hand.use("brush")
+    go_on_with_brush(desk.hand)
     follow(desk)
 
 

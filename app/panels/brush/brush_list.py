@@ -11,6 +11,7 @@ from app import icons, theme
 from app.desk import palette, presets
 from app.desk.desk import Desk, FileWork
 from app.desk.examples import example_use
+from app.desk.hand import go_on_with_brush
 from app.desk.presets import Preset
 from app.panels.controls import widgets as w
 from engine.studio.requests import Prepare, Swatch
@@ -170,7 +171,7 @@ def hold(desk: Desk, preset: Preset) -> None:
     example_use.adopt(desk)
     if preset.brush.ink:
         desk.hand.colour = preset.brush.rgb
-    desk.hand.use("brush")
+    go_on_with_brush(desk.hand)
     if imgui.get_io().key_shift:
         desk.hand.change(radius=radius)
 

@@ -13,9 +13,9 @@ from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
-from app.desk.hand import LARGEST, SMALLEST
+from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
 from app.desk.knots import at
-from app.panels.brush import example_section
+from app.panels.brush import example_section, fill_options
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
@@ -92,6 +92,8 @@ class BrushPanel:
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
         self._tools(desk)
+        if desk.hand.tool == "fill":
+            fill_options.draw(desk)
         shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
         self._saving.draw(desk)
         if shown:
@@ -126,15 +128,14 @@ class BrushPanel:
             painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, 4 * desk.scale)
 
     def _tools(self, desk: Desk) -> None:
-        side = imgui.get_font_size() * 2.1
         names: list[tuple[str, str, bool]] = [
             ("brush", icons.BRUSH, desk.hand.tool == "brush" and not desk.hand.erasing),
             ("eraser", icons.ERASER, desk.hand.tool == "brush" and desk.hand.erasing),
         ]
         names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
         gap = _tool_row(desk, names, side)
-        selecting = ("rectangle", "ellipse", "lasso", "polygon")
-        _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in selecting], side, gap)
+        regions = ("rectangle", "ellipse", "lasso", "polygon", "fill")
+        _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in regions], side, gap)
 
     def _modes(self, desk: Desk) -> None:
         """Buttons side by side, each as wide as its word asks for."""
@@ -148,7 +149,7 @@ class BrushPanel:
             on = desk.hand.brush.row is row
             imgui.push_style_color(imgui.Col_.button, theme.vec(theme.ACCENT_SOFT if on else theme.RAISED))
             if w.text_button(row.label, row.tooltip, width=words[i] + spare):
-                desk.hand.use("brush")
+                go_on_with_brush(desk.hand)
                 if row.grows and desk.hand.brush.example is None:
                     example_use.take_example(desk)
                 else:

@@ -13,6 +13,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
 from app.desk.desk import Desk
+from app.desk.hand import go_on_with_brush
 from app.desk.lab_state import with_texture
 from app.desk.match_state import SIZES, SMALLEST, title
 from app.desk.outside import pictured
@@ -202,7 +203,7 @@ class MatchingPanel(Panel):
                 dynamics = brush.dynamics.delete("opacity") if "opacity" in brush.dynamics else brush.dynamics
                 brush = replace(brush, ink=(part,), dynamics=dynamics)
             desk.hand.take(brush)
-            desk.hand.use("brush")
+            go_on_with_brush(desk.hand)
 
 
 def _heard(desk: Desk, scene: MatchScene, _now: float) -> None:

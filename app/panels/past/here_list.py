@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons
 from app.desk.colours import from_hex
 from app.desk.desk import Desk
-from app.desk.hand import LARGEST, SMALLEST
+from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
 from app.desk.past.past_state import PastState, brush_name, when
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
@@ -95,7 +95,7 @@ def use_brush(desk: Desk, stroke: HereStroke) -> None:
     brush = stroke.step.brush
     assert brush is not None
     radius = min(max(brush.radius * desk.view.scale(stroke.step.level), SMALLEST), LARGEST)
-    desk.hand.use("brush")
+    go_on_with_brush(desk.hand)
     desk.hand.take(replace(brush, radius=round(radius, 2)), brush_name(brush, desk.known.presets), ())
     if brush.row.lays_ink:
         desk.hand.colour = from_hex(brush.colour)

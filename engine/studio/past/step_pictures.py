@@ -15,6 +15,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
+from engine.painting.fill_command import place_of
 from engine.painting.value import Painting
 from engine.session.steps import LoggedStep
 from engine.strokes.coverage_at import stroke_bounds
@@ -66,8 +67,10 @@ def _place(command: c.Command, painting: Painting) -> tuple[int, Rect]:
     level, whole = 0, painting.frame
     if isinstance(command, c.Stroke):
         level, whole = command.level, stroke_bounds(command)
-    elif isinstance(command, c.Fill) and command.like.rect is not None:
-        level, whole = command.like.level, command.like.rect
+    elif isinstance(command, c.Fill):
+        fill_level, looked_at = place_of(command)
+        if looked_at is not None:
+            level, whole = fill_level, looked_at
     while whole.width > _ROOM * PICTURE_WIDTH or whole.height > _ROOM * PICTURE_HEIGHT:
         level, whole = level - 1, whole.zoomed(-1)
     left = whole.x0 - (PICTURE_WIDTH - whole.width) // 2

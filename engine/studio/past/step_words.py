@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from engine.painting import commands as c
+from engine.painting.fill_command import place_of
 from engine.painting.select_commands import Named, Whole
 from engine.painting.times import time_of
 from engine.session.steps import LoggedStep
@@ -17,7 +18,7 @@ def told(step: LoggedStep, serial: int) -> PastStep:
         title = command.brush.row.label
         return PastStep(step.index, step.number, title, picture, command.brush, command.level, when)
     if isinstance(command, c.Fill):
-        return PastStep(step.index, step.number, "Fill", picture, command.brush, command.like.level, when)
+        return PastStep(step.index, step.number, "Fill", picture, command.brush, place_of(command)[0], when)
     return PastStep(step.index, step.number, _title(command), picture, time=when)
 
 

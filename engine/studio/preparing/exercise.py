@@ -103,6 +103,9 @@ def filed() -> None:
             studio.do(q.Begin(0, (0, 0), Brush(radius=_WIDEST)))
             studio.do(q.Points(np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [90.0, 70.0, 1.0, 0.0, 0.0, 0.1]])))
             studio.do(q.Finish())
+            for gap in (0, 2):
+                like = c.Like((10, 10), 0, _PAINTED, gap=gap, of=None)
+                studio.do(q.Do(c.Fill(Brush(), like, open=True)))
             session = studio.easel.session
             documents.save(ora, session.painting, session.recording())  # as no save of the artist's: it bounds nothing
             studio.do(q.Export(png))

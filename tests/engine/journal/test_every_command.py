@@ -31,7 +31,11 @@ SAMPLES = {
         2, (1 << 70, -3), LINE, Brush(radius=3.5, colour="#102030"), "sky", 7, MORE, (Copy(0.6, -0.8, 3.25, 4.5, True),)
     ),
     c.Fill: c.Fill(
-        Brush(colour="#20a0f0"), c.Like((9, 9), 1, Rect(-5, 0, 90, 70), 0.25, 6, False, None), True, "sky", MORE
+        Brush(colour="#20a0f0"),
+        c.Like((9, 9), 1, Rect(-5, 0, 90, 70), 0.25, 6, False, None),
+        open=True,
+        layer="sky",
+        extra=MORE,
     ),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
     c.AddPicture: c.AddPicture("photo", "grit", 1, (5, -6)),

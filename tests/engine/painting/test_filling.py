@@ -21,10 +21,10 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.grown import settled
 from engine.painting.recording import read_from, version_of
-from engine.painting.value import Painting, Refusal
+from engine.painting.value import Leak, Painting, Refusal
+from engine.session.painted_here import CanvasPixel, PaintedHere
 from engine.session.replay import replay
 from engine.session.session import Session
-from engine.strokes.likeness import Leak
 
 FRAME = Rect.at(0, 0, 160, 120)
 RING = [[80 + 40 * math.cos(t), 60 + 40 * math.sin(t)] for t in np.linspace(0, 2 * math.pi, 48)]
@@ -149,7 +149,7 @@ def test_what_cannot_be_done_is_told(command, told):
         ({"at": [1, 2], "tolerance": 1.5}, "like.tolerance"),
         ({"at": [1, 2], "gap": -1}, "like.gap"),
         ({"at": [1, 2], "of": 5}, "like.of"),
-        (None, "like"),
+        (5, "like"),
     ],
 )
 def test_what_makes_no_sense_is_told_by_its_place(like, place):
@@ -234,3 +234,79 @@ def test_only_a_recording_that_fills_says_version_2():
     told = json.loads(next(done(LINE, fill()).recording().lines()))
     assert told["inkfall"] == 2
     assert json.loads(next(done(LINE).recording().lines()))["inkfall"] == 1
+
+
+def test_what_was_painted_here_knows_of_fills():
+    session = done(WASH, LINE, fill())
+    history, count = session.history, session.steps.count
+
+    def before(step):
+        return history.at(step.number - 1 - count)
+
+    def found(x, y, level=0, finder=None):
+        finder = finder or PaintedHere(session.cache, before)
+        return finder.at(CanvasPixel(level, x, y), session.painting, session.steps)
+
+    assert [shown.step.index for shown in found(80, 60)] == [2]
+    assert [shown.step.index for shown in found(320, 240, 2)] == [2]
+    assert found(80, 60)[0].stroke.brush.colour == "#c06020"
+    assert found(80, 60)[0].share == 1
+    assert [shown.step.index for shown in found(30, 60)] == [0]
+    assert [shown.step.index for shown in found(20, 15, -2)] == [2]
+    unknown = found(80, 60, finder=PaintedHere())
+    assert [shown.step.index for shown in unknown] == [2, 0]
+    assert unknown[0].share == 0.5
+
+
+BOX = {"do": "select", "rect": [0, 60, 20, 60, 60]}
+
+
+@pytest.mark.parametrize("name", [*BRUSHES, "example"])
+def test_nothing_outside_the_selection_changes(grown, name):
+    brush = BRUSHES.get(name, {"mode": "example", "example": "leaf"})
+    grown.do(c.parse(WASH))
+    grown.do(c.parse(LINE))
+    before = seen(grown.painting)
+    grown.do(c.parse(BOX))
+    grown.do(c.parse(fill(brush=brush)))
+    after = seen(grown.painting)
+    changed = (before != after).any(axis=0)
+    assert changed[20:80, 60:120].any()
+    changed[20:80, 60:120] = False
+    assert not changed.any()
+    np.testing.assert_array_equal(seen(replayed_in(grown)), after)
+
+
+@pytest.mark.parametrize("name", ["colour", "rim", "erase", "example"])
+def test_without_a_place_what_is_selected_is_filled(grown, name):
+    brush = BRUSHES.get(name, {"mode": "example", "example": "leaf"})
+    grown.do(c.parse(WASH))
+    before = seen(grown.painting)
+    for command in (BOX, {"do": "fill", "brush": brush}):
+        grown.do(c.parse(command))
+    changed = (before != seen(grown.painting)).any(axis=0)
+    assert changed[22:78, 62:118].mean() > 0.9
+    changed[20:80, 60:120] = False
+    assert not changed.any()
+    np.testing.assert_array_equal(seen(replayed_in(grown)), seen(grown.painting))
+
+
+def test_without_a_selection_or_one_with_bounds_nothing_can_be_filled():
+    session = done(LINE)
+    with pytest.raises(Refusal, match="nothing selected and no like"):
+        session.do(c.parse({"do": "fill", "brush": {}}))
+    for command in (BOX, {"do": "select", "invert": True}):
+        session.do(c.parse(command))
+    with pytest.raises(Refusal, match="without bounds"):
+        session.do(c.parse({"do": "fill", "brush": {}}))
+
+
+def test_what_is_like_a_pixel_is_selected_as_it_would_be_filled():
+    session, other = done(LINE), done(LINE)
+    session.do(c.parse({"do": "select", "like": {"at": [80, 60], "gap": 3}}))
+    session.do(c.parse({"do": "fill", "brush": {"colour": "#c06020"}}))
+    other.do(c.parse(fill(like={"gap": 3})))
+    np.testing.assert_array_equal(seen(session.painting), seen(other.painting))
+    np.testing.assert_array_equal(seen(replayed(session)), seen(session.painting))
+    with pytest.raises(Refusal, match=r"select\.like\.at"):
+        session.do(c.parse({"do": "select", "like": {"at": [800, 60]}}))

@@ -1,0 +1,1 @@
+"""Fills, as the window knows of them."""

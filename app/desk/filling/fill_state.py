@@ -1,0 +1,38 @@
+"""How the tool Fill finds what it fills, and what it was asked to fill last."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from app.canvas.view import View
+from engine.numeric.address import Rect
+from engine.painting.fill_command import LOOKED_AT_CAP, Fill
+
+WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
+
+
+@dataclass(slots=True)
+class FillState:
+    """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone; `last`:
+    what was asked for last."""
+
+    tolerance: float = 0.12
+    gap: float = 0.0
+    seen: bool = True
+    contiguous: bool = True
+    last: Fill | None = None
+
+
+def looked_at(view: View, level: int) -> Rect:
+    """Returns the pixels of a level in which the region of a place on the screen is looked for: what is seen, and half
+    as much again on each side, as far as that is not too much."""
+    seen = view.visible(level)
+    most = LOOKED_AT_CAP // max(1, seen.area)
+    across, down = (min(side // 2, side * max(0, min(3, most - 1)) // 8) for side in (seen.width, seen.height))
+    wide = Rect(seen.x0 - across, seen.y0 - down, seen.x1 + across, seen.y1 + down)
+    return wide if wide.area <= LOOKED_AT_CAP else seen
+
+
+def unbounded(fill: Fill) -> Fill:
+    """Returns the same fill, wherever its region ends."""
+    return replace(fill, open=True)

@@ -1,0 +1,27 @@
+"""What the tool Fill looks for: shown with the brush while it is in hand."""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.desk.desk import Desk
+from app.desk.filling.fill_state import WIDEST_SHOWN
+from app.panels.controls import widgets as w
+
+
+def draw(desk: Desk) -> None:
+    """Draws the section."""
+    if not w.section("Fill", "A click fills a region with the brush, whatever that does"):
+        return
+    state = desk.filling
+    hint = "How far colours may differ from the one you click"
+    changed, value = w.slider("Tolerance", state.tolerance * 100, (0.0, 100.0), hint, form="%.0f%%")
+    if changed:
+        state.tolerance = round(value / 100, 4)
+    hint = "Gaps in lines up to this width count as closed"
+    changed, value = w.slider("Close gaps", state.gap, (0.0, WIDEST_SHOWN), hint, form="%.0f px")
+    if changed:
+        state.gap = round(value)
+    _, state.seen = w.tick("All layers", state.seen, "Look at all that is seen, not at the layer alone")
+    imgui.same_line(0, imgui.get_font_size())
+    _, state.contiguous = w.tick("One region", state.contiguous, "Off: everything in sight that is of that colour")

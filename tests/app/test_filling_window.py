@@ -1,0 +1,45 @@
+"""Regions filled by hand in the real window."""
+
+import math
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+MIDDLE = 560, 360
+
+
+def ring(radius, gap=0.0):
+    """Points of a circle around the middle, less a gap at its right."""
+    x, y = MIDDLE
+    angles = np.linspace(gap, 2 * math.pi - gap, 40)
+    return [(round(x + radius * math.cos(a)), round(y + radius * math.sin(a))) for a in angles]
+
+
+@pytest.fixture
+def app(program):
+    """The window with a ring, one pixel of level 0 on one of the screen."""
+    app = program()
+    app.settled(60.0)
+    app.keys("1")
+    empty = app.canvas()
+    app.stroke(*ring(110))
+    app.outlined = app.canvas_unlike(empty)
+    return app
+
+
+def test_a_click_fills_a_region_and_asks_before_it_runs_out_of_sight(app):
+    outlined = app.outlined
+    app.keys("g")
+    app.click(MIDDLE)
+    filled = app.canvas_unlike(outlined)
+    changed = (np.abs(filled.astype(int) - outlined).max(axis=2) > 8).sum()
+    assert 0.7 < changed / (math.pi * 105**2) < 1.1  # what lies within the ring
+    app.keys("ctrl+z")
+    assert app.comes_to(outlined)
+    app.click((300, 200))  # what leaks is asked about
+    app.box("Fill all the same")
+    assert app.comes_to(outlined)
+    app.click("Fill all the same")
+    app.canvas_unlike(outlined)
+    app.until_gone("Fill all the same")
