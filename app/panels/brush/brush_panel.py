@@ -128,6 +128,7 @@ class BrushPanel:
             painter.add_image_rounded(picture, corner, end, ImVec2(0, 0), ImVec2(1, 1), white, 4 * desk.scale)
 
     def _tools(self, desk: Desk) -> None:
+        side = imgui.get_font_size() * 2.1
         names: list[tuple[str, str, bool]] = [
             ("brush", icons.BRUSH, desk.hand.tool == "brush" and not desk.hand.erasing),
             ("eraser", icons.ERASER, desk.hand.tool == "brush" and desk.hand.erasing),
