@@ -92,6 +92,11 @@ def _most_resident() -> int:
     return most if sys.platform == "darwin" else most * 1024
 
 
+def crowded() -> bool:
+    """Tells whether the process takes more than it may, the program and what comes and goes with it."""
+    return resident() > budget() + PROGRAM
+
+
 def settle() -> None:
     """Gives free pages back where the process takes more than the budget: what took many has ended."""
     if resident() > budget():

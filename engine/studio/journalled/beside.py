@@ -51,6 +51,7 @@ PICTURE_PAUSE = 5.0  # seconds between two small pictures, at least
 PREPARING = 0.25  # seconds from one look at whether kernels are still being compiled, or a file written, to the next
 _MOST_FAILURES = 5  # each of which doubles the time until a checkpoint is tried again
 _NICE = 10
+LULL = 2.0  # seconds from when a checkpoint gave way to the next, at least
 
 
 class Beside(Owned):
@@ -118,11 +119,12 @@ class Beside(Owned):
         self.due = None if due == math.inf else due
 
     def _written(self, ended: _Ended, now: float) -> None:
-        """A checkpoint has ended.  One that gave way to a save is written after it, and then gives way to none."""
+        """A checkpoint has ended.  One that gave way to a save, or as memory was short, is written after it, and then
+        gives way to nothing."""
         self._writing, took = None, ended.took
         self._gives_way = not ended.gave_way
         if ended.gave_way:
-            self._next, self.spent = now, max(self.spent, self._owed)
+            self._next, self.spent = now + LULL, max(self.spent, self._owed)
         elif took is None:
             self._next, self.spent = now + RETRY * 2**self._failures, max(self.spent, self._owed)
             self._failures = min(self._failures + 1, _MOST_FAILURES)
@@ -191,7 +193,7 @@ class Beside(Owned):
 @dataclass(frozen=True, eq=False, slots=True)
 class _Generation:
     """A checkpoint to be written: its number, the painting after `count` commands, what tells whether it is given up,
-    and whether it gives way to a save."""
+    and whether it gives way to a save, and to a stroke for which memory is short."""
 
     number: int
     painting: Painting
@@ -202,7 +204,7 @@ class _Generation:
 
 @dataclass(frozen=True, slots=True)
 class _Ended:
-    """What came of a checkpoint: seconds that it took, None if it was not written; whether it gave way to a save."""
+    """What came of a checkpoint: seconds that it took, None if it was not written; whether it gave way."""
 
     took: float | None
     gave_way: bool
@@ -224,7 +226,7 @@ def _checkpoint(journal: Journal, entry: Volume, about: _Generation) -> _Ended:
 
     def cancelled() -> bool:
         nonlocal gave_way
-        gave_way = gave_way or (about.gives_way and SAVING.wanted)
+        gave_way = gave_way or (about.gives_way and (SAVING.wanted or memory.crowded()))
         return gave_way or about.given_up()
 
     def write(folder: Path) -> None:

@@ -14,6 +14,7 @@ from engine.archive.opening import open_painting
 from engine.archive.saving_turn import SAVING, SavingTurn
 from engine.files.fault import Cancelled
 from engine.journal import checkpoints
+from engine.keeping import memory
 from engine.studio import requests as q
 
 
@@ -78,6 +79,32 @@ def test_what_is_written_on_its_own_account_is_not_begun_while_somebody_waits():
             pass
     thread.join()
     assert done
+
+
+@pytest.fixture(autouse=True)
+def soon(monkeypatch):
+    """What gave way is tried again at once."""
+    monkeypatch.setattr("engine.studio.journalled.beside.LULL", 0.01)
+
+
+@pytest.mark.usefixtures("often")
+def test_a_checkpoint_gives_way_once_while_memory_is_short(tmp_path, monkeypatch):
+    begun, save, outcomes = [], checkpoints.save, []
+
+    def told(path, snapshot, cancelled):
+        begun.append(path)
+        outcomes.append(cancelled())
+        if outcomes[-1]:
+            raise Cancelled
+        save(path, snapshot, cancelled=cancelled)
+
+    monkeypatch.setattr(checkpoints, "save", told)
+    monkeypatch.setattr(memory, "crowded", lambda: True)
+    worker = painter(tmp_path / "journal")
+    draw(worker, 30, 0)
+    end_of_checkpoint(worker)
+    assert outcomes == [True, False]
+    left(worker)
 
 
 @pytest.mark.usefixtures("often")
