@@ -17,11 +17,12 @@ import numpy as np
 from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
+from engine.canvas.placing.copies import Tiles
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.self_turns import turns_of
-from engine.canvas.placing.through import UNPLACED, Seen, looked_through
+from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
 from engine.numeric import blend
-from engine.numeric.address import TILE, Rect
+from engine.numeric.address import TILE, Rect, TileKey
 
 BLOCK = TILE
 AT_ONCE = 8 * BLOCK * BLOCK  # pixels of a rectangle up to which it is one block
@@ -77,6 +78,7 @@ class Sources:
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[int | None, tuple[CompositeStep, ...]] = {}
         self._turns: dict[int | None, bool] = {}
+        self._tiles: dict[int | None, Tiles | None] = {}
 
     def steps(self, of: int | None) -> tuple[CompositeStep, ...]:
         """Returns what to composite for a node of an id; None: for all of them."""
@@ -100,6 +102,13 @@ class Sources:
             return placement.pose.similarity.quarter is None or self.turns(placement.of)
         return isinstance(step.source, tuple) and any(map(self._turned, step.source))
 
+    def tiles(self, of: int | None) -> Tiles | None:
+        """Returns the tiles of what a node shows, if it holds several copies of itself."""
+        if of not in self._tiles:
+            copies = [one.placement for one in _placed(self.steps(of)) if one.placement.of == of]
+            self._tiles[of] = Tiles(copies) if len(copies) > 1 else None
+        return self._tiles[of]
+
     def step(self, node: Layer | Placement) -> CompositeStep:
         """Returns the step that lays a layer, or what a placement shows, over nothing."""
         return CompositeStep(blend.BLENDS["src-over"], np.float32(1), self.source(node), True)
@@ -107,6 +116,15 @@ class Sources:
     def source(self, node: Layer | Placement) -> Layer | Placed:
         """Returns what a step of the node has for a source."""
         return node if isinstance(node, Layer) else Placed(node, self)
+
+
+def _placed(plan: tuple[CompositeStep, ...]) -> Iterator[Placed]:
+    """Yields what placements show that are composited directly, or in groups."""
+    for step in plan:
+        if isinstance(step.source, tuple):
+            yield from _placed(step.source)
+        elif isinstance(step.source, Placed):
+            yield step.source
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,6 +238,17 @@ def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, 
         layer = source
         return looked_through(lambda at, part: read(layer, at, part), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)
+    tiles = source.sources.tiles(source.placement.of)
+    if tiles is not None:
+
+        def made(key: TileKey) -> np.ndarray | None:
+            drawn = _picture(plan, key.level, key.rect, read, UNPLACED)
+            return None if drawn is None else drawn.copy()
+
+        def several(at: int, part: Rect) -> np.ndarray | None:
+            return tiles.picture(at, part, made)
+
+        return looked_coarser(several, level, rect, through)
     if source.place is not None:
         return _turns(source, level, rect, read, seen)
     if not source.placement.repeat and not through.whole(level) and source.sources.turns(source.placement.of):

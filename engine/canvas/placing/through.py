@@ -121,6 +121,19 @@ def looked_through(picture: Picture, level: int, rect: Rect, seen: Seen) -> np.n
     return None if pixels is None else seen.clipped(pixels, level, part, rect)
 
 
+def looked_coarser(picture: Picture, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
+    """As `looked_through`, of a picture of which only levels are asked for that are as much coarser as it is smaller:
+    where the move is by parts of pixels it is sampled."""
+    part = Rect(0, 0, 0, 0) if seen.vanishes(level) else seen.meets(level, rect)
+    if part.empty:
+        return None
+    if seen.finer(level) == 0:
+        pixels = _turned(picture, seen.similarity, level, part)
+    else:
+        pixels = sampled(picture, seen.similarity, level, part, _beyond(seen, level))
+    return None if pixels is None else seen.clipped(pixels, level, part, rect)
+
+
 def _beyond(seen: Seen, level: int) -> Rect | None:
     """Returns the pixels of the source's level that its own clip leaves."""
     if seen.own is None or seen.own.similarity != seen.similarity:

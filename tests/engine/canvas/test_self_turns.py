@@ -165,3 +165,55 @@ def test_what_is_read_in_kept_tiles_is_the_same():
             assert plain is not None
             np.testing.assert_array_equal(found, plain)
     assert kept_planes(b, 0, Rect(5000, 5000, 5300, 5300), cached) is None
+
+
+def copied(poses):
+    """Several copies of all, and a layer over them."""
+    a, _ = painted()
+    a = replace(a, opacity=0.7)
+    copies = (Placement(90 + n, f"copy {n}", pose=pose, part=FRAME) for n, pose in enumerate(poses))
+    return replace(EMPTY, children=(*copies, a))
+
+
+def plainly(poses, level, rect):
+    """Every copy of a copy on its own."""
+    out = np.zeros((4, rect.height, rect.width), np.float32)
+    for pose in poses if level > -2 else ():
+        part = pose.similarity.shown(FRAME.rect, 0, level).intersect(rect)
+        if not part.empty:
+            source = pose.similarity.inverse().shown(part, level, level + pose.levels)
+            pixels = as_seen(plainly(poses, level + pose.levels, source), pose)
+            there = out[:, *part.slices(rect)]
+            there[:] = pixels + (np.float32(1) - pixels[3]) * there
+    over = composite(replace(EMPTY, children=(replace(painted()[0], opacity=0.7),)), level, rect, layer_planes)
+    return over + (np.float32(1) - over[3]) * out
+
+
+@pytest.mark.parametrize(
+    "poses",
+    [
+        [Pose(at=(64 * x, 64 * y), levels=-1) for x in (0, 1) for y in (0, 1)],
+        [Pose(at=(0, 0), levels=-1), Pose(at=(128, 0), levels=-1, turn=1), Pose(at=(48, 64), levels=-2, mirror=True)],
+        [Pose(at=(8, 16), levels=-1), Pose(at=(32, 48), levels=-1)],
+    ],
+)
+def test_several_copies_are_as_every_copy_of_a_copy_on_its_own(poses):
+    root, rect = copied(poses), Rect(90, 30, 400, 290)
+    found = picture(root, 2, rect)
+    assert found.any()
+    # Plainly, copies of the fifth turn and beyond are left out: less than a hundredth of a pixel is left of them.
+    away = np.abs(found - plainly(poses, 2, rect))
+    assert np.median(away) < 4e-3
+    assert np.quantile(away, 0.95) < 0.03
+    part = Rect(100, 40, 230, 111)
+    np.testing.assert_array_equal(picture(root, 2, part), found[:, *part.slices(rect)])
+
+
+def test_several_copies_at_a_deep_level_are_made_once_each():
+    poses = [Pose(at=(64 * x, 64 * y), levels=-1) for x in (0, 1) for y in (0, 1)]
+    shallow = Rect.at(3 * 64, 5 * 64, 200, 120)
+    root = copied(poses)
+    x, y = shallow.x0 >> 1, shallow.y0 >> 1
+    whole = picture(root, 3, Rect.at(x, y, 40, 40))
+    assert whole.any()
+    assert picture(root, 60, Rect.at(5 << 63, 3 << 63, 40, 30)).any()
