@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from app.actions.action import Action, asks
 from app.actions.edit_actions import EDIT_ACTIONS
+from app.actions.endless_actions import ENDLESS_ACTIONS
 from app.actions.file_actions import FILE_ACTIONS
 from app.actions.layer_actions import LAYER_ACTIONS
 from app.actions.merging_actions import MERGING_ACTIONS
@@ -25,6 +26,7 @@ ACTIONS: dict[str, Action] = {
     **SELECT_ACTIONS,
     **MERGING_ACTIONS,
     **PLACEMENT_ACTIONS,
+    **ENDLESS_ACTIONS,
     **VIEW_ACTIONS,
     "keys": Action("Keys…", "Help", ("F1",), "All keys in one list", asks("keys")),
     "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),

@@ -17,8 +17,8 @@ import numpy as np
 from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
-from engine.canvas.placing.copies import Tiles
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
 from engine.numeric import blend

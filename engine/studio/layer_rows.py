@@ -6,15 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from engine.canvas.placing.pose import Pose
+    from engine.canvas.placing.pose import Pose, SourcePart
 
 
 @dataclass(frozen=True, slots=True)
 class Shows:
-    """What a placement shows, and where: the node of that name; None: the whole painting."""
+    """What a placement shows, and where: the node of that name; None: the whole painting; `part`: what of it."""
 
     name: str | None
     pose: Pose
+    part: SourcePart | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 node.blend,
                 node.locked,
                 alpha_locked,
-                results.Shows(names[node.of] if node.of else None, node.pose) if isinstance(node, Placement) else None,
+                _shows(node, names) if isinstance(node, Placement) else None,
                 node.pyramid.finest if isinstance(node, Layer) else None,
                 not isinstance(node, Group) and node.role == REFERENCE,
             )
@@ -42,3 +42,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
         if isinstance(node, Group):
             out += _rows(node, names, depth + 1, node.name)
     return out
+
+
+def _shows(node: Placement, names: Mapping[int, str]) -> results.Shows:
+    return results.Shows(names[node.of] if node.of else None, node.pose, node.part)

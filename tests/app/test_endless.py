@@ -1,0 +1,72 @@
+"""An endless zoom: the first picture of a film is its last, whatever turns in it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.desk.places.endless import endless
+from engine.canvas.layers import EMPTY
+from engine.canvas.layers import layers as all_layers
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose, SourcePart
+from engine.film.aim import aim_of
+from engine.film.shooting import Film, Shooting
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.session.session import Session
+
+FRAME = SourcePart(0, Rect(0, 0, 256, 256))
+INK = [{"texture": "rock", "colour": "#ffe0a0", "period": 40}]
+
+
+@pytest.fixture(scope="module")
+def filled():
+    session = Session()
+    for radius, points, colour, ink in (
+        (200, [[-50, 60], [300, 200]], "#406080", INK),
+        (12, [[20, 30], [240, 60]], "#c03020", []),
+        (9, [[30, 220], [120, 130], [230, 240]], "#20a050", []),
+    ):
+        brush = {"radius": radius, "hardness": 1, "colour": colour, "ink": ink}
+        session.do(c.parse({"do": "stroke", "points": points, "brush": brush}))
+    return session.painting
+
+
+def film(painting, pose, size):
+    """The first and the last picture of the way from one place to the other."""
+    layer = next(all_layers(painting.root))
+    root = replace(EMPTY, children=(layer, Placement(9, "itself", pose=pose, part=FRAME)))
+    ends = tuple(aim_of(bookmark, size) for bookmark in endless("itself", pose, FRAME))
+    shooting = Shooting(Film(ends, size, 3.0, 1.0), replace(painting, root=root))
+    frames = [frame.astype(int) for frame in shooting.frames(1)]
+    assert len(frames) == 3
+    assert np.ptp(frames[0]) > 50
+    assert np.abs(frames[1] - frames[0]).max() > 30
+    return frames[0], frames[-1]
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [Pose((60, 70), levels=-1), Pose((90, 64), levels=-2), Pose((0, 0), levels=-1), Pose((72, 64), levels=-1)],
+)
+@pytest.mark.parametrize("size", [(96, 54), (40, 70)])
+def test_the_film_closes_to_the_bit(filled, pose, size):
+    first, last = film(filled, pose, size)
+    np.testing.assert_array_equal(first, last)
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [
+        Pose((190, 60), levels=-1, turn=1),
+        Pose((190, 60), levels=-1, mirror=True),
+        Pose((60, 190), levels=-1, turn=3, mirror=True),
+        Pose((90, 30), turned=(0.9, 0.41), levels=-1),
+    ],
+)
+def test_a_film_of_a_turn_closes_as_nearly_as_one_sees(filled, pose):
+    first, last = film(filled, pose, (96, 54))
+    away = np.abs(first - last)
+    assert np.quantile(away, 0.98) <= (1 if pose.turned is None else 10)  # sampled once, so hard rims are softer
+    assert away.mean() <= (0.1 if pose.turned is None else 2.5)
