@@ -4,7 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use one libglfw
 
+from app.actions.actions import ACTIONS, perform
+from app.canvas.view import Place, View
+from app.desk.desk import Desk
 from app.desk.places.endless import endless
 from engine.canvas.layers import EMPTY
 from engine.canvas.layers import layers as all_layers
@@ -15,6 +19,9 @@ from engine.film.shooting import Film, Shooting
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.session.session import Session
+from engine.studio import outline
+from engine.studio.requests import Do
+from engine.studio.results import Scene
 
 FRAME = SourcePart(0, Rect(0, 0, 256, 256))
 INK = [{"texture": "rock", "colour": "#ffe0a0", "period": 40}]
@@ -70,3 +77,33 @@ def test_a_film_of_a_turn_closes_as_nearly_as_one_sees(filled, pose):
     away = np.abs(first - last)
     assert np.quantile(away, 0.98) <= (1 if pose.turned is None else 10)  # sampled once, so hard rims are softer
     assert away.mean() <= (0.1 if pose.turned is None else 2.5)
+
+
+def scene_of(session, active):
+    rows = tuple(outline.rows(session.painting.root))
+    marks = tuple(session.painting.bookmarks.values())
+    return Scene(session.painting.frame, rows, active, False, False, modified=False, path=None, bookmarks=marks)
+
+
+def test_the_menus_make_a_picture_in_itself_and_the_way_into_it(filled):
+    posted = []
+    desk = Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), posted.append)
+    session = Session(filled)
+    layer = next(all_layers(filled.root)).name
+    desk.known = replace(desk.known, ready=True, scene=scene_of(session, layer))
+    assert not perform(desk, ACTIONS["endless"])
+    assert perform(desk, ACTIONS["in_itself"])
+    session.do(posted.pop().command)
+    name = session.painting.root.children[-1].name
+    desk.known = replace(desk.known, scene=scene_of(session, name))
+    for _ in range(2):  # asked for twice, it bookmarks other names
+        assert perform(desk, ACTIONS["endless"])
+        for asked in posted:
+            if isinstance(asked, Do):
+                session.do(asked.command)
+        posted.clear()
+        desk.known = replace(desk.known, scene=scene_of(session, name))
+    marks = session.painting.bookmarks
+    assert [mark.rsplit(" ", 1)[1] for mark in marks] == ["out", "in", "out", "in"]
+    outer, inner = list(marks.values())[:2]
+    assert inner.level == outer.level + 1
