@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from app.actions.action import Action as A
-from app.actions.action import free_name, next_layer_name, ready
+from app.actions.action import next_layer_name, ready
 from app.desk.desk import Desk
+from app.desk.naming import free_name
 from app.desk.places import endless, going
 from engine.canvas.placing.pose import SourcePart
 from engine.painting import commands as c
