@@ -12,7 +12,10 @@ from collections.abc import Callable, Generator, Iterable, Iterator
 from itertools import islice
 from typing import TypeVar
 
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Group, Layer, layers
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.through import Seen
+from engine.canvas.placing.views import Views
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.studio.results import Spot
 
@@ -22,6 +25,7 @@ _BLOCK = 12  # tiles along a block of paint that one goes to: about a screen
 _MOST = 300  # spots on a map
 _ASKED = 600  # tiles whose pixels are looked at
 _CANDIDATES = 6  # of each level, the tiles nearest to a place
+_SHOWN_MOST = 16  # tiles in which one of a source is shown
 _TILES_AT_ONCE = 4096  # tiles that are gone through without a pause: some milliseconds
 _NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1))
 _Block = tuple[int, int, int]  # its level, and where it lies; or a square of the map, by the level of what is in it
@@ -41,6 +45,10 @@ def finest_tiles(root: Group, painted: Callable[[int, Rect], bool]) -> Generator
                 yield
         for plot in layer.growth:
             stored[plot.level].update((column >> 1, row >> 1) for row, column in plot.region.masks[0])
+    for level, places in _placed(root):
+        for piece in _pieces(places):
+            stored[level].update(piece)
+            yield
     found: Finest = {}
     covered: set[Place] = set()  # by what is finer
     below, asked = 0, 0
@@ -68,6 +76,28 @@ def finest_tiles(root: Group, painted: Callable[[int, Rect], bool]) -> Generator
     return found
 
 
+def _placed(root: Group) -> Iterator[tuple[int, Iterator[Place]]]:
+    """Yields the tiles, by level, in which visible placements show stored ones; of one that lies in what it shows, its
+    first turn."""
+    views, own = Views(root), {layer.id: layer for layer in layers(root)}
+    for node in _visible_nodes(root) if views.any else ():
+        first: dict[int, Seen] = {}
+        for number, seen in (views.of(0, node.id) or ()) if isinstance(node, Placement) else ():
+            held = first.get(number)
+            if held is None or seen.similarity.log_scale > held.similarity.log_scale:
+                first[number] = seen
+        for number, seen in first.items():
+            for at, records in own[number].pyramid.levels.items():
+                yield at - seen.levels, _shown_tiles(seen, at, records.keys())
+
+
+def _shown_tiles(seen: Seen, at: int, places: Iterable[Place]) -> Iterator[Place]:
+    level = at - seen.levels
+    for place in places:
+        rect = seen.meets(level, seen.similarity.shown(TileKey(at, *place).rect, at, level))
+        yield from ((key.x, key.y) for key in islice(rect.tiles(level), _SHOWN_MOST))
+
+
 def _pieces(places: Iterable[_T]) -> Iterator[list[_T]]:
     """Yields some tiles, or blocks of them, a piece at a time."""
     rest = iter(places)
@@ -87,12 +117,16 @@ def _beside(covered: set[Place], tiles: set[Place]) -> Generator[None, None, set
 
 
 def _visible(node: Group) -> Iterator[Layer]:
+    return (child for child in _visible_nodes(node) if isinstance(child, Layer))
+
+
+def _visible_nodes(node: Group) -> Iterator[Layer | Placement]:
     for child in node.children:
         if child.visible and child.opacity > 0:
-            if isinstance(child, Layer):
+            if isinstance(child, Group):
+                yield from _visible_nodes(child)
+            else:
                 yield child
-            elif isinstance(child, Group):
-                yield from _visible(child)
 
 
 def tiles_within(finest: Finest, area: Rect) -> Generator[None, None, Rect]:

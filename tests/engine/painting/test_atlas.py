@@ -201,3 +201,26 @@ def test_paint_at_more_levels_than_a_map_has_marks_is_mapped():
     finest = {level: {(0, 0), (-1, -1)} for level in range(400)}
     found, _ = drained(depths.spots(finest, 0, 22))
     assert sorted({spot.level for spot in found}) == list(range(400))
+
+
+def test_what_a_placement_shows_of_a_hidden_layer_is_found():
+    told = []
+    easel = Easel(told.append)
+    easel.told = told
+    for command in (
+        {"do": "layer", "add": "a"},
+        {"do": "stroke", "layer": "a", "points": [[0, 0], [60, 10]], "brush": {"radius": 8, "colour": "#204080"}},
+        {"do": "layer", "add": "there", "kind": "placement", "of": "a", "at": [50_000, 700], "turn": 1},
+        {"do": "layer", "set": "a", "visible": False},
+    ):
+        easel.carry_out(c.parse(command))
+    (far,) = asked(easel, around(0, 40_000, 0))
+    assert not far.in_sight
+    level, x, y = far.nearest
+    assert abs(level) <= 1
+    assert abs((x << 1 >> level + 1) - 50_000) < 100
+    assert abs((y << 1 >> level + 1) - 730) < 100
+    (near,) = asked(easel, around(0, 50_000, 700))
+    assert near.in_sight
+    *_, marks = asked(easel, q.AskMap((200, 150)))
+    assert marks.spots
