@@ -37,18 +37,7 @@ def finest_tiles(root: Group, painted: Callable[[int, Rect], bool]) -> Generator
 
     Beside what is finer a stroke stores tiles in which nothing shows: those there are asked for, by `painted`.
     """
-    stored: dict[int, set[Place]] = defaultdict(set)
-    for layer in _visible(root):
-        for level, records in layer.pyramid.levels.items():
-            for piece in _pieces(records.keys()):
-                stored[level].update(piece)
-                yield
-        for plot in layer.growth:
-            stored[plot.level].update((column >> 1, row >> 1) for row, column in plot.region.masks[0])
-    for level, places in _placed(root):
-        for piece in _pieces(places):
-            stored[level].update(piece)
-            yield
+    stored = yield from _stored(root)
     found: Finest = {}
     covered: set[Place] = set()  # by what is finer
     below, asked = 0, 0
@@ -74,6 +63,23 @@ def finest_tiles(root: Group, painted: Callable[[int, Rect], bool]) -> Generator
             covered.update(piece)
             yield
     return found
+
+
+def _stored(root: Group) -> Generator[None, None, dict[int, set[Place]]]:
+    """Returns the tiles, by level, that are stored of all that is visible, or shown; pauses on the way."""
+    stored: dict[int, set[Place]] = defaultdict(set)
+    for layer in _visible(root):
+        for level, records in layer.pyramid.levels.items():
+            for piece in _pieces(records.keys()):
+                stored[level].update(piece)
+                yield
+        for plot in layer.growth:
+            stored[plot.level].update((column >> 1, row >> 1) for row, column in plot.region.masks[0])
+    for level, places in _placed(root):
+        for piece in _pieces(places):
+            stored[level].update(piece)
+            yield
+    return stored
 
 
 def _placed(root: Group) -> Iterator[tuple[int, Iterator[Place]]]:
