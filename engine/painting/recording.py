@@ -113,7 +113,7 @@ class Recording:
 
 def version_of(command: Command) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    region = isinstance(command, DefineTexture) and "region" in command.arguments
+    region = isinstance(command, DefineTexture) and ("region" in command.arguments or command.maker == "gradient")
     if isinstance(command, LayerCommand):
         return layer_version(command)
     copied = isinstance(command, Stroke) and bool(command.copies)

@@ -27,7 +27,7 @@ from engine.painting.value import Painting
 from engine.session.poured_here import Before, Poured
 from engine.session.steps import Definitions, LoggedStep, Steps
 from engine.strokes.coverage_at import Covering, Seeds, bounds_of, hides, near, plain_over, plainly
-from engine.texture.table import KINDS
+from engine.texture.table import GRADIENT, KINDS
 
 LEAST_SHARE = 1.0 / 255.0  # of a pixel that is seen
 _PARTS = 4  # levels finer than the pixel at which it is looked at in parts
@@ -229,7 +229,7 @@ class PaintedHere:
             for name, command in definitions.items():
                 row, plain = KINDS.get(command.maker), untimed(command)
                 same = pictures.get(command.arguments.get("sha", ""))
-                if row is not None and not row.pictured:
+                if command.maker == GRADIENT or (row is not None and not row.pictured):
                     made[name] = Texture(command.maker, plain.arguments)
                 elif same is not None:
                     made[name] = Texture(kind_of(plain), plain.arguments, same.source, same.mask)

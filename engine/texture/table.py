@@ -14,6 +14,7 @@ from engine.checks.field_error import FieldError
 from engine.checks.values import described, is_within
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.curves import CURVES, KNOTS_CAP, Shape
+from engine.texture.gradient import gradient, gradient_of_key
 from engine.texture.image import Cover, Image, ImageSource
 from engine.texture.matched import Matched, MatchedCover, series, series_cover
 from engine.texture.placed import PlacedInk, similarity_of
@@ -121,6 +122,8 @@ _COVERS: dict[str, Kind] = {
     "matched-cover": Kind("matched-cover", _SAMPLE, MatchedCover, "", pictured=True),
     "series-cover": Kind("series-cover", _SERIES, series_cover, "", pictured=True),
 }
+# Not for the brush to name, either, but for definitions: its parameters are no numbers.
+GRADIENT, GRADIENT_COVER = "gradient", "gradient-cover"
 KINDS: dict[str, Kind] = {row.name: row for row in _ROWS}
 
 
@@ -138,6 +141,9 @@ def instance(
     whose parameters name none; `source` is the picture of an image or the sample of a spectral texture, its width the
     default period; `arithmetic`: that of the painting.  TextureError names the field.
     """
+    if kind == GRADIENT:
+        _check_level(level)
+        return _told(gradient, parameters, level)
     row = _row(kind)
     _check_level(level)
     values = []
@@ -173,6 +179,9 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
         return _shaped_from_key(key, images)
     if key[0] == "placed":
         return _placed_from_key(key, images)
+    if key[0] in (GRADIENT, GRADIENT_COVER):
+        _check_level(key[1])
+        return _told(gradient_of_key, key)
     kind, arithmetic = kind_of_key(key[0]) if isinstance(key[0], str) else (key[0], LIBRARY)
     row = (_COVERS.get(kind) if isinstance(kind, str) else None) or _row(kind)
     _check_level(key[1])
@@ -189,6 +198,14 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     known = images.get(sha)
     made = row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
     return _worked_out(made, arithmetic)
+
+
+def _told(make: Callable[..., Instance], *about: object) -> Instance:
+    """Returns what a maker makes; what it finds wrong is a TextureError."""
+    try:
+        return make(*about)
+    except FieldError as error:
+        raise TextureError(error.place, error.found, error.expected) from None
 
 
 def _shaped_from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
