@@ -101,6 +101,16 @@ def _any(desk: Desk) -> bool:
     return ready(desk) and desk.known.scene is not None and bool(desk.known.scene.layers)
 
 
+def _clip(desk: Desk) -> None:
+    row = desk.known.active
+    if row is not None:
+        desk.post(Do(c.SetLayer(row.name, clip=not row.clip)))
+
+
+def _is_clipped(desk: Desk) -> bool:
+    return desk.known.active is not None and desk.known.active.clip
+
+
 def _clear_outside(desk: Desk) -> None:
     desk.post(Do(c.ClearLayer(None, outside=True)))
 
@@ -114,6 +124,10 @@ MERGING_ACTIONS: dict[str, A] = {
         "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
     ),
     "clear": A("Clear", "Layer", (), "Take the paint off the layer, or what is selected of it", _clear, _painted),
+    "clip": A(
+        "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
+        _clip, _on_another, _is_clipped,
+    ),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
     "clear_outside": A(
         "Delete outside the frame", "Layer", (), "Take off all layers what lies outside the frame", _clear_outside, _any

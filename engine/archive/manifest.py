@@ -179,7 +179,8 @@ def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
     roles = any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root))
     chosen = painting.selection is not None or painting.selections
-    if roles or chosen or painting.guides or painting.paper is not None:
+    clipped = any(node.clip for node in layers.walk(painting.root))
+    if roles or clipped or chosen or painting.guides or painting.paper is not None:
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
@@ -205,6 +206,7 @@ def _node_json(
         "visible": node.visible,
         "blend": node.blend,
         "locked": node.locked,
+        **({"clip": True} if node.clip else {}),
     }
     if not isinstance(node, Group) and node.role:
         common["role"] = node.role
@@ -309,6 +311,7 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
         "visible": members.flag("visible"),
         "blend": members.text("blend"),
         "locked": members.flag("locked"),
+        "clip": members.flag("clip", False),
     }
     if kind != "group" and "role" in members:
         common["role"] = members.text("role")

@@ -8,8 +8,8 @@ block is read from the top layer down, and reading stops at a layer that hides a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -23,6 +23,7 @@ from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.atop import atop
 
 BLOCK = TILE
 AT_ONCE = 8 * BLOCK * BLOCK  # pixels of a rectangle up to which it is one block
@@ -53,13 +54,14 @@ class CompositeStep:
     """One operation on the picture so far: its source is a layer, the steps of an isolated group, what a placement
     shows, or the paper.
 
-    `over`: the operator is src-over.
+    `over`: the operator is src-over.  `atop`: the picture so far keeps its alpha.
     """
 
     row: blend.Blend
     opacity: np.float32
     source: Layer | tuple[CompositeStep, ...] | Placed | Paper
     over: bool
+    atop: bool = False
 
     @property
     def may_cover(self) -> bool:
@@ -152,9 +154,13 @@ def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, .
     `sources`: those of the whole tree, where `root` is a group of it."""
     sources = Sources(root) if sources is None else sources
     out: list[CompositeStep] = []
-    for node in root.children:
+    for node, clipped in stacks(root.children):
         row = blend.BLENDS[node.blend]
         if not node.visible or (node.opacity == 0 and not row.outside):
+            continue
+        if clipped:
+            both = _clipped(node, clipped, sources)
+            out.append(CompositeStep(row, np.float32(node.opacity), both, row.name == "src-over"))
             continue
         if isinstance(node, Group) and passes_through(node):
             out.extend(steps(node, sources))
@@ -163,6 +169,29 @@ def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, .
         if source or row.outside:
             out.append(CompositeStep(row, np.float32(node.opacity), source, row.name == "src-over"))
     return tuple(out)
+
+
+def stacks(nodes: Sequence[Node]) -> list[tuple[Node, list[Node]]]:
+    """Returns the nodes of a group that lie on nothing, bottom first, each with those that are clipped to it."""
+    out: list[tuple[Node, list[Node]]] = []
+    for node in nodes:
+        if node.clip and out:
+            out[-1][1].append(node)
+        else:
+            out.append((node, []))
+    return out
+
+
+def _clipped(node: Node, clipped: Sequence[Node], sources: Sources) -> tuple[CompositeStep, ...]:
+    """Returns a node and what is clipped to it as one picture: that keeps the node's alpha."""
+    own = CompositeStep(
+        blend.BLENDS["src-over"],
+        np.float32(1),
+        steps(node, sources) if isinstance(node, Group) else sources.source(node),
+        True,
+    )
+    above = steps(Group(node.id, node.name, children=tuple(replace(one, clip=False) for one in clipped)), sources)
+    return own, *(replace(step, over=False, atop=True) for step in above)
 
 
 def _whole(root: Group) -> tuple[CompositeStep, ...]:
@@ -353,6 +382,10 @@ def _apply(step: CompositeStep, source: np.ndarray | None, target: np.ndarray, e
     """Returns one source onto the target, which holds nothing yet if `empty`; whether it is empty afterwards."""
     if source is None:
         return empty or step.row.outside
+    if step.atop:
+        if not empty:
+            atop(step.row, target, source, step.opacity)
+        return empty
     if not empty:
         step.row.kernel(target, source, step.opacity)
         return False

@@ -36,7 +36,8 @@ class Layer:
     """One sheet of paint.
 
     `id`: a number that stays when the layer is renamed, unique in its painting, used in files.  `opacity`: 0..1.
-    `blend`: a row of `BLENDS`.  `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
+    `blend`: a row of `BLENDS`.  `clip`: shown only where the nearest one below that is not clipped has paint.
+    `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
     `pyramid`: the paint; `growth`: what was painted with examples, over it.  `role`: "" for a part of the picture, or
     REFERENCE.
     """
@@ -51,10 +52,11 @@ class Layer:
     pyramid: Pyramid = field(default_factory=Pyramid)
     growth: Growth = ()
     role: str = ""
+    clip: bool = False
 
     def __post_init__(self) -> None:
         check_common(self)
-        check_flags(self, ("visible", "locked", "alpha_locked"))
+        check_flags(self, ("visible", "locked", "alpha_locked", "clip"))
         check_role(self, self.role)
 
 
@@ -73,10 +75,11 @@ class Group:
     isolated: bool = True
     children: tuple[Node, ...] = ()
     paper: str | None = None
+    clip: bool = False
 
     def __post_init__(self) -> None:
         check_common(self)
-        check_flags(self, ("visible", "locked", "isolated"))
+        check_flags(self, ("visible", "locked", "isolated", "clip"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +93,9 @@ Node = Layer | Group | Placement
 Trail = tuple[int, ...]  # positions from the root down to a node
 EMPTY = Group(0, "root")
 _SETTABLE = {
-    Layer: ("opacity", "visible", "blend", "locked", "alpha_locked", "role"),
-    Group: ("opacity", "visible", "blend", "locked", "isolated"),
-    Placement: ("opacity", "visible", "blend", "locked", "of", "pose", "part", "repeat", "role"),
+    Layer: ("opacity", "visible", "blend", "locked", "clip", "alpha_locked", "role"),
+    Group: ("opacity", "visible", "blend", "locked", "clip", "isolated"),
+    Placement: ("opacity", "visible", "blend", "locked", "clip", "of", "pose", "part", "repeat", "role"),
 }
 
 
@@ -205,7 +208,7 @@ def free_name(root: Group, wanted: str) -> str:
 def alone(node: Node, root: Group) -> Group:
     """Returns a root that shows just this node of a tree, as if it were visible, opaque and normal: thumbnails,
     exports."""
-    shown = replace(node, visible=True, opacity=1.0, blend="src-over")
+    shown = replace(node, visible=True, opacity=1.0, blend="src-over", clip=False)
     return Alone(EMPTY.id, EMPTY.name, children=(shown,), tree=root)
 
 

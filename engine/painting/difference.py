@@ -88,4 +88,11 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
 
 def _plain(node: Node) -> tuple[Any, ...]:
     """Returns what of a node shows, besides its paint."""
-    return node.id, node.opacity, node.visible, node.blend, isinstance(node, Group) and (node.isolated, node.paper)
+    return (
+        node.id,
+        node.opacity,
+        node.visible,
+        node.blend,
+        node.clip,
+        isinstance(node, Group) and (node.isolated, node.paper),
+    )

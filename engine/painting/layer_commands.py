@@ -148,6 +148,7 @@ class SetLayer:
     locked: bool | None = None
     alpha_locked: bool | None = None
     isolated: bool | None = None
+    clip: bool | None = None
     role: str | None = None
     placing: Placing | None = None
     extra: Extra = _NOTHING
@@ -213,6 +214,7 @@ _SETTABLE: tuple[tuple[str, Reader], ...] = (
     ("locked", Fields.flag),
     ("alpha_locked", Fields.flag),
     ("isolated", Fields.flag),
+    ("clip", Fields.flag),
     ("role", _role),
 )
 
@@ -313,6 +315,6 @@ def write_layer(command: LayerCommand) -> Members:
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    newer = isinstance(command, SetLayer) and command.role is not None
+    newer = isinstance(command, SetLayer) and (command.role is not None or command.clip is not None)
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
     return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

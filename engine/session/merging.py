@@ -31,9 +31,13 @@ def merged_down(painting: Painting, name: str) -> Painting:
     lower = siblings[position - 1]
     for node in (lower, upper):
         _check(root, node, lower if node is lower else None)
-    blend = lower.blend if lower.blend == upper.blend and not isinstance(lower, Group) else PLAIN_BLEND
-    paint = merged_paint(settled_root(root), (replace(lower, blend=PLAIN_BLEND), upper), painting.grid)
-    made = _made(lower, paint, blend)
+    onto = upper.clip and not lower.clip  # what is clipped to the lower one: that stays as it is otherwise
+    same = onto or lower.blend == upper.blend
+    blend = lower.blend if same and not isinstance(lower, Group) else PLAIN_BLEND
+    below = replace(lower, blend=PLAIN_BLEND, clip=False, opacity=1.0 if onto else lower.opacity)
+    above = upper if onto else replace(upper, clip=False)
+    paint = merged_paint(settled_root(root), (below, above), painting.grid)
+    made = replace(_made(lower, paint, blend), opacity=lower.opacity if onto else 1.0)
     root = layers.substitute(layers.remove(root, name), lower.name, made)
     return _with_active(painting, root, {upper.name, lower.name, *_inner(upper), *_inner(lower)}, made.name)
 
@@ -97,7 +101,7 @@ def _emptied(painting: Painting, layer: Layer, outside: bool) -> Layer:
 
 def _made(node: Node, paint: Pyramid, blend: str) -> Layer:
     alpha_locked = isinstance(node, Layer) and node.alpha_locked
-    return Layer(node.id, node.name, blend=blend, alpha_locked=alpha_locked, pyramid=paint)
+    return Layer(node.id, node.name, blend=blend, alpha_locked=alpha_locked, pyramid=paint, clip=node.clip)
 
 
 def _children(root: Group, name: str | None) -> tuple[Node, ...]:

@@ -22,7 +22,7 @@ class Shows:
 class LayerRow:
     """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
     what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
-    `reference`: it is no part of the picture."""
+    `reference`: it is no part of the picture; `clip`: shown only where the one below has paint."""
 
     name: str
     group: bool
@@ -37,3 +37,4 @@ class LayerRow:
     shows: Shows | None = None
     finest: int | None = None
     reference: bool = False
+    clip: bool = False

@@ -37,6 +37,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 _shows(node, names) if isinstance(node, Placement) else None,
                 node.pyramid.finest if isinstance(node, Layer) else None,
                 not isinstance(node, Group) and node.role == REFERENCE,
+                node.clip,
             )
         )
         if isinstance(node, Group):

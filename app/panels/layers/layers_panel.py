@@ -146,7 +146,12 @@ class LayersPanel:
 
     def _name(self, desk: Desk, row: LayerRow) -> None:
         active = desk.known.scene is not None and desk.known.scene.active == row.name
-        told = (row.reference, icons.REFERENCE), (row.locked, icons.LOCK), (row.alpha_locked, icons.ALPHA_LOCK)
+        told = (
+            (row.clip, icons.CLIP),
+            (row.reference, icons.REFERENCE),
+            (row.locked, icons.LOCK),
+            (row.alpha_locked, icons.ALPHA_LOCK),
+        )
         signs = "".join(f" {sign}" for shown, sign in told if shown)
         quiet = theme.TEXT if row.visible else theme.QUIET
         imgui.push_style_color(imgui.Col_.text, theme.vec(quiet))

@@ -31,10 +31,11 @@ class Placement:
     part: SourcePart | None = None
     repeat: bool = False
     role: str = ""
+    clip: bool = False
 
     def __post_init__(self) -> None:
         check_common(self)
-        check_flags(self, ("visible", "locked", "repeat"))
+        check_flags(self, ("visible", "locked", "repeat", "clip"))
         check_role(self, self.role)
         wrong = self.pose.wrong()
         if wrong is not None:

@@ -1,0 +1,101 @@
+"""Layers clipped to the one below: they show within its alpha, mix there, and belong to it."""
+
+import numpy as np
+import pytest
+
+from engine.archive.manifest import FORMAT, format_of
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
+from engine.canvas.composite import composite
+from engine.canvas.reading import layer_planes
+from engine.numeric import blend
+from engine.numeric.address import Rect
+from engine.painting import commands as c
+from engine.painting.recording import version_of
+from engine.session.session import Session
+
+WINDOW = Rect(-20, -20, 80, 70)
+
+
+def stroke(layer, x=0, **brush):
+    points = [[x, 0], [x + 30, 30]]
+    return {
+        "do": "stroke",
+        "layer": layer,
+        "points": points,
+        "brush": {"radius": 12, "colour": "#d08040", "hardness": 0.4, **brush},
+    }
+
+
+def done(*commands):
+    session = Session()
+    named = ({"do": "layer", "add": name} for name in ("sky", "base", "shade"))
+    painted = stroke("sky", 20, colour="#2060c0"), stroke("base"), stroke("shade", 14, colour="#408020", opacity=0.7)
+    for command in (*named, *painted, {"do": "layer", "set": "shade", "clip": True}, *commands):
+        session.do(c.parse(command))
+    return session
+
+
+def picture(painting, level=0):
+    return composite(painting.root, level, WINDOW.zoomed(level), lambda one, at, rect: layer_planes(one, at, rect))
+
+
+def shown(session, *hidden):
+    for name in hidden:
+        session.do(c.parse({"do": "layer", "set": name, "visible": False}))
+    return picture(session.painting)
+
+
+def test_it_shows_only_within_the_alpha_of_the_base():
+    base = shown(done(), "sky", "shade")
+    both = shown(done(), "sky")
+    np.testing.assert_array_equal(both[3], base[3])
+    layer = layer_planes(done().painting.root.children[2], 0, WINDOW)
+    wanted = base.copy()
+    blend.BLENDS["src-atop"].kernel(wanted.reshape(4, -1), np.ascontiguousarray(layer).reshape(4, -1), np.float32(1))
+    np.testing.assert_allclose(both, wanted, atol=1e-6)
+    assert (both[0] != base[0]).any()
+
+
+def test_a_hidden_base_hides_it_and_the_opacity_of_the_base_is_that_of_both():
+    np.testing.assert_array_equal(shown(done(), "base"), shown(done(), "base", "shade"))
+    half = shown(done({"do": "layer", "set": "base", "opacity": 0.5}), "sky")
+    np.testing.assert_allclose(half, 0.5 * shown(done(), "sky"), atol=1e-6)
+
+
+@pytest.mark.parametrize("mode", ["multiply", "screen", "color", "soft-light"])
+def test_blend_modes_mix_with_the_base_alone(mode):
+    mixed = done({"do": "layer", "set": "shade", "blend": mode})
+    found = shown(mixed, "sky")
+    base = shown(done(), "sky", "shade")
+    free = shown(done({"do": "layer", "set": "shade", "blend": mode, "clip": False}), "sky")
+    np.testing.assert_array_equal(found[3], base[3])
+    whole = base[3] == 1
+    np.testing.assert_allclose(found[:, whole], free[:, whole], atol=1e-6)
+    assert whole.any()
+
+
+def test_one_that_lies_on_nothing_is_shown_as_it_is():
+    alone = [{"do": "layer", "remove": name} for name in ("sky", "base")]
+    np.testing.assert_array_equal(
+        picture(done(*alone).painting), picture(done(*alone, {"do": "layer", "set": "shade", "clip": False}).painting)
+    )
+
+
+def test_merged_down_it_looks_as_before_and_the_base_stays_what_it_is():
+    session = done({"do": "layer", "set": "base", "opacity": 0.5, "blend": "multiply"})
+    before = picture(session.painting)
+    session.do(c.parse({"do": "layer", "merge": "shade"}))
+    base = session.painting.root.children[1]
+    assert (base.name, base.opacity, base.blend, base.clip) == ("base", 0.5, "multiply", False)
+    np.testing.assert_allclose(picture(session.painting), before, atol=3e-5)
+
+
+def test_it_is_kept_in_files_and_told_by_commands(tmp_path):
+    painting = done().painting
+    save(tmp_path / "a.ora", Snapshot(painting))
+    found = open_painting(tmp_path / "a.ora").painting
+    assert [node.clip for node in found.root.children] == [False, False, True]
+    np.testing.assert_array_equal(picture(found), picture(painting))
+    assert format_of(painting) == FORMAT
+    assert version_of(c.parse({"do": "layer", "set": "shade", "clip": True})) == 2
