@@ -8,7 +8,7 @@ from app.actions.action import Action as A
 from app.actions.action import active, chosen, next_layer_name, ready
 from app.desk.desk import Desk
 from app.desk.known import moved_by
-from engine.canvas.node_checks import REFERENCE
+from engine.checks.roles import REFERENCE
 from engine.painting import commands as c
 from engine.studio.requests import Do
 

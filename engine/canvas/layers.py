@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 
 from engine.canvas.node_checks import (
     MAX_NAME,
-    REFERENCE,
     LayerError,
     allowed,
     check_common,
@@ -24,6 +23,7 @@ from engine.canvas.node_checks import (
 )
 from engine.canvas.placing.placement import Placement
 from engine.canvas.store import Pyramid
+from engine.checks.roles import REFERENCE
 
 if TYPE_CHECKING:
     from engine.canvas.growth import Growth

@@ -7,11 +7,10 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Protocol
 
+from engine.checks.roles import REFERENCE, ROLES
 from engine.numeric.blend import BLENDS
 
 MAX_NAME = 200  # characters
-REFERENCE = "reference"  # the role of what is looked at while one paints, and is no part of the picture
-ROLES = "", REFERENCE
 
 
 class LayerError(ValueError):

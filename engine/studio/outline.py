@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
-from engine.canvas.node_checks import REFERENCE
 from engine.canvas.placing.placement import Placement
+from engine.checks.roles import REFERENCE
 from engine.studio import results
 
 

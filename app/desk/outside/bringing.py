@@ -11,7 +11,7 @@ from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
 from app.desk.outside.pictured import free_layer_name, free_texture_name
 from app.desk.previews import PICTURES
-from engine.canvas.node_checks import REFERENCE
+from engine.checks.roles import REFERENCE
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 

@@ -1,0 +1,4 @@
+"""The roles that layers and placements may have.  Light: it imports nothing."""
+
+REFERENCE = "reference"  # of what is looked at while one paints, and is no part of the picture
+ROLES = "", REFERENCE
