@@ -31,6 +31,26 @@ def draw_guides(desk: Desk) -> None:
             _handle(desk, at)
 
 
+def draw_path(desk: Desk) -> None:
+    """Draws the shape in hand, and its copies, as thin lines."""
+    path, guide = desk.guides.path, symmetry.guide_of(desk)
+    if len(path) < 2:
+        return
+    _path(desk, path, 1.0)
+    if guide is None or guide.off:
+        return
+    x, y = desk.view.to_screen(symmetry.centre_of(guide))
+    for copy in symmetry.on_screen(desk.view, guide):
+        places = (copy.moved(px - x, py - y) for px, py in path)
+        _path(desk, tuple((x + right, y + down) for right, down in places), 0.5)
+
+
+def _path(desk: Desk, path: tuple[tuple[float, float], ...], strong: float) -> None:
+    painter, points = imgui.get_background_draw_list(), [ImVec2(*place) for place in path]
+    for width, grey, alpha in ((2.4 * desk.scale, 0.0, 0.4), (1.2 * desk.scale, 1.0, 0.9)):
+        painter.add_polyline([*points], theme.packed((grey,) * 3, alpha * strong), width, 0)
+
+
 def draw_copies(desk: Desk) -> None:
     """Draws a faint circle where each copy of the brush is."""
     guide = symmetry.guide_of(desk)

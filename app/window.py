@@ -186,6 +186,7 @@ class Window:
             cursor.draw_outline(self.desk)
             guide_marks.draw_copies(self.desk)
             cursor.draw_shape(self.desk)
+            guide_marks.draw_path(self.desk)
             box_marks.draw(self.desk)
         with self._guard.spare_drawing("laying out the panels"):
             self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")

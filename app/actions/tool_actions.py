@@ -62,6 +62,16 @@ def _fill_all(desk: Desk) -> None:
         desk.post(Do(unbounded(desk.filling.last)))
 
 
+def _drawing(tool: str, title: str, key: str, hint: str) -> A:
+    return A(title, "Tools", (key,), f"{hint}, drawn by the brush", _tool(tool), always, _is(tool))
+
+
+_SHAPES = {
+    "line": ("Draw a line", "U", "A straight line"),
+    "polyline": ("Draw a polyline", "Shift+U", "A line with corners"),
+    "rectangle": ("Draw a rectangle", "N", "A rectangle or a square"),
+    "ellipse": ("Draw an ellipse", "Shift+N", "An ellipse or a circle"),
+}
 TOOL_ACTIONS: dict[str, A] = {
     "brush": A("Brush", "Tools", ("B",), "Paint", _tool("brush"), always, _is("brush")),
     "eraser": A("Eraser", "Tools", ("E",), "Erase; again to paint", _toggle_eraser, always, _erasing),
@@ -72,6 +82,7 @@ TOOL_ACTIONS: dict[str, A] = {
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),
+    **{f"draw_{name}": _drawing(f"draw_{name}", *row) for name, row in _SHAPES.items()},
     "guides": A(
         "Move guides", "Tools", ("Shift+Y",), "Drag the centre of the symmetry, or turn its axis", _tool("guides"),
         always, _is("guides"),

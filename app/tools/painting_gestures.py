@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,9 @@ from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.trace import trace, trace_points
+from engine.brush.settings import Brush
 from engine.brush.smoothing import Smoother
+from engine.painting.points import REACH
 from engine.studio.requests import Abandon, Begin, Finish, Points
 from engine.studio.textures.texture_requests import LabBegin, LabEnd, LabPoints, RegionBegin, RegionEnd, RegionPoints
 
@@ -43,41 +46,67 @@ def refused(desk: Desk) -> bool:
     return False
 
 
-def paint(desk: Desk, first: PenEvent) -> Gesture:
-    """Returns a stroke, at the level that is shown; on a placement, on what it shows."""
+class Begun(NamedTuple):
+    """A stroke that was begun: at a level, from an origin, with a brush; `aimed`: on what a placement shows."""
+
+    level: int
+    origin: tuple[int, int]
+    brush: Brush
+    aimed: Aimed | None
+
+    def post(self, desk: Desk, points: np.ndarray) -> None:
+        """Posts more of its points, float64 (n, 6) from the origin."""
+        _post(desk, points if self.aimed is None else self.aimed.points(points))
+
+
+def begin_stroke(desk: Desk, first: PenEvent) -> Begun | None:
+    """Begins a stroke at the level that is shown; on a placement, on what it shows.  None where that cannot be, which
+    is said."""
     if refused(desk):
-        return
+        return None
     layer = desk.known.active
     aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and layer.shows is not None else None
     if isinstance(aim, str):
         desk.say(aim, bad=True, offers=("source", "independent"))
-        return
+        return None
     if desk.known.hiding:
         desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you paint does not show", bad=True, offer="show_layer")
     example_use.fit_within_reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
-    smoother = Smoother(desk.hand.stabiliser)
     copies = symmetry.copies_at(desk, level, origin)
     aimed = None if aim is None else aim.begun(level, origin)
     if aimed is None:
         desk.post(Begin(level, origin, brush, copies=copies))
     else:
         desk.post(Begin(aimed.level, aimed.origin, brush, aimed.layer, copies=aimed.copies(copies)))
+    return Begun(level, origin, brush, aimed)
+
+
+def paint(desk: Desk, first: PenEvent) -> Gesture:
+    """Returns a stroke, at the level that is shown; on a placement, on what it shows.  With Shift a straight line leads
+    to it from where the last one ended."""
+    begun = begin_stroke(desk, first)
+    if begun is None:
+        return
+    level, origin, brush, _ = begun
+    smoother = Smoother(desk.hand.stabiliser)
     desk.painting = True
     done = False
     try:
         event = first
+        begun.post(desk, _from_last(desk, level, origin, first))
         while True:
             if event.kind in ("down", "move"):
                 points = np.array([_point(desk.view, level, origin, event, first.time)])
-                _post_aimed(desk, smoother.add(points), aimed)
+                begun.post(desk, smoother.add(points))
             if event.kind in ENDS:
                 break
             event = yield
-        _post_aimed(desk, smoother.finish(), aimed)
+        begun.post(desk, smoother.finish())
         done = True
+        desk.guides.last = desk.view.to_canvas(event.x, event.y)
     finally:
         desk.painting = False
         desk.post(Finish() if done else Abandon())
@@ -86,8 +115,13 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         desk.hand.remember()
 
 
-def _post_aimed(desk: Desk, points: np.ndarray, aimed: Aimed | None) -> None:
-    _post(desk, points if aimed is None else aimed.points(points))
+def _from_last(desk: Desk, level: int, origin: tuple[int, int], first: PenEvent) -> np.ndarray:
+    """Returns where the last stroke ended, as a point of the one that begins with Shift held; none without."""
+    if not desk.pointer.shift or desk.guides.last is None:
+        return np.empty((0, 6))
+    x, y = desk.guides.last.offset(level, *origin)
+    near = max(abs(x), abs(y)) <= REACH
+    return np.array([[x, y, first.pressure if first.pen else 1.0, first.tilt_x, first.tilt_y, 0.0]])[:near]
 
 
 def paint_lab(desk: Desk, first: PenEvent) -> Gesture:

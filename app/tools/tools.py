@@ -10,13 +10,23 @@ from app.tools.guide_gestures import move_guide
 from app.tools.moving_gestures import move
 from app.tools.painting_gestures import paint
 from app.tools.selecting_gestures import ellipse, lasso, polygon, rectangle
+from app.tools.shape_gestures import DRAWN
 from app.tools.view_gestures import pan, turn, zoom
 
 _JOINING = "; Shift adds, Alt takes away, both leave what both have"
+_HELD = "from its middle with Alt, with Shift"
 TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
     "move": Tool(
         "Move", icons.MOVE, move, "Drag the layer; its handles scale and turn it, with Shift by steps.  Nothing is lost"
+    ),
+    "draw_line": Tool("Line", icons.LINE, DRAWN["draw_line"], f"A straight line; {_HELD}, at steps of 15°", True),
+    "draw_rectangle": Tool(
+        "Rectangle", icons.RECTANGLE, DRAWN["draw_rectangle"], f"A rectangle; {_HELD}, a square", True
+    ),
+    "draw_ellipse": Tool("Ellipse", icons.ELLIPSE, DRAWN["draw_ellipse"], f"An ellipse; {_HELD}, a circle", True),
+    "draw_polyline": Tool(
+        "Polyline", icons.POLYLINE, DRAWN["draw_polyline"], "A corner at each click; a double click ends it", True
     ),
     "guides": Tool(
         "Move guides", icons.GUIDES, move_guide, "Drag the centre of the symmetry, or turn its axis; by 15° with Shift"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from app.canvas.view import Place
 from engine.painting.guiding.guides import Guide
 
 
@@ -17,6 +18,8 @@ class Held(NamedTuple):
 
 @dataclass(slots=True)
 class GuideState:
-    """`held`: the guide in hand."""
+    """`held`: the guide in hand; `path`: the shape in hand, on the screen; `last`: where the last stroke ended."""
 
     held: Held | None = None
+    path: tuple[tuple[float, float], ...] = ()
+    last: Place | None = None

@@ -15,7 +15,7 @@ from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
 from app.desk.knots import at
-from app.panels.brush import example_section, fill_options
+from app.panels.brush import example_section, fill_options, shape_choice
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
@@ -137,6 +137,8 @@ class BrushPanel:
         gap = _tool_row(desk, names, side)
         regions = ("rectangle", "ellipse", "lasso", "polygon", "fill")
         _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in regions], side, gap)
+        imgui.same_line(0, gap)
+        shape_choice.draw(desk, side)
 
     def _modes(self, desk: Desk) -> None:
         """Buttons side by side, each as wide as its word asks for."""

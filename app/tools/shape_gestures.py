@@ -1,0 +1,111 @@
+"""Gestures that draw shapes with the brush: seen as a thin line while they are dragged, painted as one stroke."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from app.canvas.view import View
+from app.desk.desk import Desk
+from app.desk.guides import shape_paths
+from app.desk.guides.shape_paths import Corner, Path
+from app.input.events import PenEvent
+from app.tools.gesture import Gesture
+from app.tools.painting_gestures import begin_stroke, refused
+from engine.painting.points import REACH
+from engine.studio.requests import Finish
+
+_DOUBLE = 0.4  # seconds between the presses that end a polyline
+_SAME, _CLOSING = 6.0, 10.0  # points of the screen within which a press is on the last corner, or on the first
+
+
+def dragged(path: Path) -> Callable[[Desk, PenEvent], Gesture]:
+    """Returns the gesture of a shape that is dragged from one point to another: even with Shift, from its middle with
+    Alt."""
+
+    def draw(desk: Desk, first: PenEvent) -> Gesture:
+        if refused(desk):
+            return
+        level = desk.view.shown_level
+        start, event = desk.view.to_canvas(first.x, first.y), first
+        origin = start.pixel(level)
+        try:
+            while True:
+                end = desk.view.to_canvas(event.x, event.y).offset(level, *origin)
+                found = path(start.offset(level, *origin), end, desk.pointer.shift, desk.pointer.alt)
+                desk.guides.path = on_screen(desk.view, level, origin, found)
+                if event.kind in ("up", "lost"):
+                    break
+                event = yield
+        finally:
+            desk.guides.path = ()
+        if event.kind == "up":
+            _painted(desk, first, found)
+
+    return draw
+
+
+def polyline(desk: Desk, first: PenEvent) -> Gesture:
+    """Corners by clicks; a double click ends it, a click on the first corner closes it, Escape gives it up."""
+    if refused(desk):
+        return
+    view, level = desk.view, desk.view.shown_level
+    origin = view.to_canvas(first.x, first.y).pixel(level)
+    corners, last, at = [_placed(view, level, origin, first)], first, (first.x, first.y)
+    begin = at
+    try:
+        while True:
+            event = yield
+            if event.kind == "lost":
+                return
+            near = math.dist((event.x, event.y), at) <= _SAME * desk.scale
+            if event.kind == "down":
+                if near and event.time - last.time <= _DOUBLE:
+                    break
+                last, at = event, (event.x, event.y)
+                if len(corners) > 2 and math.dist(at, begin) <= _CLOSING * desk.scale:
+                    corners.append(corners[0])
+                    break
+                corners.append(_placed(view, level, origin, event))
+            elif event.kind == "up" and not near:  # a side that was dragged
+                at = event.x, event.y
+                corners.append(_placed(view, level, origin, event))
+            desk.guides.path = on_screen(desk.view, level, origin, [*corners, _placed(desk.view, level, origin, event)])
+    finally:
+        desk.guides.path = ()
+    _painted(desk, first, corners)
+
+
+def on_screen(view: View, level: int, origin: tuple[int, int], path: Sequence[Corner]) -> tuple[Corner, ...]:
+    """Returns where points from an origin are seen."""
+    x, y = view.pixel_to_screen(level, *origin)
+    a, b, c, d = view.matrix()
+    s = view.scale(level)
+    return tuple((x + (a * dx + b * dy) * s, y + (c * dx + d * dy) * s) for dx, dy in path)
+
+
+def _placed(view: View, level: int, origin: tuple[int, int], event: PenEvent) -> Corner:
+    return view.to_canvas(event.x, event.y).offset(level, *origin)
+
+
+def _painted(desk: Desk, first: PenEvent, path: Sequence[Corner]) -> None:
+    """Posts the stroke along a path, from the pixel that was pressed first."""
+    rows = np.array([(x, y, 1.0, 0.0, 0.0, 0.0) for x, y in path])
+    if len(set(path)) < 2 or np.abs(rows[:, :2]).max() > REACH:
+        return
+    begun = begin_stroke(desk, first)
+    if begun is not None:
+        begun.post(desk, rows)
+        desk.post(Finish())
+        if begun.brush.row.lays_ink:
+            desk.hand.remember()
+
+
+DRAWN: dict[str, Callable[[Desk, PenEvent], Gesture]] = {
+    "draw_line": dragged(shape_paths.line),
+    "draw_rectangle": dragged(shape_paths.rectangle),
+    "draw_ellipse": dragged(shape_paths.ellipse),
+    "draw_polyline": polyline,
+}
