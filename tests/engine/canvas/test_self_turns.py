@@ -207,13 +207,3 @@ def test_several_copies_are_as_every_copy_of_a_copy_on_its_own(poses):
     assert np.quantile(away, 0.95) < 0.03
     part = Rect(100, 40, 230, 111)
     np.testing.assert_array_equal(picture(root, 2, part), found[:, *part.slices(rect)])
-
-
-def test_several_copies_at_a_deep_level_are_made_once_each():
-    poses = [Pose(at=(64 * x, 64 * y), levels=-1) for x in (0, 1) for y in (0, 1)]
-    shallow = Rect.at(3 * 64, 5 * 64, 200, 120)
-    root = copied(poses)
-    x, y = shallow.x0 >> 1, shallow.y0 >> 1
-    whole = picture(root, 3, Rect.at(x, y, 40, 40))
-    assert whole.any()
-    assert picture(root, 60, Rect.at(5 << 63, 3 << 63, 40, 30)).any()
