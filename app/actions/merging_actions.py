@@ -123,7 +123,7 @@ MERGING_ACTIONS: dict[str, A] = {
     "merge_visible": A(
         "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
     ),
-    "clear": A("Clear", "Layer", (), "Take the paint off the layer, or what is selected of it", _clear, _painted),
+    "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, _painted),
     "clip": A(
         "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
         _clip, _on_another, _is_clipped,

@@ -48,6 +48,7 @@ BENCHES = {
     "stroke": "a stroke of 1,000 points, 10,000 px over 2000 x 2000, to pixels at all levels; beside libmypaint",
     "copies": "a stroke drawn sixteen times in one step, against the same sixteen strokes",
     "flooding": "the region of like colour that a pixel lies in, with and without gaps closed, beside labelling it",
+    "selecting": "a stroke where something is selected, against the same where nothing is",
     "looking": "four layers of 4000 x 4000 seen at three zooms, panned by a column, and zoomed into, engine alone",
     "zoom": "a continuous zoom through 40 levels at 1280 x 800: the engine's work, and the frames of a real window",
     "frames": "the frames of a real window that pans",

@@ -190,6 +190,30 @@ def test_paint_outside_what_is_selected_leaves_what_grew_there_alone(folder):  #
     assert not plots(session.painting)
 
 
+@pytest.mark.parametrize("inverse", [False, True])
+def test_a_layer_is_cleared_where_it_is_selected(inverse):
+    session = told(Session(GROUND), {"do": "select", "ellipse": [0, 20, 10, 90, 80]})
+    if inverse:
+        told(session, {"do": "select", "invert": True})
+    before = seen(session.painting, 0)
+    told(session, {"do": "layer", "clear": "Paint"})
+    after, chosen = seen(session.painting, 0), selected(session.painting, 0)
+    assert (after[:, chosen == 0.0] == before[:, chosen == 0.0]).all()
+    assert before[:, chosen == 1.0].any()
+    assert not after[:, chosen == 1.0].any()
+    fine = Rect(50, 40, 70, 60)
+    assert seen(session.painting, 2, fine).any() == inverse
+
+
+def test_a_region_is_filled_within_what_is_selected():
+    rect = {"do": "select", "rect": [0, 30, 20, 50, 60]}
+    session = told(Session(), {"do": "layer", "add": "Paint"}, rect)
+    told(session, {"do": "fill", "like": {"at": [40, 40], "rect": [0, 0, 120, 120]}, "open": True, "brush": {}})
+    alpha = seen(session.painting, 0)[3]
+    assert (alpha > 0).sum() == 50 * 60
+    assert (alpha == selected(session.painting, 0)).all()
+
+
 def test_selecting_is_a_step_and_what_is_kept_comes_back():
     session = told(Session(), {"do": "select", "rect": [0, 0, 0, 60, 60], "keep": "square"})
     first = session.painting
