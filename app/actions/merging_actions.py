@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from app.actions.action import Action as A
 from app.actions.action import active, asks, chosen, ready
@@ -36,12 +37,13 @@ def rows_inside(rows: Sequence[LayerRow], name: str) -> list[LayerRow]:
 def ends_at(rows: Sequence[LayerRow], plainly: Sequence[LayerRow]) -> int | None:
     """Returns the finest level of merged rows, where their ink cannot stay ink; None where it can.  `plainly`: those
     whose own way of mixing does not count."""
-    mixed = any(
-        row.shows is not None or (row not in plainly and (row.blend != _PLAIN or (row.group and row.opacity < 1)))
-        for row in rows
-        if row.visible
-    )
+    rows = [row for row in rows if row.visible and not row.reference]
+    mixed = any(row.shows is not None or row.clip or (row not in plainly and _mixes(row)) for row in rows)
     return max((row.finest for row in rows if row.finest is not None), default=0) if mixed else None
+
+
+def _mixes(row: LayerRow) -> bool:
+    return row.blend != _PLAIN or (row.group and row.opacity < 1)
 
 
 def _ask(desk: Desk, command: c.Command, rows: Sequence[LayerRow], plainly: Sequence[LayerRow]) -> None:
@@ -59,7 +61,8 @@ def _merge_down(desk: Desk) -> None:
         return
     rows = desk.known.scene.layers
     inner = [*rows_inside(rows, upper.name), *rows_inside(rows, lower.name)]
-    _ask(desk, c.MergeLayer(upper.name), [upper, lower, *inner], [lower])
+    above, onto = replace(upper, clip=upper.clip and not lower.clip), replace(lower, clip=False)
+    _ask(desk, c.MergeLayer(upper.name), [above, onto, *inner], [onto])
 
 
 def _merge_group(desk: Desk) -> None:
@@ -72,7 +75,7 @@ def _merge_group(desk: Desk) -> None:
 
 def _merge_visible(desk: Desk) -> None:
     if desk.known.scene is not None:
-        _ask(desk, c.FlattenGroup(None), [row for row in desk.known.scene.layers if row.visible], [])
+        _ask(desk, c.FlattenGroup(None), desk.known.scene.layers, [])
 
 
 def _clear(desk: Desk) -> None:

@@ -12,6 +12,7 @@ from engine.canvas.merging.merged import merged_paint
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import loops
 from engine.canvas.store import Pyramid
+from engine.checks.roles import REFERENCE
 from engine.painting.grown import settled_root
 from engine.painting.value import Painting
 
@@ -31,13 +32,17 @@ def merged_down(painting: Painting, name: str) -> Painting:
     lower = siblings[position - 1]
     for node in (lower, upper):
         _check(root, node, lower if node is lower else None)
+    if _is_reference(lower) != _is_reference(upper):
+        name = lower.name if _is_reference(lower) else upper.name
+        raise LayerError(f"layer {name!r}: found it a reference, expected part of the picture, as the other is")
     onto = upper.clip and not lower.clip  # what is clipped to the lower one: that stays as it is otherwise
     same = onto or lower.blend == upper.blend
     blend = lower.blend if same and not isinstance(lower, Group) else PLAIN_BLEND
     below = replace(lower, blend=PLAIN_BLEND, clip=False, opacity=1.0 if onto else lower.opacity)
     above = upper if onto else replace(upper, clip=False)
     paint = merged_paint(settled_root(root), (below, above), painting.grid)
-    made = replace(_made(lower, paint, blend), opacity=lower.opacity if onto else 1.0)
+    role = lower.role if not isinstance(lower, Group) else ""
+    made = replace(_made(lower, paint, blend), opacity=lower.opacity if onto else 1.0, role=role)
     root = layers.substitute(layers.remove(root, name), lower.name, made)
     return _with_active(painting, root, {upper.name, lower.name, *_inner(upper), *_inner(lower)}, made.name)
 
@@ -49,27 +54,30 @@ def flattened_group(painting: Painting, name: str) -> Painting:
     if not isinstance(group, Group):
         raise LayerError(f"layer {name!r}: found no group, expected one to flatten")
     _check(root, group, group)
-    settled = layers.find(settled_root(root), name)
+    shown = layers.pictured(settled_root(root))
+    settled = layers.find(shown, name)
     assert isinstance(settled, Group)
-    paint = merged_paint(settled_root(root), settled.children, painting.grid)
+    paint = merged_paint(shown, settled.children, painting.grid)
     made = replace(_made(group, paint, group.blend), opacity=group.opacity, visible=group.visible)
     return _with_active(painting, layers.substitute(root, name, made), _inner(group), name)
 
 
 def flattened_whole(painting: Painting) -> Painting:
-    """Returns the painting with all that is seen as one layer, in the place of the lowest; what is hidden stays."""
+    """Returns the painting with all that is seen as one layer, in the place of the lowest; what is hidden stays, and so
+    do references."""
     root = painting.root
-    seen = tuple(node for node in root.children if node.visible)
+    seen = tuple(node for node in layers.pictured(root).children if node.visible)
     if not seen:
         raise LayerError("layer: found no layer that is seen, expected one to merge")
     for node in seen:
         _check(root, node, None)
         _check_unshown(root, node, {inner.id for one in seen for inner in _with_inner(one)})
-    settled = settled_root(root)
+    settled = layers.pictured(settled_root(root))
     paint = merged_paint(settled, tuple(node for node in settled.children if node.visible), painting.grid)
     made = replace(_made(seen[0], paint, PLAIN_BLEND), opacity=1.0)
     gone = {inner.name for node in seen for inner in _with_inner(node)}
-    children = tuple(made if node is seen[0] else node for node in root.children if node is seen[0] or not node.visible)
+    merged = {node.id for node in seen} - {made.id}
+    children = tuple(made if node.id == made.id else node for node in root.children if node.id not in merged)
     return _with_active(painting, layers.checked(replace(root, children=children)), gone, made.name)
 
 
@@ -102,6 +110,10 @@ def _emptied(painting: Painting, layer: Layer, outside: bool) -> Layer:
 def _made(node: Node, paint: Pyramid, blend: str) -> Layer:
     alpha_locked = isinstance(node, Layer) and node.alpha_locked
     return Layer(node.id, node.name, blend=blend, alpha_locked=alpha_locked, pyramid=paint, clip=node.clip)
+
+
+def _is_reference(node: Node) -> bool:
+    return not isinstance(node, Group) and node.role == REFERENCE
 
 
 def _children(root: Group, name: str | None) -> tuple[Node, ...]:

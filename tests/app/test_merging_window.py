@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
+pytestmark = [pytest.mark.window, pytest.mark.timeout(180), pytest.mark.nightly]
 
 
 def test_layers_are_merged_and_what_would_be_lost_is_told_before(program):

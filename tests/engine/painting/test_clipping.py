@@ -6,6 +6,7 @@ import pytest
 from engine.archive.manifest import FORMAT, format_of
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
+from engine.brush.settings import Brush
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
 from engine.numeric import blend
@@ -73,6 +74,27 @@ def test_blend_modes_mix_with_the_base_alone(mode):
     whole = base[3] == 1
     np.testing.assert_allclose(found[:, whole], free[:, whole], atol=1e-6)
     assert whole.any()
+
+
+@pytest.mark.parametrize("level", [-2, 0, 3])
+def test_it_is_the_atop_of_both_and_a_stroke_on_it_is_previewed_as_it_will_be(level):
+    session = done({"do": "layer", "remove": "sky"})
+    around = Rect(0, 0, 24, 20).zoomed(level)
+    live = session.begin(level, (0, 0), Brush(radius=5.0, opacity=0.8), "shade")
+    live.add(np.array([[around.x0 + 2, around.y0 + 3], [around.x1, around.y1]], np.float64))
+
+    def read(layer, at, rect):
+        return live.preview(rect).rgba if layer.name == "shade" else layer_planes(layer, at, rect)
+
+    preview = composite(live.root, level, around, read)
+    session.finish(live)
+    committed = composite(session.painting.root, level, around, lambda one, at, rect: layer_planes(one, at, rect))
+    np.testing.assert_array_equal(preview, committed)
+    base, shade = (layer_planes(one, level, around) for one in session.painting.root.children)
+    wanted = np.clip(base.reshape(4, -1), 0, 1)
+    blend.BLENDS["src-atop"].kernel(wanted, np.ascontiguousarray(shade).reshape(4, -1), np.float32(1))
+    np.testing.assert_allclose(committed.reshape(4, -1), wanted, atol=1e-6)
+    assert committed[3].any()
 
 
 def test_one_that_lies_on_nothing_is_shown_as_it_is():
