@@ -145,7 +145,9 @@ def test_ink_stays_ink_only_where_layers_lie_over_one_another():
 
 
 def test_a_merged_layer_can_be_painted_on_saved_undone_and_replayed(tmp_path):
-    session = done(*two, stroke("low", ink=1, radius=7), stroke("high", radius=7, x=9), {"do": "layer", "merge": "high"})
+    session = done(
+        *two, stroke("low", ink=1, radius=7), stroke("high", radius=7, x=9), {"do": "layer", "merge": "high"}
+    )
     session.do(c.parse(stroke("low", level=1, x=3, radius=6, opacity=0.4)))
     again = done(*map(c.to_json, session.log))
     save(tmp_path / "a.ora", Snapshot(session.painting))
