@@ -27,24 +27,24 @@ from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.others.paper_picture import paper_names, paper_pictures, with_paper
 from engine.archive.others.spooled_png import SpooledPng
+from engine.archive.others.stack_entries import Stack, bases_of, pictured_alone, png_name
 from engine.archive.others.stack_sums import with_sums
 from engine.archive.plot_files import PlotEntry
 from engine.archive.saving_turn import SAVING
 from engine.archive.selected import selection_files
 from engine.canvas import layers
-from engine.canvas.layers import Group, Layer, Node, isolation
+from engine.canvas.layers import Layer
 from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
 from engine.files.atomic import replacing
 from engine.files.fault import FileError, WriteError
 from engine.files.limits import LIMITS
 from engine.files.png_reader import PngReader
-from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, stack_text
+from engine.files.stack_xml import ImageEntry, stack_text
 from engine.files.strict_json import dumps
 from engine.files.zip_reader import ZipArchive
 from engine.files.zip_writer import ZipWriter
 from engine.keeping import memory
-from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.numeric.shrink import box_reduce, fitted_size
@@ -199,6 +199,7 @@ class SavePlan:
         self._pictures: list[PictureEntry] = []
         self._grounds: dict[int, GroundEntry] = {}
         self._plots: dict[int, list[PlotEntry]] = {}
+        self._bases = bases_of(painting.root)
         for layer in layers.layers(painting.root):
             self._places[layer.id] = self._place(layer)
         self._placements = list(loops.placements(painting.root))
@@ -212,7 +213,7 @@ class SavePlan:
         self._recording = recording
         self.jobs = deque([*seen, *laid, *stored, *grown, *chosen])  # the recording needs pictures: they follow it
         shown: list[Layer | Placement] = [*layers.layers(painting.root), *self._placements]
-        self._shown = [*map(_png_name, shown), *paper_names(painting.paper), MERGED, THUMB]
+        self._shown = [*map(png_name, shown), *paper_names(painting.paper), MERGED, THUMB]
         self.names = [*(job.name for job in self.jobs), *self._shown]
         recorded = [] if recording is None else [RECORDING]
         self.told = ["mimetype", *recorded, *self.names, "stack.xml"]  # those that the manifest names
@@ -221,7 +222,7 @@ class SavePlan:
 
     def _is_ground(self, layer: Layer) -> bool:
         """Tells whether the picture that a layer began with is its picture still."""
-        return self._level == 0 and grounds.whole(layer, self._frame)
+        return self._level == 0 and layer.id not in self._bases and grounds.whole(layer, self._frame)
 
     def _place(self, layer: Layer) -> Rect:
         if self._is_ground(layer):
@@ -244,18 +245,19 @@ class SavePlan:
         files: dict[str, SpooledPng] = {}
         try:
             for layer in layers.layers(root):
-                if not self._is_ground(layer):
-                    files[_png_name(layer)] = SpooledPng(places[layer.id], len(self._shown))
+                if not self._is_ground(layer) and layer.id not in self._bases:
+                    files[png_name(layer)] = SpooledPng(places[layer.id], len(self._shown))
             files[MERGED] = SpooledPng(self._frame, len(self._shown), small=True)
             for known, merged in sheets(root, level, self._frame, places, self._cancelled):
                 for layer in layers.layers(root):
-                    if layer.id in known and _png_name(layer) in files:
-                        files[_png_name(layer)].rows(known[layer.id])
+                    if layer.id in known and png_name(layer) in files:
+                        files[png_name(layer)].rows(known[layer.id])
                 files[MERGED].rows(merged)
-            for placement in self._placements:
-                png = files[_png_name(placement)] = SpooledPng(places[placement.id], len(self._shown))
-                alone = layers.alone(placement, root)
-                for planes in strips(alone, level, places[placement.id], self._cancelled):
+            single: list[Layer | Placement] = [layer for layer in layers.layers(root) if layer.id in self._bases]
+            for node in [*self._placements, *single]:
+                png = files[png_name(node)] = SpooledPng(places[node.id], len(self._shown))
+                alone = pictured_alone(node, self._bases, root)
+                for planes in strips(alone, level, places[node.id], self._cancelled):
                     png.rows(to_rgba8(planes))
             files |= paper_pictures(self._painting.paper, self._frame, len(self._shown))
             files[THUMB] = self._thumbnail()
@@ -271,7 +273,7 @@ class SavePlan:
         shown: list[tuple[Job, IO[bytes]]] = []
         for layer in layers.layers(self._painting.root):
             if self._is_ground(layer) and layer.pyramid.ground is not None:
-                shown.append((Job(_png_name(layer), bytes), io.BytesIO(layer.pyramid.ground.pixels)))
+                shown.append((Job(png_name(layer), bytes), io.BytesIO(layer.pyramid.ground.pixels)))
         return shown
 
     def _thumbnail(self) -> SpooledPng:
@@ -289,32 +291,6 @@ class SavePlan:
         png.rows(to_rgba8(box_reduce(planes, *size)))
         return png
 
-    def _entry(self, node: Node) -> StackEntry | LayerEntry:
-        if isinstance(node, Group):
-            return StackEntry(
-                tuple(self._entry(child) for child in reversed(node.children)),
-                node.name,
-                node.opacity,
-                node.visible,
-                blend.BLENDS[node.blend].op,
-                isolation(node) == "isolate",
-                node.locked,
-                {"id": str(node.id)},
-            )
-        place = self._places[node.id]
-        return LayerEntry(
-            _png_name(node),
-            node.name,
-            place.x0 - self._frame.x0,
-            place.y0 - self._frame.y0,
-            node.opacity,
-            node.visible and not node.role,
-            blend.BLENDS[node.blend].op,
-            node.locked,
-            node.name == self._painting.active,
-            {"id": str(node.id)},
-        )
-
     # ---- our own members ----
 
     def _ground_jobs(self, layer: Layer) -> Iterator[Job]:
@@ -322,7 +298,7 @@ class SavePlan:
         if ground is None:
             return
         shared = self._is_ground(layer)
-        name = _png_name(layer) if shared else f"inkfall/layers/{layer.id}/ground.png"
+        name = png_name(layer) if shared else f"inkfall/layers/{layer.id}/ground.png"
         found = grounds.entry(layer.pyramid, name)
         assert found is not None
         self._grounds[layer.id] = found
@@ -359,11 +335,9 @@ class SavePlan:
 
     def finish(self, writer: ZipWriter) -> None:
         """Adds stack.xml and the manifest, which tell of all that went before, and fills the room that was left."""
-        root = self._entry(self._painting.root)
-        assert isinstance(root, StackEntry)
-        root = with_sums(
-            with_paper(root, self._painting.paper), {name: entry.sha256 for name, entry in writer.written.items()}
-        )
+        told = Stack(self._painting.root, self._places, self._frame, self._painting.active).entry()
+        sums = {name: entry.sha256 for name, entry in writer.written.items()}
+        root = with_sums(with_paper(told, self._painting.paper), sums)
         attributes = {"format": str(format_of(self._painting)), "manifest": MANIFEST}
         text = stack_text(ImageEntry(self._frame.width, self._frame.height, root, attributes))
         writer.add("stack.xml", text, deflate=True)
@@ -387,7 +361,3 @@ def shown_level(frame: Rect) -> int:
         if max(seen.width, seen.height) <= MERGED_SIDE and seen.area <= LIMITS.pixels:
             return level
         level -= 1
-
-
-def _png_name(node: Layer | Placement) -> str:
-    return f"data/L{node.id}.png"

@@ -1,14 +1,20 @@
 """Layers clipped to the one below: they show within its alpha, mix there, and belong to it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from engine.archive.imports import read_raster
 from engine.archive.manifest import FORMAT, format_of
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.settings import Brush
+from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.reading import layer_planes
+from engine.files.limits import LIMITS
+from engine.files.zip_reader import ZipArchive
 from engine.numeric import blend
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -121,3 +127,25 @@ def test_it_is_kept_in_files_and_told_by_commands(tmp_path):
     np.testing.assert_array_equal(picture(found), picture(painting))
     assert format_of(painting) == FORMAT
     assert version_of(c.parse({"do": "layer", "set": "shade", "clip": True})) == 2
+
+
+@pytest.mark.parametrize("grouped", [False, True])
+def test_other_programs_see_it_clipped(tmp_path, grouped):
+    more = [{"do": "layer", "set": "base", "opacity": 0.5, "blend": "multiply"}]
+    if grouped:
+        group = {"do": "layer", "add": "shades", "kind": "group", "group": None}
+        clip = {"do": "layer", "set": "shades", "clip": True}
+        more += [group, {"do": "layer", "move": "shade", "to": 0, "group": "shades"}, clip]
+        more += [{"do": "layer", "set": "shade", "clip": False}]
+    painting = replace(done(stroke("base", hardness=1.0), *more).painting, frame=WINDOW)
+    save(tmp_path / "a.ora", Snapshot(painting))
+    with open(tmp_path / "a.ora", "rb") as file:
+        theirs = read_raster(ZipArchive(file, "a.ora"), LIMITS, None, None).painting
+    found = composite(theirs.root, 0, Rect.at(0, 0, 100, 90), lambda one, at, rect: layer_planes(one, at, rect))
+    wanted = picture(painting)
+    base = layer_planes(painting.root.children[1], 0, WINDOW)[3]
+    sharp = (base == 0) | (base == 1)
+    assert np.abs(found - wanted)[:, sharp].max() < 1.5 / 255
+    assert np.abs(found - wanted).max() < 0.25
+    hidden = replace(painting, root=layers.set_fields(painting.root, "base", visible=False))
+    assert np.abs(picture(hidden) - wanted).max() > 0.2
