@@ -7,6 +7,7 @@ from collections.abc import Callable
 from app.actions.action import Action as A
 from app.actions.action import active, asks, chosen, ready
 from app.desk.desk import Desk
+from app.desk.filling.pouring import fill_selection
 from engine.painting import commands as c
 from engine.painting.select_commands import Named, Whole
 from engine.studio.requests import Do
@@ -50,6 +51,9 @@ SELECT_ACTIONS: dict[str, A] = {
     "select_none": A("None", "Select", ("Ctrl+Shift+A",), "Select nothing, to paint anywhere", _whole("none"), _some),
     "select_invert": A("Invert", "Select", ("Ctrl+I",), "Select what is not selected", _whole("invert"), _some),
     "select_layer": A("From the layer", "Select", (), "Select what the layer covers", _from_layer, _on_layer),
+    "fill_selection": A(
+        "Fill", "Select", ("Shift+F5", "Alt+Backspace"), "Fill the selection with the brush", fill_selection, _some
+    ),
     "select_change": A("Grow, shrink, feather…", "Select", (), "Move or soften its rim", asks("select_change"), _some),
     "select_keep": A("Keep as…", "Select", (), "Keep the selection under a name", asks("select_keep"), _some),
     "select_kept": A("Kept selections…", "Select", (), "Select again what was kept", asks("select_kept"), _kept),
@@ -57,4 +61,5 @@ SELECT_ACTIONS: dict[str, A] = {
     "ellipse": A("Ellipse", "Select", ("Shift+S",), "Select an ellipse", _tool("ellipse"), checked=_is("ellipse")),
     "lasso": A("Lasso", "Select", ("O",), "Select what you go round", _tool("lasso"), checked=_is("lasso")),
     "polygon": A("Polygon", "Select", ("Shift+O",), "Select by corners", _tool("polygon"), checked=_is("polygon")),
+    "wand": A("Wand", "Select", ("Shift+W",), "Select what is of one colour", _tool("wand"), checked=_is("wand")),
 }  # fmt: skip

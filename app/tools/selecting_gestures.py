@@ -1,4 +1,4 @@
-"""Gestures that select: a rectangle, an ellipse, what a line goes round.
+"""Gestures that select: a rectangle, an ellipse, what a line goes round, what is like a place.
 
 Shift adds to what is selected, Alt takes away, both leave what both have.
 """
@@ -14,6 +14,7 @@ import numpy as np
 from app.canvas.view import Place
 from app.desk.desk import Desk
 from app.input.events import PenEvent
+from app.tools.filling_gestures import like_at
 from app.tools.gesture import Gesture
 from engine.numeric.address import Rect
 from engine.painting.commands import Select
@@ -124,6 +125,17 @@ def polygon(desk: Desk, first: PenEvent) -> Gesture:
         _outline(desk, op)
     finally:
         state.shape = []
+
+
+def wand(desk: Desk, first: PenEvent) -> Gesture:
+    """A click selects what is like the place touched, as the panel says, as far as it is looked for."""
+    if not _may(desk):
+        return
+    op, event = _op(desk), first
+    while event.kind != "up":
+        event = yield
+    like = like_at(desk, first.x, first.y)
+    desk.post(Do(Select(like, op, like.level)))
 
 
 def _on_first(desk: Desk, event: PenEvent) -> bool:

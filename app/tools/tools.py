@@ -9,7 +9,7 @@ from app.tools.gesture import Tool
 from app.tools.guide_gestures import move_guide
 from app.tools.moving_gestures import move
 from app.tools.painting_gestures import paint
-from app.tools.selecting_gestures import ellipse, lasso, polygon, rectangle
+from app.tools.selecting_gestures import ellipse, lasso, polygon, rectangle, wand
 from app.tools.shape_gestures import DRAWN
 from app.tools.view_gestures import pan, turn, zoom
 
@@ -42,4 +42,5 @@ TOOLS: dict[str, Tool] = {
     "ellipse": Tool("Ellipse", icons.SELECT_ROUND, ellipse, f"Drag to select an ellipse{_JOINING}"),
     "lasso": Tool("Lasso", icons.LASSO, lasso, f"Drag around what is to be selected{_JOINING}"),
     "polygon": Tool("Polygon", icons.POLYGON, polygon, "Click the corners; a double click closes it (Esc: not now)"),
+    "wand": Tool("Wand", icons.WAND, wand, f"Click to select what is of that colour{_JOINING}"),
 }

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from app.canvas.view import View
 from engine.numeric.address import Rect
-from engine.painting.fill_command import LOOKED_AT_CAP, Fill
+from engine.painting.fill_command import LOOKED_AT_CAP, Fill, Like
 
 WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 
@@ -31,6 +31,11 @@ def looked_at(view: View, level: int) -> Rect:
     across, down = (min(side // 2, side * max(0, min(3, most - 1)) // 8) for side in (seen.width, seen.height))
     wide = Rect(seen.x0 - across, seen.y0 - down, seen.x1 + across, seen.y1 + down)
     return wide if wide.area <= LOOKED_AT_CAP else seen
+
+
+def all_in(rect: Rect, level: int) -> Like:
+    """Returns what all pixels of a rectangle are like."""
+    return Like((rect.x0, rect.y0), level, rect, 1.0, 0, False)
 
 
 def unbounded(fill: Fill) -> Fill:

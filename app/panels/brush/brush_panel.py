@@ -92,7 +92,7 @@ class BrushPanel:
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
         self._tools(desk)
-        if desk.hand.tool == "fill":
+        if desk.hand.tool in fill_options.OF_TOOLS:
             fill_options.draw(desk)
         shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
         self._saving.draw(desk)
@@ -135,7 +135,7 @@ class BrushPanel:
         ]
         names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
         gap = _tool_row(desk, names, side)
-        regions = ("rectangle", "ellipse", "lasso", "polygon", "fill")
+        regions = ("rectangle", "ellipse", "lasso", "polygon", "wand", "fill")
         _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in regions], side, gap)
         imgui.same_line(0, gap)
         shape_choice.draw(desk, side)

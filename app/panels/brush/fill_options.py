@@ -1,4 +1,4 @@
-"""What the tool Fill looks for: shown with the brush while it is in hand."""
+"""What the tools Fill and Wand look for: shown with the brush while one of them is in hand."""
 
 from __future__ import annotations
 
@@ -8,10 +8,15 @@ from app.desk.desk import Desk
 from app.desk.filling.fill_state import WIDEST_SHOWN
 from app.panels.controls import widgets as w
 
+OF_TOOLS = {
+    "fill": ("Fill", "A click fills a region with the brush, whatever that does"),
+    "wand": ("Wand", "A click selects a region"),
+}  # the section's title and hint, by tool
+
 
 def draw(desk: Desk) -> None:
     """Draws the section."""
-    if not w.section("Fill", "A click fills a region with the brush, whatever that does"):
+    if not w.section(*OF_TOOLS[desk.hand.tool]):
         return
     state = desk.filling
     hint = "How far colours may differ from the one you click"

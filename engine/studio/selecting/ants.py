@@ -49,7 +49,8 @@ class AntsFinder(Owned):
         if painting.selection is not None:
             lines = rim(painting.selection, asked.level, asked.area, self._easel.session.cache)
         names = tuple(sorted(painting.selections))
-        self._easel.send(Ants(painting.selection is not None, names, asked.level, asked.area, lines))
+        bounded = painting.selection is not None and not painting.selection.inverse
+        self._easel.send(Ants(painting.selection is not None, names, asked.level, asked.area, lines, bounded))
 
 
 def rim(selection: Selection, level: int, area: Rect, cache: TileCache | None = None) -> np.ndarray:

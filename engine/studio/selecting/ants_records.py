@@ -22,10 +22,11 @@ class AskAnts:
 class Ants:
     """`selected`: whether anything in particular is; `saved`: the names of kept selections; `lines`: the rim of what is
     selected at least half, float32 (n, 4): x0, y0, x1, y1 in pixels of `level` from the corner of `area`, along pixels'
-    edges."""
+    edges; `bounded`: what is selected has an end."""
 
     selected: bool
     saved: tuple[str, ...]
     level: int
     area: Rect
     lines: np.ndarray
+    bounded: bool

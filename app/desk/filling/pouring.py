@@ -1,0 +1,51 @@
+"""Fills as the window asks for them: with the brush in hand, of a region or of what is selected."""
+
+from __future__ import annotations
+
+from app.desk import palette
+from app.desk.desk import Desk
+from app.desk.examples import example_use
+from app.desk.filling.fill_state import all_in
+from engine.painting.fill_command import Fill, Like
+from engine.studio.requests import Do
+
+
+def may_fill(desk: Desk) -> bool:
+    """Tells whether the layer can be filled, and says why if not, or if the fill will not show."""
+    layer = desk.known.active
+    if layer is not None and layer.locked:
+        desk.say(f"Layer “{layer.name}” is locked", bad=True)
+        return False
+    if layer is not None and layer.shows is not None:
+        desk.say(f"“{layer.name}” shows “{layer.shows.name or 'the painting'}”: fill that", bad=True)
+        return False
+    if desk.known.hiding:
+        desk.say(f"“{desk.known.hiding[-1]}” is hidden: what you fill does not show", bad=True, offer="show_layer")
+    return True
+
+
+def pour(desk: Desk, like: Like | None, eraser: bool = False) -> None:
+    """Fills a region, or what is selected, with the brush in hand; `eraser`: as the pen's other end does."""
+    example_use.fit_within_reach(desk)
+    palette.provide(desk)
+    level, brush = desk.stroke_brush(eraser)
+    opened = like is not None and not like.contiguous
+    post_fill(desk, Fill(brush, like, opened, level=0 if like is not None else level))
+    if brush.row.lays_ink:
+        desk.hand.remember()
+
+
+def post_fill(desk: Desk, fill: Fill) -> None:
+    """Asks for a fill, which is remembered: it may be asked for again, wherever its region ends."""
+    desk.filling.last = fill
+    desk.notices.settle("fill")
+    desk.post(Do(fill))
+
+
+def fill_selection(desk: Desk) -> None:
+    """Fills what is selected; of a selection without bounds, what is in sight of it."""
+    if not may_fill(desk):
+        return
+    bounded = desk.selecting.ants is not None and desk.selecting.ants.bounded
+    level = desk.view.shown_level
+    pour(desk, None if bounded else all_in(desk.view.visible(level), level))
