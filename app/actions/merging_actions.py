@@ -132,6 +132,7 @@ MERGING_ACTIONS: dict[str, A] = {
         _clip, _on_another, _is_clipped,
     ),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
+    "paper": A("Paper…", "View", (), "The colour of the ground under all layers, or none", asks("paper"), ready),
     "clear_outside": A(
         "Delete outside the frame", "Layer", (), "Take off all layers what lies outside the frame", _clear_outside, _any
     ),

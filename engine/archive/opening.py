@@ -36,6 +36,7 @@ from engine.files.strict_json import loads
 from engine.files.zip_reader import ZipArchive
 from engine.painting.recording import Recording, read_from
 from engine.painting.rendering import Progress, Stop, check_cancelled
+from engine.painting.value import Beginning
 from engine.texture.example import SYNTHESIS
 from engine.texture.example.tiles import Tiles
 from engine.texture.image import ImageSource
@@ -146,8 +147,9 @@ class _Opening:
         chosen = selection_files.with_tiles_of(manifest.selections, manifest.grid, read, self._levels)
         painting = manifest.painting(root, textures, chosen)
         recording, lost = self._recording()
-        if recording is not None and recording.header.frame != painting.frame:
-            painting = replace(painting, begun=recording.header.frame)
+        if recording is not None:
+            begun = Beginning(recording.header.frame, recording.header.paper)
+            painting = painting if begun == painting.beginning else replace(painting, begun=begun)
         notes = (*manifest.notes, *lost)
         if other:
             why = "" if manifest.texture == TEXTURES else f" (revision {manifest.texture}, now {TEXTURES})"

@@ -41,6 +41,8 @@ from engine.painting.layer_commands import SelectLayer as SelectLayer
 from engine.painting.layer_commands import SetLayer as SetLayer
 from engine.painting.layering.frame_command import SetFrame as SetFrame
 from engine.painting.layering.frame_command import read_frame, write_frame
+from engine.painting.layering.paper_command import SetPaper as SetPaper
+from engine.painting.layering.paper_command import read_set_paper, write_set_paper
 from engine.painting.layering.placing_members import Placing as Placing
 from engine.painting.layering.placing_members import Same as Same
 from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT
@@ -129,6 +131,7 @@ Command = (
     | Fill
     | LayerCommand
     | SetFrame
+    | SetPaper
     | Undo
     | Redo
     | View
@@ -243,6 +246,7 @@ COMMANDS: dict[str, Form] = {
     "fill": Form((Fill,), fill_command.read_fill, fill_command.write_fill),
     "layer": Form(layer_commands.RECORDS, layer_commands.read_layer, layer_commands.write_layer),
     "frame": Form((SetFrame,), read_frame, write_frame),
+    "paper": Form((SetPaper,), read_set_paper, write_set_paper),
     "undo": Form((Undo,), _reads_count(Undo), _write_count),
     "redo": Form((Redo,), _reads_count(Redo), _write_count),
     "view": Form((View,), places.read_view, places.write_view),

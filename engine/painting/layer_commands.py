@@ -16,7 +16,7 @@ from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 
 COUNT_LIMIT = 1_000_000_000
 Extra = Map[str, Any]  # members that this version does not know
-_NOTHING: Extra = Map()
+NO_EXTRA: Extra = Map()
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class AddLayer:
     kind: str = "layer"
     group: str | Same | None = Same.SAME
     to: int | None = None
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ class AddPicture:
     role: str = ""
     group: str | Same | None = Same.SAME
     to: int | None = None
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class BakePlacement:
     """Makes paint of its own of what a placement shows; it becomes a layer in its place."""
 
     name: str
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class MergeLayer:
     """Makes one layer of a layer, group or placement and of what lies right below it, under the name of the lower."""
 
     name: str
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class FlattenGroup:
     hidden."""
 
     name: str | None
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ class ClearLayer:
 
     name: str | None
     outside: bool = False
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ class SelectLayer:
     """The layer that strokes without a layer go to."""
 
     name: str
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ class RemoveLayer:
     """Takes a layer or group out of the tree."""
 
     name: str
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +103,7 @@ class RenameLayer:
 
     name: str
     to: str
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ class DuplicateLayer:
     name: str
     to: str
     placing: Placing | None = None
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +123,7 @@ class MoveLayer:
     name: str
     to: int
     group: str | Same | None = Same.SAME
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ class AddPlacement:
     placing: Placing
     group: str | Same | None = Same.SAME
     to: int | None = None
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +151,7 @@ class SetLayer:
     clip: bool | None = None
     role: str | None = None
     placing: Placing | None = None
-    extra: Extra = _NOTHING
+    extra: Extra = NO_EXTRA
 
     @property
     def changes(self) -> Members:

@@ -7,7 +7,6 @@ V is the oldest version of the format that knows all that the recording tells.
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -39,6 +38,7 @@ from engine.painting.guiding.guides import GuideCommand
 from engine.painting.layer_commands import LayerCommand
 from engine.painting.layer_commands import version as layer_version
 from engine.painting.layering.frame_command import SetFrame
+from engine.painting.layering.paper_command import SetPaper, read_colour
 from engine.painting.places import BookmarkCommand
 
 VERSION = 2  # that is read; older ones too
@@ -50,7 +50,7 @@ TELL_LINES, TELL_BYTES = 4096, 1 << 20  # from one word about how far it is to t
 SIDE_LIMIT = 1 << 40
 DEFAULT_FRAME = Rect(0, 0, 1024, 768)
 BytesRead = Callable[[int], object] | None
-_COLOUR = re.compile("#[0-9a-fA-F]{6}")
+_OF_VERSION_2 = SetFrame | SetPaper | BookmarkCommand | Fill | Select | GuideCommand
 _BOM = b"\xef\xbb\xbf"
 T = TypeVar("T")
 
@@ -117,9 +117,7 @@ def version_of(command: Command) -> int:
     if isinstance(command, LayerCommand):
         return layer_version(command)
     copied = isinstance(command, Stroke) and bool(command.copies)
-    return (
-        2 if region or copied or isinstance(command, SetFrame | BookmarkCommand | Fill | Select | GuideCommand) else 1
-    )
+    return 2 if region or copied or isinstance(command, _OF_VERSION_2) else 1
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:
@@ -239,10 +237,7 @@ def read_grid(members: Fields) -> int:
 
 def read_paper(members: Fields) -> str | None:
     """Returns the member `paper` of a header or a manifest, a colour in small letters; None where there is none."""
-    paper = members.take("paper", None)
-    if paper is not None and not (isinstance(paper, str) and _COLOUR.fullmatch(paper)):
-        raise members.fault("paper", 'a colour "#rrggbb" or null')
-    return None if paper is None else paper.lower()
+    return read_colour(members, "paper")
 
 
 def write(recording: Recording, path: str | os.PathLike[str]) -> None:

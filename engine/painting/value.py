@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from immutables import Map
 
@@ -27,6 +28,13 @@ class Leak(Refusal):
     """A region to be filled that goes on beyond where it is looked for."""
 
 
+class Beginning(NamedTuple):
+    """The frame and the paper that a painting had at first, where it has others now."""
+
+    frame: Rect
+    paper: str | None
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Painting:
     """`frame`: level-0 pixels that export and other programs show; `seed`: of textures without their own;
@@ -46,11 +54,20 @@ class Painting:
     selection: Selection | None = None
     selections: Saved = field(default_factory=lambda: NONE_SAVED)
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
-    begun: Rect | None = None
+    begun: Beginning | None = None
 
     def framed(self, frame: Rect) -> Painting:
         """Returns the same paint in another frame."""
-        return replace(self, frame=frame, begun=self.frame if self.begun is None else self.begun)
+        return replace(self, frame=frame, begun=self.beginning)
+
+    def on_paper(self, paper: str | None) -> Painting:
+        """Returns the same paint on another paper."""
+        return replace(self, root=replace(self.root, paper=paper), begun=self.beginning)
+
+    @property
+    def beginning(self) -> Beginning:
+        """Gives what its recording begins with."""
+        return Beginning(self.frame, self.paper) if self.begun is None else self.begun
 
     @property
     def paper(self) -> str | None:
@@ -72,8 +89,8 @@ def first_painting(header: Header) -> Painting:
 
 def header_for(painting: Painting) -> Header:
     """Returns the header of the recording of a painting."""
-    frame = painting.frame if painting.begun is None else painting.begun
-    return Header(frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid, paper=painting.paper)
+    frame, paper = painting.beginning
+    return Header(frame, painting.seed, arithmetic=painting.arithmetic, grid=painting.grid, paper=paper)
 
 
 def blank(painting: Painting) -> Painting:

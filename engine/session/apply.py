@@ -211,6 +211,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.MergeLayer: lambda painting, command, around: merged_down(painting, command.name),
     c.FlattenGroup: _flatten,
     c.ClearLayer: lambda painting, command, around: cleared(painting, command.name, command.outside),
+    c.SetPaper: lambda painting, command, around: painting.on_paper(command.colour),
     c.SetFrame: lambda painting, command, around: painting.framed(command.rect),
     c.SelectLayer: _select,
     c.RemoveLayer: _remove,

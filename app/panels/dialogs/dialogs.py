@@ -18,6 +18,7 @@ from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
 from app.panels.dialogs.frame_dialog import FrameDialog
 from app.panels.dialogs.merge_dialog import MergeDialog
 from app.panels.dialogs.overtaken import OvertakenSave
+from app.panels.dialogs.paper_choice import PaperChoice, PaperDialog
 from app.panels.dialogs.select_dialogs import ChangeSelection, KeepSelection, KeptSelections
 from app.panels.recovery.cards import Bin, Cards
 from engine.numeric.address import Rect
@@ -86,7 +87,7 @@ class NewPainting:
     def __init__(self) -> None:
         self._width, self._height = 1280, 800
         self._small = False
-        self._on_paper, self._paper = True, (1.0, 1.0, 1.0)
+        self._paper = PaperChoice("#ffffff")
 
     def draw(self, desk: Desk) -> bool:
         """Draws it into the present window."""
@@ -101,32 +102,17 @@ class NewPainting:
         self._width = _side("Width", self._width, hint, column)
         imgui.same_line()
         self._height = _side("Height", self._height, "Of the frame, in pixels of level 0", column)
-        self._choose_paper(column)
+        self._paper.draw(column)
         good = 1 <= self._width <= MOST_SIDE and 1 <= self._height <= MOST_SIDE
         hint = "Colours of 12 bits in place of 16, for good: enough to paint and print; not for relief or height maps"
         _, self._small = w.tick("Smaller files", self._small, hint)
         imgui.spacing()
         if w.default_button("Start", "Start the new painting", enabled=good, width=column):
             frame, grid = Rect(0, 0, self._width, self._height), COARSE if self._small else FINE
-            desk.post(New(frame, grid=grid, paper=self._colour))
+            desk.post(New(frame, grid=grid, paper=self._paper.colour))
             return False
         imgui.same_line()
         return not w.text_button("Cancel", "Go back", width=column)
-
-    @property
-    def _colour(self) -> str | None:
-        return "#" + "".join(f"{round(255 * part):02x}" for part in self._paper) if self._on_paper else None
-
-    def _choose_paper(self, column: float) -> None:
-        hint = "A ground of one colour under all layers; without it, what is not painted is clear"
-        _, self._on_paper = w.tick("Paper", self._on_paper, hint)
-        imgui.same_line(column + imgui.get_style().item_spacing.x + imgui.get_cursor_start_pos().x)
-        imgui.begin_disabled(not self._on_paper)
-        side = imgui.get_frame_height()
-        if w.swatch("paper", self._paper, "The colour of the paper", (column, side)):
-            imgui.open_popup("paper colour")
-        imgui.end_disabled()
-        self._paper = w.colour_popup("paper colour", self._paper) or self._paper
 
 
 def _side(name: str, value: int, hint: str, width: float) -> int:
@@ -286,6 +272,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "overtaken": _overtaken,
     "earlier": _earlier,
     "frame": lambda desk: FrameDialog(desk.known.frame),
+    "paper": lambda desk: PaperDialog(desk.known.paper),
     "merge": lambda desk: MergeDialog(),
     "unclosed": Cards,
     "bin": Bin,

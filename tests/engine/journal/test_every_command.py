@@ -43,6 +43,7 @@ SAMPLES = {
     c.BakePlacement: c.BakePlacement("sky again"),
     c.MergeLayer: c.MergeLayer("sky again"),
     c.SetFrame: c.SetFrame(Rect.at(-3, 4, 500, 400)),
+    c.SetPaper: c.SetPaper("#e0d0b0"),
     c.ClearLayer: c.ClearLayer("sky"),
     c.SelectLayer: c.SelectLayer("sky"),
     c.RemoveLayer: c.RemoveLayer("cloud"),

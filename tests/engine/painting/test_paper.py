@@ -19,8 +19,9 @@ from engine.files.images import read_image
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.difference import areas
-from engine.painting.recording import Header, Recording, parse_header, read, write
-from engine.painting.value import first_painting
+from engine.painting.recording import Header, Recording, parse_header, read, version_of, write
+from engine.painting.value import first_painting, header_for
+from engine.session.replay import replay
 from engine.session.session import Session
 
 FRAME = Rect(0, 0, 90, 70)
@@ -131,6 +132,41 @@ def test_it_is_no_paint():
     session = done(stroke(), {"do": "layer", "add": "b"}, {"do": "layer", "flatten": None})
     assert session.painting.paper == PAPER
     assert not layer_planes(session.painting.root.children[0], 0, FRAME)[3, 0].any()
+
+
+def test_it_is_changed_taken_back_kept_and_replayed(tmp_path):
+    session = done(stroke(opacity=0.6), {"do": "paper", "colour": "#2080C0"}, stroke(radius=5))
+    blue = picture(session.painting)
+    np.testing.assert_array_equal(blue, picture(done(stroke(opacity=0.6), stroke(radius=5), paper="#2080c0").painting))
+    assert (session.painting.paper, session.recording().header.paper) == ("#2080c0", PAPER)
+    assert session.recording().header.to_json()["inkfall"] == 2
+    assert version_of(session.log[1]) == 2
+    save(tmp_path / "a.ora", Snapshot(session.painting, session.recording()))
+    found = open_painting(tmp_path / "a.ora")
+    assert found.recording is not None
+    for painting in (found.painting, replay(found.recording).painting, replay(session.recording()).painting):
+        np.testing.assert_array_equal(picture(painting), blue)
+        assert header_for(painting).paper == PAPER
+    session.do(c.Undo(2))
+    np.testing.assert_array_equal(picture(session.painting), picture(done(stroke(opacity=0.6)).painting))
+    session.do(c.parse({"do": "paper", "colour": None}))
+    assert picture(session.painting)[3].min() == 0
+    assert format_of(session.painting) < FORMAT
+
+
+def test_a_paper_that_came_later_is_kept(tmp_path):
+    session = done(stroke(), {"do": "paper", "colour": PAPER}, paper=None)
+    write(session.recording(), tmp_path / "a.jsonl")
+    assert "paper" not in (tmp_path / "a.jsonl").read_text().splitlines()[0]
+    np.testing.assert_array_equal(
+        picture(replay(read(tmp_path / "a.jsonl")).painting), picture(done(stroke()).painting)
+    )
+
+
+@pytest.mark.parametrize("wrong", [{}, {"colour": 3}, {"colour": "white"}, {"colour": "#12345"}])
+def test_a_command_without_a_colour_is_refused(wrong):
+    with pytest.raises(FieldError, match="#rrggbb"):
+        c.parse({"do": "paper", **wrong})
 
 
 def test_another_paper_is_seen_everywhere():
