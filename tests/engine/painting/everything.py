@@ -59,6 +59,7 @@ def ink(name: str, **more: Any) -> dict[str, Any]:
     return {"texture": name, "amount": 0.83, "colour": "#f0e0a0", **more}
 
 
+RAMP = [[0, "#102040"], [0.37, "#e0a03080"], [1, "#ffffff"]]
 GROUND = stroke(*BACK, ink=[ink("rock", period=11.3, roughness=0.41)], radius=30)
 
 
@@ -91,6 +92,9 @@ MADE: dict[str, dict[str, Any]] = {
     "impulse": texture("impulse", path="grey.png", window=16, average=5),
     "impulse-usual": texture("impulse", path="colour.png"),
     "impulse-random": texture("impulse", path="colour.png", phase="random", field="tile"),
+    "gradient": texture("gradient", ramp=RAMP, **{"from": [3, 9], "to": [71, 50]}),
+    "gradient-radial": texture("gradient", kind="radial", ramp=RAMP, **{"from": [41, 33], "to": [77, 50]}),
+    "gradient-angular": texture("gradient", kind="angular", level=1, ramp=RAMP, **{"from": [80, 61], "to": [77, 20]}),
     "match": texture("match", path="colour.png", iterations=2, levels=3),
     "match-laplacian": texture("match", path="grey.png", iterations=2, levels=3, pyramid="laplacian"),
     "match-alpha": texture("match", path="blob.png", iterations=2, levels=2, size=[32, 32]),
@@ -173,9 +177,35 @@ def _made() -> Iterator[tuple[str, list[Any]]]:
     yield "shaped", [MADE["spectrum"], stroke(ink=[shaped]), stroke(*BACK, density={"texture": "t"}, level=1)]
 
 
+def _areas() -> Iterator[tuple[str, list[Any]]]:
+    """What is done to areas at once, or several times in one step."""
+    turned = {"centre": [45.5, 31.2], "count": 7, "mirror": [0.3, 0.7]}
+    yield "symmetry", [{**stroke(radius=4.3, ink=[ink("rock", period=9.3)]), "symmetry": turned}]
+    like = {"at": [40, 30], "tolerance": 0.31, "gap": 3}
+    yield "fill", [GROUND, {"do": "fill", "like": like, "open": True, "brush": {"ink": [ink("rock", period=7.7)]}}]
+    oval = {"do": "select", "ellipse": [1, 13, 17, 123, 91], "feather": 3.3}
+    thinner = {"do": "select", "op": "intersect", "outline": [[5, 5], [90, 11.3], [40.7, 70]], "level": 0, "grow": 1.7}
+    for name in ("paint", "erase", "smooth"):
+        yield f"selected {name}", [GROUND, oval, thinner, stroke(mode=name, ink=[ink("rock")], radius=31)]
+    above, clip = {"do": "layer", "add": "above"}, {"do": "layer", "set": "above", "clip": True, "opacity": 0.7}
+    merged = {"do": "layer", "merge": "above"}
+    yield "clipped", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), clip]
+    yield "merged", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), merged]
+    again = {"do": "layer", "add": "again", "kind": "placement", "of": "Layer 1", "at": [31, -7]}
+    yield "placed", [GROUND, {**again, "c": [0.6, 0.8]}, {**again, "add": "half", "levels": -1, "turn": 1}]
+    yield "baked", [GROUND, {**again, "c": [0.9, 0.3], "mirror": True}, {"do": "layer", "bake": "again"}]
+
+
 def recordings() -> dict[str, list[Any]]:
     """The commands of each recording, by its name."""
-    parts: tuple[Iterable[tuple[str, list[Any]]], ...] = (_brushes(), _operations(), _layered(), _made(), _grown())
+    parts: tuple[Iterable[tuple[str, list[Any]]], ...] = (
+        _brushes(),
+        _operations(),
+        _layered(),
+        _made(),
+        _areas(),
+        _grown(),
+    )
     return {name: commands for part in parts for name, commands in part}
 
 
