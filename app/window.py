@@ -50,7 +50,7 @@ DOUBLE = 0.5  # seconds from one click to the next, at most, that are a double c
 
 
 def _ants(desk: Desk, ants: Ants, _now: float) -> None:
-    desk.selecting.ants = ants
+    desk.selecting.hear(ants)
 
 
 _ANTS: dict[type, Hear] = {Ants: _ants}

@@ -45,6 +45,12 @@ def chosen(desk: Desk) -> bool:
     return ready(desk) and desk.known.scene is not None and desk.known.scene.active is not None
 
 
+def paint_chosen(desk: Desk) -> bool:
+    """Tells whether what is chosen is a layer of paint."""
+    row = desk.known.active
+    return chosen(desk) and row is not None and not row.group and row.shows is None
+
+
 def posts(make: Callable[[], c.Command]) -> Callable[[Desk], None]:
     """Returns what posts a command that `make` makes."""
     return lambda desk: desk.post(Do(make()))

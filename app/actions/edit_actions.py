@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from app.actions.action import Action as A
-from app.actions.action import posts, ready, to_now
+from app.actions.action import paint_chosen, posts, ready, to_now
 from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
-from app.desk.outside import clipboard
+from app.desk.outside import clipboard, copied_parts
 from engine.painting import commands as c
 
 
@@ -17,6 +17,11 @@ def _can_undo(desk: Desk) -> bool:
 
 def _can_redo(desk: Desk) -> bool:
     return ready(desk) and desk.known.scene is not None and desk.known.scene.can_redo
+
+
+def _can_cut(desk: Desk) -> bool:
+    row = desk.known.active
+    return paint_chosen(desk) and row is not None and not row.locked
 
 
 def _swap(desk: Desk) -> None:
@@ -44,7 +49,9 @@ EDIT_ACTIONS: dict[str, A] = {
     "copy_picture": A(
         "Copy picture", "Edit", ("Ctrl+Shift+C",), "Copy the whole frame, for other programs", clipboard.ask_copy, ready
     ),
-    "paste": A("Paste picture", "Edit", ("Ctrl+V",), "Lay the clipboard’s picture on a layer", clipboard.paste, ready),
+    "cut": A("Cut", "Edit", ("Ctrl+X",), "Take what is selected off, to paste it", copied_parts.cut_part, _can_cut),
+    "copy": A("Copy", "Edit", ("Ctrl+C",), "Copy what is selected, to paste it", copied_parts.copy_part, paint_chosen),
+    "paste": A("Paste", "Edit", ("Ctrl+V",), "Lay what was copied last on a layer of its own", clipboard.paste, ready),
     "swap": A("Swap colours", "Edit", ("X",), "Swap the two colours", _swap),
     "default": A("Black and white", "Edit", ("D",), "Set the colours to black and white", _default_colours),
 }  # fmt: skip

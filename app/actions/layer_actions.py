@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.actions.action import Action as A
-from app.actions.action import active, chosen, next_layer_name, ready
+from app.actions.action import active, chosen, next_layer_name, paint_chosen, ready
 from app.desk.desk import Desk
 from app.desk.known import moved_by
 from engine.checks.roles import REFERENCE
@@ -25,7 +25,18 @@ def _add(kind: str, stem: str) -> Callable[[Desk], None]:
 
 def _duplicate(desk: Desk) -> None:
     name = active(desk)
-    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} copy"))))
+    selected = "copy" if paint_chosen(desk) and desk.selecting.selected else None
+    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} copy"), selected=selected)))
+
+
+def _cut_out(desk: Desk) -> None:
+    name = active(desk)
+    desk.post(Do(c.DuplicateLayer(name, next_layer_name(desk, f"{name} cut"), selected="cut")))
+
+
+def _can_cut_out(desk: Desk) -> bool:
+    row = desk.known.active
+    return paint_chosen(desk) and row is not None and not row.locked and desk.selecting.selected
 
 
 def _show_again(desk: Desk) -> None:
@@ -80,7 +91,11 @@ def _moves(by: int) -> Callable[[Desk], None]:
 LAYER_ACTIONS: dict[str, A] = {
     "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), ready),
     "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), ready),
-    "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer", _duplicate, chosen),
+    "duplicate": A("Duplicate", "Layer", ("Ctrl+J",), "Copy the layer, or what is selected of it", _duplicate, chosen),
+    "cut_out": A(
+        "Cut to a new layer", "Layer", ("Ctrl+Shift+J",), "Lay what is selected on a layer of its own", _cut_out,
+        _can_cut_out,
+    ),
     "show_again": A(
         "Show again", "Layer", (), "Show the layer once more: what is painted on it shows there", _show_again, chosen
     ),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from app.actions.action import Action as A
-from app.actions.action import active, asks, chosen, ready
+from app.actions.action import active, asks, chosen, paint_chosen, ready
 from app.desk.desk import Desk
 from engine.painting import commands as c
 from engine.studio.requests import Do
@@ -91,11 +91,6 @@ def _grouped(desk: Desk) -> bool:
     return chosen(desk) and row is not None and (row.group or row.parent is not None)
 
 
-def _painted(desk: Desk) -> bool:
-    row = desk.known.active
-    return chosen(desk) and row is not None and not row.group and row.shows is None
-
-
 def _several(desk: Desk) -> bool:
     return ready(desk) and desk.known.scene is not None and len(desk.known.scene.layers) > 1
 
@@ -126,7 +121,7 @@ MERGING_ACTIONS: dict[str, A] = {
     "merge_visible": A(
         "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
     ),
-    "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, _painted),
+    "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, paint_chosen),
     "clip": A(
         "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
         _clip, _on_another, _is_clipped,

@@ -10,7 +10,6 @@ from app.desk.desk import Desk
 from app.desk.filling.pouring import fill_selection
 from engine.painting import commands as c
 from engine.painting.select_commands import Named, Whole
-from engine.studio.requests import Do
 
 
 def _now(desk: Desk) -> bool:
@@ -31,11 +30,11 @@ def _kept(desk: Desk) -> bool:
 
 
 def _whole(what: str) -> Callable[[Desk], None]:
-    return lambda desk: desk.post(Do(c.Select(Whole(what))))
+    return lambda desk: desk.selecting.choose(desk.post, c.Select(Whole(what)))
 
 
 def _from_layer(desk: Desk) -> None:
-    desk.post(Do(c.Select(Named(active(desk)), level=desk.view.shown_level)))
+    desk.selecting.choose(desk.post, c.Select(Named(active(desk)), level=desk.view.shown_level))
 
 
 def _tool(name: str) -> Callable[[Desk], None]:

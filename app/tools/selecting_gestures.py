@@ -20,7 +20,6 @@ from engine.numeric.address import Rect
 from engine.painting.commands import Select
 from engine.painting.points import DEFAULTS, REACH, rounded
 from engine.painting.select_commands import Box, Line, Whole
-from engine.studio.requests import Do
 
 _CLICK = 4.0  # points of the screen: a drag that stays within them is a click
 _APART = 1.5  # screen pixels from one point of a lasso to the next
@@ -47,7 +46,7 @@ def _clicked(desk: Desk, first: PenEvent, last: PenEvent) -> bool:
 def _none(desk: Desk, op: str) -> None:
     """A click beside everything selects nothing in particular."""
     if op == "replace" and desk.selecting.selected:
-        desk.post(Do(Select(Whole("none"))))
+        desk.selecting.choose(desk.post, Select(Whole("none")))
 
 
 def _boxed(desk: Desk, first: PenEvent, oval: bool) -> Gesture:
@@ -66,7 +65,8 @@ def _boxed(desk: Desk, first: PenEvent, oval: bool) -> Gesture:
     level, view = desk.view.shown_level, desk.view
     corners = [view.to_canvas(x, y).pixel(level) for x in (first.x, event.x) for y in (first.y, event.y)]
     xs, ys = zip(*corners, strict=True)
-    desk.post(Do(Select(Box(level, Rect(min(xs), min(ys), max(xs) + 1, max(ys) + 1), oval), op, level)))
+    box = Box(level, Rect(min(xs), min(ys), max(xs) + 1, max(ys) + 1), oval)
+    desk.selecting.choose(desk.post, Select(box, op, level))
 
 
 def _corners(desk: Desk, first: PenEvent, last: PenEvent, oval: bool) -> list[Place]:
@@ -135,7 +135,7 @@ def wand(desk: Desk, first: PenEvent) -> Gesture:
     while event.kind != "up":
         event = yield
     like = like_at(desk, first.x, first.y)
-    desk.post(Do(Select(like, op, like.level)))
+    desk.selecting.choose(desk.post, Select(like, op, like.level))
 
 
 def _on_first(desk: Desk, event: PenEvent) -> bool:
@@ -157,4 +157,4 @@ def _outline(desk: Desk, op: str) -> None:
     points[:, :2] = np.clip([place.offset(level, *origin) for place in shape], -REACH, REACH)
     table = rounded(points)
     table.flags.writeable = False
-    desk.post(Do(Select(Line(level, origin, table), op, level)))
+    desk.selecting.choose(desk.post, Select(Line(level, origin, table), op, level))

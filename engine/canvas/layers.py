@@ -39,7 +39,7 @@ class Layer:
     `blend`: a row of `BLENDS`.  `clip`: shown only where the nearest one below that is not clipped has paint.
     `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
     `pyramid`: the paint; `growth`: what was painted with examples, over it.  `role`: "" for a part of the picture, or
-    REFERENCE.
+    one of the ROLES.
     """
 
     id: int

@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 from typing import Protocol
 
-from engine.checks.roles import REFERENCE, ROLES
+from engine.checks.roles import ROLES
 from engine.numeric.blend import BLENDS
 
 MAX_NAME = 200  # characters
@@ -70,7 +70,7 @@ def check_common(node: Common) -> None:
 
 def check_role(node: Common, role: object) -> None:
     """Raises LayerError unless it can be a node's role."""
-    insist(node.name, "role", role, role in ROLES, f'"{REFERENCE}", or none')
+    insist(node.name, "role", role, role in ROLES, " or ".join(f'"{known}"' for known in ROLES[1:]) + ", or none")
 
 
 def check_flags(node: Common, names: Sequence[str]) -> None:

@@ -15,6 +15,7 @@ from engine.painting.layering.placing_members import PLACED, Members, Placing, R
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 
 COUNT_LIMIT = 1_000_000_000
+SELECTED = COPY, CUT = "copy", "cut"  # how a copy of what is selected is made
 Extra = Map[str, Any]  # members that this version does not know
 NO_EXTRA: Extra = Map()
 
@@ -108,12 +109,18 @@ class RenameLayer:
 
 @dataclass(frozen=True, slots=True)
 class DuplicateLayer:
-    """A copy named `to`, just above the original; elsewhere, if it has a `placing`, as a `SetLayer` has it."""
+    """A copy named `to`, just above the original; elsewhere, if it has a `placing`, as a `SetLayer` has it.
+
+    `selected`: the copy holds only what is selected of a layer, and "cut" takes that off the original; `aside`: it is
+    hidden, to be duplicated in its turn, and takes the place of what was set aside before.
+    """
 
     name: str
     to: str
     placing: Placing | None = None
     extra: Extra = NO_EXTRA
+    selected: str | None = None
+    aside: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +181,14 @@ def _new_name(members: Fields) -> Members:
 
 def _copy(members: Fields) -> Members:
     placing = read_placing(members)
-    return {**_new_name(members), "placing": None if placing == Placing() else placing}
+    selected = members.take("selected", None)
+    if selected is not None and selected not in SELECTED:
+        raise members.fault("selected", " or ".join(f'"{known}"' for known in SELECTED))
+    aside = members.flag("aside", False)
+    if aside and selected is None:
+        raise members.fault("aside", 'true only with "selected"')
+    given = None if placing == Placing() else placing
+    return {**_new_name(members), "placing": given, "selected": selected, "aside": aside}
 
 
 def _group(members: Fields) -> str | Same | None:
@@ -317,4 +331,5 @@ def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
     newer = isinstance(command, SetLayer) and (command.role is not None or command.clip is not None)
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
+    newer |= isinstance(command, DuplicateLayer) and command.selected is not None
     return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

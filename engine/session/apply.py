@@ -10,11 +10,12 @@ from dataclasses import replace
 from typing import Any
 
 from engine.canvas import layers
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import baking, loops
 from engine.canvas.placing.placement import Placement
 from engine.checks.field_error import FieldError
+from engine.checks.roles import COPIED
 from engine.makers.makers import define
 from engine.painting import commands as c
 from engine.painting.grown import settled_root
@@ -22,6 +23,7 @@ from engine.painting.guiding.guides import GuideCommand, guides_after
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
+from engine.session.copied_part import lifted, pasted
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture
@@ -141,8 +143,14 @@ def _neighbour(root: Group, group: str | None, position: int) -> str | None:
     holder = root if group is None else layers.find(root, group)
     assert isinstance(holder, Group)
     siblings = [*holder.children[position - 1 : position], *holder.children[position : position + 1]]
-    near = [node.name for node in siblings if isinstance(node, Layer)]
-    return next(iter(near), None) or next((node.name for node in reversed(list(layers.layers(root)))), None)
+    near = [node.name for node in siblings if _shown_to_artist(node)]
+    return next(iter(near), None) or next(
+        (node.name for node in reversed(list(layers.layers(root))) if _shown_to_artist(node)), None
+    )
+
+
+def _shown_to_artist(node: Node) -> bool:
+    return isinstance(node, Layer) and node.role != COPIED
 
 
 def _rename(painting: Painting, command: c.RenameLayer, around: Around) -> Painting:
@@ -152,11 +160,20 @@ def _rename(painting: Painting, command: c.RenameLayer, around: Around) -> Paint
 
 
 def _duplicate(painting: Painting, command: c.DuplicateLayer, around: Around) -> Painting:
+    made = _copied(painting, command)
+    if command.placing is not None:
+        return _set(replace(made, active=command.to), c.SetLayer(command.to, placing=command.placing), around)
+    return made
+
+
+def _copied(painting: Painting, command: c.DuplicateLayer) -> Painting:
+    node = layers.find(painting.root, command.name)
+    if command.selected is not None:
+        return lifted(painting, command)
+    if isinstance(node, Layer) and node.role == COPIED:
+        return pasted(painting, node, command.to)
     root = layers.duplicate(painting.root, command.name, command.to)
     copied = isinstance(layers.find(root, command.to), Layer)
-    if command.placing is not None:
-        made = replace(painting, root=root, active=command.to)
-        return _set(made, c.SetLayer(command.to, placing=command.placing), around)
     return replace(painting, root=root, active=command.to if copied else painting.active)
 
 

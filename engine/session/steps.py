@@ -139,7 +139,7 @@ class Steps(Owned):
             for one, copy in _copied(copied.root, command):
                 laid = laid.set(copy.id, laid.get(one.id))
         if isinstance(
-            command, c.RemoveLayer | c.MergeLayer | c.FlattenGroup
+            command, c.RemoveLayer | c.MergeLayer | c.FlattenGroup | c.DuplicateLayer
         ):  # a later layer may get the number of one that is gone
             held = {node.id for node in layers.walk(painting.root)}
             laid = Map({number: last for number, last in laid.items() if number in held})

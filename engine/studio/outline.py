@@ -1,4 +1,4 @@
-"""The tree of layers as a list that a panel shows."""
+"""The tree of layers as a list that a panel shows; what was copied last is not in it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.placement import Placement
-from engine.checks.roles import REFERENCE
+from engine.checks.roles import COPIED, REFERENCE
 from engine.studio import results
 
 
@@ -20,6 +20,8 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
     out = []
     for position in reversed(range(len(group.children))):
         node = group.children[position]
+        if isinstance(node, Layer) and node.role == COPIED:
+            continue
         is_group = isinstance(node, Group)
         alpha_locked = isinstance(node, Layer) and node.alpha_locked
         out.append(

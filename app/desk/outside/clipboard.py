@@ -14,7 +14,7 @@ import platformdirs
 
 from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
-from app.desk.outside import bringing
+from app.desk.outside import bringing, copied_parts
 from engine.studio.copy_records import Copied, CopyPicture
 
 _KEPT = 8  # files of pictures that were pasted
@@ -27,14 +27,17 @@ def _folder() -> Path:
 @dataclass(frozen=True, slots=True)
 class _Paste(FileWork):
     place: Place
+    mark: str = ""  # that was put there when something was copied here
 
-    def carry_out(self) -> tuple[Path, tuple[int, int]]:
+    def carry_out(self) -> tuple[Path, tuple[int, int]] | None:
         import copykitten  # here: it takes its time to load
 
         from engine.files.atomic import replacing
         from engine.files.fault import FileError
         from engine.files.png_writer import write_png
 
+        if self.mark and _text() == self.mark:
+            return None
         try:
             data, width, height = copykitten.paste_image()
         except copykitten.CopykittenError as error:
@@ -47,13 +50,27 @@ class _Paste(FileWork):
             old.unlink()
         return path, (width, height)
 
-    def arrive(self, desk: Desk, found: tuple[Path, tuple[int, int]]) -> None:
+    def arrive(self, desk: Desk, found: tuple[Path, tuple[int, int]] | None) -> None:
+        if found is None:
+            copied_parts.paste_part(desk)
+            return
         bringing.lay(desk, found[0], "Pasted", found[1], self.place)
 
 
 def paste(desk: Desk) -> None:
-    """Lays the picture on the clipboard on a layer of its own, in the middle of the view."""
-    desk.work(_Paste(desk.view.to_canvas(*desk.middle())))
+    """Lays what was copied last on a layer of its own: here, where it was; elsewhere, in the middle of the view."""
+    copied = desk.selecting.copied
+    desk.work(_Paste(desk.view.to_canvas(*desk.middle()), "" if copied is None else copied.mark))
+
+
+def _text() -> str:
+    """Returns the text on the clipboard; "" where there is none."""
+    import copykitten
+
+    try:
+        return str(copykitten.paste())
+    except copykitten.CopykittenError:
+        return ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

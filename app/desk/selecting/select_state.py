@@ -4,36 +4,63 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from app.canvas.view import Place, View
 from engine.numeric.address import Rect
-from engine.studio.requests import Request
+from engine.painting.select_commands import Select, Whole
+from engine.studio.requests import Do, Request
 from engine.studio.selecting.ants_records import Ants, AskAnts
 
 _GRAIN = 256  # px: the rectangle that is asked for begins and ends at multiples of these, so that it seldom changes
 
 
+class CopiedHere(NamedTuple):
+    """What was copied last: `name`: of the layer that holds it, in the painting of the number `serial`; `mark`: the
+    line on the system's clipboard that stands for it."""
+
+    name: str
+    serial: int
+    mark: str
+
+
 @dataclass(slots=True)
 class SelectState:
     """`ants`: the rim, None before the engine told of it; `shape`: the corners of what is being drawn, `closed` where
-    that is no line that still goes on; `amount`: pixels by which a selection is changed; `name`: to keep it under."""
+    that is no line that still goes on; `amount`: pixels by which a selection is changed; `name`: to keep it under;
+    `copied`: what was copied here, None before."""
 
     ants: Ants | None = None
     shape: list[Place] = field(default_factory=list)
     closed: bool = True
     amount: int = 8
     name: str = ""
+    copied: CopiedHere | None = None
     _asked: tuple[int, Rect] | None = None
+    _awaited: bool | None = None  # whether something will be selected, until the engine tells so
 
     @property
     def selected(self) -> bool:
-        """Tells whether anything in particular is selected."""
+        """Tells whether anything in particular is selected, or will be by what was asked for last."""
+        if self._awaited is not None:
+            return self._awaited
         return self.ants is not None and self.ants.selected
 
     @property
     def saved(self) -> tuple[str, ...]:
         """Gives the names of kept selections."""
         return self.ants.saved if self.ants is not None else ()
+
+    def choose(self, post: Callable[[Request], None], command: Select) -> None:
+        """Selects; what the next key press may do follows from it at once."""
+        self._awaited = command.source != Whole("none")
+        post(Do(command))
+
+    def hear(self, ants: Ants) -> None:
+        """Takes over what the engine tells."""
+        self.ants = ants
+        if self._awaited == ants.selected:
+            self._awaited = None
 
     def wants(self, post: Callable[[Request], None], view: View) -> None:
         """Asks for the rim in sight, when that is elsewhere than what was asked for."""

@@ -36,8 +36,9 @@ def _title(command: c.Command) -> str:
             return f"Delete “{name}”"
         case c.RenameLayer(name=name, to=to):
             return f"“{name}” is now “{to}”"
-        case c.DuplicateLayer(name=name):
-            return f"Duplicate “{name}”"
+        case c.DuplicateLayer(name=name, selected=selected, aside=aside):
+            words = {"copy": "Copy", "cut": "Cut"} if aside else {"copy": "Copy from", "cut": "Cut from"}
+            return f"{words.get(selected or '', 'Duplicate')} “{name}”"
         case c.MoveLayer(name=name):
             return f"Move “{name}”"
         case c.SetLayer():

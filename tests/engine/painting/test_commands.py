@@ -15,6 +15,7 @@ from engine.checks.field_error import FieldError
 from engine.files.strict_json import dumps, loads
 from engine.numeric.address import Rect
 from engine.painting import commands as c
+from engine.painting.layer_commands import SELECTED
 from engine.painting.points import POINT_COLUMNS, points_array
 
 names = st.text(
@@ -92,6 +93,7 @@ COMMANDS = st.one_of(
     st.builds(
         c.DuplicateLayer, names, names, st.none() | placings.filter(lambda placing: placing != c.Placing()), later
     ),
+    st.builds(c.DuplicateLayer, names, names, extra=later, selected=st.sampled_from(SELECTED), aside=st.booleans()),
     st.builds(c.MoveLayer, names, positions, groups, later),
     st.builds(
         c.SetLayer,

@@ -1,0 +1,57 @@
+"""What is selected of a layer, copied or cut to one of its own; and what was set aside, pasted."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from engine.canvas import layers
+from engine.canvas.attenuate import fold
+from engine.canvas.flatten import flattened
+from engine.canvas.layers import Group, Layer
+from engine.canvas.merging.cleared import without
+from engine.canvas.node_checks import LayerError
+from engine.checks.roles import COPIED
+from engine.painting.commands import DuplicateLayer
+from engine.painting.layer_commands import CUT
+from engine.painting.value import Painting, with_node
+from engine.session.merging import cleared
+
+
+def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
+    """Returns the painting with what is selected of a layer, all of it where nothing is, on a layer of its own.
+
+    What a cut leaves and what it takes add up to what was there, at the selection's level and coarser ones.
+    """
+    node = layers.find(painting.root, command.name)
+    if not isinstance(node, Layer):
+        raise LayerError(f"layer {command.name!r}: found no layer of paint, expected one to copy from")
+    paint = (flattened(node) if node.growth else node).pyramid
+    part = paint if painting.selection is None else without(paint, painting.selection.inverted())
+    if paint.coarsest is not None and fold(part).coarsest is None:
+        raise LayerError(f"layer {command.name!r}: found no paint where it is selected, expected some to copy")
+    number, role = layers.next_id(painting.root), COPIED if command.aside else ""
+    made = replace(
+        node, id=number, name=command.to, locked=False, role=role, visible=not role, pyramid=part.branched(), growth=()
+    )
+    if command.selected == CUT:
+        painting = cleared(painting, command.name)
+    group, position = layers.place(painting.root, command.name)
+    if command.aside:
+        root = layers.insert(_without_copied(painting.root), replace(made, clip=False), None, 0)
+        return replace(painting, root=root)
+    root = layers.insert(painting.root, made, group, position + 1)
+    return replace(painting, root=root, active=command.to)
+
+
+def pasted(painting: Painting, node: Layer, to: str) -> Painting:
+    """Returns the painting with what was set aside seen on a layer above the active one."""
+    number = layers.next_id(painting.root)
+    made = replace(node, id=number, name=to, visible=True, role="", pyramid=node.pyramid.branched())
+    return with_node(painting, made)
+
+
+def _without_copied(root: Group) -> Group:
+    for node in root.children:
+        if isinstance(node, Layer) and node.role == COPIED:
+            root = layers.remove(root, node.name)
+    return root
