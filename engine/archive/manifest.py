@@ -31,7 +31,7 @@ from engine.numeric.address import TILE, Rect
 from engine.numeric.arithmetic import EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.guiding.guides import NO_GUIDES, Guides, read_guides, write_guide
-from engine.painting.layering.placing_members import Placing, read_placing, write_placing
+from engine.painting.layering.placing_members import Placing, read_part, read_placing, write_part, write_placing
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT, read_grid, read_paper
 from engine.painting.textures import Texture
@@ -180,7 +180,8 @@ def format_of(painting: Painting) -> int:
     roles = any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root))
     chosen = painting.selection is not None or painting.selections
     clipped = any(node.clip for node in layers.walk(painting.root))
-    if roles or clipped or chosen or painting.guides or painting.paper is not None:
+    wrapped = any(layer.wrap is not None for layer in layers.layers(painting.root))
+    if roles or clipped or wrapped or chosen or painting.guides or painting.paper is not None:
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT
@@ -216,6 +217,7 @@ def _node_json(
         grown = {"plots": [plot_files.plot_json(plot) for plot in plots[node.id]]} if plots.get(node.id) else {}
         commits = {"commits": node.pyramid.commits} if node.pyramid.grid != FINE else {}
         own = {"alpha_locked": node.alpha_locked, "packs": stored, **commits}
+        own |= {} if node.wrap is None else {"wrap": write_part(node.wrap)}
         return {"kind": "layer", **common, **own, **ground, **grown}
     if isinstance(node, Placement):
         return {"kind": "placement", **common, "source": node.of, **write_placing(Placing.told(node))}
@@ -327,7 +329,8 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
             )
         commits = members.integer("commits", lo=0, hi=1 << 62) if held.grid != FINE else 0
         pyramid = Pyramid(grid=held.grid, commits=commits)
-        return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=pyramid)
+        wrap = read_part(members, "wrap") if "wrap" in members else None
+        return Layer(**common, alpha_locked=members.flag("alpha_locked"), pyramid=pyramid, wrap=wrap)
     if kind == "placement":
         of = None if members.take("source", None) is None else members.integer("source", lo=1, hi=1 << 62)
         placing = read_placing(members)

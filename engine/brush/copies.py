@@ -13,12 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from engine.brush.checks import BrushError
 from engine.brush.settings import SETTINGS
 from engine.numeric.address import Rect
 from engine.numeric.turns import turned
 
 _AT_ONCE = 1 << 18  # copied dabs at once
-_X, _Y, _RADIUS = range(3)
+_X, _Y, _RADIUS, _OPACITY = range(4)
+_AROUND = tuple((i, j) for j in (-1, 0, 1) for i in (-1, 0, 1))  # periods by which dabs on a torus are shifted
 
 
 class Copy(NamedTuple):
@@ -44,6 +46,43 @@ class Copy(NamedTuple):
 
 Copies = tuple[Copy, ...]
 NO_COPIES: Copies = ()
+
+
+class Torus(NamedTuple):
+    """A cell that is repeated without end, on which a stroke and its copies are laid: pixels of the stroke's level, the
+    corner from its origin.  Each dab lies in the cell, and again where it reaches to `spare` pixels from the rim."""
+
+    copies: Copies
+    left: float
+    top: float
+    width: float
+    height: float
+    spare: float
+
+    @property
+    def each(self) -> int:
+        """Gives how many dabs one becomes."""
+        return (1 + len(self.copies)) * len(_AROUND)
+
+    def shifted(self, dabs: np.ndarray, across: int, down: int) -> np.ndarray:
+        """Returns dabs, float64 (n, 6), as they lie in the cell, shifted by whole periods; those that stay outside
+        have no effect, but count, or tips would lie otherwise.  BrushError if one is wider than the cell."""
+        out, reach = dabs.copy(), np.maximum(dabs[:, _RADIUS], 0.5) + 1.0 + self.spare
+        widest = float(reach.max()) if len(reach) else 0.0
+        if widest > min(self.width, self.height):
+            most = min(self.width, self.height) - 1.0 - self.spare
+            raise BrushError("brush.radius", f"{widest - 1.0 - self.spare:g} px", f"at most {most:g} px on this tile")
+        met = np.ones(len(out), np.bool_)
+        for column, first, period, by in ((_X, self.left, self.width, across), (_Y, self.top, self.height, down)):
+            out[:, column] += (by - np.floor((out[:, column] - first) / period)) * period
+            met &= (out[:, column] + reach > first) & (out[:, column] - reach < first + period)
+        out[~met, _OPACITY] = 0.0
+        return out
+
+
+def each(copies: Copies | Torus) -> int:
+    """Returns how many dabs one becomes."""
+    return copies.each if isinstance(copies, Torus) else 1 + len(copies)
 
 
 def symmetric(centre: tuple[float, float], count: int, axis: tuple[float, float] | None = None) -> Copies:
@@ -83,8 +122,13 @@ def copied_places(points: np.ndarray, copies: Copies) -> np.ndarray:
     return out
 
 
-def copied(dabs: np.ndarray, copies: Copies) -> Iterator[np.ndarray]:
+def copied(dabs: np.ndarray, copies: Copies | Torus) -> Iterator[np.ndarray]:
     """Yields the dabs of a stroke, float64 (n, 6), each followed by its copies, a portion at a time."""
+    if isinstance(copies, Torus):
+        for part in copied(dabs, copies.copies):
+            around = np.stack([copies.shifted(part, *by) for by in _AROUND], axis=1)
+            yield around.reshape(-1, dabs.shape[1])
+        return
     if not copies:
         yield dabs
         return
@@ -98,8 +142,12 @@ def copied(dabs: np.ndarray, copies: Copies) -> Iterator[np.ndarray]:
         yield out.reshape(-1, dabs.shape[1])
 
 
-def one_by_one(dabs: np.ndarray, copies: Copies) -> Iterator[np.ndarray]:
+def one_by_one(dabs: np.ndarray, copies: Copies | Torus) -> Iterator[np.ndarray]:
     """Yields the dabs of a stroke, and of each of its copies."""
+    if isinstance(copies, Torus):
+        for part in one_by_one(dabs, copies.copies):
+            yield from (copies.shifted(part, *by) for by in _AROUND)
+        return
     yield dabs
     for copy in copies:
         yield np.concatenate([*(part[1::2] for part in copied(dabs, (copy,)))]) if len(dabs) else dabs

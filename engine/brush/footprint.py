@@ -15,7 +15,7 @@ import numpy as np
 
 from engine.brush import discs as kernels
 from engine.brush.checks import BrushError
-from engine.brush.copies import NO_COPIES, Copies, one_by_one
+from engine.brush.copies import NO_COPIES, Copies, Torus, one_by_one
 from engine.brush.dabs import Stroker
 from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
 from engine.brush.settings import Brush
@@ -43,7 +43,7 @@ class Footprint:
         finer: int = 0,
         tip: Pattern | None = None,
         within: Rect | None = None,
-        copies: Copies = NO_COPIES,
+        copies: Copies | Torus = NO_COPIES,
     ) -> None:
         dynamics = brush.dynamics
         for name in ("opacity", "flow"):

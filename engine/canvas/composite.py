@@ -265,7 +265,7 @@ def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, 
         return source.planes(rect)
     if isinstance(source, Layer):
         layer = source
-        return looked_through(lambda at, part: read(layer, at, part), level, rect, seen)
+        return looked_through(repeated(lambda at, part: read(layer, at, part), layer.wrap), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)
     tiles = source.sources.tiles(source.placement.of)
     if tiles is not None:
@@ -290,7 +290,7 @@ def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, 
         return _picture(plan, at, part, read, UNPLACED)
 
     cell = source.placement.part if source.placement.repeat else None
-    return looked_through(picture if cell is None else repeated(picture, cell), level, rect, through)
+    return looked_through(repeated(picture, cell), level, rect, through)
 
 
 def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> np.ndarray | None:

@@ -22,6 +22,7 @@ from engine.canvas.node_checks import (
     insist,
 )
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import SourcePart
 from engine.canvas.store import Pyramid
 from engine.checks.roles import REFERENCE
 
@@ -39,7 +40,8 @@ class Layer:
     `blend`: a row of `BLENDS`.  `clip`: shown only where the nearest one below that is not clipped has paint.
     `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
     `pyramid`: the paint; `growth`: what was painted with examples, over it.  `role`: "" for a part of the picture, or
-    one of the ROLES.
+    one of the ROLES.  `wrap`: the cell of which the layer shows repeats without end, and on which strokes are laid as
+    on a torus; None: it is shown as it is.
     """
 
     id: int
@@ -53,6 +55,7 @@ class Layer:
     growth: Growth = ()
     role: str = ""
     clip: bool = False
+    wrap: SourcePart | None = None
 
     def __post_init__(self) -> None:
         check_common(self)
@@ -93,7 +96,7 @@ Node = Layer | Group | Placement
 Trail = tuple[int, ...]  # positions from the root down to a node
 EMPTY = Group(0, "root")
 _SETTABLE = {
-    Layer: ("opacity", "visible", "blend", "locked", "clip", "alpha_locked", "role"),
+    Layer: ("opacity", "visible", "blend", "locked", "clip", "alpha_locked", "role", "wrap"),
     Group: ("opacity", "visible", "blend", "locked", "clip", "isolated"),
     Placement: ("opacity", "visible", "blend", "locked", "clip", "of", "pose", "part", "repeat", "role"),
 }

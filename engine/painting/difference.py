@@ -24,11 +24,12 @@ def areas(old: Painting, new: Painting) -> Areas:
     pairs = _pairs(old.root, new.root)
     # Not the layers themselves: who asks for areas later does not want to hold the old painting until then.
     found = None if pairs is None else {b.id: _Changed.of(a, b) for a, b in pairs}
+    repeated = any(b.wrap is not None for _, b in pairs or ())
     views = Views(new.root)
 
     @cache  # it is asked for every tile on the screen
     def where(level: int) -> list[Rect] | None:
-        if found is None:
+        if found is None or repeated:
             return None
         own = [rect for changed in found.values() for rect in changed.rects(level)]
         ways = views.of(level) if views.any else iter(())
@@ -94,5 +95,6 @@ def _plain(node: Node) -> tuple[Any, ...]:
         node.visible,
         node.blend,
         node.clip,
+        isinstance(node, Layer) and node.wrap,
         isinstance(node, Group) and (node.isolated, node.paper),
     )

@@ -9,9 +9,20 @@ from typing import Any, NamedTuple
 from immutables import Map
 
 from engine.brush.checks import thawed
+from engine.canvas.placing.pose import SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
-from engine.painting.layering.placing_members import PLACED, Members, Placing, Reader, Same, read_placing, write_placing
+from engine.painting.layering.placing_members import (
+    PLACED,
+    Members,
+    Placing,
+    Reader,
+    Same,
+    read_part,
+    read_placing,
+    write_part,
+    write_placing,
+)
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 
 COUNT_LIMIT = 1_000_000_000
@@ -157,6 +168,7 @@ class SetLayer:
     isolated: bool | None = None
     clip: bool | None = None
     role: str | None = None
+    wrap: SourcePart | Same | None = Same.SAME
     placing: Placing | None = None
     extra: Extra = NO_EXTRA
 
@@ -164,7 +176,9 @@ class SetLayer:
     def changes(self) -> Members:
         """Gives the properties that are set, by name."""
         names = (row[0] for row in _SETTABLE)
-        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+        given = {name: getattr(self, name) for name in names}
+        unset = {"wrap": Same.SAME}  # null takes the cell from a layer
+        return {name: value for name, value in given.items() if value is not unset.get(name)}
 
 
 def _no_more(members: Fields) -> Members:
@@ -230,6 +244,7 @@ _SETTABLE: tuple[tuple[str, Reader], ...] = (
     ("isolated", Fields.flag),
     ("clip", Fields.flag),
     ("role", _role),
+    ("wrap", read_part),
 )
 
 
@@ -322,6 +337,8 @@ def write_layer(command: LayerCommand) -> Members:
         value = getattr(command, f.name)
         if isinstance(value, Placing):
             out.update(write_placing(value))
+        elif isinstance(value, SourcePart):
+            out[f.name] = write_part(value)
         elif f.name not in ("name", "extra") and value != f.default:
             out[f.name] = list(value) if isinstance(value, tuple) else value
     return {**out, **thawed(command.extra)}
@@ -329,7 +346,7 @@ def write_layer(command: LayerCommand) -> Members:
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    newer = isinstance(command, SetLayer) and (command.role is not None or command.clip is not None)
+    newer = isinstance(command, SetLayer) and bool({"role", "clip", "wrap"} & command.changes.keys())
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
     newer |= isinstance(command, DuplicateLayer) and command.selected is not None
     return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

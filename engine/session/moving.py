@@ -25,6 +25,8 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
     if given:
         raise LayerError(f"layer {node.name!r}: found no placement, expected one to set what it shows")
     pose = placing.posed(UNMOVED)
+    if isinstance(node, Layer) and node.wrap is not None:
+        raise LayerError(f"layer {node.name!r}: found it wrapped around, expected wrap-around off before it is moved")
     if isinstance(node, Layer) and pose.similarity.quarter is not None:
         paint = (flattened(node) if node.growth else node).pyramid
         here = replace(node, pyramid=baked(paint, pose.similarity), growth=())

@@ -19,6 +19,7 @@ from engine.numeric.prediction import Predictor
 from engine.painting.commands import Stroke
 from engine.painting.pen_points import fitted
 from engine.painting.value import Painting, Refusal, layer_for
+from engine.strokes.wrapping import wrapped
 
 POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
 
@@ -31,7 +32,8 @@ class Drawn:
     `asked`: the number under which the journal knows its points.
     `own`: the seed of its random numbers, the painting's where its command (`seed`) has none; `limit`: what the
     painting's selection leaves of it, None where that is all.
-    `copies`: where it is drawn again; `areas`: what the last points laid may have changed, for it and each copy.
+    `copies`: where it is drawn again, `origin`: from where, on the cell of a layer that is repeated; `areas`: what the
+    last points laid may have changed, for it and each copy.
     BrushError if the brush lacks something or cannot be used, Refusal if the layer is locked.
     """
 
@@ -49,8 +51,9 @@ class Drawn:
         edits.check(brush)
         self.base, self.layer = layer_for(painting, layer)
         self.before, self.cache = painting, cache
-        self.level, self.origin, self.brush, self.seed = level, origin, brush, seed
-        self.copies = copies
+        self.level, self.brush, self.seed = level, brush, seed
+        self._told, self._copies = origin, copies
+        self.copies, self.origin = wrapped(self.layer, level, origin, copies)
         self.own = painting.seed if seed is None else seed
         self.limit = Limit.of(painting.selection, level, cache)
         self.dropped = 0
@@ -113,4 +116,5 @@ class Drawn:
             raise Refusal("stroke: found no point, expected one at least")
         points = np.concatenate(self._points)
         points.flags.writeable = False
-        return Stroke(self.level, self.origin, points, self.brush, self._named, self.seed, self.extra, self.copies)
+        about = self._named, self.seed, self.extra, self._copies
+        return Stroke(self.level, self._told, points, self.brush, *about)

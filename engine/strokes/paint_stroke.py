@@ -55,7 +55,7 @@ class LiveStroke(Drawn):
         self._meeting = Meeting(level, self.origin, brush.radius, None if self.limit is None else self.limit.meets)
 
     def _new_mask(self) -> StrokeMask:
-        return StrokeMask(self.level, self.origin, tip=self._tip, each=1 + len(self.copies))
+        return StrokeMask(self.level, self.origin, tip=self._tip, each=copying.each(self.copies))
 
     def _new_bed(self) -> Bed | None:
         if not self.brush.row.takes_away or not self.layer.growth or self.layer.alpha_locked:
@@ -83,7 +83,7 @@ class LiveStroke(Drawn):
             whole = self._scenery.lay(points, self._mask)
             self.areas = (
                 []
-                if not self.copies or not whole.empty
+                if not self.copies or isinstance(self.copies, copying.Torus) or not whole.empty
                 else copying.boxes(dabs, self.copies, self.origin, TILE + self._relief.reach)
             )
             dirty = dirty.union(whole)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from engine.brush.checks import BrushError
-from engine.brush.copies import NO_COPIES, Copies, copied
+from engine.brush.copies import NO_COPIES, Copies, Torus, copied
 from engine.brush.covered import Looks, Read, Scene
 from engine.brush.dabs import Stroker
 from engine.brush.foretell import AREA_CAP
@@ -37,7 +37,7 @@ class Scenery:
         place: tuple[int, tuple[int, int]],
         seed: int,
         source: Read | None,
-        copies: Copies = NO_COPIES,
+        copies: Copies | Torus = NO_COPIES,
     ) -> None:
         level, self._origin = place
         self._looks, self._source = looks, source

@@ -22,7 +22,8 @@ class Shows:
 class LayerRow:
     """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
     what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
-    `reference`: it is no part of the picture; `clip`: shown only where the one below has paint."""
+    `reference`: it is no part of the picture; `clip`: shown only where the one below has paint;
+    `wrap`: the cell of which it shows repeats."""
 
     name: str
     group: bool
@@ -38,3 +39,4 @@ class LayerRow:
     finest: int | None = None
     reference: bool = False
     clip: bool = False
+    wrap: SourcePart | None = None

@@ -40,6 +40,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 node.pyramid.finest if isinstance(node, Layer) else None,
                 not isinstance(node, Group) and node.role == REFERENCE,
                 node.clip,
+                node.wrap if isinstance(node, Layer) else None,
             )
         )
         if isinstance(node, Group):

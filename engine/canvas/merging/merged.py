@@ -204,6 +204,8 @@ def _ways(root: Group, nodes: tuple[Node, ...]) -> list[tuple[Layer, Seen]]:
             if node.repeat:
                 raise LayerError(f"layer {node.name!r}: found it repeated without end, expected it baked before")
             found += ways_of(root, node)
+        elif node.wrap is not None:
+            raise LayerError(f"layer {node.name!r}: found it wrapped around, expected wrap-around off before")
         else:
             found.append((node, UNPLACED))
     return found

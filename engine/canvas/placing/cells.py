@@ -16,11 +16,14 @@ _MEAN = 64  # pixels along a cell whose mean stands for it where these levels do
 _FEW = 4  # cells that are read whole, at most, for a rectangle
 
 
-def repeated(picture: Picture, part: SourcePart) -> Picture:
-    """Returns the picture that shows a part of another one over and over, from that part's own place on."""
+def repeated(picture: Picture, part: SourcePart | None) -> Picture:
+    """Returns the picture that shows a part of another one over and over, from that part's own place on; the other
+    itself where there is no part."""
+    if part is None:
+        return picture
 
     def cells(level: int, rect: Rect) -> np.ndarray | None:
-        by = max(0, _whole_from(part) - level)
+        by = max(0, whole_from(part) - level)
         if by > _FINER:
             return _mean(picture, part, rect)
         found = _laid(picture, level + by, part.rect.zoomed(level + by - part.level), rect.zoomed(by))
@@ -31,7 +34,7 @@ def repeated(picture: Picture, part: SourcePart) -> Picture:
     return cells
 
 
-def _whole_from(part: SourcePart) -> int:
+def whole_from(part: SourcePart) -> int:
     """Returns the coarsest level at which a part is a rectangle of whole pixels."""
     sides = part.rect.x0 | part.rect.y0 | part.rect.x1 | part.rect.y1
     return part.level - ((sides & -sides).bit_length() - 1)

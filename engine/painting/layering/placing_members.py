@@ -88,13 +88,19 @@ def _complex(members: Fields, name: str) -> tuple[float, float]:
     return float(value[0]), float(value[1])
 
 
-def _part(members: Fields, name: str) -> SourcePart | None:
+def read_part(members: Fields, name: str) -> SourcePart | None:
+    """Reads a rectangle of a level, or null."""
     if members.take(name) is None:
         return None
     level, x, y, width, height = members.integers(name, 5, limit=PLACE_LIMIT)
     if abs(level) > FINEST or width < 1 or height < 1:
         raise members.fault(name, f"[L, X, Y, W, H], L from -{FINEST} to {FINEST}, W and H at least 1")
     return SourcePart(level, Rect.at(x, y, width, height))
+
+
+def write_part(part: SourcePart) -> list[int]:
+    """Tells a rectangle of a level; `read_part` is the inverse."""
+    return [part.level, part.rect.x0, part.rect.y0, part.rect.width, part.rect.height]
 
 
 PLACED: dict[str, tuple[str, Reader]] = {
@@ -105,7 +111,7 @@ PLACED: dict[str, tuple[str, Reader]] = {
     "turn": ("turn", lambda members, name: members.integer(name, lo=0, hi=3)),
     "c": ("turned", _complex),
     "mirror": ("mirror", _flag),
-    "rect": ("part", _part),
+    "rect": ("part", read_part),
     "repeat": ("repeat", _flag),
 }  # by a member's name: that of the field, and how it is read
 
@@ -127,7 +133,7 @@ def write_placing(placing: Placing) -> Members:
     for member, (name, _) in PLACED.items():
         value = getattr(placing, name)
         if isinstance(value, SourcePart):
-            value = [value.level, value.rect.x0, value.rect.y0, value.rect.width, value.rect.height]
+            value = write_part(value)
         if value is not Same.SAME:
             out[member] = list(value) if isinstance(value, tuple) else value
     return out

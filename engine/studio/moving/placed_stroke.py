@@ -20,7 +20,10 @@ _COARSER = 4  # levels at which a stroke is seen, besides its own
 
 
 def areas_of(live: Live | None, level: int, parts: list[Rect]) -> Areas:
-    """Returns where parts of a stroke's level is seen: where it is, and through placements."""
+    """Returns where parts of a stroke's level is seen: where it is, and through placements; anywhere, where its layer
+    is repeated."""
+    if live is not None and live.layer.wrap is not None:
+        return lambda n: None
     views = None if live is None else Views(live.root)
     if live is None or views is None or not views.any:
         return lambda n: parts if n == level else []

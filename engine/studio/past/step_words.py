@@ -78,4 +78,6 @@ def _setting(command: c.SetLayer) -> str:
         return f"Opacity of “{name}”: {changes['opacity']:.0%}"
     if "blend" in changes:
         return f"Blending of “{name}”"
+    if "wrap" in changes:
+        return f"“{name}” wraps around" if changes["wrap"] is not None else f"“{name}” no longer wraps around"
     return f"Lock of “{name}”"

@@ -50,7 +50,7 @@ SAMPLES = {
     c.RenameLayer: c.RenameLayer("sky", "heaven"),
     c.DuplicateLayer: c.DuplicateLayer("sky", "sky 2"),
     c.MoveLayer: c.MoveLayer("sky", 0),
-    c.SetLayer: c.SetLayer("sky", opacity=0.25, blend="multiply"),
+    c.SetLayer: c.SetLayer("sky", opacity=0.25, blend="multiply", wrap=None),
     c.Undo: c.Undo(1),
     c.Redo: c.Redo(1),
     c.View: c.View(1.5, (3, 4.5), (800, 600)),
