@@ -37,7 +37,7 @@ def draw_path(desk: Desk) -> None:
     if len(path) < 2:
         return
     _path(desk, path, 1.0)
-    if guide is None or guide.off:
+    if guide is None or guide.off or not TOOLS[desk.hand.tool].outline:
         return
     x, y = desk.view.to_screen(symmetry.centre_of(guide))
     for copy in symmetry.on_screen(desk.view, guide):

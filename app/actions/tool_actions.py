@@ -78,6 +78,9 @@ TOOL_ACTIONS: dict[str, A] = {
     "pick": A("Pick colour", "Tools", ("I",), "Take a colour from the picture", _tool("pick"), always, _is("pick")),
     "move": A("Move", "Tools", ("V",), "Drag the layer", _tool("move"), always, _is("move")),
     "fill": A("Fill", "Tools", ("G",), "Fill a region with the brush", _tool("fill"), always, _is("fill")),
+    "gradient": A(
+        "Gradient", "Tools", ("Shift+G",), "Fill with a gradient", _tool("gradient"), always, _is("gradient")
+    ),
     "fill_all": A("Fill all the same", "Tools", (), "Fill up to the end of what is looked at", _fill_all, _leaks),
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),

@@ -6,6 +6,7 @@ from app import icons
 from app.tools.asking_gestures import pick
 from app.tools.filling_gestures import fill
 from app.tools.gesture import Tool
+from app.tools.gradient_gestures import gradient
 from app.tools.guide_gestures import move_guide
 from app.tools.moving_gestures import move
 from app.tools.painting_gestures import paint
@@ -32,6 +33,12 @@ TOOLS: dict[str, Tool] = {
         "Move guides", icons.GUIDES, move_guide, "Drag the centre of the symmetry, or turn its axis; by 15° with Shift"
     ),
     "fill": Tool("Fill", icons.FILL, fill, "Click a region to fill it with the chosen brush, whatever that does"),
+    "gradient": Tool(
+        "Gradient",
+        icons.GRADIENT,
+        gradient,
+        "Drag to fill with a gradient; by 15° with Shift, both ways with Alt",
+    ),
     "pan": Tool("Pan", icons.HAND, pan, "Drag the picture (Space or the middle button with any tool)"),
     "zoom": Tool("Zoom", icons.ZOOM, zoom, "Drag to zoom, click to go one level deeper (the wheel with any tool)"),
     "turn": Tool("Turn", icons.ROTATE, turn, "Drag to turn the view; the painting itself stays as it is"),

@@ -1,8 +1,8 @@
-"""How the tool Fill finds what it fills, and what it was asked to fill last."""
+"""How the tools Fill, Wand and Gradient are set, and what was asked to be filled last."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from app.canvas.view import View
 from engine.numeric.address import Rect
@@ -14,13 +14,17 @@ WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 @dataclass(slots=True)
 class FillState:
     """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone; `last`:
-    what was asked for last."""
+    what was asked for last.  Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `named`: the
+    names of those that were asked for."""
 
     tolerance: float = 0.12
     gap: float = 0.0
     seen: bool = True
     contiguous: bool = True
     last: Fill | None = None
+    shape: str = "linear"
+    fades: bool = False
+    named: set[str] = field(default_factory=set)
 
 
 def looked_at(view: View, level: int) -> Rect:

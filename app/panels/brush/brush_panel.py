@@ -135,7 +135,8 @@ class BrushPanel:
         ]
         names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
         gap = _tool_row(desk, names, side)
-        regions = ("rectangle", "ellipse", "lasso", "polygon", "wand", "fill")
+        fills = "gradient" if desk.hand.tool == "gradient" else "fill"
+        regions = ("rectangle", "ellipse", "lasso", "polygon", "wand", fills)
         _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in regions], side, gap)
         imgui.same_line(0, gap)
         shape_choice.draw(desk, side)

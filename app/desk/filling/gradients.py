@@ -1,0 +1,71 @@
+"""Gradients as the window asks for them: a texture from one place to another, and one fill with it."""
+
+from __future__ import annotations
+
+from immutables import Map
+
+from app.canvas.view import Place
+from app.desk.colours import to_hex
+from app.desk.desk import Desk
+from app.desk.filling.fill_state import all_in
+from app.desk.filling.pouring import post_fill
+from app.desk.guides.shape_paths import Corner
+from app.desk.naming import free_name
+from engine.brush.parts import Component, Surface
+from engine.brush.settings import Brush
+from engine.painting.commands import DefineTexture
+from engine.painting.fill_command import Fill, Like
+from engine.studio.requests import Do
+
+FRAME_CAP = 1 << 22  # pixels of a frame that are filled: a larger one is at a coarser level
+_DEEPEST_PLACE = float(1 << 50)  # px: beyond, the ends of a gradient would not be where they were put
+
+GRADIENT_SHAPES = (
+    ("linear", "Linear", "Along the line that you drag"),
+    ("radial", "Radial", "Around the place where you press"),
+    ("angular", "Angular", "Once around the place where you press, clockwise"),
+)
+
+
+def lay(desk: Desk, at: Place, level: int, start: Corner, end: Corner) -> None:
+    """Fills what is selected, else the frame, or what is in sight outside of it, with a gradient from one place to
+    another, in pixels of a level; `at`: where that was begun."""
+    if max(map(abs, (*start, *end))) > _DEEPEST_PLACE:
+        desk.say("This is too deep for a gradient", bad=True)
+        return
+    name = _defined(desk, level, start, end)
+    colour = to_hex(desk.hand.colour)
+    if desk.filling.fades:
+        brush = Brush(colour=colour, density=Surface(name))
+    else:
+        brush = Brush(colour=colour, ink=(Component(name),))
+    ants = desk.selecting.ants
+    if ants is not None and ants.bounded:
+        post_fill(desk, Fill(brush, level=level))
+    else:
+        post_fill(desk, Fill(brush, _ground(desk, at), open=True))
+    desk.hand.remember()
+
+
+def _defined(desk: Desk, level: int, start: Corner, end: Corner) -> str:
+    """Defines the texture of the gradient, and returns its name, which no other has."""
+    state, scene = desk.filling, desk.known.scene
+    ends = ("#ffffff", "#ffffff00") if state.fades else (to_hex(desk.hand.colour), to_hex(desk.hand.other_colour))
+    ramp = ((0.0, ends[0]), (1.0, ends[1]))
+    told = Map({"kind": state.shape, "from": start, "to": end, "level": level, "ramp": ramp})
+    name = free_name("Gradient", {*state.named, *(() if scene is None else scene.textures)})
+    state.named.add(name)  # the painting is told of it with its next scene
+    desk.post(Do(DefineTexture(name, "gradient", told)))
+    return name
+
+
+def _ground(desk: Desk, at: Place) -> Like:
+    """Returns all that a gradient covers where no more is selected than elsewhere."""
+    level = desk.view.shown_level
+    x, y = at.pixel(0)
+    frame = desk.known.frame
+    if not (frame.x0 <= x < frame.x1 and frame.y0 <= y < frame.y1):
+        return all_in(desk.view.visible(level), level)
+    while frame.zoomed(level).area > FRAME_CAP:
+        level -= 1
+    return all_in(frame.zoomed(level), level)
