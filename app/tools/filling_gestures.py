@@ -1,14 +1,16 @@
-"""The gesture that fills a region of like colour."""
+"""What fills a region of like colour: a click with the brush in hand, a colour that is dropped there."""
 
 from __future__ import annotations
 
+from app.desk.colours import RGB, to_hex
 from app.desk.desk import Desk
 from app.desk.filling.fill_state import looked_at
-from app.desk.filling.pouring import may_fill, pour
+from app.desk.filling.pouring import may_fill, post_fill, pour
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.tools.painting_gestures import refused
-from engine.painting.fill_command import Like
+from engine.brush.settings import Brush
+from engine.painting.fill_command import Fill, Like
 from engine.painting.layering.placing_members import Same
 
 
@@ -22,6 +24,14 @@ def fill(desk: Desk, first: PenEvent) -> Gesture:
     if event.kind != "up":
         return
     pour(desk, like_at(desk, first.x, first.y), first.eraser)
+
+
+def drop_colour(desk: Desk, rgb: RGB, x: float, y: float) -> None:
+    """Fills what is like a place on the screen with a plain colour."""
+    if refused(desk) or not may_fill(desk):
+        return
+    like = like_at(desk, x, y)
+    post_fill(desk, Fill(Brush(colour=to_hex(rgb)), like, open=not like.contiguous))
 
 
 def like_at(desk: Desk, x: float, y: float) -> Like:

@@ -43,3 +43,16 @@ def test_a_click_fills_a_region_and_asks_before_it_runs_out_of_sight(app):
     app.click("Fill all the same")
     app.canvas_unlike(outlined)
     app.until_gone("Fill all the same")
+
+
+def test_a_colour_that_is_dropped_into_a_region_fills_it(app):
+    colour = app.screen()[app.at("now")[::-1]].astype(int)
+    app.do("mousemove", *app.at("now"))
+    app.do("mousedown", 1, "mousemove", 800, 300, "mousemove", *MIDDLE)
+    app.until(lambda screen: (screen[MIDDLE[1], MIDDLE[0]] == colour).all(), MIDDLE)  # it goes along
+    assert np.abs(app.screen()[MIDDLE[1] + 40, MIDDLE[0]].astype(int) - colour).max() > 8
+    app.do("mouseup", 1)
+    screen = app.until(lambda screen: (screen[MIDDLE[1] + 40, MIDDLE[0]] == colour).all())
+    assert (screen[MIDDLE[1] - 40 : MIDDLE[1] + 40, MIDDLE[0] - 40 : MIDDLE[0] + 40] == colour).all()
+    app.keys("ctrl+z")
+    assert app.comes_to(app.outlined)
