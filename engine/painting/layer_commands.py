@@ -227,7 +227,7 @@ def _picture(members: Fields) -> Members:
 
 
 def _role(members: Fields, name: str) -> str:
-    return "" if members.take(name) is None else str(members.text(name))
+    return "" if members.take(name) in (None, "") else str(members.text(name))
 
 
 def _opacity(members: Fields, name: str) -> float:
@@ -340,7 +340,7 @@ def write_layer(command: LayerCommand) -> Members:
         elif isinstance(value, SourcePart):
             out[f.name] = write_part(value)
         elif f.name not in ("name", "extra") and value != f.default:
-            out[f.name] = list(value) if isinstance(value, tuple) else value
+            out[f.name] = None if value == "" else list(value) if isinstance(value, tuple) else value
     return {**out, **thawed(command.extra)}
 
 

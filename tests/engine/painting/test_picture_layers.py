@@ -162,3 +162,11 @@ def test_a_reference_is_seen_while_one_paints_and_never_in_what_is_written(photo
     assert not export_of(session, tmp_path).any()  # moved, it is one still
     done(session, {"do": "undo", "count": 2})
     assert np.array_equal(export_of(session, tmp_path), bare)
+
+
+@pytest.mark.parametrize("none", [None, ""])
+def test_taking_a_role_away_is_told_and_read_again(none):
+    """Versions of one day wrote "" for it, and could not read their own recordings."""
+    command = c.parse({"do": "layer", "set": "Sea", "role": none})
+    assert c.to_json(command) == {"do": "layer", "set": "Sea", "role": None}
+    assert c.parse(c.to_json(command)) == command
