@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -17,6 +18,7 @@ import numpy as np
 from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
+from engine.canvas.placing.loops import holds_itself
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
@@ -110,6 +112,10 @@ class Sources:
             copies = [one.placement for one in _placed(self.steps(of)) if one.placement.of == of]
             self._tiles[of] = Tiles(copies) if len(copies) > 1 else None
         return self._tiles[of]
+
+    def goes_round(self, one: Placement) -> bool:
+        """Tells whether a placement lies in what it shows."""
+        return holds_itself(one, lambda of: (inner.placement for inner in _placed(self.steps(of))))
 
     def step(self, node: Layer | Placement) -> CompositeStep:
         """Returns the step that lays a layer, or what a placement shows, over nothing."""
@@ -264,8 +270,7 @@ def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, 
     if isinstance(source, Paper):
         return source.planes(rect)
     if isinstance(source, Layer):
-        layer = source
-        return looked_through(repeated(lambda at, part: read(layer, at, part), layer.wrap), level, rect, seen)
+        return looked_through(repeated(partial(read, source), source.wrap), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)
     tiles = source.sources.tiles(source.placement.of)
     if tiles is not None:
@@ -282,15 +287,16 @@ def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, 
         return _turns(source, level, rect, read, seen)
     if not source.placement.repeat and not through.whole(level) and source.sources.turns(source.placement.of):
         # What is turned in it is not sampled twice, but once, through both similarities.
-        part = through.meets(level, rect)
+        part = Rect(0, 0, 0, 0) if through.ends(level) else through.meets(level, rect)
         pixels = None if part.empty else _picture(plan, level, part, read, through.unclipped)
         return None if pixels is None else through.clipped(pixels, level, part, rect)
 
     def picture(at: int, part: Rect) -> np.ndarray | None:
         return _picture(plan, at, part, read, UNPLACED)
 
+    look = looked_coarser if source.sources.goes_round(source.placement) else looked_through
     cell = source.placement.part if source.placement.repeat else None
-    return looked_through(repeated(picture, cell), level, rect, through)
+    return look(repeated(picture, cell), level, rect, through)
 
 
 def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> np.ndarray | None:

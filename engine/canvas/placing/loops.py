@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from engine.canvas import layers
@@ -42,6 +42,18 @@ def source(root: Group, one: Placement) -> Node:
     if one.of is None:
         return root
     return next(node for node in layers.walk(root) if node.id == one.of)
+
+
+def holds_itself(one: Placement, shown_in: Callable[[int | None], Iterable[Placement]]) -> bool:
+    """Tells whether a placement is shown in what it shows; `shown_in`: the placements in the source of a number."""
+    todo, known = [one.of], {one.of}
+    while todo:
+        inner = list(shown_in(todo.pop()))
+        if any(other.id == one.id for other in inner):
+            return True
+        new = {other.of for other in inner} - known
+        todo, known = [*todo, *new], known | new
+    return False
 
 
 def checked(root: Group) -> Group:

@@ -22,6 +22,7 @@ from engine.texture.placed import oriented
 _FINER = 2  # levels by which a source may be read finer, and averaged, where its move is by parts of pixels
 _SURE, _FINEST = 192, 4200  # bits of c, and of t below level 0, that are kept of many turns in one another
 _LEAST = -1.0  # log2 of the pixels along what is shown that count as none
+_END = -32.0  # log2 of those of which no pixel holds 2^-60
 _KEPT = 4096  # placements
 _SMALL = 1 << 18  # pixels of a clipped source at its aligned level up to which that is done from any level
 
@@ -80,11 +81,18 @@ class Seen:
 
     def vanishes(self, level: int) -> bool:
         """Tells whether what is seen is less than half a pixel wide; never of all of a source."""
+        return self._narrower(level, _LEAST)
+
+    def _narrower(self, level: int, log: float) -> bool:
         if self.own is None:
             return False
         part = self.own.part
         side = max(part.rect.width, part.rect.height).bit_length() - part.level
-        return level + side + self.similarity.log_scale < _LEAST
+        return level + side + self.similarity.log_scale < log
+
+    def ends(self, level: int) -> bool:
+        """Tells whether what is seen is too small for any pixel to tell: there pictures that hold themselves end."""
+        return self._narrower(level, _END)
 
     def meets(self, level: int, rect: Rect) -> Rect:
         """Returns the pixels of a rectangle that the clips leave."""

@@ -207,3 +207,17 @@ def test_several_copies_are_as_every_copy_of_a_copy_on_its_own(poses):
     assert np.quantile(away, 0.95) < 0.03
     part = Rect(100, 40, 230, 111)
     np.testing.assert_array_equal(picture(root, 2, part), found[:, *part.slices(rect)])
+
+
+@pytest.mark.parametrize("isolated", [False, True])
+@pytest.mark.parametrize("name", POSES)
+def test_a_placement_within_a_group_shows_the_picture_that_the_group_is_in(name, isolated):
+    """At the level where all is painted it is the same as without the group; at others it comes to an end."""
+    a, b = painted()
+    inner = Group(80, "g", children=(b, Placement(90, "itself", pose=POSES[name], part=FRAME)), isolated=isolated)
+    root = replace(EMPTY, children=(a, inner))
+    flat = replace(EMPTY, children=(a, *inner.children))
+    for level in (-7, -2, 0, 3):
+        rect = Rect.at(0, 0, 128, 128).zoomed(level).grown(2)
+        apart = np.abs(picture(root, level, rect) - picture(flat, level, rect))
+        assert apart.mean() < 0.01
