@@ -38,7 +38,7 @@ def ends_at(rows: Sequence[LayerRow], plainly: Sequence[LayerRow]) -> int | None
     """Returns the finest level of merged rows, where their ink cannot stay ink; None where it can.  `plainly`: those
     whose own way of mixing does not count."""
     rows = [row for row in rows if row.visible and not row.reference]
-    mixed = any(row.shows is not None or row.clip or (row not in plainly and _mixes(row)) for row in rows)
+    mixed = any(row.shows is not None or row.clip or row.masked or (row not in plainly and _mixes(row)) for row in rows)
     return max((row.finest for row in rows if row.finest is not None), default=0) if mixed else None
 
 
@@ -109,6 +109,23 @@ def _is_clipped(desk: Desk) -> bool:
     return desk.known.active is not None and desk.known.active.clip
 
 
+def _mask(desk: Desk) -> None:
+    desk.post(Do(c.SetLayer(active(desk), mask=True)))
+
+
+def _unmask(desk: Desk) -> None:
+    desk.post(Do(c.SetLayer(active(desk), mask=False)))
+
+
+def _can_mask(desk: Desk) -> bool:
+    row = desk.known.active
+    return chosen(desk) and desk.selecting.selected and row is not None and row.shows is None
+
+
+def _is_masked(desk: Desk) -> bool:
+    return chosen(desk) and desk.known.active is not None and desk.known.active.masked
+
+
 def _clear_outside(desk: Desk) -> None:
     desk.post(Do(c.ClearLayer(None, outside=True)))
 
@@ -126,6 +143,11 @@ MERGING_ACTIONS: dict[str, A] = {
         "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
         _clip, _on_another, _is_clipped,
     ),
+    "mask": A(
+        "Mask from selection", "Layer", (), "Show only what is selected of the layer; no paint is lost",
+        _mask, _can_mask,
+    ),
+    "unmask": A("Remove mask", "Layer", (), "Show all of the layer again", _unmask, _is_masked),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
     "paper": A("Paper…", "View", (), "The colour of the ground under all layers, or none", asks("paper"), ready),
     "clear_outside": A(

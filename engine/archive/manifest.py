@@ -117,9 +117,9 @@ class Manifest:
 
     def painting(self, root: Group, textures: Map[str, Texture], chosen: Chosen = Chosen()) -> Painting:  # noqa: B008
         """Returns the painting of layers, textures and selections."""
-        root = replace(root, paper=self.paper)
+        root = selection_files.with_masks(replace(root, paper=self.paper), chosen.masks)
         own = self.frame, self.seed, root, self.active, textures, self.bookmarks, self.arithmetic, self.grid
-        return Painting(*own, *chosen, guides=self.guides)
+        return Painting(*own, chosen.selection, chosen.saved, guides=self.guides)
 
     def grown_bytes(self) -> int:
         """Returns what all that was painted with examples takes in memory, about; FieldError if an example cannot
@@ -181,7 +181,8 @@ def format_of(painting: Painting) -> int:
     chosen = painting.selection is not None or painting.selections
     clipped = any(node.clip for node in layers.walk(painting.root))
     wrapped = any(layer.wrap is not None for layer in layers.layers(painting.root))
-    if roles or clipped or wrapped or chosen or painting.guides or painting.paper is not None:
+    masked = any(True for _ in selection_files.masks_of(painting.root))
+    if roles or clipped or wrapped or masked or chosen or painting.guides or painting.paper is not None:
         return FORMAT
     if painting.grid != FINE or any(True for _ in loops.placements(painting.root)):
         return PLACED_FORMAT

@@ -15,7 +15,8 @@ from typing import Protocol
 
 import numpy as np
 
-from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, walk
+from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, stacks, walk
+from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.loops import holds_itself
@@ -23,6 +24,7 @@ from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
+from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.atop import atop
@@ -38,30 +40,16 @@ class Read(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Paper:
-    """The ground under all layers, of one colour "#rrggbb", opaque and without end."""
-
-    colour: str
-
-    def planes(self, rect: Rect) -> np.ndarray:
-        """Returns its pixels, (4, h, w), not to be written to."""
-        out = np.ones((4, rect.height, rect.width), np.float32)
-        for c in range(3):
-            out[c] = np.float32(int(self.colour[1 + 2 * c : 3 + 2 * c], 16)) / np.float32(255)
-        return out
-
-
-@dataclass(frozen=True, slots=True)
 class CompositeStep:
     """One operation on the picture so far: its source is a layer, the steps of an isolated group, what a placement
-    shows, or the paper.
+    shows, the paper, or a mask.
 
     `over`: the operator is src-over.  `atop`: the picture so far keeps its alpha.
     """
 
     row: blend.Blend
     opacity: np.float32
-    source: Layer | tuple[CompositeStep, ...] | Placed | Paper
+    source: Layer | tuple[CompositeStep, ...] | Placed | Paper | Mask
     over: bool
     atop: bool = False
 
@@ -89,7 +77,8 @@ class Sources:
         held = self._steps.get(of)
         if held is None:
             node: Node = self._root if of is None else next(node for node in walk(self._root) if node.id == of)
-            held = self._steps[of] = steps(node, self) if isinstance(node, Group) else (self.step(node),)
+            plan = steps(node, self) if isinstance(node, Group) else (self.step(node),)
+            held = self._steps[of] = masked(plan, node)
         return held
 
     def turns(self, of: int | None) -> bool:
@@ -171,21 +160,25 @@ def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, .
         if isinstance(node, Group) and passes_through(node):
             out.extend(steps(node, sources))
             continue
-        source = steps(node, sources) if isinstance(node, Group) else sources.source(node)
+        source = _source(node, sources)
         if source or row.outside:
             out.append(CompositeStep(row, np.float32(node.opacity), source, row.name == "src-over"))
     return tuple(out)
 
 
-def stacks(nodes: Sequence[Node]) -> list[tuple[Node, list[Node]]]:
-    """Returns the nodes of a group that lie on nothing, bottom first, each with those that are clipped to it."""
-    out: list[tuple[Node, list[Node]]] = []
-    for node in nodes:
-        if node.clip and out:
-            out[-1][1].append(node)
-        else:
-            out.append((node, []))
-    return out
+def masked(plan: tuple[CompositeStep, ...], node: Node) -> tuple[CompositeStep, ...]:
+    """Returns the steps of a node's picture with its mask taken off them."""
+    if isinstance(node, Placement) or node.mask is None or not plan:
+        return plan
+    return (*plan, CompositeStep(blend.BLENDS["dst-in"], np.float32(1), Mask(node.mask), False))
+
+
+def _source(node: Node, sources: Sources) -> Layer | Placed | tuple[CompositeStep, ...]:
+    if isinstance(node, Group):
+        return masked(steps(node, sources), node)
+    if isinstance(node, Layer) and node.mask is not None:
+        return masked((sources.step(node),), node)
+    return sources.source(node)
 
 
 def _clipped(node: Node, clipped: Sequence[Node], sources: Sources) -> tuple[CompositeStep, ...]:
@@ -193,7 +186,7 @@ def _clipped(node: Node, clipped: Sequence[Node], sources: Sources) -> tuple[Com
     own = CompositeStep(
         blend.BLENDS["src-over"],
         np.float32(1),
-        steps(node, sources) if isinstance(node, Group) else sources.source(node),
+        _source(node, sources),
         True,
     )
     above = steps(Group(node.id, node.name, children=tuple(replace(one, clip=False) for one in clipped)), sources)
@@ -265,10 +258,12 @@ def _covers(step: CompositeStep, source: np.ndarray | _Found | None) -> bool:
     return step.may_cover and isinstance(source, np.ndarray) and bool(source[3, 0] >= 1) and blend.opaque(source)
 
 
-def _pixels(source: Layer | Placed | Paper, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+def _pixels(source: Layer | Placed | Paper | Mask, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
     """Returns the pixels of a layer, or what a placement shows, through a similarity: (4, h, w), None if empty."""
     if isinstance(source, Paper):
         return source.planes(rect)
+    if isinstance(source, Mask):
+        return source.planes(level, rect, seen)
     if isinstance(source, Layer):
         return looked_through(repeated(partial(read, source), source.wrap), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)

@@ -7,7 +7,7 @@ all untouched parts with the old one; errors are `LayerError`, one line with wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +23,7 @@ from engine.canvas.node_checks import (
 )
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
+from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.checks.roles import REFERENCE
 
@@ -56,6 +57,7 @@ class Layer:
     role: str = ""
     clip: bool = False
     wrap: SourcePart | None = None
+    mask: Selection | None = None
 
     def __post_init__(self) -> None:
         check_common(self)
@@ -79,6 +81,7 @@ class Group:
     children: tuple[Node, ...] = ()
     paper: str | None = None
     clip: bool = False
+    mask: Selection | None = None
 
     def __post_init__(self) -> None:
         check_common(self)
@@ -96,8 +99,8 @@ Node = Layer | Group | Placement
 Trail = tuple[int, ...]  # positions from the root down to a node
 EMPTY = Group(0, "root")
 _SETTABLE = {
-    Layer: ("opacity", "visible", "blend", "locked", "clip", "alpha_locked", "role", "wrap"),
-    Group: ("opacity", "visible", "blend", "locked", "clip", "isolated"),
+    Layer: ("opacity", "visible", "blend", "locked", "clip", "mask", "alpha_locked", "role", "wrap"),
+    Group: ("opacity", "visible", "blend", "locked", "clip", "mask", "isolated"),
     Placement: ("opacity", "visible", "blend", "locked", "clip", "of", "pose", "part", "repeat", "role"),
 }
 
@@ -107,7 +110,7 @@ def passes_through(group: Group) -> bool:
 
     OpenRaster's `isolation="auto"`: a group is isolated as soon as its opacity or operator need it as one picture.
     """
-    return not group.isolated and group.opacity == 1 and group.blend == "src-over"
+    return not group.isolated and group.opacity == 1 and group.blend == "src-over" and group.mask is None
 
 
 def isolation(group: Group) -> str:
@@ -218,6 +221,17 @@ def alone(node: Node, root: Group) -> Group:
 def together(nodes: Iterable[Node], root: Group) -> Group:
     """Returns a root that shows just these nodes of a tree, bottom first."""
     return Alone(EMPTY.id, EMPTY.name, children=tuple(nodes), tree=root)
+
+
+def stacks(nodes: Sequence[Node]) -> list[tuple[Node, list[Node]]]:
+    """Returns the nodes of a group that lie on nothing, bottom first, each with those that are clipped to it."""
+    out: list[tuple[Node, list[Node]]] = []
+    for node in nodes:
+        if node.clip and out:
+            out[-1][1].append(node)
+        else:
+            out.append((node, []))
+    return out
 
 
 # --- changing --------------------------------------------------------------------------------------------------------

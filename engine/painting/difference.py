@@ -96,5 +96,6 @@ def _plain(node: Node) -> tuple[Any, ...]:
         node.blend,
         node.clip,
         isinstance(node, Layer) and node.wrap,
+        None if isinstance(node, Placement) else node.mask,
         isinstance(node, Group) and (node.isolated, node.paper),
     )

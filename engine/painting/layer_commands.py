@@ -11,7 +11,7 @@ from immutables import Map
 from engine.brush.checks import thawed
 from engine.canvas.placing.pose import SourcePart
 from engine.checks.field_error import FieldError
-from engine.files.strict_json import Fields
+from engine.files.strict_json import Fields, is_name
 from engine.painting.layering.placing_members import (
     PLACED,
     Members,
@@ -167,6 +167,7 @@ class SetLayer:
     alpha_locked: bool | None = None
     isolated: bool | None = None
     clip: bool | None = None
+    mask: str | bool | None = None  # a selection that is kept; True: what is selected; False: none
     role: str | None = None
     wrap: SourcePart | Same | None = Same.SAME
     placing: Placing | None = None
@@ -175,7 +176,7 @@ class SetLayer:
     @property
     def changes(self) -> Members:
         """Gives the properties that are set, by name."""
-        names = (row[0] for row in _SETTABLE)
+        names = (row[0] for row in _SETTABLE if row[0] != "mask")
         given = {name: getattr(self, name) for name in names}
         unset = {"wrap": Same.SAME}  # null takes the cell from a layer
         return {name: value for name, value in given.items() if value is not unset.get(name)}
@@ -230,6 +231,15 @@ def _role(members: Fields, name: str) -> str:
     return "" if members.take(name) in (None, "") else str(members.text(name))
 
 
+def _mask(members: Fields, name: str) -> str | bool:
+    wanted = members.take(name)
+    if wanted is None or wanted is True:
+        return wanted is True
+    if not is_name(wanted):
+        raise members.fault(name, "the name of a selection, true for what is selected, or null for none")
+    return str(wanted)
+
+
 def _opacity(members: Fields, name: str) -> float:
     out: float = members.number(name, lo=0.0, hi=1.0)
     return out
@@ -243,6 +253,7 @@ _SETTABLE: tuple[tuple[str, Reader], ...] = (
     ("alpha_locked", Fields.flag),
     ("isolated", Fields.flag),
     ("clip", Fields.flag),
+    ("mask", _mask),
     ("role", _role),
     ("wrap", read_part),
 )
@@ -341,12 +352,15 @@ def write_layer(command: LayerCommand) -> Members:
             out[f.name] = write_part(value)
         elif f.name not in ("name", "extra") and value != f.default:
             out[f.name] = None if value == "" else list(value) if isinstance(value, tuple) else value
+    if out.get("mask") is False:
+        out["mask"] = None
     return {**out, **thawed(command.extra)}
 
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
     newer = isinstance(command, SetLayer) and bool({"role", "clip", "wrap"} & command.changes.keys())
+    newer |= isinstance(command, SetLayer) and command.mask is not None
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
     newer |= isinstance(command, DuplicateLayer) and command.selected is not None
     return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

@@ -24,6 +24,7 @@ from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.copied_part import lifted, pasted
+from engine.session.masking import mask_for
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture
@@ -99,7 +100,8 @@ def _bake(painting: Painting, command: c.BakePlacement, around: Around) -> Paint
         raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
     settled = settled_root(painting.root)
     paint = baking.paint_of(settled, node, painting.frame, painting.grid)
-    layer = Layer(node.id, node.name, node.opacity, node.visible, node.blend, pyramid=paint)
+    kept = node.opacity, node.visible, node.blend
+    layer = Layer(node.id, node.name, *kept, pyramid=paint, role=node.role, clip=node.clip)
     return _shown(replace(painting, root=layers.substitute(painting.root, node.name, layer)))
 
 
@@ -188,6 +190,8 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
     changes: Mapping[str, Any] = command.changes
     if "blend" in changes:
         changes = {**changes, "blend": changes["blend"].removeprefix("svg:")}
+    if command.mask is not None:
+        changes = {**changes, "mask": mask_for(painting, command)}
     if command.placing is not None:
         node = layers.find(painting.root, command.name)
         if isinstance(node, Placement):

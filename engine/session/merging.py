@@ -58,7 +58,7 @@ def flattened_group(painting: Painting, name: str) -> Painting:
     settled = layers.find(shown, name)
     assert isinstance(settled, Group)
     paint = merged_paint(shown, settled.children, painting.grid)
-    made = replace(_made(group, paint, group.blend), opacity=group.opacity, visible=group.visible)
+    made = replace(_made(group, paint, group.blend), opacity=group.opacity, visible=group.visible, mask=group.mask)
     return _with_active(painting, layers.substitute(root, name, made), _inner(group), name)
 
 

@@ -29,7 +29,8 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
         raise LayerError(f"layer {node.name!r}: found it wrapped around, expected wrap-around off before it is moved")
     if isinstance(node, Layer) and pose.similarity.quarter is not None:
         paint = (flattened(node) if node.growth else node).pyramid
-        here = replace(node, pyramid=baked(paint, pose.similarity), growth=())
+        mask = None if node.mask is None else replace(node.mask, pyramid=baked(node.mask.pyramid, pose.similarity))
+        here = replace(node, pyramid=baked(paint, pose.similarity), growth=(), mask=mask)
         return replace(painting, root=layers.substitute(painting.root, node.name, here))
     return replace(painting, root=_shown_from_beside(painting.root, node, pose))
 
@@ -53,7 +54,9 @@ def _shown_besides(root: Group, node: Node, placing: Placing) -> Group:
         shown = replace(node, id=number, name=name, pose=placing.posed(node.pose))
     else:
         pose = placing.posed(UNMOVED)
-        shown = Placement(number, name, node.opacity, node.visible, node.blend, node.locked, node.id, pose)
+        shown = Placement(
+            number, name, node.opacity, node.visible, node.blend, node.locked, node.id, pose, clip=node.clip
+        )
     group, position = layers.place(root, node.name)
     return layers.insert(root, shown, group, position + 1)
 
@@ -71,6 +74,7 @@ def _shown_from_beside(root: Group, node: Layer | Group, pose: Pose) -> Group:
         node.id,
         pose,
         role=node.role if isinstance(node, Layer) else "",
+        clip=node.clip,
     )
     group, position = layers.place(root, node.name)
     return layers.insert(layers.substitute(root, node.name, source), shown, group, position + 1)

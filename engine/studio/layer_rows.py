@@ -23,7 +23,8 @@ class LayerRow:
     """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
     what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
     `reference`: it is no part of the picture; `clip`: shown only where the one below has paint;
-    `wrap`: the cell of which it shows repeats."""
+    `wrap`: the cell of which it shows repeats;
+    `masked`: it is shown within a mask of its own."""
 
     name: str
     group: bool
@@ -40,3 +41,4 @@ class LayerRow:
     reference: bool = False
     clip: bool = False
     wrap: SourcePart | None = None
+    masked: bool = False

@@ -41,6 +41,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 not isinstance(node, Group) and node.role == REFERENCE,
                 node.clip,
                 node.wrap if isinstance(node, Layer) else None,
+                not isinstance(node, Placement) and node.mask is not None,
             )
         )
         if isinstance(node, Group):

@@ -148,6 +148,7 @@ class LayersPanel:
         active = desk.known.scene is not None and desk.known.scene.active == row.name
         told = (
             (row.clip, icons.CLIP),
+            (row.masked, icons.MASK),
             (row.reference, icons.REFERENCE),
             (row.locked, icons.LOCK),
             (row.alpha_locked, icons.ALPHA_LOCK),
@@ -170,6 +171,7 @@ class LayersPanel:
         about = "" if row.opacity >= 1 else f"{row.opacity * 100:.0f} %  "
         blend = dict(blend_titles(desk.known.tables)).get(row.blend, row.blend)
         whole = f"{row.name}\n" if shown != row.name else ""
+        about += "Masked  " if row.masked else ""
         about += "Reference: not exported  " if row.reference else ""
         w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
 

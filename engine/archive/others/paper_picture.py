@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from engine.archive.others.spooled_png import SpooledPng
-from engine.canvas.composite import Paper
+from engine.canvas.merging.paper import Paper
 from engine.files.stack_xml import LayerEntry, StackEntry
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8

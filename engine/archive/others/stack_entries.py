@@ -11,14 +11,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from engine.canvas import layers
-from engine.canvas.composite import stacks
-from engine.canvas.layers import Group, Layer, Node, isolation
+from engine.canvas.layers import Group, Layer, Node, isolation, stacks
 from engine.canvas.placing.placement import Placement
+from engine.canvas.selecting.selection import Selection
 from engine.files.stack_xml import SOURCE_OVER, LayerEntry, StackEntry
 from engine.numeric import blend
 from engine.numeric.address import Rect
 
-Bases = Mapping[int, tuple[Node, ...]]  # by the ids of layers and placements, what they or groups around are clipped to
+# By the ids of layers and placements, what limits them and the groups around them, outermost first: bases, and masks.
+Bases = Mapping[int, tuple[Node | Selection, ...]]
 
 
 def png_name(node: Layer | Placement) -> str:
@@ -27,25 +28,30 @@ def png_name(node: Layer | Placement) -> str:
 
 
 def bases_of(root: Group) -> Bases:
-    """Returns what the layers and placements of a tree are clipped to; none of those that are not."""
+    """Returns what limits the layers and placements of a tree; none of those that nothing does."""
     return dict(_within(root, ()))
 
 
-def _within(group: Group, around: tuple[Node, ...]) -> Iterator[tuple[int, tuple[Node, ...]]]:
+def _within(group: Group, around: tuple[Node | Selection, ...]) -> Iterator[tuple[int, tuple[Node | Selection, ...]]]:
     for base, clipped in stacks(group.children):
         for node in (base, *clipped):
             bases = around if node is base else (*around, base)
             if isinstance(node, Group):
-                yield from _within(node, bases)
-            elif bases:
+                yield from _within(node, bases if node.mask is None else (*bases, node.mask))
+            elif bases or (isinstance(node, Layer) and node.mask is not None):
                 yield node.id, bases
 
 
 def pictured_alone(node: Layer | Placement, bases: Bases, root: Group) -> Group:
-    """Returns a root that shows a node of a tree as its picture has it: alone, within what it is clipped to."""
-    alone, around = layers.alone(node, root), bases.get(node.id, ())
-    masks = [replace(base, visible=True, opacity=1.0, blend="dst-in", clip=False) for base in reversed(around)]
-    return replace(alone, children=(*alone.children, *masks))
+    """Returns a root that shows a node of a tree as its picture has it: alone, within what limits it."""
+    alone = layers.alone(node, root)
+    inner: tuple[Node, ...] = alone.children
+    for one in reversed(bases.get(node.id, ())):
+        if isinstance(one, Selection):
+            inner = (Group(node.id, node.name, children=inner, mask=one),)
+        else:
+            inner = (*inner, replace(one, visible=True, opacity=1.0, blend="dst-in", clip=False))
+    return replace(alone, children=inner)
 
 
 @dataclass(frozen=True)

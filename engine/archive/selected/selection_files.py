@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from immutables import Map
 
 from engine.archive.grounds import with_tiles
 from engine.archive.implied import Coded, ordered
+from engine.canvas import layers
 from engine.canvas.attenuate import fold
+from engine.canvas.layers import Group
+from engine.canvas.placing.placement import Placement
 from engine.canvas.selecting.selection import NONE_SAVED, Saved, Selection
 from engine.canvas.store import Pyramid, Record
 from engine.checks.field_error import FieldError
@@ -21,24 +25,27 @@ from engine.painting.value import Painting
 
 Packs = list[Any]  # of `manifest.Pack`s
 MOST_SELECTIONS = 4096  # of one painting
-LEFT_OUT = "what was selected is left out"
+LEFT_OUT = "what was selected is left out, and so are masks"
 
 
 @dataclass(frozen=True)
 class SelectionEntry:
-    """A selection kept under a name; None: what is selected.  `packs`: where its tiles are."""
+    """A selection kept under a name; None: what is selected; `masks`: it is the mask of the node of that id instead.
+    `packs`: where its tiles are."""
 
     name: str | None
     inverse: bool
     packs: Packs
     commits: int = 0
+    masks: int | None = None
 
 
 class Chosen(NamedTuple):
-    """What is selected, and what is kept by name."""
+    """What is selected, what is kept by name, and the masks of nodes, by their ids."""
 
     selection: Selection | None = None
     saved: Saved = NONE_SAVED
+    masks: Mapping[int, Selection] = MappingProxyType({})
 
 
 J = TypeVar("J")
@@ -49,13 +56,16 @@ def entries_of(
 ) -> tuple[list[SelectionEntry], list[J]]:
     """Returns the selections of a painting, and what makes their members: `packed`, of the stem of their names and of
     tiles, which notes the packs."""
-    named: list[tuple[str | None, Selection]] = [(name, one) for name, one in sorted(painting.selections.items())]
+    named: list[tuple[str | None, int | None, Selection]] = [
+        (name, None, one) for name, one in sorted(painting.selections.items())
+    ]
     if painting.selection is not None:
-        named.append((None, painting.selection))
+        named.append((None, None, painting.selection))
+    named += [(None, number, mask) for number, mask in masks_of(painting.root)]
     entries, jobs = list[SelectionEntry](), list[J]()
-    for number, (name, selection) in enumerate(named):
+    for number, (name, masks, selection) in enumerate(named):
         pyramid = fold(selection.pyramid)
-        entries.append(SelectionEntry(name, selection.inverse, [], pyramid.commits))
+        entries.append(SelectionEntry(name, selection.inverse, [], pyramid.commits, masks))
         tiles = ordered(list(pyramid.all_records()))
         jobs += packed(f"inkfall/selections/{number}", tiles, entries[-1].packs)
     return entries, jobs
@@ -69,6 +79,7 @@ def selections_told(entries: Sequence[SelectionEntry], packs: Callable[..., Pack
         "selections": [
             {
                 **({"name": entry.name} if entry.name is not None else {}),
+                **({"masks": entry.masks} if entry.masks is not None else {}),
                 "inverse": entry.inverse,
                 "commits": entry.commits,
                 "packs": [packs(pack) for pack in entry.packs],
@@ -82,15 +93,16 @@ def read_selections(value: object, packs: Callable[[Fields], Sequence[object]]) 
     """Reads the member; FieldError names what is wrong.  `packs` reads those of one."""
     if not isinstance(value, list) or len(value) > MOST_SELECTIONS:
         raise FieldError("manifest.selections", "another form", f"a list of at most {MOST_SELECTIONS}")
-    out, names = [], set[str | None]()
+    out, names = [], set[tuple[str | None, int | None]]()
     for i, one in enumerate(value):
         members = Fields(one, f"selections[{i}]")
         name = members.take("name", None)
-        if name in names or not (name is None or is_name(name)):
+        masks = None if name is not None or "masks" not in members else members.integer("masks", lo=1, hi=1 << 62)
+        if (name, masks) in names or not (name is None or is_name(name)):
             raise members.fault("name", "a text that no other has")
-        names.add(name)
+        names.add((name, masks))
         commits = members.integer("commits", lo=0, hi=1 << 62)
-        out.append(SelectionEntry(name, members.flag("inverse"), list(packs(members)), commits))
+        out.append(SelectionEntry(name, members.flag("inverse"), list(packs(members)), commits, masks))
     return tuple(out)
 
 
@@ -102,14 +114,31 @@ def with_tiles_of(
 ) -> Chosen:
     """Returns selections of a file; `tiles` reads packs, `levels` lays them out.  One with ink, which none has, is
     refused by FieldError."""
-    chosen, saved = None, dict[str, Selection]()
+    chosen, saved, masks = None, dict[str, Selection](), dict[int, Selection]()
     for entry in entries:
         found = list(tiles(entry.packs))
         if any(record.inks or implied for _, record, implied in found):
             raise FieldError("selections", "ink", "tiles without ink")
         pyramid = with_tiles(Pyramid(grid=grid, commits=entry.commits), dict(levels(found)))
-        if entry.name is None:
+        if entry.masks is not None:
+            masks[entry.masks] = Selection(pyramid, entry.inverse)
+        elif entry.name is None:
             chosen = Selection(pyramid, entry.inverse)
         else:
             saved[entry.name] = Selection(pyramid, entry.inverse)
-    return Chosen(chosen, Map(saved))
+    return Chosen(chosen, Map(saved), masks)
+
+
+def masks_of(root: Group) -> Iterator[tuple[int, Selection]]:
+    """Yields the masks of a tree, with the ids of the nodes that have them."""
+    for node in layers.walk(root):
+        if not isinstance(node, Placement) and node.mask is not None:
+            yield node.id, node.mask
+
+
+def with_masks(root: Group, masks: Mapping[int, Selection]) -> Group:
+    """Returns the tree with masks on the nodes of some ids."""
+    for node in list(layers.walk(root)) if masks else []:
+        if node.id in masks and not isinstance(node, Placement):
+            root = layers.set_fields(root, node.name, mask=masks[node.id])
+    return root

@@ -198,6 +198,8 @@ def _ways(root: Group, nodes: tuple[Node, ...]) -> list[tuple[Layer, Seen]]:
     """Returns the layers that are seen in some nodes, and how."""
     found: list[tuple[Layer, Seen]] = []
     for node in nodes:
+        if not isinstance(node, Placement) and node.mask is not None:
+            found.append((Layer(node.id, node.name, pyramid=node.mask.pyramid), UNPLACED))
         if isinstance(node, Group):
             found += _ways(root, node.children)
         elif isinstance(node, Placement):

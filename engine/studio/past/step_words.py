@@ -32,6 +32,14 @@ def _title(command: c.Command) -> str:
             return f"Bring in “{name}”"
         case c.BakePlacement(name=name):
             return f"Make paint of “{name}”"
+        case c.MergeLayer(name=name):
+            return f"Merge “{name}” down"
+        case c.FlattenGroup(name=name):
+            return "Merge visible" if name is None else f"Merge group “{name}”"
+        case c.ClearLayer(name=name, outside=outside):
+            return "Delete outside the frame" if outside else f"Clear “{name}”"
+        case c.SetFrame() | c.SetPaper():
+            return "Frame" if isinstance(command, c.SetFrame) else "Paper"
         case c.RemoveLayer(name=name):
             return f"Delete “{name}”"
         case c.RenameLayer(name=name, to=to):
@@ -76,6 +84,10 @@ def _setting(command: c.SetLayer) -> str:
         return f"{'Show' if changes['visible'] else 'Hide'} “{name}”"
     if "opacity" in changes:
         return f"Opacity of “{name}”: {changes['opacity']:.0%}"
+    if command.mask is not None:
+        return f"{'Mask' if command.mask else 'No mask'} of “{name}”"
+    if command.clip is not None:
+        return f"{'Clip' if command.clip else 'Unclip'} “{name}”"
     if "blend" in changes:
         return f"Blending of “{name}”"
     if "wrap" in changes:
