@@ -5,12 +5,14 @@ Plain paint needs no kernel (`numeric.stand_in`).  A brush that has nothing else
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 
 import numpy as np
 
 from engine.brush.checks import BrushError
 from engine.brush.settings import Brush
+from engine.canvas.selecting.selection import Selection
 from engine.kernel_cache import NotCompiled, refusing
 from engine.numeric.address import Rect, TileKey
 from engine.painting.points import rounded
@@ -24,9 +26,11 @@ _KEPT = ("radius", "hardness", "opacity", "flow", "spacing", "colour", "dynamics
 
 
 class Sketch:
-    """The strokes of requests, in their order.  All calls come from one thread."""
+    """The strokes of requests, in their order, each within what `selection` tells is selected.  All calls come from one
+    thread."""
 
-    def __init__(self) -> None:
+    def __init__(self, selection: Callable[[], Selection | None] = lambda: None) -> None:
+        self._selection = selection
         self._strokes: list[tuple[LiveStroke, bool]] = []  # and whether it erases
         self._sheets: dict[int, _Sheet] = {}  # by level, what strokes before these come to
         self._rects: dict[int, list[Rect]] = {}  # and where they lie
@@ -46,10 +50,12 @@ class Sketch:
                 seen = request.layer is None  # one on another layer is seen elsewhere, by placements
                 self._open = seen and (row.lays_ink or row.takes_away)
                 while len(self._strokes) >= _FEW:
-                    self._lay(*self._strokes.pop(0))
+                    with suppress(NotCompiled):  # it is seen once it is painted
+                        self._lay(*self._strokes.pop(0))
                 if self._open:
+                    ground = Painting(selection=self._selection())
                     stroke = LiveStroke(
-                        Painting(), request.level, request.origin, _plain(request.brush), copies=request.copies
+                        ground, request.level, request.origin, _plain(request.brush), copies=request.copies
                     )
                     self._strokes.append((stroke, row.takes_away))
             case q.Points() if self._open:

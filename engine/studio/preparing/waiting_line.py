@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import deque
 
 from engine.brush.settings import Brush
+from engine.canvas.selecting.selection import Selection
 from engine.kernel_cache import NotCompiled, refusing
 from engine.painting import commands as c
 from engine.studio import requests as q
@@ -29,8 +30,11 @@ class WaitingLine:
         self._queue: deque[q.Request] = deque()  # what waits, in order
         self._laid: list[q.Request] = []  # of the stroke on the easel, if it must be begun anew
         self._tried = -1  # `count` when the first that waits was last tried
-        self._sketch, self._levels = Sketch(), set[int]()  # of what waits, and the levels of its strokes
+        self._sketch, self._levels = Sketch(self._selected), set[int]()  # of what waits, and the levels of its strokes
         studio.easel.viewer.above = self._sketch.over
+
+    def _selected(self) -> Selection | None:
+        return self._studio.easel.session.painting.selection
 
     @property
     def waits(self) -> bool:

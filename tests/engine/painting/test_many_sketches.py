@@ -7,10 +7,13 @@ from hypothesis import strategies as st
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
+from engine.painting import commands as c
+from engine.session.session import Session
 from engine.studio import requests as q
 from engine.studio.preparing import sketch as sketches
 from engine.studio.preparing.sketch import Sketch
 
+SQUARE = {"do": "select", "rect": [0, 20, 20, 60, 60]}
 STROKES = st.tuples(
     st.sampled_from(["paint", "paint", "erase"]),
     st.sampled_from([0, 1]),
@@ -53,3 +56,18 @@ def test_many_strokes_look_as_each_alone_would(strokes, more):
     few.begin([])
     assert few.over(0, rect, below) is below
     assert not few.rects(0)
+
+
+def test_a_sketch_stays_within_what_is_selected():
+    painting = Session().do(c.parse(SQUARE))
+    free, limited = Sketch(), Sketch(lambda: painting.selection)
+    for sketch in (free, limited):
+        sketch.begin(requests([("paint", 0, 10, 40, "#c04020", 1.0)] * (sketches._FEW + 2)))
+    rect = Rect.at(-50, -50, 260, 260)
+    ground = np.zeros((4, 260, 260), np.float32)
+    chosen = np.zeros((260, 260), bool)
+    chosen[70:130, 70:130] = True
+    whole, left = (sketch.over(0, rect, ground) for sketch in (free, limited))
+    assert (left[:, chosen] == whole[:, chosen]).all()
+    assert whole[3, ~chosen].any()
+    assert not left[:, ~chosen].any()
