@@ -10,6 +10,7 @@ from app.desk.desk import Desk
 from app.desk.filling.pouring import fill_selection
 from engine.painting import commands as c
 from engine.painting.select_commands import Named, Whole
+from engine.studio.requests import Do
 
 
 def _now(desk: Desk) -> bool:
@@ -27,6 +28,16 @@ def _on_layer(desk: Desk) -> bool:
 
 def _kept(desk: Desk) -> bool:
     return _now(desk) and bool(desk.selecting.saved)
+
+
+def _bounded(desk: Desk) -> bool:
+    return _some(desk) and desk.selecting.ants is not None and desk.selecting.ants.bounds is not None
+
+
+def _crop(desk: Desk) -> None:
+    ants = desk.selecting.ants
+    if ants is not None and ants.bounds is not None:
+        desk.post(Do(c.SetFrame(ants.bounds)))
 
 
 def _whole(what: str) -> Callable[[Desk], None]:
@@ -54,6 +65,7 @@ SELECT_ACTIONS: dict[str, A] = {
         "Fill", "Select", ("Shift+F5", "Alt+Backspace"), "Fill the selection with the brush", fill_selection, _some
     ),
     "select_change": A("Grow, shrink, feather…", "Select", (), "Move or soften its rim", asks("select_change"), _some),
+    "crop": A("Crop to the selection", "Select", (), "End the picture there; no paint is lost", _crop, _bounded),
     "select_keep": A("Keep as…", "Select", (), "Keep the selection under a name", asks("select_keep"), _some),
     "select_kept": A("Kept selections…", "Select", (), "Select again what was kept", asks("select_kept"), _kept),
     "rectangle": A("Rectangle", "Select", ("S",), "Select a rectangle", _tool("rectangle"), checked=_is("rectangle")),

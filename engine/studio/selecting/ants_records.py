@@ -22,7 +22,8 @@ class AskAnts:
 class Ants:
     """`selected`: whether anything in particular is; `saved`: the names of kept selections; `lines`: the rim of what is
     selected at least half, float32 (n, 4): x0, y0, x1, y1 in pixels of `level` from the corner of `area`, along pixels'
-    edges; `bounded`: what is selected has an end."""
+    edges; `bounded`: what is selected has an end; `bounds`: of what is selected at least half, in pixels of level
+    0, None where it has none, or is very large."""
 
     selected: bool
     saved: tuple[str, ...]
@@ -30,3 +31,4 @@ class Ants:
     area: Rect
     lines: np.ndarray
     bounded: bool
+    bounds: Rect | None = None

@@ -1,6 +1,7 @@
 """The rim of what is selected, as the window is told it."""
 
 import numpy as np
+import pytest
 
 from engine.canvas.selecting import outlines
 from engine.canvas.selecting.joining import joined_with
@@ -8,7 +9,7 @@ from engine.canvas.selecting.selection import EVERYTHING
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.studio.easel import Easel
-from engine.studio.selecting.ants import AntsFinder, rim
+from engine.studio.selecting.ants import AntsFinder, bounds_of, rim
 from engine.studio.selecting.ants_records import AskAnts
 
 AREA = Rect(-10, -20, 290, 280)
@@ -41,6 +42,14 @@ def test_the_rim_parts_all_that_is_selected_from_what_is_not():
     assert (above[1:-1] == (inside[1:] != inside[:-1])).all()
 
 
+@pytest.mark.parametrize("level", [-2, 0, 3])
+def test_bounds_are_those_of_the_pixels_at_its_level(level):
+    selection = joined_with(None, outlines.boxed(level, Rect(-8, 16, 264, 160), "here"), "replace", 16)
+    assert bounds_of(selection) == Rect(-8, 16, 264, 160).zoomed(-level)
+    assert bounds_of(selection.inverted()) is None
+    assert bounds_of(EVERYTHING) is None
+
+
 def test_it_is_told_when_it_changes_and_not_for_strokes():
     sent = []
     easel = Easel(sent.append)
@@ -51,6 +60,7 @@ def test_it_is_told_when_it_changes_and_not_for_strokes():
     assert finder.pending
     finder.step()
     assert (sent[-1].selected, sent[-1].saved, len(sent[-1].lines)) == (True, ("one",), 4)
+    assert sent[-1].bounds == Rect.at(5, 7, 200, 143)
     easel.carry_out(c.parse({"do": "stroke", "points": [[20, 20], [60, 60]]}))
     assert not finder.pending
     finder.handlers[AskAnts](AskAnts(1, AREA))
