@@ -12,6 +12,7 @@ from engine.kernel_cache import NotCompiled
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
+from engine.painting.value import Painting
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.preparing.sketch import Sketch
@@ -50,6 +51,7 @@ class Easel:
 
     due = None
     behind = False
+    session = SimpleNamespace(painting=Painting())
 
     def __init__(self, kernels):
         self.kernels, self.easel, self.live, self.log = kernels, self, None, []
