@@ -157,6 +157,9 @@ class Router:
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
             return
+        if keys == "Enter" and self.gesture is not None:
+            self._send(replace(self._last, kind="done"))
+            return
         dialog = _dialog(self.desk, self.layout)
         if keys == "Escape" and self.layout.popup and not dialog:
             self.layout.dismiss()

@@ -103,8 +103,8 @@ def lasso(desk: Desk, first: PenEvent) -> Gesture:
 
 
 def polygon(desk: Desk, first: PenEvent) -> Gesture:
-    """Selects what straight lines from click to click go round; a double click, or one on the first corner, closes
-    it."""
+    """Selects what straight lines from click to click go round; a double click, one on the first corner, or Enter
+    closes it."""
     if not _may(desk):
         return
     op, event, state = _op(desk), first, desk.selecting
@@ -120,6 +120,8 @@ def polygon(desk: Desk, first: PenEvent) -> Gesture:
                 last = event
             elif event.kind == "move" and state.shape:
                 state.shape[-1] = place
+            elif event.kind == "done":
+                break
             event = yield
         del state.shape[-1:]
         _outline(desk, op)

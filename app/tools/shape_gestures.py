@@ -48,7 +48,7 @@ def dragged(path: Path) -> Callable[[Desk, PenEvent], Gesture]:
 
 
 def polyline(desk: Desk, first: PenEvent) -> Gesture:
-    """Corners by clicks; a double click ends it, a click on the first corner closes it, Escape gives it up."""
+    """Corners by clicks; a double click or Enter ends it, a click on the first corner closes it, Escape gives it up."""
     if refused(desk):
         return
     view, level = desk.view, desk.view.shown_level
@@ -60,6 +60,8 @@ def polyline(desk: Desk, first: PenEvent) -> Gesture:
             event = yield
             if event.kind == "lost":
                 return
+            if event.kind == "done":
+                break
             near = math.dist((event.x, event.y), at) <= _SAME * desk.scale
             if event.kind == "down":
                 if near and event.time - last.time <= _DOUBLE:

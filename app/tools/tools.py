@@ -27,12 +27,16 @@ TOOLS: dict[str, Tool] = {
     ),
     "draw_ellipse": Tool("Ellipse", icons.ELLIPSE, DRAWN["draw_ellipse"], f"An ellipse; {_HELD}, a circle", True),
     "draw_polyline": Tool(
-        "Polyline", icons.POLYLINE, DRAWN["draw_polyline"], "A corner at each click; a double click ends it", True
+        "Polyline",
+        icons.POLYLINE,
+        DRAWN["draw_polyline"],
+        "A corner at each click; Enter or a double click ends it",
+        True,
     ),
     "guides": Tool(
         "Move guides", icons.GUIDES, move_guide, "Drag the centre of the symmetry, or turn its axis; by 15° with Shift"
     ),
-    "fill": Tool("Fill", icons.FILL, fill, "Click a region to fill it with the chosen brush, whatever that does"),
+    "fill": Tool("Fill", icons.FILL, fill, "Click a region: it is filled with the chosen brush"),
     "gradient": Tool(
         "Gradient",
         icons.GRADIENT,
@@ -48,6 +52,6 @@ TOOLS: dict[str, Tool] = {
     "rectangle": Tool("Rectangle", icons.SELECT_BOX, rectangle, f"Drag to select a rectangle{_JOINING}"),
     "ellipse": Tool("Ellipse", icons.SELECT_ROUND, ellipse, f"Drag to select an ellipse{_JOINING}"),
     "lasso": Tool("Lasso", icons.LASSO, lasso, f"Drag around what is to be selected{_JOINING}"),
-    "polygon": Tool("Polygon", icons.POLYGON, polygon, "Click the corners; a double click closes it (Esc: not now)"),
+    "polygon": Tool("Polygon", icons.POLYGON, polygon, "Click the corners; Enter or a double click closes it"),
     "wand": Tool("Wand", icons.WAND, wand, f"Click to select what is of that colour{_JOINING}"),
 }

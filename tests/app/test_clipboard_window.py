@@ -32,7 +32,7 @@ def test_a_picture_of_another_program_is_pasted_as_a_layer_and_the_frame_is_copi
         assert giver.stdout.readline() == "given\n"
         app.do("mousemove", 640, 300)
         app.keys("ctrl+v")
-        red = app.until(lambda screen: _red(screen).sum() > 4000)
+        red = app.until(lambda screen: _red(screen).sum() > 3000)
         rows, columns = np.nonzero(_red(red))
         assert 1.4 < np.ptp(columns) / np.ptp(rows) < 1.6  # 120 x 80
         giver.kill()

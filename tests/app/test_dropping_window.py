@@ -90,11 +90,11 @@ def test_a_picture_dropped_on_the_canvas_is_laid_there_as_a_layer_that_can_be_mo
     app.do("mousemove", 500, 400)
     Drag(app.display, window_of(app), stone).drop(500, 400)
     app.click("Layer")
-    until(lambda: shows(app.screen()[346:455, 417:582], stone))  # a pixel on a pixel of level -1, 1 : 1.46
+    until(lambda: shows(app.screen()[373:427, 459:541], stone))  # a pixel on a pixel of the frame, seen 1 : 1.46
     app.do("mousemove", 500, 400, "mousedown", 1, "mousemove", 560, 430, "mousemove", 600, 460, "mouseup", 1)
-    until(lambda: shows(app.screen()[406:515, 517:682], stone))
+    until(lambda: shows(app.screen()[433:487, 559:641], stone))
     app.keys("ctrl+z", "ctrl+z")
-    until(lambda: not shows(app.screen()[406:515, 517:682], stone))
+    until(lambda: not shows(app.screen()[433:487, 559:641], stone))
 
 
 def test_a_picture_can_be_brought_in_as_a_reference_that_no_export_shows(program, stone):
@@ -103,7 +103,7 @@ def test_a_picture_can_be_brought_in_as_a_reference_that_no_export_shows(program
     app.do("mousemove", 500, 400)
     Drag(app.display, window_of(app), stone).drop(500, 400)
     app.click("Reference")
-    until(lambda: shows(app.screen()[346:455, 417:582], stone))
+    until(lambda: shows(app.screen()[373:427, 459:541], stone))
     app.save_as(app.folder / "ours.ora")
     with zipfile.ZipFile(app.folder / "ours.ora") as file, Image.open(file.open("mergedimage.png")) as merged:
         assert not np.asarray(merged)[..., 3].any()

@@ -1,10 +1,17 @@
 """Numbers typed for what is moved: exact to their last digit, and nothing else is taken for one."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
+from app.desk.known import Known
+from app.desk.moving.move_state import MoveState
 from app.panels.moving.move_bar import typed_number
+from engine.numeric.address import Rect
+from engine.studio.layer_rows import LayerRow
+from engine.studio.moving.move_requests import Extent
+from engine.studio.results import Scene
 
 
 @pytest.mark.parametrize(
@@ -16,3 +23,20 @@ from app.panels.moving.move_bar import typed_number
 )  # fmt: skip
 def test_a_number_is_taken_as_it_is_typed(text, value):
     assert typed_number(text) == value
+
+
+def test_what_waits_is_done_though_another_scene_tells_the_same():
+    """After an undo and another step a scene may equal the one before; paint lies elsewhere all the same."""
+    state, posted, done = MoveState(), [], []
+    row = LayerRow("Sky", False, 0, None, 0, 1.0, True, "src-over", False, False)
+    scenes = [Scene(Rect(0, 0, 9, 9), (row,), "Sky", True, False, True, None) for _ in range(2)]
+    assert scenes[0] == scenes[1]
+    for scene in scenes:
+        known = replace(Known(), scene=scene)
+        state.wants(posted.append, known, 0)
+        state.wants(posted.append, known, 0)
+    assert len(posted) == 2
+    state.sure(known, lambda: done.append(1))
+    state.told(Extent("Sky", None))
+    state.sure(known, lambda: done.append(2))
+    assert done == [1, 2]

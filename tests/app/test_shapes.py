@@ -94,7 +94,11 @@ def test_a_polyline_ends_by_a_double_click_or_on_its_first_corner(desk):
             yield PenEvent("down", *place, time=start + n)
             yield PenEvent("up", *place, time=start + n + 0.1)
 
-    for last in ([PenEvent("down", 280, 330, time=2.3)], [PenEvent("down", 203, 199, time=4.0)]):
+    for last in (
+        [PenEvent("down", 280, 330, time=2.3)],
+        [PenEvent("down", 203, 199, time=4.0)],
+        [PenEvent("done", 280, 330)],
+    ):
         posted.clear()
         told = [*list(clicks(corners))[1:], PenEvent("move", 250, 260, time=2.2), *last]
         with pytest.raises(StopIteration):

@@ -56,8 +56,9 @@ class MoveState:
             return
         if row.shows is not None:
             level += row.shows.pose.similarity.like_levels
-        asked = row.name, level, known.scene
-        if asked != self._asked:
+        asked, before = (row.name, level, known.scene), self._asked
+        # Two scenes may tell the same while other paint lies there: it is the very one that counts.
+        if before is None or asked[:2] != before[:2] or asked[2] is not before[2]:
             self._asked = asked
             post(AskExtent(row.name, level))
 

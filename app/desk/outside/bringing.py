@@ -15,6 +15,8 @@ from engine.checks.roles import REFERENCE
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
 
+_FAR = -4  # a level at which little is left of a picture that lies on level 0
+
 
 def is_picture(path: Path) -> bool:
     """Tells whether a file is a picture, by its name."""
@@ -42,9 +44,14 @@ class _Lay(FileWork):
         lay(desk, self.path, self.path.stem, found, self.place, self.role)
 
 
+def _level(seen: int) -> int:
+    """Returns the level at which a picture has its own pixels: where the whole frame is seen, that of the frame's."""
+    return 0 if _FAR < seen < 0 else seen
+
+
 def lay(desk: Desk, path: Path, stem: str, size: tuple[int, int], place: Place, role: str = "") -> None:
     """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place."""
-    level = desk.view.shown_level
+    level = _level(desk.view.shown_level)
     x, y = place.pixel(level)
     texture, at = free_texture_name(desk, stem), (x - size[0] // 2, y - size[1] // 2)
     desk.post(Do(DefineTexture(texture, "image", Map({"path": str(path.absolute())}))))

@@ -80,6 +80,12 @@ def _selecting(command: c.Select) -> str:
 def _setting(command: c.SetLayer) -> str:
     """Returns what of a layer was set, of several things the first."""
     name, changes = command.name, command.changes
+    if command.placing is not None:
+        return f"Move “{name}”"
+    if "role" in changes:
+        return f"“{name}” is a reference" if changes["role"] else f"“{name}” is no reference"
+    if "clip" in changes:
+        return f"Clip “{name}”" if changes["clip"] else f"Unclip “{name}”"
     if "visible" in changes:
         return f"{'Show' if changes['visible'] else 'Hide'} “{name}”"
     if "opacity" in changes:
