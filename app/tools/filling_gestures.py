@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.desk.colours import RGB, to_hex
 from app.desk.desk import Desk
 from app.desk.filling.fill_state import looked_at
-from app.desk.filling.pouring import may_fill, post_fill, pour
+from app.desk.filling.pouring import may_fill, outruns, post_fill, pour
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.tools.painting_gestures import refused
@@ -31,7 +31,7 @@ def drop_colour(desk: Desk, rgb: RGB, x: float, y: float) -> None:
     if refused(desk) or not may_fill(desk):
         return
     like = like_at(desk, x, y)
-    post_fill(desk, Fill(Brush(colour=to_hex(rgb)), like, open=not like.contiguous))
+    post_fill(desk, Fill(Brush(colour=to_hex(rgb)), like, open=outruns(desk, like)))
 
 
 def like_at(desk: Desk, x: float, y: float) -> Like:

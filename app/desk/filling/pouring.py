@@ -29,10 +29,19 @@ def pour(desk: Desk, like: Like | None, eraser: bool = False) -> None:
     example_use.fit_within_reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(eraser)
-    opened = like is not None and not like.contiguous
-    post_fill(desk, Fill(brush, like, opened, level=0 if like is not None else level))
+    post_fill(desk, Fill(brush, like, like is not None and outruns(desk, like), level=0 if like is not None else level))
     if brush.row.lays_ink:
         desk.hand.remember()
+
+
+def outruns(desk: Desk, like: Like) -> bool:
+    """Tells whether a region may reach the border of where it is looked for: as what is alike anywhere does, and where
+    a selection bounds the fill."""
+    return not like.contiguous or _bounded(desk)
+
+
+def _bounded(desk: Desk) -> bool:
+    return desk.selecting.ants is not None and desk.selecting.ants.bounded
 
 
 def post_fill(desk: Desk, fill: Fill) -> None:
@@ -46,6 +55,5 @@ def fill_selection(desk: Desk) -> None:
     """Fills what is selected; of a selection without bounds, what is in sight of it."""
     if not may_fill(desk):
         return
-    bounded = desk.selecting.ants is not None and desk.selecting.ants.bounded
     level = desk.view.shown_level
-    pour(desk, None if bounded else all_in(desk.view.visible(level), level))
+    pour(desk, None if _bounded(desk) else all_in(desk.view.visible(level), level))
