@@ -15,6 +15,7 @@ from app.actions.placement_actions import PLACEMENT_ACTIONS
 from app.actions.select_actions import SELECT_ACTIONS
 from app.actions.tool_actions import TOOL_ACTIONS
 from app.actions.view_actions import VIEW_ACTIONS
+from app.actions.wrapping_actions import WRAPPING_ACTIONS
 from app.desk import offers
 from app.desk.desk import Desk
 
@@ -28,6 +29,7 @@ ACTIONS: dict[str, Action] = {
     **PLACEMENT_ACTIONS,
     **ENDLESS_ACTIONS,
     **VIEW_ACTIONS,
+    **WRAPPING_ACTIONS,
     "keys": Action("Keys…", "Help", ("F1",), "All keys in one list", asks("keys")),
     "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
     "about": Action("About Inkfall…", "Help", (), "What this program is", asks("about")),

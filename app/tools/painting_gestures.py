@@ -13,6 +13,7 @@ from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.guides import symmetry
+from app.desk.guides.tile_seams import tell_seams
 from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
@@ -74,6 +75,8 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | None:
     example_use.fit_within_reach(desk)
     palette.provide(desk)
     level, brush = desk.stroke_brush(first.eraser)
+    if layer is not None and layer.wrap is not None:
+        tell_seams(desk, layer.wrap, level, brush)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
     copies = symmetry.copies_at(desk, level, origin)
     aimed = None if aim is None else aim.begun(level, origin)

@@ -15,13 +15,19 @@ from app.tools.shape_gestures import DRAWN
 from app.tools.view_gestures import pan, turn, zoom
 
 _JOINING = "; Shift adds, Alt takes away, both leave what both have"
-_HELD = "from its middle with Alt, with Shift"
+_HELD = "with Alt from its middle, with Shift"
 TOOLS: dict[str, Tool] = {
     "brush": Tool("Brush", icons.BRUSH, paint, "Paint with the chosen brush", True),
     "move": Tool(
         "Move", icons.MOVE, move, "Drag the layer; its handles scale and turn it, with Shift by steps.  Nothing is lost"
     ),
-    "draw_line": Tool("Line", icons.LINE, DRAWN["draw_line"], f"A straight line; {_HELD}, at steps of 15°", True),
+    "draw_line": Tool(
+        "Line",
+        icons.LINE,
+        DRAWN["draw_line"],
+        "A straight line; with Shift at steps of 15°, with Alt from its middle",
+        True,
+    ),
     "draw_rectangle": Tool(
         "Rectangle", icons.RECTANGLE, DRAWN["draw_rectangle"], f"A rectangle; {_HELD}, a square", True
     ),

@@ -18,8 +18,10 @@ class Held(NamedTuple):
 
 @dataclass(slots=True)
 class GuideState:
-    """`held`: the guide in hand; `path`: the shape in hand, on the screen; `last`: where the last stroke ended."""
+    """`held`: the guide in hand; `path`: the shape in hand, on the screen; `last`: where the last stroke ended;
+    `seams`: the textures that were said not to fit a tile."""
 
     held: Held | None = None
     path: tuple[tuple[float, float], ...] = ()
     last: Place | None = None
+    seams: tuple[str, ...] = ()

@@ -149,6 +149,7 @@ class LayersPanel:
         told = (
             (row.clip, icons.CLIP),
             (row.masked, icons.MASK),
+            (row.wrap is not None, icons.WRAP),
             (row.reference, icons.REFERENCE),
             (row.locked, icons.LOCK),
             (row.alpha_locked, icons.ALPHA_LOCK),
