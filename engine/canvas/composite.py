@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
+from typing import Protocol, TypeAlias, cast
 
 import numpy as np
 
@@ -21,12 +21,13 @@ from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.loops import holds_itself
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.self_copies import Tiles
+from engine.canvas.placing.self_copies import Asking, Drawing, Tiles
 from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
+from engine.canvas.placing.unpainted import Unpainted
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
-from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.address import TILE, Rect
 from engine.numeric.atop import atop
 
 BLOCK = TILE
@@ -61,6 +62,7 @@ class CompositeStep:
 
 # What a block needs of a step: its pixels, (4, n) read-only, None if empty, or a list to be composited first.
 _Found = list[tuple[CompositeStep, "np.ndarray | _Found | None"]]
+_Leaf: TypeAlias = "Layer | Placed | Paper | Mask"
 
 
 class Sources:
@@ -70,7 +72,7 @@ class Sources:
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[int | None, tuple[CompositeStep, ...]] = {}
         self._turns: dict[int | None, bool] = {}
-        self._tiles: dict[int | None, Tiles | None] = {}
+        self._tiles: dict[int | None, Tiles[_Leaf, _Found] | None] = {}
 
     def steps(self, of: int | None) -> tuple[CompositeStep, ...]:
         """Returns what to composite for a node of an id; None: for all of them."""
@@ -95,11 +97,11 @@ class Sources:
             return placement.pose.similarity.quarter is None or self.turns(placement.of)
         return isinstance(step.source, tuple) and any(map(self._turned, step.source))
 
-    def tiles(self, of: int | None) -> Tiles | None:
+    def tiles(self, of: int | None, read: Read) -> Tiles[_Leaf, _Found] | None:
         """Returns the tiles of what a node shows, if it holds several copies of itself."""
         if of not in self._tiles:
             copies = [one.placement for one in _placed(self.steps(of)) if one.placement.of == of]
-            self._tiles[of] = Tiles(copies) if len(copies) > 1 else None
+            self._tiles[of] = Tiles(copies, _drawing(self.steps(of), of, read)) if len(copies) > 1 else None
         return self._tiles[of]
 
     def goes_round(self, one: Placement) -> bool:
@@ -117,11 +119,7 @@ class Sources:
 
 def _placed(plan: tuple[CompositeStep, ...]) -> Iterator[Placed]:
     """Yields what placements show that are composited directly, or in groups."""
-    for step in plan:
-        if isinstance(step.source, tuple):
-            yield from _placed(step.source)
-        elif isinstance(step.source, Placed):
-            yield step.source
+    return (one for one in unrolled.leaves(step.source for step in plan) if isinstance(one, Placed))
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,21 +226,30 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
             out[:] = 0
         return out
     for place, pixels in blocks(root, level, rect, read):
-        rows, columns = place.slices(rect)
-        out[:, rows, columns] = 0 if pixels is None else pixels
+        out[:, *place.slices(rect)] = 0 if pixels is None else pixels
     return out
 
 
 def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> _Found:
-    """Returns the sources that matter for a block, bottom first; read from the top down to the first that covers it
-    all.  `seen`: through which similarity all of them are."""
+    """Returns the sources that matter for a block.  `seen`: through which similarity all of them are."""
+    asking, planes = _asking(plan), None
+    try:
+        while True:
+            planes = _pixels(asking.send(planes)[0], level, rect, read, seen)
+    except StopIteration as done:
+        return cast("_Found", done.value)
+
+
+def _asking(plan: tuple[CompositeStep, ...], inner: bool = False) -> Asking[_Leaf, _Found]:
+    """Asks for the pixels of sources, from the top down to the first that covers all; returns what matters, bottom
+    first.  `inner`: the plan is a group's."""
     found: _Found = []
     for step in reversed(plan):
         source: np.ndarray | _Found | None
         if isinstance(step.source, tuple):
-            source = _gather(step.source, level, rect, read, seen) or None
+            source = (yield from _asking(step.source, True)) or None
         else:
-            planes = _pixels(step.source, level, rect, read, seen)
+            planes = yield step.source, None if inner or not step.over else found
             source = None if planes is None else blend.flat(planes)
         if source is None and not step.row.outside:
             continue
@@ -253,12 +260,26 @@ def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read,
     return found
 
 
+def _drawing(plan: tuple[CompositeStep, ...], of: int | None, layers: Read) -> Drawing[_Leaf, _Found]:
+    """Returns how a node is drawn that holds copies of itself."""
+    unpainted = Unpainted()
+
+    def copy(source: _Leaf) -> Placement | None:
+        return source.placement if isinstance(source, Placed) and source.placement.of == of else None
+
+    def read(source: _Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
+        empty = isinstance(source, Layer) and (source, level, rect, seen) in unpainted
+        return None if empty else _pixels(source, level, rect, layers, seen)
+
+    return Drawing(partial(_asking, plan), copy, read, _drawn)
+
+
 def _covers(step: CompositeStep, source: np.ndarray | _Found | None) -> bool:
     """Tells whether a step hides all that lies below."""
     return step.may_cover and isinstance(source, np.ndarray) and bool(source[3, 0] >= 1) and blend.opaque(source)
 
 
-def _pixels(source: Layer | Placed | Paper | Mask, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+def _pixels(source: _Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
     """Returns the pixels of a layer, or what a placement shows, through a similarity: (4, h, w), None if empty."""
     if isinstance(source, Paper):
         return source.planes(rect)
@@ -267,17 +288,9 @@ def _pixels(source: Layer | Placed | Paper | Mask, level: int, rect: Rect, read:
     if isinstance(source, Layer):
         return looked_through(repeated(partial(read, source), source.wrap), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)
-    tiles = source.sources.tiles(source.placement.of)
+    tiles = source.sources.tiles(source.placement.of, read)
     if tiles is not None:
-
-        def made(key: TileKey) -> np.ndarray | None:
-            drawn = _picture(plan, key.level, key.rect, read, UNPLACED)
-            return None if drawn is None else drawn.copy()
-
-        def several(at: int, part: Rect) -> np.ndarray | None:
-            return tiles.picture(at, part, made)
-
-        return looked_coarser(several, level, rect, through)
+        return looked_coarser(tiles.picture, level, rect, through)
     if source.place is not None:
         return _turns(source, level, rect, read, seen)
     if not source.placement.repeat and not through.whole(level) and source.sources.turns(source.placement.of):
@@ -308,44 +321,36 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
     own, below, above = plan[at], plan[:at], plan[at + 1 :]
 
     def drawn(plan: tuple[CompositeStep, ...], turn: int, shown: Rect) -> np.ndarray | None:
-        pixels = _draw(_gather(plan, level, shown, read, turns[turn].unclipped), shown.area, [], 0)
-        return None if pixels is None else pixels.reshape(4, shown.height, shown.width)
+        return _drawn(_gather(plan, level, shown, read, turns[turn].unclipped), shown, False)
 
     def both(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
         seen = turns[turn].unclipped
         under, over = (_gather(steps, level, shown, read, seen) for steps in (below, above))
         middle: _Found = [] if inner is None else [(own, blend.flat(inner))]
-        pixels = _draw([*under, *middle, *over], shown.area, [], 0)
-        return None if pixels is None else pixels.reshape(4, shown.height, shown.width)
+        return _drawn([*under, *middle, *over], shown, False)
 
     if own.opacity != 1 or not all(step.over for step in above):
         pixels = unrolled.all_turns(turns, level, part, both)
     else:
         pixels = unrolled.lying_below(turns, level, part, lambda turn, shown, _: drawn(below, turn, shown))
         if above:
-            layers = _only_layers(above)
+            layers = unrolled.only_layers(step.source for step in above)
             front = unrolled.lying_above(turns, layers, level, part, lambda turn, shown, _: drawn(above, turn, shown))
             pixels = unrolled.laid_over(front, pixels)
     return None if pixels is None else outer.clipped(pixels, level, part, rect)
 
 
-def _only_layers(plan: tuple[CompositeStep, ...]) -> list[Layer] | None:
-    """Returns the layers that are composited; None if there are placements among them."""
-    out: list[Layer] = []
-    for step in plan:
-        inner = _only_layers(step.source) if isinstance(step.source, tuple) else [step.source]
-        if inner is None or not all(isinstance(one, Layer) for one in inner):
-            return None
-        out += [one for one in inner if isinstance(one, Layer)]
-    return out
-
-
 def _picture(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
     """Returns a source's picture: (4, h, w), its own where it is one layer, None where it is empty."""
-    if len(plan) == 1 and plan[0].may_cover and not isinstance(plan[0].source, tuple):
-        return _pixels(plan[0].source, level, rect, read, seen)
-    drawn = _draw(_gather(plan, level, rect, read, seen), rect.area, [], 0)
-    return None if drawn is None else drawn.reshape(4, rect.height, rect.width)
+    return _drawn(_gather(plan, level, rect, read, seen), rect, len(plan) == 1)
+
+
+def _drawn(found: _Found, rect: Rect, own: bool = True) -> np.ndarray | None:
+    """Returns the sources composited onto nothing: (4, h, w), with `own` those of a single one; None: empty."""
+    if own and len(found) == 1 and found[0][0].may_cover and isinstance(found[0][1], np.ndarray):
+        return found[0][1].reshape(4, rect.height, rect.width)
+    pixels = _draw(found, rect.area, [], 0)
+    return None if pixels is None else pixels.reshape(4, rect.height, rect.width)
 
 
 def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.ndarray | None:

@@ -86,6 +86,8 @@ def _piece(picture: Picture, similarity: Similarity, level: int, rect: Rect, par
 
 def _source(picture: Picture, level: int, box: Rect, part: Rect | None) -> np.ndarray | None:
     """Returns a picture's pixels of `box`, interleaved, float32 (h, w, 4); those beyond `part` are its rim's."""
+    if part is not None and not box.meets(part):  # its rim is cut off there; it may be farther than 2^63 pixels
+        return None
     inner = box if part is None else _nearest(box, part)
     found = picture(level, inner)
     if found is None:

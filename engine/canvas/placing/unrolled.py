@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -87,6 +87,22 @@ def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: 
         turn += 1
         part = turns.within(turn, level, part)
     return front
+
+
+def leaves(sources: Iterable[object]) -> Iterator[object]:
+    """Yields sources of steps, and those of the steps of groups among them."""
+    for source in sources:
+        if isinstance(source, tuple):
+            yield from leaves(step.source for step in source)
+        else:
+            yield source
+
+
+def only_layers(sources: Iterable[object]) -> list[Layer] | None:
+    """Returns the layers among sources of steps; None if there are placements among them."""
+    found = list(leaves(sources))
+    layers = [one for one in found if isinstance(one, Layer)]
+    return layers if len(layers) == len(found) else None
 
 
 def laid_over(front: np.ndarray | None, back: np.ndarray | None) -> np.ndarray | None:

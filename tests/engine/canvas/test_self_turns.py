@@ -1,7 +1,9 @@
 """Pictures that contain themselves: as the same turns built by hand, at any depth, whatever is asked for with them."""
 
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from hypothesis import strategies as st
 
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, layers
+from engine.canvas.placing import self_copies
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import kept_planes, layer_planes
@@ -167,10 +170,10 @@ def test_what_is_read_in_kept_tiles_is_the_same():
     assert kept_planes(b, 0, Rect(5000, 5000, 5300, 5300), cached) is None
 
 
-def copied(poses):
+def copied(poses, opacity=0.7):
     """Several copies of all, and a layer over them."""
     a, _ = painted()
-    a = replace(a, opacity=0.7)
+    a = replace(a, opacity=opacity)
     copies = (Placement(90 + n, f"copy {n}", pose=pose, part=FRAME) for n, pose in enumerate(poses))
     return replace(EMPTY, children=(*copies, a))
 
@@ -221,3 +224,91 @@ def test_a_placement_within_a_group_shows_the_picture_that_the_group_is_in(name,
         rect = Rect.at(0, 0, 128, 128).zoomed(level).grown(2)
         apart = np.abs(picture(root, level, rect) - picture(flat, level, rect))
         assert apart.mean() < 0.01
+
+
+SPREAD = {
+    "four": [Pose(at=(64 * x, 64 * y), levels=-1) for x in (0, 1) for y in (0, 1)],
+    "three": [Pose(at=(0, 0), levels=-1), Pose(at=(128, 0), levels=-1, turn=1), Pose(at=(48, 64), levels=-2)],
+    "over one another": [Pose(at=(8, 16), levels=-1), Pose(at=(32, 48), levels=-1, mirror=True)],
+    "turned": [Pose(at=(8, 16), levels=-1, turned=(0.9, 0.41)), Pose(at=(32, 48), levels=-1)],
+}
+
+
+def a_turn_at_a_time(poses, opacity, level, rect):
+    """What the picture is by what it is farther out: each copy of it, and a layer over them."""
+    out = np.zeros((4, rect.height, rect.width), np.float32)
+    for pose in poses:
+        part = pose.similarity.shown(FRAME.rect, 0, level).intersect(rect)
+        if not part.empty:
+            source = pose.similarity.inverse().shown(part, level, level + pose.levels)
+            pixels = as_seen(picture(copied(poses, opacity), level + pose.levels, source), pose)
+            there = out[:, *part.slices(rect)]
+            there[:] = pixels + (np.float32(1) - pixels[3]) * there
+    over = picture(replace(EMPTY, children=(replace(painted()[0], opacity=opacity),)), level, rect)
+    return over + (np.float32(1) - over[3]) * out
+
+
+@settings(deadline=None, max_examples=7)
+@given(
+    st.sampled_from(["four", "three", "over one another"]),
+    st.sampled_from([3, 5, 9, 20, 60, 333]),
+    st.tuples(st.integers(-100, 100), st.integers(-100, 100)),
+)
+def test_several_copies_at_any_depth_are_copies_of_what_is_farther_out(name, level, by):
+    x, y = fixed(SPREAD[name][-1], level)
+    rect = Rect.at(x + by[0], y + by[1], 60, 40)
+    found = picture(copied(SPREAD[name]), level, rect)
+    assert found.any()
+    np.testing.assert_allclose(found, a_turn_at_a_time(SPREAD[name], 0.7, level, rect), atol=2e-3)
+
+
+@settings(deadline=None, max_examples=7)
+@given(
+    st.sampled_from(sorted(SPREAD)),
+    st.sampled_from([0, 3, 8, 60, 1000]),
+    st.sampled_from([0.05, 0.7]),
+    st.integers(0, 90),
+    st.integers(0, 60),
+)
+def test_a_pixel_of_several_copies_does_not_depend_on_what_else_was_asked_for(name, level, opacity, left, top):
+    root, (x, y) = copied(SPREAD[name], opacity), fixed(SPREAD[name][0], level)
+    whole = Rect.at(x - 70, y - 60, 140, 110)
+    part = Rect.at(whole.x0 + left, whole.y0 + top, 43, 50)
+    with fewer():
+        one = picture(root, level, whole)
+        np.testing.assert_array_equal(picture(root, level, part), one[:, *part.slices(whole)])
+
+
+@contextmanager
+def fewer():
+    """Tiles are made of a few pieces at most, which is soon done."""
+    with patch.object(self_copies, "MOST_READS", 24), patch.object(self_copies, "MOST_PIECES", 200):
+        yield
+
+
+@pytest.mark.parametrize("level", [60, 1000, 4000])
+def test_a_tile_of_copies_over_one_another_is_made_of_few_pieces(level):
+    poses = [Pose(at=(30, 30), levels=-1), Pose(at=(33, 35), levels=-1)]
+    a, _ = painted()
+    reads = []
+
+    def read(layer, at, rect):
+        reads.append(at)
+        return layer_planes(layer, at, rect)
+
+    x, y = fixed(poses[0], level)
+    with fewer():
+        found = composite(copied(poses, 0.02), level, Rect.at(x, y, 20, 20), read)
+    assert len(reads) < 1 + 2 * 4 * 3 * 24  # by each copy four tiles, each tried, made of less, and of small ones
+    assert min(reads) < level - 4  # it goes inwards nevertheless
+    mean = picture(replace(EMPTY, children=(a,)), -7, Rect(0, 0, 1, 1))
+    assert mean.any()
+    np.testing.assert_allclose(found[:3] / found[3], np.broadcast_to(mean[:3] / mean[3], found[:3].shape), atol=0.2)
+
+
+def test_a_turned_copy_is_nothing_far_beside_its_frame():
+    root, pose = copied(SPREAD["turned"]), SPREAD["turned"][0]
+    around = pose.similarity.shown(FRAME.rect, 0, 300)
+    corner = Rect.at(around.x0, around.y0, 40, 40)
+    alone = replace(EMPTY, children=root.children[-1:])
+    np.testing.assert_array_equal(picture(root, 300, corner), picture(alone, 300, corner))
