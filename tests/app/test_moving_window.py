@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
-FROM, TO = (420, 330), (500, 390)
+FROM, TO = (500, 357), (580, 417)  # within the box, far from its handles
 CHEQUER = 13  # of 255: the difference of the squares under the paint, which stay
 INNER = slice(150, 560), slice(150, 560)  # of the canvas, far from its rims
 
@@ -24,7 +24,7 @@ def app(program):
 def test_a_layer_is_dragged_and_nudged_and_nothing_of_it_is_lost(app):
     painted = app.canvas()
     app.keys("v")
-    app.stroke(FROM, (450, 350), (480, 380), TO)
+    app.stroke(FROM, (530, 380), (560, 400), TO)
     app.keys("b")  # without the box
     dragged = app.canvas_unlike(painted)
     by = TO[1] - FROM[1], TO[0] - FROM[0]
@@ -43,7 +43,7 @@ def test_what_is_shown_again_is_moved_by_itself_and_leads_to_its_source(app):
     twice = app.canvas_unlike(once)
     app.click("Layer 1 again")
     app.keys("v")
-    app.stroke(FROM, (440, 350), TO)
+    app.stroke(FROM, (540, 390), TO)
     app.keys("b")
     apart = app.canvas_unlike(twice)
     app.click("source")

@@ -6,7 +6,7 @@ import time
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_answers import draw
+from test_answers import draw, idle
 from test_checkpoints import end_of_checkpoint, often  # noqa: F401  a fixture
 from test_recovering import left, painter
 
@@ -102,6 +102,7 @@ def test_a_checkpoint_gives_way_once_while_memory_is_short(tmp_path, monkeypatch
     monkeypatch.setattr(memory, "crowded", lambda: True)
     worker = painter(tmp_path / "journal")
     draw(worker, 30, 0)
+    idle(worker)
     end_of_checkpoint(worker)
     assert outcomes == [True, False]
     left(worker)
