@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -39,7 +38,6 @@ def test_a_picture_of_another_program_is_pasted_as_a_layer_and_the_frame_is_copi
     app.wait_for("where it belongs")
     app.keys("ctrl+shift+c")
     app.wait_for("Copied 1024")
-    time.sleep(0.2)
     with other(app, "take") as taker:
         assert taker.communicate(timeout=60)[0].split() == ["1024", "768", "200", "40", "30", "255"]
 
