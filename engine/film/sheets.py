@@ -7,7 +7,7 @@ level share a sheet, as long as that does not become much larger than twice the 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -17,6 +17,7 @@ import numpy as np
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.film.aim import Aim, Crop
+from engine.film.closing import Other
 from engine.numeric.address import Rect
 from engine.numeric.askew import Askew
 from engine.numeric.convolution import Part, faded, margin, taps
@@ -32,9 +33,10 @@ Parts = tuple[Part, ...] | tuple[Askew, ...]  # what a frame is the sum of
 
 
 class Glance(NamedTuple):
-    """What a frame takes from one level: where it lies there, which sheet has that, and how much it counts; of the
-    aim's upright picture, which is larger where that is turned."""
+    """What a frame takes from one level for a view: where it lies there, which sheet has that, and how much it counts;
+    of the aim's upright picture, which is larger where that is turned."""
 
+    aim: Aim
     window: Crop
     sheet: int
     share: float
@@ -52,37 +54,46 @@ class Sheet:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """`sheets`, in the order in which they are first looked at; `frames`: of each its glances, one or two, and `aims`
-    what it looks at."""
+    """`sheets`, in the order in which they are first looked at; `frames`: of each its glances, one or two of a view."""
 
     sheets: tuple[Sheet, ...]
     frames: tuple[tuple[Glance, ...], ...]
-    aims: tuple[Aim, ...]
 
 
-def plan(aims: Sequence[Aim], size: tuple[int, int]) -> Plan:
-    """Decides what frames of `size` (width, height) look at, by their aims."""
+def plan(aims: Sequence[Aim], size: tuple[int, int], others: Mapping[int, Other] | None = None) -> Plan:
+    """Decides what frames of `size` (width, height) look at, by their aims, and by what some of them show besides."""
+    others = {} if others is None else others
     still = all((aim.level, aim.fraction) == (aims[0].level, aims[0].fraction) for aim in aims)
-    widest, tallest = (max(sides) for sides in zip(*(aim.across(size) for aim in aims), strict=True))
+    seen = [*aims, *(aim for aim, _ in others.values())]
+    widest, tallest = (max(sides) for sides in zip(*(aim.across(size) for aim in seen), strict=True))
     most = LARGER * (2 * widest + 2 * margin(2.0)) * (2 * tallest + 2 * margin(2.0))
     sheets: list[Sheet] = []
-    current: dict[int, int] = {}  # the sheet of each level that is looked at
+    current: dict[tuple[bool, int], int] = {}  # the sheet of each level that is looked at, of the others or not
     frames = []
-    for i, aim in enumerate(aims):
+    for i in range(len(aims)):
         glances = []
-        for level, share in _levels(aim, still):
+        for other, aim, level, share in _looks(aims[i], others.get(i), still):
             window = aim.window(aim.across(size), level)
             need = window.rect.grown(margin(window.step))
-            known = current.get(level)
+            known = current.get((other, level))
             both = need if known is None else sheets[known].rect.union(need)
             if known is None or sheets[known].last < i - 1 or both.area > most:
-                known = current[level] = len(sheets)
+                known = current[other, level] = len(sheets)
                 sheets.append(Sheet(level, need, i, i))
             else:
                 sheets[known] = replace(sheets[known], rect=both, last=i)
-            glances.append(Glance(window, known, share))
+            glances.append(Glance(aim, window, known, share))
         frames.append(tuple(glances))
-    return Plan(tuple(sheets), tuple(frames), tuple(aims))
+    return Plan(tuple(sheets), tuple(frames))
+
+
+def _looks(aim: Aim, other: Other | None, still: bool) -> Iterator[tuple[bool, Aim, int, float]]:
+    """Yields what a frame looks at: whether that is another view than its own, the view, a level of it, and how much
+    that counts."""
+    both = ((False, aim, 1.0),) if other is None else ((False, aim, 1.0 - other[1]), (True, *other))
+    for is_other, seen, part in both:
+        for level, share in _levels(seen, still) if part > 0.0 else ():
+            yield is_other, seen, level, part * share
 
 
 def _levels(aim: Aim, still: bool) -> list[tuple[int, float]]:
@@ -112,12 +123,11 @@ class Sheets:
         for gone in [n for n in self._planes if self._plan.sheets[n].last < frame]:
             del self._planes[gone]
         glances = self._plan.frames[frame]
-        aim = self._plan.aims[frame]
         parts: Parts
-        if aim.upright:
+        if all(glance.aim.upright for glance in glances):
             parts = tuple(self._part(glance, painting) for glance in glances)
         else:
-            parts = tuple(part for glance in glances for part in self._askew(glance, aim, painting))
+            parts = tuple(part for glance in glances for part in self._askew(glance, painting))
         self._look_ahead(max(glance.sheet for glance in glances) + 1, painting)
         return parts
 
@@ -129,9 +139,9 @@ class Sheets:
         part = Part(self._brought(glance.sheet, painting), rows, columns)
         return part if glance.share == 1.0 else faded(part, glance.share)
 
-    def _askew(self, glance: Glance, aim: Aim, painting: Painting) -> Iterator[Askew]:
+    def _askew(self, glance: Glance, painting: Painting) -> Iterator[Askew]:
         """Yields a level as it is seen turned, or mirrored, or both ways."""
-        window, rect = glance.window, self._plan.sheets[glance.sheet].rect
+        aim, window, rect = glance.aim, glance.window, self._plan.sheets[glance.sheet].rect
         planes = self._brought(glance.sheet, painting)
         x = window.x - rect.x0 + window.left + window.size[0] * window.step / 2
         y = window.y - rect.y0 + window.top + window.size[1] * window.step / 2

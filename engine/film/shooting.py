@@ -14,6 +14,7 @@ from engine.canvas import layers
 from engine.film import tip_mark
 from engine.film.aim import Aim
 from engine.film.beats import Beat, beats, seen_from
+from engine.film.closing import others
 from engine.film.course import flight, legs_through, length
 from engine.film.replaying import Making, Replaying
 from engine.film.sheets import Parts, Sheets, plan
@@ -92,7 +93,7 @@ class Shooting:
                 assert self._painting is not None
                 painting = replace(self._painting, root=folded_layers(layers.pictured(self._painting.root)))
                 ahead = stack.enter_context(ThreadPoolExecutor(1, "inkfall film ahead"))
-                sheets = Sheets(plan(aims, self._film.size), pool, ahead)
+                sheets = Sheets(plan(aims, self._film.size, others(aims, painting.root)), pool, ahead)
                 yield from _flown(sheets, painting, self._film.size, self.count, pool)
             else:
                 yield from self._made_again(self._film.making, aims, pool)
