@@ -16,23 +16,25 @@ import numpy as np
 from engine.brush.stamp import Edit
 from engine.canvas.attenuate import fold
 from engine.canvas.evaluate import evaluate
-from engine.canvas.front import Around, Patch, climbs, lift, united
+from engine.canvas.front import Around, Patch, climbs, cropped, lift, united
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
 from engine.canvas.store import Attenuation, Change, Level, Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
-from engine.texture.planes import Planes, merged, widened
+from engine.texture.planes import COLOURS, Planes, merged, widened
+from engine.texture.record import Instance
 
 if TYPE_CHECKING:
     from immutables._protocols import MapMutation
 
 Keeps = dict[tuple[int, int], np.ndarray]
-_AT_ONCE = 1 << 22  # pixels of an edit's bounds up to which it is worked on as one rectangle
-_SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together
-_SLAB = TILE << _SLAB_LEVELS
+_AT_ONCE = 96 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
+_FEW = 1 << 18  # pixels of bounds whose inks are not counted: smaller pieces would not be fewer bytes
+_SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together; where much
+# ink lies smaller ones, one level up at least
 _MOST_WAITING = 32  # strokes whose attenuation may wait: beyond, reading a fine tile would take too long
-_MARGIN = 4 << _SLAB_LEVELS  # pixels around a square that its residuals can see, at the coarsest of its levels
+_MARGIN = 4  # pixels around a square that its residuals can see, at the coarsest of its levels
 
 
 def preview(pyramid: Pyramid, edit: Edit, rect: Rect, cache: TileCache | None = None) -> Planes:
@@ -57,7 +59,7 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
     records: NewRecords = {}
     painted: list[Patch] = []
     lifted: list[Patch] = []
-    if tile_bounds(keys).area <= _AT_ONCE:
+    if _at_once(pyramid, edit.level, tile_bounds(keys)):
         painted = paint(pyramid, edit, keys, cache)
         changed = _noted(painted, keeps)
         if painted:
@@ -110,20 +112,57 @@ def _by_slabs(
 ) -> Rect:
     """Commits a large edit, square by square, so that memory does not grow with it.  Returns the bounds of what
     changed."""
-    changed, tops = Rect(0, 0, 0, 0), []
-    for slab in _slabs([key.rect for key in keys]):
-        near = [key for key in keys if key.rect.meets(slab.grown(_MARGIN))]
-        painted = paint(pyramid, edit, near, cache)
+    changed, tops, rects = Rect(0, 0, 0, 0), [], [key.rect for key in keys]
+    squares = _slabs(rects, _SLAB_LEVELS)
+    most = max(_bytes_of_each(len(_inks_near(pyramid, edit.level, square))) for square in squares)
+    climb = _levels_of_slabs(most)
+    for slab in _slabs(rects, climb):
+        seen = slab.grown(_MARGIN << climb)
+        painted = paint(pyramid, edit, [key for key in keys if key.rect.meets(seen)], cache, seen)
         if painted:
-            changed = changed.union(_noted(painted, keeps))
-            levels = climbs(pyramid, edit.level, tile_bounds([patch.key for patch in painted]), cache)
-            tops += _climb_slab(pyramid, painted, None, levels, slab, records)
-    while united(patch.at for patch in tops).area > _AT_ONCE:
+            changed = changed.union(_noted([patch for patch in painted if patch.key.rect.meets(slab)], keeps))
+            levels = climbs(pyramid, edit.level, united(patch.at for patch in painted), cache)
+            tops += _climb_slab(pyramid, painted, None, levels, (slab, climb), records)
+    while _bytes_of(tops) > _AT_ONCE:
         tops = _higher(pyramid, tops, records, cache)
     if tops:
         here, levels = _joined(pyramid, tops, cache)
         _climb_to_the_top(pyramid, tops, here, levels, records)
     return changed
+
+
+def _at_once(pyramid: Pyramid, level: int, rect: Rect) -> bool:
+    """Tells whether an edit of these bounds is worked on as one rectangle."""
+    if rect.area <= _FEW or rect.area * _bytes_of_each(0) > _AT_ONCE:
+        return rect.area * _bytes_of_each(0) <= _AT_ONCE
+    return rect.area * _bytes_of_each(len(_inks_near(pyramid, level, rect))) <= _AT_ONCE
+
+
+def _inks_near(pyramid: Pyramid, level: int, rect: Rect) -> set[Instance]:
+    """Returns the inks that lie in a rectangle of a level, or near it."""
+    found: set[Instance] = set()
+    for k in pyramid.levels:
+        if level - _SLAB_LEVELS <= k <= level:
+            for _, record in pyramid.records(k, rect.zoomed(k - level)):
+                found.update(record.inks)
+    return found
+
+
+def _bytes_of_each(inks: int) -> int:
+    """Counts the bytes of a pixel with so many inks."""
+    return 4 * (COLOURS + 3 * inks)
+
+
+def _bytes_of(patches: Sequence[Patch]) -> int:
+    """Counts the bytes of the planes of all that lies between some patches."""
+    inks = merged(*(patch.new.inks for patch in patches))
+    return united(patch.at for patch in patches).area * _bytes_of_each(len(inks))
+
+
+def _levels_of_slabs(each: int) -> int:
+    """Returns how many levels each square goes up by itself, where a pixel has so many bytes."""
+    fitting = (j for j in range(_SLAB_LEVELS, 1, -1) if (TILE << j) ** 2 * each <= _AT_ONCE)
+    return next(fitting, 1)
 
 
 def _joined(pyramid: Pyramid, patches: Sequence[Patch], cache: TileCache | None) -> tuple[Around, Iterator[Around]]:
@@ -136,14 +175,18 @@ def _joined(pyramid: Pyramid, patches: Sequence[Patch], cache: TileCache | None)
 
 def _higher(pyramid: Pyramid, patches: Sequence[Patch], records: NewRecords, cache: TileCache | None) -> list[Patch]:
     """Patches of one level, far apart, as those of a coarser one: square by square, as the edit itself."""
+    climb = _levels_of_slabs(_bytes_of_each(len(merged(*(patch.new.inks for patch in patches)))))
     squares: dict[Rect, list[Patch]] = {}
     for patch in patches:
-        for slab in _slabs([patch.at]):
+        for slab in _slabs([patch.at], climb):
             squares.setdefault(slab, []).append(patch)
     tops = []
     for slab, near in squares.items():
-        here, levels = _joined(pyramid, near, cache)
-        tops += _climb_slab(pyramid, near, here, levels, slab, records)
+        cut = (cropped(patch, slab.grown(_MARGIN << climb)) for patch in near)
+        parts = [patch for patch in cut if patch is not None]
+        if parts:
+            here, levels = _joined(pyramid, parts, cache)
+            tops += _climb_slab(pyramid, parts, here, levels, (slab, climb), records)
     return tops
 
 
@@ -152,31 +195,31 @@ def _climb_slab(
     patches: Sequence[Patch],
     here: Around | None,
     levels: Iterator[Around],
-    slab: Rect,
+    square: tuple[Rect, int],
     records: NewRecords,
 ) -> list[Patch]:
-    """Stores the residuals of one square, of its own tiles only, at some levels.  Returns the patches within it that
+    """Stores the residuals of one square, of its own tiles only, at so many levels.  Returns the patches within it that
     are left for all together."""
-    for j in range(_SLAB_LEVELS):
+    slab, climb = square
+    for j in range(climb):
         above = next(levels)
         lifted = lift(pyramid, patches, above)
         store(pyramid, patches, here, lifted, above, slab.zoomed(-j), records)
         if not lifted:
             return []
         patches, here = lifted, above
-    return [patch for patch in patches if patch.key.rect.meets(slab.zoomed(-_SLAB_LEVELS))]
+    return [patch for patch in patches if patch.key.rect.meets(slab.zoomed(-climb))]
 
 
-def _slabs(rects: Sequence[Rect]) -> Iterator[Rect]:
-    """Yields the squares of the fixed grid in which pixels can change at any of the levels a square deals with."""
-    places = set()
+def _slabs(rects: Sequence[Rect], climb: int) -> list[Rect]:
+    """Returns the squares of the fixed grid in which pixels can change at any of the levels that a square goes up."""
+    places, side = set(), TILE << climb
     for rect in rects:
-        r = rect.grown(_MARGIN)
-        for y in range(r.y0 // _SLAB, (r.y1 - 1) // _SLAB + 1):
-            for x in range(r.x0 // _SLAB, (r.x1 - 1) // _SLAB + 1):
+        r = rect.grown(_MARGIN << climb)
+        for y in range(r.y0 // side, (r.y1 - 1) // side + 1):
+            for x in range(r.x0 // side, (r.x1 - 1) // side + 1):
                 places.add((y, x))
-    for y, x in sorted(places):
-        yield Rect.at(x * _SLAB, y * _SLAB, _SLAB, _SLAB)
+    return [Rect.at(x * side, y * side, side, side) for y, x in sorted(places)]
 
 
 def _stored_below(pyramid: Pyramid, level: int, rect: Rect) -> bool:

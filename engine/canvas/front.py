@@ -124,6 +124,23 @@ def climbs(pyramid: Pyramid, level: int, rect: Rect, cache: TileCache | None) ->
         level -= _CLIMBS
 
 
+def cropped(patch: Patch, within: Rect) -> Patch | None:
+    """Returns what of a patch lies in an even rectangle; None where nothing changes there."""
+    at, dirty = patch.at.intersect(within), patch.dirty.intersect(within)
+    if at == patch.at or dirty.empty:
+        return None if dirty.empty else patch
+    rows, columns = at.slices(patch.at)
+    spans = np.clip(patch.marks[1][rows] - np.int32(columns.start), 0, at.width)
+    spans[spans[:, 0] >= spans[:, 1]] = _NOWHERE
+    old, new = (
+        None if planes is None else Planes(np.ascontiguousarray(planes.data[:, rows, columns]), planes.inks)
+        for planes in (patch.old, patch.new)
+    )
+    keep, marked = (np.ascontiguousarray(values[rows, columns]) for values in (patch.keep, patch.marks[0]))
+    assert new is not None
+    return Patch(patch.key, at, dirty, old, new, keep, (marked, spans), patch.spares_alpha)
+
+
 def lift(pyramid: Pyramid, patches: Sequence[Patch], above: Around) -> list[Patch]:
     """Rule U: the patches of the level above, whose old values `above` holds; none where nothing changes there."""
     groups: dict[tuple[int, int], list[Patch]] = {}

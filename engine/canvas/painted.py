@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cache
 
 import numpy as np
@@ -11,7 +11,7 @@ from engine.brush.stamp import Edit
 from engine.canvas import kernels
 from engine.canvas.dither import dithering
 from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.front import Patch, blank_marks, placed_extent
+from engine.canvas.front import Patch, blank_marks, cropped, placed_extent
 from engine.canvas.store import Pyramid
 from engine.canvas.tile_cache import TileCache, without_empty_inks
 from engine.numeric.address import TILE, Rect, TileKey
@@ -37,11 +37,17 @@ def tile_bounds(keys: Collection[TileKey]) -> Rect:
     return Rect(min(xs) * TILE, min(ys) * TILE, (max(xs) + 1) * TILE, (max(ys) + 1) * TILE)
 
 
-def paint(pyramid: Pyramid, edit: Edit, keys: Sequence[TileKey], cache: TileCache | None) -> list[Patch]:
-    """(A, B) of an edit applied to some of its tiles: patches of whole tiles, of those in which a pixel changes."""
-    before = _tiles(pyramid, keys, cache)
-    painted = (_painted(pyramid, edit, key, before[key]) for key in keys)
-    return [tile for tile in painted if tile is not None]
+def paint(
+    pyramid: Pyramid, edit: Edit, keys: Sequence[TileKey], cache: TileCache | None, within: Rect | None = None
+) -> list[Patch]:
+    """(A, B) of an edit applied to some of its tiles: patches of whole tiles, of those in which a pixel changes, or of
+    what of them lies `within` an even rectangle."""
+    found: dict[TileKey, Patch | None] = {}
+    for before in _tiles(pyramid, keys, cache):
+        for key, old in before.items():
+            patch = _painted(pyramid, edit, key, old)
+            found[key] = patch if patch is None or within is None else cropped(patch, within)
+    return [patch for key in keys if (patch := found[key]) is not None]
 
 
 def _painted(pyramid: Pyramid, edit: Edit, key: TileKey, old: Planes | None) -> Patch | None:
@@ -64,24 +70,24 @@ def _painted(pyramid: Pyramid, edit: Edit, key: TileKey, old: Planes | None) -> 
     return Patch(key, at, dirty, there, Planes(new, inks), stamp.keep, marks, spares)
 
 
-def _tiles(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:
-    """Returns the present values of tiles of one level."""
-    values: dict[TileKey, Planes | None] = {}
+def _tiles(
+    pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None
+) -> Iterator[Mapping[TileKey, Planes | None]]:
+    """Yields the present values of tiles of one level, some at a time."""
     missing = []
     for key in keys:
         known, value = cache.get(pyramid, key) if cache is not None else (False, None)
         if known:
-            values[key] = value
+            yield {key: value}
         else:
             missing.append(key)
     size, first = _FIRST, 0
     while first < len(missing):
         found = _evaluated(pyramid, missing[first : first + size], cache)
-        values |= found
+        yield found
         first += size
         most = max((value.data.nbytes for value in found.values() if value is not None), default=0)
         size = max(_PIECE // most, 1) if most else _FIRST
-    return values
 
 
 def _evaluated(pyramid: Pyramid, keys: Sequence[TileKey], cache: TileCache | None) -> Mapping[TileKey, Planes | None]:

@@ -54,13 +54,13 @@ class Made(NamedTuple):
 
 def scene(size: int, side: int) -> Scene:
     """A map of `size` pixels along, examples of `side`."""
-    exemplars = tuple(_exemplar(name, side) for name in NAMES)
+    exemplars = tuple(exemplar(name, side) for name in NAMES)
     labels = np.hstack([(k + 1) * exemplar.mask for k, exemplar in enumerate(exemplars)])
     texture = np.hstack([over_paper(premultiplied(exemplar.pixels)) for exemplar in exemplars])
     return Scene(exemplars, labels, texture, drawn(size))
 
 
-def _exemplar(name: str, side: int) -> Exemplar:
+def exemplar(name: str, side: int) -> Exemplar:
     """A bundled example reduced, with as many levels as its size asks for."""
     size = side, side
     small = Image.open(FOLDER / f"{name}.png").convert("RGBa").resize(size, Image.Resampling.BOX).convert("RGBA")
