@@ -172,6 +172,7 @@ class SetLayer:
     wrap: SourcePart | Same | None = Same.SAME
     placing: Placing | None = None
     extra: Extra = NO_EXTRA
+    selected: str | None = None  # what is selected of a layer goes to the place, as "cut" or as a "copy"
 
     @property
     def changes(self) -> Members:
@@ -196,14 +197,19 @@ def _new_name(members: Fields) -> Members:
 
 def _copy(members: Fields) -> Members:
     placing = read_placing(members)
-    selected = members.take("selected", None)
-    if selected is not None and selected not in SELECTED:
-        raise members.fault("selected", " or ".join(f'"{known}"' for known in SELECTED))
+    selected = _selected(members)
     aside = members.flag("aside", False)
     if aside and selected is None:
         raise members.fault("aside", 'true only with "selected"')
     given = None if placing == Placing() else placing
     return {**_new_name(members), "placing": given, "selected": selected, "aside": aside}
+
+
+def _selected(members: Fields) -> str | None:
+    selected = members.take("selected", None)
+    if selected is not None and selected not in SELECTED:
+        raise members.fault("selected", " or ".join(f'"{known}"' for known in SELECTED))
+    return None if selected is None else str(selected)
 
 
 def _group(members: Fields) -> str | Same | None:
@@ -264,6 +270,10 @@ def _settings(members: Fields) -> Members:
     placing = read_placing(members)
     if placing != Placing():
         settings["placing"] = placing
+    if selected := _selected(members):
+        if "placing" not in settings:
+            raise members.fault("selected", "it only with a place that it goes to")
+        settings["selected"] = selected
     if not settings:
         known = ", ".join([*(row[0] for row in _SETTABLE), *PLACED])
         raise FieldError(members.place, "nothing to set", f"any of {known}")
@@ -362,5 +372,5 @@ def version(command: LayerCommand) -> int:
     newer = isinstance(command, SetLayer) and bool({"role", "clip", "wrap"} & command.changes.keys())
     newer |= isinstance(command, SetLayer) and command.mask is not None
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
-    newer |= isinstance(command, DuplicateLayer) and command.selected is not None
+    newer |= isinstance(command, SetLayer | DuplicateLayer) and command.selected is not None
     return 2 if newer or isinstance(command, _OF_VERSION_2) else 1

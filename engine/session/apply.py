@@ -24,6 +24,7 @@ from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.copied_part import lifted, pasted
+from engine.session.lifting.moved_part import part_moved
 from engine.session.masking import mask_for
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
@@ -194,15 +195,22 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
         changes = {**changes, "mask": mask_for(painting, command)}
     if command.placing is not None:
         node = layers.find(painting.root, command.name)
-        if isinstance(node, Placement):
+        if isinstance(node, Placement) and command.selected is None:
             changes = {**changes, **_placed(painting.root, node, command.placing)}
         else:
             if layers.is_locked(painting.root, command.name):
                 raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
-            painting = elsewhere(painting, node, command.placing)
+            painting = _moved(painting, node, command.placing, command.selected)
     if not changes:
         return _shown(painting)
     return _shown(replace(painting, root=layers.set_fields(painting.root, command.name, **changes)))
+
+
+def _moved(painting: Painting, node: Node, placing: c.Placing, selected: str | None) -> Painting:
+    if selected is None and not isinstance(node, Placement):
+        return elsewhere(painting, node, placing)
+    assert selected is not None
+    return part_moved(painting, node, placing, selected)
 
 
 def _texture(painting: Painting, command: c.DefineTexture, around: Around) -> Painting:

@@ -10,6 +10,7 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.cleared import without
 from engine.canvas.node_checks import LayerError
+from engine.canvas.store import Pyramid
 from engine.checks.roles import COPIED
 from engine.painting.commands import DuplicateLayer
 from engine.painting.layer_commands import CUT
@@ -25,10 +26,7 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
     node = layers.find(painting.root, command.name)
     if not isinstance(node, Layer):
         raise LayerError(f"layer {command.name!r}: found no layer of paint, expected one to copy from")
-    paint = (flattened(node) if node.growth else node).pyramid
-    part = paint if painting.selection is None else without(paint, painting.selection.inverted())
-    if paint.coarsest is not None and fold(part).coarsest is None:
-        raise LayerError(f"layer {command.name!r}: found no paint where it is selected, expected some to copy")
+    part = selected_paint(painting, node)
     number, role = layers.next_id(painting.root), COPIED if command.aside else ""
     made = replace(
         node, id=number, name=command.to, locked=False, role=role, visible=not role, pyramid=part.branched(), growth=()
@@ -41,6 +39,15 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
         return replace(painting, root=root)
     root = layers.insert(painting.root, made, group, position + 1)
     return replace(painting, root=root, active=command.to)
+
+
+def selected_paint(painting: Painting, node: Layer) -> Pyramid:
+    """Returns what is selected of a layer's paint, all of it where nothing is.  LayerError if there is none."""
+    paint = (flattened(node) if node.growth else node).pyramid
+    part = paint if painting.selection is None else without(paint, painting.selection.inverted())
+    if paint.coarsest is not None and fold(part).coarsest is None:
+        raise LayerError(f"layer {node.name!r}: found no paint where it is selected, expected some to copy")
+    return part
 
 
 def pasted(painting: Painting, node: Layer, to: str) -> Painting:

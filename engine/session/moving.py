@@ -32,7 +32,7 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
         mask = None if node.mask is None else replace(node.mask, pyramid=baked(node.mask.pyramid, pose.similarity))
         here = replace(node, pyramid=baked(paint, pose.similarity), growth=(), mask=mask)
         return replace(painting, root=layers.substitute(painting.root, node.name, here))
-    return replace(painting, root=_shown_from_beside(painting.root, node, pose))
+    return replace(painting, root=shown_from_beside(painting.root, node, pose))
 
 
 def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -> Painting:
@@ -43,7 +43,7 @@ def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -
     elif isinstance(node, Placement):
         root = layers.substitute(painting.root, name, replace(node, pose=placing.posed(node.pose)))
     else:
-        root = _shown_from_beside(painting.root, node, placing.posed(UNMOVED))
+        root = shown_from_beside(painting.root, node, placing.posed(UNMOVED))
     return replace(painting, root=root)
 
 
@@ -61,7 +61,7 @@ def _shown_besides(root: Group, node: Node, placing: Placing) -> Group:
     return layers.insert(root, shown, group, position + 1)
 
 
-def _shown_from_beside(root: Group, node: Layer | Group, pose: Pose) -> Group:
+def shown_from_beside(root: Group, node: Layer | Group, pose: Pose) -> Group:
     """Returns the tree with a placement in a node's place, right above the node, which is hidden."""
     source = replace(node, name=layers.free_name(root, f"{node.name} (source)"), visible=False)
     shown = Placement(

@@ -13,6 +13,7 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
+from engine.canvas.selecting.selection import EVERYTHING
 from engine.canvas.store import Pyramid
 from engine.checks.owned import Owned
 from engine.painting import commands as c
@@ -133,6 +134,8 @@ class Steps(Owned):
             return self._after_stroke(step, command)
         if isinstance(command, c.Select):  # what is selected depends on paint, which is not here
             return replace(now, step=step, active=now.painting.active)
+        if isinstance(command, c.SetLayer) and command.selected is not None:
+            return self._after_part(step, command)
         painting, laid = _applied(now.painting, command), now.laid
         if isinstance(command, c.DuplicateLayer) and painting is not now.painting:
             copied = _applied(now.painting, replace(command, placing=None))  # moved, they have the same numbers
@@ -143,6 +146,16 @@ class Steps(Owned):
         ):  # a later layer may get the number of one that is gone
             held = {node.id for node in layers.walk(painting.root)}
             laid = Map({number: last for number, last in laid.items() if number in held})
+        return _State(painting, step, laid, painting.active)
+
+    def _after_part(self, step: LoggedStep, command: c.SetLayer) -> _State:
+        """Returns the state after what is selected of a layer was moved: on a layer of its own, all that was laid on
+        the layer may be."""
+        now, chosen = self._now, replace(self._now.painting, selection=EVERYTHING)
+        painting, laid = replace(_applied(chosen, command), selection=None), now.laid
+        for node in layers.layers(painting.root):
+            if not layers.has(now.painting.root, node.name):
+                laid = laid.set(node.id, laid.get(layers.find(now.painting.root, command.name).id))
         return _State(painting, step, laid, painting.active)
 
     def _after_stroke(self, step: LoggedStep, stroke: c.Stroke | c.Fill) -> _State:

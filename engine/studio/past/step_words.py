@@ -80,6 +80,8 @@ def _selecting(command: c.Select) -> str:
 def _setting(command: c.SetLayer) -> str:
     """Returns what of a layer was set, of several things the first."""
     name, changes = command.name, command.changes
+    if command.selected is not None:
+        return f"{'Copy' if command.selected == 'copy' else 'Move'} a part of “{name}”"
     if command.placing is not None:
         return f"Move “{name}”"
     if "role" in changes:

@@ -94,6 +94,13 @@ COMMANDS = st.one_of(
         c.DuplicateLayer, names, names, st.none() | placings.filter(lambda placing: placing != c.Placing()), later
     ),
     st.builds(c.DuplicateLayer, names, names, extra=later, selected=st.sampled_from(SELECTED), aside=st.booleans()),
+    st.builds(
+        c.SetLayer,
+        names,
+        placing=placings.filter(lambda placing: placing != c.Placing()),
+        selected=st.sampled_from(SELECTED),
+        extra=later,
+    ),
     st.builds(c.MoveLayer, names, positions, groups, later),
     st.builds(
         c.SetLayer,

@@ -1,0 +1,102 @@
+"""What is selected of a layer, moved: within the layer where that is exact, else shown above it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from engine.canvas import layers
+from engine.canvas.flatten import flattened
+from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.merging.laid import laid_over
+from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.bake import baked
+from engine.canvas.placing.baking import paint_of
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import UNMOVED, Pose
+from engine.canvas.selecting.selection import Selection
+from engine.canvas.store import Pyramid
+from engine.numeric.address import Rect
+from engine.painting.layer_commands import CUT
+from engine.painting.layering.placing_members import Placing
+from engine.painting.value import Painting
+from engine.session.copied_part import selected_paint
+from engine.session.merging import cleared
+from engine.session.moving import shown_from_beside
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LiftedPart:
+    """`layer`: as it is left; `part`: what of it was selected; `selection`: which that was."""
+
+    layer: Layer
+    part: Pyramid
+    selection: Selection
+
+
+def lifted_part(painting: Painting, node: Node, way: str) -> LiftedPart:
+    """Returns what is selected of a layer taken out of it, or "copy": of it as it stays.  LayerError if it cannot be,
+    or there is none."""
+    if not isinstance(node, Layer):
+        raise LayerError(f"layer {node.name!r}: found no layer of paint, expected one to move a part of")
+    if layers.is_locked(painting.root, node.name):
+        raise LayerError(f"layer {node.name!r}: found it locked, expected one that is not")
+    if node.wrap is not None:
+        raise LayerError(f"layer {node.name!r}: found it wrapped around, expected wrap-around off before it is moved")
+    if painting.selection is None:
+        raise LayerError(f"layer {node.name!r}: found nothing selected, expected a part of it to move")
+    part = selected_paint(painting, node)
+    left = layers.find((cleared(painting, node.name) if way == CUT else painting).root, node.name)
+    assert isinstance(left, Layer)
+    left = flattened(left) if left.growth else left
+    return LiftedPart(left, part, painting.selection)
+
+
+def part_moved(painting: Painting, node: Node, placing: Placing, way: str) -> Painting:
+    """Returns the painting with what is selected of a layer elsewhere, and selected there; `way`: as a `SetLayer` has
+    it.
+
+    By quarter turns and powers of two it is laid into the layer, its very pixels.  Else it becomes a layer above it,
+    hidden, and a placement shows that.
+    """
+    lifted, pose = lifted_part(painting, node, way), placing.posed(UNMOVED)
+    root = painting.root
+    chosen = _selection_at(lifted.selection, pose, painting.frame, painting.grid)
+    if pose.similarity.quarter is not None:
+        paint = laid_over(lifted.layer.pyramid, baked(lifted.part, pose.similarity))
+        root = layers.substitute(root, node.name, replace(lifted.layer, pyramid=paint))
+        return replace(painting, root=root, selection=chosen)
+    return replace(_with_part_above(painting, lifted, pose), selection=chosen)
+
+
+def _with_part_above(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
+    """Returns the painting with what was taken out of a layer on one above it, which a placement shows."""
+    root, name = painting.root, layers.free_name(painting.root, f"{lifted.layer.name} part")
+    made = replace(lifted.layer, id=layers.next_id(root), name=name, pyramid=lifted.part.branched())
+    group, position = layers.place(root, lifted.layer.name)
+    root = layers.insert(layers.substitute(root, lifted.layer.name, lifted.layer), made, group, position + 1)
+    return replace(painting, root=shown_from_beside(root, made, pose), active=name)
+
+
+def part_tried(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
+    """Returns how a painting looks with what was taken out of a layer elsewhere, made at once: no paint is touched."""
+    if pose.similarity.quarter is None:
+        return _with_part_above(painting, lifted, pose)
+    node, number = lifted.layer, layers.next_id(painting.root)
+    names = [layers.free_name(painting.root, f"{node.name} {word}") for word in ("left", "taken", "seen")]
+    left = Layer(number, names[0], pyramid=node.pyramid)
+    taken = Layer(number + 1, names[1], visible=False, pyramid=lifted.part)
+    seen = Placement(number + 2, names[2], of=taken.id, pose=pose)
+    shown = Group(
+        node.id, node.name, node.opacity, node.visible, node.blend, node.locked,
+        children=(left, taken, seen), clip=node.clip, mask=node.mask,
+    )  # fmt: skip
+    return replace(painting, root=layers.substitute(painting.root, node.name, shown))
+
+
+def _selection_at(selection: Selection, pose: Pose, frame: Rect, grid: int) -> Selection:
+    """Returns a selection as a pose shows it."""
+    if pose.similarity.quarter is not None:
+        return replace(selection, pyramid=baked(selection.pyramid, pose.similarity))
+    held = Layer(1, "selection", pyramid=selection.pyramid)
+    shown = Placement(2, "shown", of=held.id, pose=pose)
+    return replace(selection, pyramid=paint_of(Group(0, "root", children=(held, shown)), shown, frame, grid))
