@@ -166,9 +166,8 @@ def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, .
 
 def masked(plan: tuple[CompositeStep, ...], node: Node) -> tuple[CompositeStep, ...]:
     """Returns the steps of a node's picture with its mask taken off them."""
-    if isinstance(node, Placement) or node.mask is None or not plan:
-        return plan
-    return (*plan, CompositeStep(blend.BLENDS["dst-in"], np.float32(1), Mask(node.mask), False))
+    mask = Mask.of(node) if plan else None
+    return plan if mask is None else (*plan, CompositeStep(blend.BLENDS["dst-in"], np.float32(1), mask, False))
 
 
 def _source(node: Node, sources: Sources) -> Layer | Placed | tuple[CompositeStep, ...]:
@@ -284,7 +283,7 @@ def _pixels(source: _Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np
     if isinstance(source, Paper):
         return source.planes(rect)
     if isinstance(source, Mask):
-        return source.planes(level, rect, seen)
+        return source.planes(read, level, rect, seen)
     if isinstance(source, Layer):
         return looked_through(repeated(partial(read, source), source.wrap), level, rect, seen)
     plan, through = source.steps, seen.of(source.placement)

@@ -110,7 +110,12 @@ def passes_through(group: Group) -> bool:
 
     OpenRaster's `isolation="auto"`: a group is isolated as soon as its opacity or operator need it as one picture.
     """
-    return not group.isolated and group.opacity == 1 and group.blend == "src-over" and group.mask is None
+    return (
+        not group.isolated
+        and group.opacity == 1
+        and group.blend == "src-over"
+        and (group.mask is None or group.mask.off)
+    )
 
 
 def isolation(group: Group) -> str:
@@ -359,14 +364,18 @@ def duplicate(root: Group, name: str, to: str) -> Group:
         number = ids[node.id]
         if isinstance(node, Layer):
             # Its own line of history from here on, so that caches keep both.
-            return replace(node, id=number, name=called, pyramid=node.pyramid.branched())
+            return replace(node, id=number, name=called, pyramid=node.pyramid.branched(), mask=_branched(node.mask))
         if isinstance(node, Placement):
             of = None if node.of is None else ids.get(node.of, node.of)
             return replace(node, id=number, name=called, of=of)
         inside = tuple(copy(child, free(child.name)) for child in node.children)
-        return replace(node, id=number, name=called, children=inside)
+        return replace(node, id=number, name=called, children=inside, mask=_branched(node.mask))
 
     return insert(root, copy(original, to), group, position + 1)
+
+
+def _branched(mask: Selection | None) -> Selection | None:
+    return None if mask is None else replace(mask, pyramid=mask.pyramid.branched())
 
 
 def checked(root: Group) -> Group:

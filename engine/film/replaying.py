@@ -121,7 +121,9 @@ class Replaying:
         return True
 
     def _begun(self, stroke: c.Stroke) -> Live:
-        live = self._session.begin(stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed, stroke.copies)
+        live = self._session.begin(
+            stroke.level, stroke.origin, stroke.brush, stroke.layer, stroke.seed, stroke.copies, stroke.onto
+        )
         live.extra = stroke.extra
         return live
 

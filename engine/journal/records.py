@@ -19,6 +19,7 @@ from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields, dumps, loads
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, Command, Stroke, parse, to_json
+from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.points import POINT_COLUMNS
 from engine.painting.stroke_copies import read_copies, write_copies
 
@@ -51,7 +52,7 @@ class Kind(IntEnum):
 @dataclass(frozen=True, slots=True)
 class Touch:
     """How a stroke begins: where, with what brush, and when, where the window tells (seconds since 1970); `layer`: None
-    for the active one."""
+    for the active one; `onto`: its paint or its mask."""
 
     level: int
     origin: tuple[int, int]
@@ -59,6 +60,7 @@ class Touch:
     time: float | None = None
     copies: Copies = NO_COPIES
     layer: str | None = None
+    onto: str = ONTO_PAINT
 
 
 def told_object(value: Mapping[str, object]) -> bytes:
@@ -123,6 +125,8 @@ def told_touch(touch: Touch, brush: str) -> bytes:
         about["copies"] = write_copies(touch.copies)
     if touch.layer is not None:
         about["layer"] = touch.layer
+    if touch.onto:
+        about["onto"] = touch.onto
     text = told_object(about)
     return LENGTH.pack(len(text)) + text + brush.encode()
 
@@ -139,5 +143,5 @@ def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
     level = members.integer("level", lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
     origin = members.integers("origin", 2, limit=PLACE_LIMIT)
     layer = None if members.take("layer", None) is None else members.text("layer")
-    copies = read_copies(members)
-    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None), copies, layer)
+    copies, onto = read_copies(members), read_onto(members)
+    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None), copies, layer, onto)

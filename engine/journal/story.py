@@ -146,7 +146,7 @@ class _Reader:
         touch, extra = asked.touch, frozen(members.take("extra", {}))
         points.flags.writeable = False
         self.story.commands.append(
-            Stroke(touch.level, touch.origin, points, touch.brush, layer, seed, extra, touch.copies)
+            Stroke(touch.level, touch.origin, points, touch.brush, layer, seed, extra, touch.copies, touch.onto)
         )
         asked.taken += count
         if last:

@@ -41,6 +41,7 @@ from engine.painting.layer_commands import SelectLayer as SelectLayer
 from engine.painting.layer_commands import SetLayer as SetLayer
 from engine.painting.layering.frame_command import SetFrame as SetFrame
 from engine.painting.layering.frame_command import read_frame, write_frame
+from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.layering.paper_command import SetPaper as SetPaper
 from engine.painting.layering.paper_command import read_set_paper, write_set_paper
 from engine.painting.layering.placing_members import Placing as Placing
@@ -64,7 +65,7 @@ class Stroke:
     """One stroke.  `points`: float64 (n, 6), read-only, columns as POINT_COLUMNS, in pixels of `level` from `origin`.
 
     `layer`: its name, None for the active one.  `seed`: of the ink's textures; None for the painting's.
-    `copies`: where it is drawn again, in the same step.
+    `copies`: where it is drawn again, in the same step.  `onto`: the layer's paint, or its mask.
     """
 
     level: int
@@ -75,6 +76,7 @@ class Stroke:
     seed: int | None = None
     extra: Map[str, Any] = _NOTHING
     copies: Copies = NO_COPIES
+    onto: str = ONTO_PAINT
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Stroke):
@@ -167,8 +169,8 @@ def _read_stroke(members: Fields) -> Stroke:
     brush = _read_brush(members)
     layer = None if members.take("layer", None) is None else members.text("layer")
     seed = None if members.take("seed", None) is None else members.integer("seed", lo=-SEED_LIMIT, hi=SEED_LIMIT)
-    copies = read_copies(members)
-    return Stroke(level, origin, points, brush, layer, seed, members.rest(), copies)
+    copies, onto = read_copies(members), read_onto(members)
+    return Stroke(level, origin, points, brush, layer, seed, members.rest(), copies, onto)
 
 
 def _read_brush(members: Fields) -> Brush:
@@ -183,6 +185,8 @@ def _write_stroke(stroke: Stroke) -> dict[str, Any]:
         out["seed"] = stroke.seed
     if stroke.copies:
         out["copies"] = write_copies(stroke.copies)
+    if stroke.onto:
+        out["onto"] = stroke.onto
     return {
         **out,
         "brush": settings.to_json(stroke.brush),

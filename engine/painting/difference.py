@@ -12,6 +12,8 @@ from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import Seen
 from engine.canvas.placing.views import Views, mapped
+from engine.canvas.selecting.mask_sheet import MaskSheet, sheet_of
+from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Change, changes_between
 from engine.numeric.address import Rect
 from engine.painting.value import Painting
@@ -24,12 +26,12 @@ def areas(old: Painting, new: Painting) -> Areas:
     pairs = _pairs(old.root, new.root)
     # Not the layers themselves: who asks for areas later does not want to hold the old painting until then.
     found = None if pairs is None else {b.id: _Changed.of(a, b) for a, b in pairs}
-    repeated = any(b.wrap is not None for _, b in pairs or ())
     views = Views(new.root)
+    anywhere = any(b.wrap is not None or (views.any and isinstance(b, MaskSheet)) for _, b in pairs or ())
 
     @cache  # it is asked for every tile on the screen
     def where(level: int) -> list[Rect] | None:
-        if found is None or repeated:
+        if found is None or anywhere:
             return None
         own = [rect for changed in found.values() for rect in changed.rects(level)]
         ways = views.of(level) if views.any else iter(())
@@ -70,8 +72,12 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
         return []
     if len(old.children) != len(new.children) or _plain(old) != _plain(new):
         return None
-    out = []
+    out: list[tuple[Layer, Layer]] = []
     for a, b in zip(old.children, new.children, strict=True):
+        if not isinstance(a, Placement) and not isinstance(b, Placement) and a.mask is not b.mask:
+            if not _one_line(a.mask, b.mask):
+                return None
+            out.append((sheet_of(a), sheet_of(b)))
         if isinstance(a, Group) and isinstance(b, Group):
             inner = _pairs(a, b)
             if inner is None:
@@ -87,6 +93,13 @@ def _pairs(old: Group, new: Group) -> list[tuple[Layer, Layer]] | None:
     return out
 
 
+def _one_line(old: Selection | None, new: Selection | None) -> bool:
+    """Tells whether two masks are states of one, which was painted on."""
+    if old is None or new is None or (old.inverse, old.off) != (new.inverse, new.off):
+        return False
+    return old.pyramid.uid == new.pyramid.uid
+
+
 def _plain(node: Node) -> tuple[Any, ...]:
     """Returns what of a node shows, besides its paint."""
     return (
@@ -96,6 +109,5 @@ def _plain(node: Node) -> tuple[Any, ...]:
         node.blend,
         node.clip,
         isinstance(node, Layer) and node.wrap,
-        None if isinstance(node, Placement) else node.mask,
         isinstance(node, Group) and (node.isolated, node.paper),
     )

@@ -12,6 +12,7 @@ from engine.brush.checks import thawed
 from engine.brush.settings import Brush
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
+from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.layering.placing_members import Same
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.points import plain
@@ -43,7 +44,7 @@ class Like:
 @dataclass(frozen=True, slots=True)
 class Fill:
     """Fills a region, or (without `like`) what is selected, at `level`, with a brush, on a layer (None: the active
-    one).  `open`: even if the region reaches the border of where it is looked for."""
+    one), or `onto` its mask.  `open`: even if the region reaches the border of where it is looked for."""
 
     brush: Brush
     like: Like | None = None
@@ -51,6 +52,7 @@ class Fill:
     layer: str | None = None
     level: int = 0
     extra: Map[str, Any] = _NOTHING
+    onto: str = ONTO_PAINT
 
 
 def place_of(fill: Fill) -> tuple[int, Rect | None]:
@@ -108,6 +110,7 @@ def read_fill(members: Fields) -> Fill:
         members.flag("open", False),
         None if members.take("layer", None) is None else members.text("layer"),
         members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT) if like is None else 0,
+        onto=read_onto(members),
         extra=members.rest(),
     )
 
@@ -123,4 +126,6 @@ def write_fill(fill: Fill) -> dict[str, Any]:
         out["open"] = True
     if fill.layer is not None:
         out["layer"] = fill.layer
+    if fill.onto:
+        out["onto"] = fill.onto
     return {**out, **thawed(fill.extra)}

@@ -11,7 +11,8 @@ from immutables import Map
 from engine.brush.checks import thawed
 from engine.canvas.placing.pose import SourcePart
 from engine.checks.field_error import FieldError
-from engine.files.strict_json import Fields, is_name
+from engine.files.strict_json import Fields
+from engine.painting.layering.mask_member import MaskValue, read_mask, write_mask
 from engine.painting.layering.placing_members import (
     PLACED,
     Members,
@@ -167,7 +168,7 @@ class SetLayer:
     alpha_locked: bool | None = None
     isolated: bool | None = None
     clip: bool | None = None
-    mask: str | bool | None = None  # a selection that is kept; True: what is selected; False: none
+    mask: MaskValue | None = None
     role: str | None = None
     wrap: SourcePart | Same | None = Same.SAME
     placing: Placing | None = None
@@ -237,15 +238,6 @@ def _role(members: Fields, name: str) -> str:
     return "" if members.take(name) in (None, "") else str(members.text(name))
 
 
-def _mask(members: Fields, name: str) -> str | bool:
-    wanted = members.take(name)
-    if wanted is None or wanted is True:
-        return wanted is True
-    if not is_name(wanted):
-        raise members.fault(name, "the name of a selection, true for what is selected, or null for none")
-    return str(wanted)
-
-
 def _opacity(members: Fields, name: str) -> float:
     out: float = members.number(name, lo=0.0, hi=1.0)
     return out
@@ -259,7 +251,7 @@ _SETTABLE: tuple[tuple[str, Reader], ...] = (
     ("alpha_locked", Fields.flag),
     ("isolated", Fields.flag),
     ("clip", Fields.flag),
-    ("mask", _mask),
+    ("mask", read_mask),
     ("role", _role),
     ("wrap", read_part),
 )
@@ -362,8 +354,8 @@ def write_layer(command: LayerCommand) -> Members:
             out[f.name] = write_part(value)
         elif f.name not in ("name", "extra") and value != f.default:
             out[f.name] = None if value == "" else list(value) if isinstance(value, tuple) else value
-    if out.get("mask") is False:
-        out["mask"] = None
+    if isinstance(command, SetLayer) and command.mask is not None:
+        out["mask"] = write_mask(command.mask)
     return {**out, **thawed(command.extra)}
 
 

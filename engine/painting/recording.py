@@ -116,7 +116,7 @@ def version_of(command: Command) -> int:
     region = isinstance(command, DefineTexture) and ("region" in command.arguments or command.maker == "gradient")
     if isinstance(command, LayerCommand):
         return layer_version(command)
-    copied = isinstance(command, Stroke) and bool(command.copies)
+    copied = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto))
     return 2 if region or copied or isinstance(command, _OF_VERSION_2) else 1
 
 

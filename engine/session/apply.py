@@ -25,7 +25,7 @@ from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
 from engine.session.copied_part import lifted, pasted
 from engine.session.lifting.moved_part import part_moved
-from engine.session.masking import mask_for
+from engine.session.masking import mask_for, with_mask_applied
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture
@@ -64,6 +64,7 @@ def _stroke(painting: Painting, command: c.Stroke, around: Around) -> Painting:
         command.layer,
         command.seed,
         command.copies,
+        command.onto,
     )
     live.lay(command.points)
     return live.commit()
@@ -192,6 +193,7 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
     if "blend" in changes:
         changes = {**changes, "blend": changes["blend"].removeprefix("svg:")}
     if command.mask is not None:
+        painting = with_mask_applied(painting, command)
         changes = {**changes, "mask": mask_for(painting, command)}
     if command.placing is not None:
         node = layers.find(painting.root, command.name)

@@ -1,12 +1,20 @@
-"""Which selection a layer is to have for its mask."""
+"""What a command makes of a layer's mask."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from engine.canvas import layers
+from engine.canvas.flatten import flattened
+from engine.canvas.layers import Group, Layer
+from engine.canvas.merging.cleared import without
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.placement import Placement
+from engine.canvas.selecting.mask_sheet import sheet_of
 from engine.canvas.selecting.selection import Selection
+from engine.canvas.store import Pyramid
 from engine.painting import commands as c
+from engine.painting.layering.mask_member import MASK_APPLY, MASK_EMPTY, MASK_FULL, MASK_INVERT, MASK_OFF, MaskOp
 from engine.painting.value import Painting
 
 
@@ -15,12 +23,53 @@ def mask_for(painting: Painting, command: c.SetLayer) -> Selection | None:
     name, wanted = command.name, command.mask
     if isinstance(layers.find(painting.root, name), Placement):
         raise LayerError(f"layer {name!r}: found a placement, expected a layer or group to mask, as what it shows")
+    if isinstance(wanted, MaskOp):
+        return _changed(painting, name, wanted.op)
     if wanted is False:
         return None
     if wanted is True:
         if painting.selection is None:
             raise LayerError(f"layer {name!r}: mask: found nothing selected, expected a selection")
-        return painting.selection
+        return _own(painting.selection)
     if wanted is None or wanted not in painting.selections:
         raise LayerError(f"layer {name!r}: mask: found {wanted!r}, expected the name of a selection that is kept")
-    return painting.selections[wanted]
+    return _own(painting.selections[wanted])
+
+
+def with_mask_applied(painting: Painting, command: c.SetLayer) -> Painting:
+    """Returns the painting without the paint that a layer's mask hides, if a command asks for that; else itself.
+
+    At the level of the mask's finest detail that is exact; coarser levels follow, finer ones as under an eraser.
+    """
+    if command.mask != MaskOp(MASK_APPLY):
+        return painting
+    node = layers.find(painting.root, command.name)
+    sheet_of(node)
+    if not isinstance(node, Layer):
+        raise LayerError(
+            f"layer {node.name!r}: found a group, expected a layer of paint to take off what its mask hides"
+        )
+    if layers.is_locked(painting.root, node.name):
+        raise LayerError(f"layer {node.name!r}: found it locked, expected one that is not")
+    assert node.mask is not None
+    paint = flattened(node).pyramid if node.growth else node.pyramid
+    left = without(paint, node.mask.inverted())
+    made = node if left is node.pyramid else replace(node, pyramid=left, growth=())
+    return replace(painting, root=layers.substitute(painting.root, node.name, made))
+
+
+def _own(selection: Selection) -> Selection:
+    """Returns the same on a line of history of its own: it is painted on, and the selection is not."""
+    return replace(selection, pyramid=selection.pyramid.branched())
+
+
+def _changed(painting: Painting, name: str, op: str) -> Selection | None:
+    if op in (MASK_FULL, MASK_EMPTY):
+        return Selection(Pyramid(grid=painting.grid), inverse=op == MASK_FULL)
+    node = layers.find(painting.root, name)
+    assert isinstance(node, Layer | Group)
+    sheet_of(node)
+    assert node.mask is not None
+    if op == MASK_INVERT:
+        return node.mask.inverted()
+    return None if op == MASK_APPLY else replace(node.mask, off=op == MASK_OFF)

@@ -20,6 +20,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.checks.owned import Owned
 from engine.keeping import memory
 from engine.painting import commands as c
+from engine.painting.layering.onto_member import ONTO_PAINT
 from engine.painting.recording import Recording
 from engine.painting.textures import Around, recorded
 from engine.painting.value import Painting, blank, header_for
@@ -110,9 +111,10 @@ class Session(Owned):
         layer: str | None = None,
         seed: int | None = None,
         copies: Copies = NO_COPIES,
+        onto: str = ONTO_PAINT,
     ) -> Live:
         """Returns a stroke whose points are still to come; hand it to `finish`."""
-        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed, copies)
+        return kind_of(brush)(self.painting, level, origin, brush, self.cache, layer, seed, copies, onto)
 
     def finish(self, live: Live) -> Painting:
         """Returns the stroke done: the same as its command, without doing the work twice.  One without a point is

@@ -160,6 +160,8 @@ class Steps(Owned):
 
     def _after_stroke(self, step: LoggedStep, stroke: c.Stroke | c.Fill) -> _State:
         now = self._now
+        if stroke.onto:  # no paint: it is nothing that shows
+            return replace(now, step=step)
         try:
             painting, layer = layer_for(now.painting, stroke.layer)
         except (Refusal, LayerError):  # the log is of another painting

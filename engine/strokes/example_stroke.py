@@ -21,6 +21,7 @@ from engine.painting.value import Painting, Refusal, layer_for
 from engine.strokes.bed import Bed, Change
 from engine.strokes.example_textures import KIND, exemplar_of, key_of
 from engine.strokes.live_stroke import Drawn
+from engine.strokes.mask_painting import insist_on_paint
 from engine.strokes.paint_stroke import LiveStroke
 from engine.texture.example.exemplar import Exemplar
 
@@ -53,6 +54,7 @@ class LiveGrowth(Drawn):
     flattened = False  # what the layer has of examples stays that
 
     def _begin(self) -> None:
+        insist_on_paint(self.layer, "stroke")
         check_alpha(self.layer, "stroke")
         brush, level, painting = self.brush, self.level, self.before
         grid = grid_of(brush, level)

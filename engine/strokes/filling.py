@@ -20,15 +20,17 @@ from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Layer
 from engine.canvas.selecting.limit import Limit
+from engine.canvas.selecting.mask_sheet import repainted
 from engine.canvas.selecting.occupied import alpha_at
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import Fill
 from engine.painting.grown import threads
-from engine.painting.value import Painting, Refusal, layer_for
+from engine.painting.value import Painting, Refusal
 from engine.strokes.bed import Change, lies_in
 from engine.strokes.example_stroke import change_of, check_alpha, grid_of, kind_of
 from engine.strokes.likeness import alike, taken, thinned
+from engine.strokes.mask_painting import edit_of, greys_of, insist_on_paint, sheet_for
 from engine.strokes.paint_stroke import LiveStroke
 from engine.strokes.scenery import reader
 from engine.texture.planes import Planes
@@ -41,16 +43,17 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
     """
     brush = command.brush
     edits.check(brush)
-    base, layer = layer_for(painting, command.layer, "fill")
+    base, layer = sheet_for(painting, command.layer, command.onto, "fill")
     grows = kind_of(brush) is not LiveStroke
     if grows:
+        insist_on_paint(layer, "fill")
         check_alpha(layer, "fill")
     region, limit = _region(painting, command, cache)
     pouring = Pouring(painting, layer, brush, cache, limit)
     after = pouring.grown(region) if grows else pouring.painted(region)
     root = base.root
     if after.pyramid is not layer.pyramid:
-        root = layers.with_pyramid(root, layer.name, after.pyramid)
+        root = repainted(root, layer, after.pyramid)
     if after.growth is not layer.growth:
         root = layers.with_growth(root, layer.name, after.growth)
     return base if root is base.root else replace(base, root=root)
@@ -120,9 +123,9 @@ class Pouring:
         scene = self._scene(made.looks(brush, ink), coverage)
 
         def read(rect: Rect) -> Planes:
-            return evaluate.evaluate(layer.pyramid, level, rect, self._cache)
+            return greys_of(evaluate.evaluate(layer.pyramid, level, rect, self._cache), layer)
 
-        return edits.edit(brush, coverage, ink, layer.alpha_locked, read, thins, scene)
+        return edit_of(edits.edit(brush, coverage, ink, layer.alpha_locked, read, thins, scene), layer)
 
     def _limited(self, change: Change, level: int) -> Change:
         return change if self._limit is None else self._limit.within(change, level)

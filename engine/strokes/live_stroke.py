@@ -17,8 +17,10 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.prediction import Predictor
 from engine.painting.commands import Stroke
+from engine.painting.layering.onto_member import ONTO_PAINT
 from engine.painting.pen_points import fitted
-from engine.painting.value import Painting, Refusal, layer_for
+from engine.painting.value import Painting, Refusal
+from engine.strokes.mask_painting import sheet_for
 from engine.strokes.wrapping import wrapped
 
 POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recording's line may have
@@ -27,7 +29,8 @@ POINTS_CAP = 60_000  # a stroke's line must stay below the 8 MiB that a recordin
 class Drawn:
     """A stroke that still grows, on the painting as it was when the pen touched down.
 
-    `base`: that painting, with the layer painted on made if there was none; `layer`: that layer; `dropped`: how many
+    `base`: that painting, with the layer painted on made if there was none; `layer`: that layer, or the sheet of its
+    mask that is painted on; `dropped`: how many
     points were no points (not finite, or too far away); `extra`: what else its command said, kept for the recording.
     `asked`: the number under which the journal knows its points.
     `own`: the seed of its random numbers, the painting's where its command (`seed`) has none; `limit`: what the
@@ -47,9 +50,10 @@ class Drawn:
         layer: str | None = None,
         seed: int | None = None,
         copies: Copies = NO_COPIES,
+        onto: str = ONTO_PAINT,
     ) -> None:
         edits.check(brush)
-        self.base, self.layer = layer_for(painting, layer)
+        self.base, self.layer = sheet_for(painting, layer, onto)
         self.before, self.cache = painting, cache
         self.level, self.brush, self.seed = level, brush, seed
         self._told, self._copies = origin, copies
@@ -60,7 +64,7 @@ class Drawn:
         self.areas: list[Rect] = []
         self.extra: Map[str, Any] = Map()
         self.asked: int | None = None
-        self._named = layer
+        self._named, self.onto = layer, onto
         self._points: list[np.ndarray] = []
         self._count = 0
         self._begin()
@@ -116,5 +120,5 @@ class Drawn:
             raise Refusal("stroke: found no point, expected one at least")
         points = np.concatenate(self._points)
         points.flags.writeable = False
-        about = self._named, self.seed, self.extra, self._copies
+        about = self._named, self.seed, self.extra, self._copies, self.onto
         return Stroke(self.level, self._told, points, self.brush, *about)

@@ -21,12 +21,14 @@ from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group
 from engine.canvas.painted import tile_bounds
+from engine.canvas.selecting.mask_sheet import repainted
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.prediction import Predictor
 from engine.painting.grown import threads
 from engine.painting.value import Painting
 from engine.strokes.bed import Bed, Meeting
 from engine.strokes.live_stroke import Drawn
+from engine.strokes.mask_painting import edit_of, greys_of
 from engine.strokes.scenery import Scenery, reader
 from engine.texture.planes import Planes
 
@@ -140,11 +142,12 @@ class LiveStroke(Drawn):
         if self._edit is None:
             locked = self.layer.alpha_locked
             scene = replace(self._scenery.scene, arithmetic=self.before.arithmetic)
-            self._edit = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._thinning, scene)
+            made = edits.edit(self.brush, self._mask, self._ink, locked, self._read, self._thinning, scene)
+            self._edit = edit_of(made, self.layer)
         return self._edit
 
     def _read(self, rect: Rect) -> Planes:
-        return evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache)
+        return greys_of(evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache), self.layer)
 
     def preview(self, rect: Rect) -> Planes:
         """Returns the layer's paint in `rect` at the stroke's level, as it will be."""
@@ -157,7 +160,7 @@ class LiveStroke(Drawn):
         root, name = self.base.root, self.layer.name
         pyramid = commit.commit(self.layer.pyramid, self.edit, self.cache)
         if pyramid is not self.layer.pyramid:
-            root = layers.with_pyramid(root, name, pyramid)
+            root = repainted(root, self.layer, pyramid)
         if self.bed is not None and self.bed.growth is not self.layer.growth:
             root = layers.with_growth(root, name, self.bed.growth)
         return self.base if root is self.base.root else replace(self.base, root=root)

@@ -77,7 +77,7 @@ class Easel(Owned):
         if self.live is not None:
             self.finish()
         self.viewer.look_back(None)
-        about = stroke.layer, stroke.seed, stroke.copies
+        about = stroke.layer, stroke.seed, stroke.copies, stroke.onto
         self.live = self.session.begin(stroke.level, stroke.origin, stroke.brush, *about)
         self.live.extra = stroke.extra
 

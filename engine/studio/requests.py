@@ -15,6 +15,7 @@ import numpy as np
 from engine.brush.copies import NO_COPIES, Copies
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
+from engine.painting.layering.onto_member import ONTO_PAINT
 from engine.studio.copy_records import CopyPicture
 from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
@@ -94,7 +95,7 @@ class Do:
 @dataclass(frozen=True, slots=True)
 class Begin:
     """The pen touches down: `radius` in pixels of `level`, points relative to `origin`, `time`, seconds since 1970;
-    `layer`: None for the active one; `copies`: where it is drawn again."""
+    `layer`: None for the active one; `copies`: where it is drawn again; `onto`: the layer's paint, or its mask."""
 
     level: int
     origin: tuple[int, int]
@@ -102,6 +103,7 @@ class Begin:
     layer: str | None = None
     time: float | None = None
     copies: Copies = NO_COPIES
+    onto: str = ONTO_PAINT
 
 
 @dataclass(frozen=True, slots=True)

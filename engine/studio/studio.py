@@ -195,7 +195,7 @@ class Studio(Owned):
         self.lab.settle()
         no_points, when = np.empty((0, 6)), members(request.time)
         about = request.level, request.origin, no_points, request.brush, request.layer
-        self.easel.begin(c.Stroke(*about, extra=when, copies=request.copies))
+        self.easel.begin(c.Stroke(*about, extra=when, copies=request.copies, onto=request.onto))
 
     def _grow(self) -> None:
         self.grower.step()

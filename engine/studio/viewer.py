@@ -128,7 +128,7 @@ class Viewer(Owned):
         if (
             isinstance(live, LiveStroke)
             and not live.empty
-            and layer.name == live.layer.name
+            and _the_same(layer, live.layer)
             and level == live.level
             and rect.meets(live.rect)
         ):
@@ -138,9 +138,9 @@ class Viewer(Owned):
     def _read_placed(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         """As `_read`, for placements, which show the stroke in progress at coarser levels, too."""
         live, cache = self._subject.live, self._subject.session.cache
-        if isinstance(live, LiveStroke) and layer.name == live.layer.name and placed_stroke.reaches(live, level, rect):
+        if isinstance(live, LiveStroke) and _the_same(layer, live.layer) and placed_stroke.reaches(live, level, rect):
             return placed_stroke.from_afar(live, layer, level, rect, cache)
-        if isinstance(live, LiveStroke) and layer.name == live.layer.name:
+        if isinstance(live, LiveStroke) and _the_same(layer, live.layer):
             return self._read(layer, level, rect)
         return kept_planes(layer, level, rect, cache)
 
@@ -149,3 +149,8 @@ class Viewer(Owned):
         alpha = float(pixel[3])
         r, g, b = (float(min(1.0, max(0.0, v / alpha))) if alpha > 0 else 0.0 for v in pixel[:3])
         self._subject.send(results.Picked((r, g, b), alpha))
+
+
+def _the_same(layer: Layer, painted: Layer) -> bool:
+    """Tells whether it is the layer, or the mask's sheet, that is painted on."""
+    return layer.name == painted.name and type(layer) is type(painted)

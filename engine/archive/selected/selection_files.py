@@ -30,7 +30,8 @@ LEFT_OUT = "what was selected is left out, and so are masks"
 
 @dataclass(frozen=True)
 class SelectionEntry:
-    """A selection kept under a name; None: what is selected; `masks`: it is the mask of the node of that id instead.
+    """A selection kept under a name; None: what is selected; `masks`: it is the mask of the node of that id instead,
+    `off` if it is put aside.
     `packs`: where its tiles are."""
 
     name: str | None
@@ -38,6 +39,7 @@ class SelectionEntry:
     packs: Packs
     commits: int = 0
     masks: int | None = None
+    off: bool = False
 
 
 class Chosen(NamedTuple):
@@ -65,7 +67,7 @@ def entries_of(
     entries, jobs = list[SelectionEntry](), list[J]()
     for number, (name, masks, selection) in enumerate(named):
         pyramid = fold(selection.pyramid)
-        entries.append(SelectionEntry(name, selection.inverse, [], pyramid.commits, masks))
+        entries.append(SelectionEntry(name, selection.inverse, [], pyramid.commits, masks, selection.off))
         tiles = ordered(list(pyramid.all_records()))
         jobs += packed(f"inkfall/selections/{number}", tiles, entries[-1].packs)
     return entries, jobs
@@ -81,6 +83,7 @@ def selections_told(entries: Sequence[SelectionEntry], packs: Callable[..., Pack
                 **({"name": entry.name} if entry.name is not None else {}),
                 **({"masks": entry.masks} if entry.masks is not None else {}),
                 "inverse": entry.inverse,
+                **({"off": True} if entry.off else {}),
                 "commits": entry.commits,
                 "packs": [packs(pack) for pack in entry.packs],
             }
@@ -102,7 +105,11 @@ def read_selections(value: object, packs: Callable[[Fields], Sequence[object]]) 
             raise members.fault("name", "a text that no other has")
         names.add((name, masks))
         commits = members.integer("commits", lo=0, hi=1 << 62)
-        out.append(SelectionEntry(name, members.flag("inverse"), list(packs(members)), commits, masks))
+        out.append(
+            SelectionEntry(
+                name, members.flag("inverse"), list(packs(members)), commits, masks, members.flag("off", False)
+            )
+        )
     return tuple(out)
 
 
@@ -121,7 +128,7 @@ def with_tiles_of(
             raise FieldError("selections", "ink", "tiles without ink")
         pyramid = with_tiles(Pyramid(grid=grid, commits=entry.commits), dict(levels(found)))
         if entry.masks is not None:
-            masks[entry.masks] = Selection(pyramid, entry.inverse)
+            masks[entry.masks] = Selection(pyramid, entry.inverse, entry.off)
         elif entry.name is None:
             chosen = Selection(pyramid, entry.inverse)
         else:

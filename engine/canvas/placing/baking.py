@@ -57,7 +57,11 @@ def _one_layer(root: Group, node: Placement) -> tuple[Layer | None, Seen]:
         gone.add(node.id)
         seen, source = seen.of(node), loops.source(root, node)
         if not isinstance(source, Placement):
-            return (source, seen) if isinstance(source, Layer) and source.mask is None else (None, seen)
+            return (
+                (source, seen)
+                if isinstance(source, Layer) and (source.mask is None or source.mask.off)
+                else (None, seen)
+            )
         node = source
     return None, seen
 

@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from engine.canvas.evaluate import shown
+from engine.canvas.layers import Layer, Node
 from engine.canvas.placing.through import Seen, looked_through
+from engine.canvas.selecting.mask_sheet import MaskSheet, mask_of, sheet_of
 from engine.canvas.selecting.selection import Selection
 from engine.numeric.address import Rect
 
+ReadSheet = Callable[[Layer, int, Rect], "np.ndarray | None"]  # the pixels of a layer or of a mask's sheet
 _ALPHA = 3
 _ONE = np.float32(1)
 
 
 @dataclass(frozen=True, slots=True)
 class Mask:
-    """How far each place of a node shows."""
+    """How far each place of a node shows; `sheet`: what is read of it."""
 
     selection: Selection
+    sheet: MaskSheet = field(compare=False)
 
-    def planes(self, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
+    @classmethod
+    def of(cls, node: Node) -> Mask | None:
+        """Returns the mask of a node, if it has one that is not put aside."""
+        mask = mask_of(node)
+        return None if mask is None or mask.off else cls(mask, sheet_of(node))
+
+    def planes(self, read: ReadSheet, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
         """Returns its pixels, (4, h, w), of which the alpha counts, where the node is seen so; None: nothing shows."""
-        pixels = looked_through(lambda at, part: shown(self.selection.pyramid, at, part), level, rect, seen)
+        pixels = looked_through(lambda at, part: read(self.sheet, at, part), level, rect, seen)
         if not self.selection.inverse:
             return pixels
         out = np.ones((4, rect.height, rect.width), np.float32)

@@ -18,10 +18,12 @@ _ONE = np.float32(1.0)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Selection:
-    """`pyramid`: its alpha is how far a place is selected; `inverse`: how far it is not.  Its colour is black."""
+    """`pyramid`: its alpha is how far a place is selected; `inverse`: how far it is not.  Its colour is black.
+    `off`: as the mask of a layer it is put aside, and hides nothing."""
 
     pyramid: Pyramid
     inverse: bool = False
+    off: bool = False
 
     @property
     def everything(self) -> bool:

@@ -74,7 +74,7 @@ class Posts:
             if self._brush[0] is not request.brush:
                 self._brush = request.brush, told_brush(request.brush)
             about = request.level, request.origin, request.brush, request.time
-            touch = Touch(*about, request.copies, request.layer)
+            touch = Touch(*about, request.copies, request.layer, request.onto)
             number = self._stroke = self.journal.begin(told_touch(touch, self._brush[1]))
         with self._lock:
             self._open[number] = request

@@ -47,7 +47,7 @@ class Sketch:
         match request:
             case q.Begin():
                 row = request.brush.row
-                seen = request.layer is None  # one on another layer is seen elsewhere, by placements
+                seen = request.layer is None and not request.onto  # one on another layer is seen elsewhere
                 self._open = seen and (row.lays_ink or row.takes_away)
                 while len(self._strokes) >= _FEW:
                     with suppress(NotCompiled):  # it is seen once it is painted

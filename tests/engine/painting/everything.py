@@ -190,6 +190,9 @@ def _areas() -> Iterator[tuple[str, list[Any]]]:
     above, clip = {"do": "layer", "add": "above"}, {"do": "layer", "set": "above", "clip": True, "opacity": 0.7}
     merged = {"do": "layer", "merge": "above"}
     yield "clipped", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), clip]
+    hidden = {"do": "layer", "set": "above", "mask": {"op": "full"}}
+    onto = {**stroke(ink=[ink("rock", period=9.9)], colour="#404040", radius=31), "onto": "mask"}
+    yield "masked", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), hidden, onto, {**onto, "level": 1}]
     yield "merged", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), merged]
     again = {"do": "layer", "add": "again", "kind": "placement", "of": "Layer 1", "at": [31, -7]}
     yield "placed", [GROUND, {**again, "c": [0.6, 0.8]}, {**again, "add": "half", "levels": -1, "turn": 1}]

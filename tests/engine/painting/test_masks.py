@@ -13,6 +13,7 @@ from engine.brush.settings import Brush
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import shown
+from engine.canvas.layers import Layer
 from engine.canvas.reading import layer_planes
 from engine.files.limits import LIMITS
 from engine.files.zip_reader import ZipArchive
@@ -72,7 +73,11 @@ def test_a_stroke_on_it_is_previewed_as_it_will_be(level):
     around = FRAME.zoomed(level)
     live = session.begin(level, (0, 0), Brush(radius=4.0), "sky")
     live.add(np.array([[around.x0 + 2, around.y0 + 3], [around.x0 + 14, around.y0 + 11]], np.float64))
-    preview = picture(live.root, level, read=lambda layer, at, rect: live.preview(rect).rgba)
+
+    def read(layer, at, rect):
+        return live.preview(rect).rgba if type(layer) is Layer else layer_planes(layer, at, rect)
+
+    preview = picture(live.root, level, read=read)
     session.finish(live)
     np.testing.assert_array_equal(preview, picture(session.painting.root, level))
 
