@@ -15,6 +15,7 @@ from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
 from app.panels.layers.layers_panel import LayersPanel
 from app.panels.moving import move_bar
+from app.panels.options import options_bar
 from app.panels.panel import Painting
 from app.panels.places.place_field import PlaceField
 from app.panels.strip import StripPanel
@@ -129,15 +130,20 @@ class Layout:
         imgui.pop_style_color()
 
     def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
-        """Draws the numbers of what is moved over the canvas, so that nothing gives way to them."""
-        if not self.move_bar.wanted(desk):
+        """Draws the numbers of what is moved, or what the tool in hand can be set to, over the canvas, so that nothing
+        gives way to them."""
+        moves, options = self.move_bar.wanted(desk), options_bar.wanted(desk)
+        if not moves and options is None:
             return
-        margin, high = 8 * desk.scale, imgui.get_frame_height() + 12 * desk.scale
-        wide = min(move_bar.BAR_WIDTH * imgui.get_font_size(), desk.view.width - corner[0] - 2 * margin)
-        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 6) * desk.scale)
-        if self._begin("move bar", (corner[0] + margin, corner[1] + margin, wide, high), _SCROLLS_NOT):
-            with self._guard.spare_drawing("drawing the numbers of what is moved"):
-                self.move_bar.draw(desk)
+        margin, high = 4 * desk.scale, imgui.get_frame_height() + 8 * desk.scale
+        ems = move_bar.BAR_WIDTH if options is None else options.width
+        free = desk.view.width - corner[0] - desk.insets[2] - 2 * margin
+        wide = min(ems * imgui.get_font_size(), free)
+        imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 4) * desk.scale)
+        name = "move bar" if options is None else "options bar"
+        if self._begin(name, (corner[0] + margin, corner[1] + margin, wide, high), _SCROLLS_NOT):
+            with self._guard.spare_drawing(f"drawing the {name}"):
+                (self.move_bar.draw if options is None else options.draw)(desk)
         imgui.end()
         imgui.pop_style_var()
 

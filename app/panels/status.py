@@ -11,7 +11,7 @@ from app import icons, theme
 from app.actions.actions import ACTIONS, perform
 from app.canvas.view import zoom_text
 from app.desk.desk import Desk
-from app.panels import notice_line
+from app.panels import notice_line, selection_chip
 from app.panels.controls import widgets as w
 from app.tools.tools import TOOLS
 from engine.studio.held.held_records import Held
@@ -44,6 +44,7 @@ def draw(desk: Desk, pointer_name: str) -> None:
                 perform(desk, ACTIONS[action])
         w.tooltip(hint)
         right -= 1.4 * imgui.get_font_size()
+    right = selection_chip.draw(desk, right) - 0.7 * imgui.get_font_size()
     right = notice_line.count_button(desk, right, 2 if crowded else 1)
     imgui.same_line(left)
     _left(desk, right)

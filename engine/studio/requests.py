@@ -23,7 +23,7 @@ from engine.studio.journalled.tend_request import Tend
 from engine.studio.moving.move_requests import MoveRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
-from engine.studio.selecting.ants_records import AskAnts
+from engine.studio.selecting.ants_records import AskAnts, PreviewSelection
 from engine.studio.textures.texture_requests import LabRequest, MatchRequest, RegionRequest
 
 if TYPE_CHECKING:
@@ -240,6 +240,7 @@ Request = (
     | Seek
     | AskMap
     | AskAnts
+    | PreviewSelection
     | AskMiniatures
     | GetReady
     | FileGrown

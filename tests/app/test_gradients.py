@@ -1,13 +1,18 @@
 """What a drag with the tool Gradient asks for: a texture under a name of its own, and one fill."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
+from app.desk.filling import gradients
 from app.desk.filling.gradients import FRAME_CAP
 from app.input.events import PenEvent
 from app.tools.tools import TOOLS
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.numeric.address import Rect
@@ -68,9 +73,52 @@ def test_elsewhere_the_frame_is_filled_or_outside_of_it_what_is_seen():
     assert near.like.rect.area <= FRAME_CAP < 4 * near.like.rect.area
 
 
-def test_each_has_a_name_of_its_own_and_none_is_laid_where_it_would_be_elsewhere():
-    (define, fill), _ = dragged(named={"Gradient 1"})
-    assert define.name == fill.brush.ink[0].texture == "Gradient 2"
+def test_the_painting_lists_the_last_one_alone_unless_one_is_kept_or_in_the_brush():
+    (define, fill), desk = dragged()
+    assert define.name == fill.brush.ink[0].texture == "Gradient"
+    scene = replace(desk.known.scene, textures=("Gradient",), texture_kinds=(("Gradient", "gradient"),))
+    desk.learn(scene=scene)
+    assert gradients.may_keep(desk)
+    gradients.keep(desk)
+    assert desk.filling.gradient == replace(define, name="Gradient 1")
+    assert not gradients.may_keep(desk)
+    desk.hand.change(ink=fill.brush.ink)  # it paints with that one
+    assert laid_again(desk).name == "Gradient 2"
+    desk.hand.change(ink=())
+    assert laid_again(desk).name == "Gradient"
+    desk.learn(scene=replace(scene, texture_kinds=(("Gradient", "image"),)))
+    assert laid_again(desk).name == "Gradient 3"
+
+
+def laid_again(desk):
+    asked = []
+    desk.post = asked.append
+    gradients.lay(desk, Place(100, 50, 0), 0, (0.0, 0.0), (50.0, 5.0))
+    return asked[0].command
+
+
+def test_fills_with_gradients_of_one_name_each_keep_their_own(tmp_path):
+    first = dragged()[0]
+    second = [*dragged(shape="radial")[0], c.AddLayer("Above")]
+    session = Session()
+    session.do(c.AddLayer("Below"))
+    for command in (*second, *first):  # the radial one under the linear one, both of the same name
+        session.do(command)
+    save(tmp_path / "two.ora", Snapshot(session.painting, session.recording()))
+    opened = open_painting(tmp_path / "two.ora").painting
+    for level in (0, 2):
+        rect = Rect.at(300, 150, 90, 40) if level else FRAME
+        planes = [
+            evaluate(layer.pyramid, level, rect).rgba
+            for painting in (session.painting, opened)
+            for layer in layers(painting.root)
+        ]
+        assert (planes[0] != planes[1]).any()
+        assert (planes[0] == planes[2]).all()
+        assert (planes[1] == planes[3]).all()
+
+
+def test_none_is_laid_where_it_would_be_elsewhere():
     commands, desk = dragged(level=60, place=Place(100 << 60, 50 << 60, 60))
     assert not commands
     assert "too deep" in desk.message.text

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from app.canvas.view import View
 from engine.numeric.address import Rect
+from engine.painting.commands import DefineTexture
 from engine.painting.fill_command import LOOKED_AT_CAP, Fill, Like
 
 WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
@@ -14,8 +15,8 @@ WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 @dataclass(slots=True)
 class FillState:
     """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone; `last`:
-    what was asked for last.  Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `named`: the
-    names of those that were asked for."""
+    what was asked for last.  Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`:
+    the one laid last; `named`: the names of those that were asked for."""
 
     tolerance: float = 0.12
     gap: float = 0.0
@@ -24,6 +25,7 @@ class FillState:
     last: Fill | None = None
     shape: str = "linear"
     fades: bool = False
+    gradient: DefineTexture | None = None
     named: set[str] = field(default_factory=set)
 
 

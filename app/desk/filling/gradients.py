@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from immutables import Map
 
 from app.canvas.view import Place
@@ -13,11 +15,13 @@ from app.desk.guides.shape_paths import Corner
 from app.desk.naming import free_name
 from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
+from engine.makers.definitions import refers
 from engine.painting.commands import DefineTexture
 from engine.painting.fill_command import Fill, Like
 from engine.studio.requests import Do
 
 FRAME_CAP = 1 << 22  # pixels of a frame that are filled: a larger one is at a coarser level
+LAST = "Gradient"  # the name of the one laid last
 _DEEPEST_PLACE = float(1 << 50)  # px: beyond, the ends of a gradient would not be where they were put
 
 GRADIENT_SHAPES = (
@@ -48,14 +52,42 @@ def lay(desk: Desk, at: Place, level: int, start: Corner, end: Corner) -> None:
 
 
 def _defined(desk: Desk, level: int, start: Corner, end: Corner) -> str:
-    """Defines the texture of the gradient, and returns its name, which no other has."""
-    state, scene = desk.filling, desk.known.scene
+    """Defines the texture of the gradient, and returns its name: the painting lists the last one alone, however many
+    are laid, but for those that are kept."""
+    state = desk.filling
     ends = ("#ffffff", "#ffffff00") if state.fades else (to_hex(desk.hand.colour), to_hex(desk.hand.other_colour))
     ramp = ((0.0, ends[0]), (1.0, ends[1]))
     told = Map({"kind": state.shape, "from": start, "to": end, "level": level, "ramp": ramp})
-    name = free_name("Gradient", {*state.named, *(() if scene is None else scene.textures)})
-    state.named.add(name)  # the painting is told of it with its next scene
-    desk.post(Do(DefineTexture(name, "gradient", told)))
+    free = _known(desk).get(LAST, "gradient") == "gradient" and not refers(desk.hand.brush, LAST)
+    state.gradient = DefineTexture(LAST if free else _free(desk), "gradient", told)
+    desk.post(Do(state.gradient))
+    return state.gradient.name
+
+
+def may_keep(desk: Desk) -> bool:
+    """Tells whether a gradient was laid that has no name of its own."""
+    last = desk.filling.gradient
+    return last is not None and last.name == LAST and _known(desk).get(LAST) == "gradient"
+
+
+def keep(desk: Desk) -> None:
+    """Gives the gradient laid last a name of its own, under which it stays among the textures."""
+    last = desk.filling.gradient
+    if last is not None:
+        desk.filling.gradient = replace(last, name=_free(desk))
+        desk.post(Do(desk.filling.gradient))
+        desk.say(f"Kept as “{desk.filling.gradient.name}”")
+
+
+def _known(desk: Desk) -> dict[str, str]:
+    """Returns the kinds of the painting's textures, by their names."""
+    return {} if desk.known.scene is None else dict(desk.known.scene.texture_kinds)
+
+
+def _free(desk: Desk) -> str:
+    """Returns a name for a gradient that no other texture has."""
+    name = free_name(LAST, {*desk.filling.named, *_known(desk)})
+    desk.filling.named.add(name)  # the painting is told of it with its next scene
     return name
 
 

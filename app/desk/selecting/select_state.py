@@ -27,14 +27,14 @@ class CopiedHere(NamedTuple):
 @dataclass(slots=True)
 class SelectState:
     """`ants`: the rim, None before the engine told of it; `shape`: the corners of what is being drawn, `closed` where
-    that is no line that still goes on; `amount`: pixels by which a selection is changed; `name`: to keep it under;
-    `copied`: what was copied here, None before."""
+    that is no line that still goes on; `amount`: pixels by which a selection is changed, `change`: how; `copied`: what
+    was copied here, None before."""
 
     ants: Ants | None = None
     shape: list[Place] = field(default_factory=list)
     closed: bool = True
     amount: int = 8
-    name: str = ""
+    change: str = "grow"
     copied: CopiedHere | None = None
     _asked: tuple[int, Rect] | None = None
     _awaited: bool | None = None  # whether something will be selected, until the engine tells so

@@ -15,7 +15,7 @@ from app.desk.examples import example_use, thumbnails
 from app.desk.examples.following import Following
 from app.desk.hand import LARGEST, SMALLEST, go_on_with_brush
 from app.desk.knots import at
-from app.panels.brush import example_section, fill_options, shape_choice
+from app.panels.brush import example_section, shape_choice
 from app.panels.brush.brush_list import BrushList
 from app.panels.brush.operations import Operations
 from app.panels.brush.save_brush import SaveBrush
@@ -92,8 +92,6 @@ class BrushPanel:
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
         self._tools(desk)
-        if desk.hand.tool in fill_options.OF_TOOLS:
-            fill_options.draw(desk)
         shown = w.section("Brushes", "Presets: click to paint with one", shared=True)
         self._saving.draw(desk)
         if shown:

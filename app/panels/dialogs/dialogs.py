@@ -64,11 +64,11 @@ class Dialogs:
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
         if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
-            given_up = imgui.is_key_pressed(imgui.Key.escape)
+            given_up, stays = imgui.is_key_pressed(imgui.Key.escape), dialog.draw(desk)
             if given_up:
                 desk.asked.give_up()
                 desk.asked.go_back()
-            if given_up or not dialog.draw(desk):
+            if given_up or not stays:
                 imgui.close_current_popup()
                 self._open = None
             imgui.end_popup()

@@ -9,6 +9,7 @@ from app.panels.controls import widgets as w
 from engine.painting.commands import Select
 from engine.painting.select_commands import JOIN_OPS, WIDEST_RIM, Named
 from engine.studio.requests import Do
+from engine.studio.selecting.ants_records import PreviewSelection
 
 _WIDE = 16  # ems of a field
 _JOINS = {"replace": "Select", "add": "Add", "subtract": "Subtract", "intersect": "Intersect"}
@@ -18,32 +19,50 @@ _HINTS = {
     "subtract": "Take this from what is selected",
     "intersect": "Leave what both have",
 }
+_CHANGES = (
+    ("grow", "Grow", "Move the rim out"),
+    ("shrink", "Shrink", "Move the rim in"),
+    ("feather", "Feather", "Soften the rim"),
+)
 
 
 class ChangeSelection:
-    """Grows, shrinks or feathers it, by pixels of what is seen."""
+    """Grows, shrinks or feathers it, by pixels of what is seen; the rim shows what it would be."""
 
     title = "Change the selection"
 
+    def __init__(self) -> None:
+        self._tried: Select | None = None
+
     def draw(self, desk: Desk) -> bool:
         """Draws the contents; False when it is done."""
-        state, level = desk.selecting, desk.view.shown_level
-        imgui.set_next_item_width(_WIDE * imgui.get_font_size())
+        state, wide = desk.selecting, _WIDE * imgui.get_font_size()
+        state.change = w.segments("change", state.change, _CHANGES, wide) or state.change
+        imgui.set_next_item_width(wide)
         _, state.amount = imgui.slider_int("Pixels", state.amount, 1, 64)
         state.amount = max(1, min(int(WIDEST_RIM), state.amount))
         w.named("select amount")
         w.tooltip("By so many pixels of what you see; Ctrl-click to type")
-        ways = (
-            ("Grow", "Move the rim out", Select(level=level, grow=float(state.amount))),
-            ("Shrink", "Move the rim in", Select(level=level, grow=-float(state.amount))),
-            ("Feather", "Soften the rim", Select(level=level, feather=float(state.amount))),
-        )
-        for label, hint, command in ways:
-            if w.text_button(label, hint):
-                desk.post(Do(command))
-                return False
-            imgui.same_line()
-        return not w.text_button("Cancel", "Leave it as it is")
+        command = _changing(state.change, float(state.amount), desk.view.shown_level)
+        if command != self._tried:
+            self._tried = command
+            desk.post(PreviewSelection(command))
+        imgui.spacing()
+        chosen = w.default_button("Apply", "Change the selection so", width=wide / 2)
+        imgui.same_line()
+        done = w.text_button("Cancel", "Leave it as it is", width=wide / 2) or chosen
+        if chosen:
+            desk.post(Do(command))
+        if done or imgui.is_key_pressed(imgui.Key.escape):
+            desk.post(PreviewSelection(None))
+        return not done
+
+
+def _changing(way: str, amount: float, level: int) -> Select:
+    """Returns the command that grows, shrinks or feathers by an amount."""
+    if way == "feather":
+        return Select(level=level, feather=amount)
+    return Select(level=level, grow=amount if way == "grow" else -amount)
 
 
 class KeepSelection:

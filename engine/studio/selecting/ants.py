@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from engine.canvas.selecting.occupied import alpha_at
-from engine.canvas.selecting.selection import NONE_SAVED, Saved, Selection
+from engine.canvas.selecting.selection import NONE_SAVED, Selection
 from engine.canvas.tile_cache import TileCache
 from engine.checks.field_error import FieldError
 from engine.checks.owned import Owned
-from engine.numeric.address import TILE, Rect
+from engine.numeric.address import Rect
+from engine.painting.select_commands import Select
+from engine.painting.value import Painting, Refusal
+from engine.session.selecting import selected
 from engine.studio.easel import Easel
 from engine.studio.results import frozen
-from engine.studio.selecting.ants_records import Ants, AskAnts
+from engine.studio.selecting.ants_records import Ants, AskAnts, Measure, PreviewSelection
+from engine.studio.selecting.measure import chosen_bounds, measured
 
 MOST_LINES = 1 << 16  # beyond, they would fill the picture
 _NONE = frozen(np.empty((0, 4), np.float32))
@@ -26,38 +31,49 @@ class AntsFinder(Owned):
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
         self._asked: AskAnts | None = None
-        self._told: tuple[AskAnts | None, Selection | None, Saved] = (None, None, NONE_SAVED)
-        self._bounds: Rect | None = None
-        self.handlers: dict[type, Callable[[AskAnts], None]] = {AskAnts: self._ask}
+        self._wanted: Select | None = None
+        self._told: tuple[object, ...] = (None, None, None, NONE_SAVED)
+        self._measured: tuple[Selection | None, Rect | None, Measure | None] = (None, None, None)
+        self.handlers: dict[type, Callable[[Any], None]] = {AskAnts: self._ask, PreviewSelection: self._preview}
 
     def _ask(self, request: AskAnts) -> None:
         self._asked = request
 
+    def _preview(self, request: PreviewSelection) -> None:
+        self._wanted = request.command
+
     @property
     def pending(self) -> int:
         """Tells whether there is something to tell."""
-        painting, (asked, selection, saved) = self._easel.session.painting, self._told
+        painting = self._easel.session.painting
+        asked, wanted, selection, saved = self._told
         if self._asked is None:
             return 0
         moved = asked is not self._asked and (painting.selection is not None or selection is not None)
         other = painting.selection is not selection or painting.selections is not saved
-        return int(moved or other)
+        return int(moved or other or wanted is not self._wanted)
 
     def step(self) -> None:
         """Finds the rim and sends it."""
         painting, asked = self._easel.session.painting, self._asked
-        selection = self._told[1]
         assert asked is not None
-        self._told = asked, painting.selection, painting.selections
-        lines = _NONE
-        if painting.selection is not selection:
-            self._bounds = None if painting.selection is None else bounds_of(painting.selection)
-        if painting.selection is not None:
-            lines = rim(painting.selection, asked.level, asked.area, self._easel.session.cache)
+        self._told = asked, self._wanted, painting.selection, painting.selections
+        shown = self._shown(painting)
+        if shown is not self._measured[0] or shown is None:
+            self._measured = (None, None, None) if shown is None else (shown, bounds_of(shown), measured(shown))
+        lines = _NONE if shown is None else rim(shown, asked.level, asked.area, self._easel.session.cache)
+        known = shown is not None and not shown.inverse, *self._measured[1:]
         names = tuple(sorted(painting.selections))
-        bounded = painting.selection is not None and not painting.selection.inverse
-        told = Ants(painting.selection is not None, names, asked.level, asked.area, lines, bounded, self._bounds)
-        self._easel.send(told)
+        self._easel.send(Ants(painting.selection is not None, names, asked.level, asked.area, lines, *known))
+
+    def _shown(self, painting: Painting) -> Selection | None:
+        """Returns what is selected, or would be by the command that is tried out; nothing, if that cannot be."""
+        if self._wanted is None:
+            return painting.selection
+        try:
+            return selected(painting, self._wanted).selection
+        except (Refusal, FieldError):
+            return None
 
 
 def rim(selection: Selection, level: int, area: Rect, cache: TileCache | None = None) -> np.ndarray:
@@ -82,14 +98,7 @@ def bounds_of(selection: Selection) -> Rect | None:
         coverage = alpha_at(selection.pyramid, level, "select")
     except FieldError:
         return None
-    out = Rect(0, 0, 0, 0)
-    for key, tile in coverage.tiles.items():
-        inside = np.broadcast_to(np.greater_equal(tile, 0.5), (TILE, TILE))
-        rows, columns = np.flatnonzero(inside.any(axis=1)), np.flatnonzero(inside.any(axis=0))
-        if len(rows):
-            x, y = key.rect.x0, key.rect.y0
-            here = Rect(x + int(columns[0]), y + int(rows[0]), x + int(columns[-1]) + 1, y + int(rows[-1]) + 1)
-            out = out.union(here)
+    out = chosen_bounds(coverage)
     return None if out.empty else out.zoomed(-level)
 
 

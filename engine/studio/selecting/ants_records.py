@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from engine.numeric.address import Rect
+
+if TYPE_CHECKING:
+    from engine.painting.select_commands import Select
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,12 +22,29 @@ class AskAnts:
     area: Rect
 
 
+@dataclass(frozen=True, slots=True)
+class PreviewSelection:
+    """Asks for the rim of what a command would select, in place of what is selected; None: no more.  The newest
+    counts."""
+
+    command: Select | None
+
+
+class Measure(NamedTuple):
+    """`bounds`: of what is selected at least half, in pixels of `level`; `feather`: how soft its rim is, 0 for sharp.
+    Where the selection is inverse, of what is not selected."""
+
+    level: int
+    bounds: Rect
+    feather: int
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Ants:
     """`selected`: whether anything in particular is; `saved`: the names of kept selections; `lines`: the rim of what is
     selected at least half, float32 (n, 4): x0, y0, x1, y1 in pixels of `level` from the corner of `area`, along pixels'
     edges; `bounded`: what is selected has an end; `bounds`: of what is selected at least half, in pixels of level
-    0, None where it has none, or is very large."""
+    0, None where it has none, or is very large; `measure`: how large it is, None where that cannot be told."""
 
     selected: bool
     saved: tuple[str, ...]
@@ -32,3 +53,4 @@ class Ants:
     lines: np.ndarray
     bounded: bool
     bounds: Rect | None = None
+    measure: Measure | None = None

@@ -8,9 +8,11 @@ from engine.canvas.selecting.joining import joined_with
 from engine.canvas.selecting.selection import EVERYTHING
 from engine.numeric.address import Rect
 from engine.painting import commands as c
+from engine.session.session import Session
 from engine.studio.easel import Easel
 from engine.studio.selecting.ants import AntsFinder, bounds_of, rim
-from engine.studio.selecting.ants_records import AskAnts
+from engine.studio.selecting.ants_records import AskAnts, PreviewSelection
+from engine.studio.selecting.measure import measured
 
 AREA = Rect(-10, -20, 290, 280)
 
@@ -66,7 +68,38 @@ def test_it_is_told_when_it_changes_and_not_for_strokes():
     finder.handlers[AskAnts](AskAnts(1, AREA))
     assert finder.pending
     finder.step()
+    tried = c.parse({"do": "select", "grow": 10})
+    finder.handlers[PreviewSelection](PreviewSelection(tried))
+    finder.step()
+    assert sent[-1].bounds == Rect.at(-5, -3, 220, 163)
+    assert easel.session.painting.selection.chosen(0, Rect(0, 0, 9, 9)).sum() == 8
+    finder.handlers[PreviewSelection](PreviewSelection(c.parse({"do": "select", "grow": -400})))
+    finder.step()
+    assert not len(sent[-1].lines)  # nothing would be left
+    finder.handlers[PreviewSelection](PreviewSelection(None))
+    finder.step()
+    assert sent[-1].bounds == Rect.at(5, 7, 200, 143)
     easel.carry_out(c.parse({"do": "select", "none": True}))
     finder.step()
     assert not finder.pending
     assert not sent[-1].selected
+
+
+@pytest.mark.parametrize("op", ["rect", "ellipse", "outline"])
+@pytest.mark.parametrize("feather", [0, 3, 8, 15])
+def test_its_size_and_its_feather_are_told_as_they_were_asked_for(op, feather):
+    box = [2, -30, 40, 300, 200]
+    outline = {"level": 2, "origin": [-30, 40], "outline": [[0, 0], [300, 20], [260, 200], [10, 170]]}
+    shape = outline if op == "outline" else {op: box}
+    session = Session()
+    session.do(c.parse({"do": "select", **shape, "feather": feather}))
+    found = measured(session.painting.selection)
+    assert found.level == 2
+    assert max(abs(a - b) for a, b in zip(found.bounds, Rect(-30, 40, 270, 240), strict=True)) <= 1 + feather / 2
+    assert abs(found.feather - feather) <= 1
+    session.do(c.parse({"do": "select", "invert": True}))
+    assert measured(session.painting.selection) == found
+
+
+def test_all_has_no_size():
+    assert measured(EVERYTHING) is None

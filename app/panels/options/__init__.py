@@ -1,0 +1,1 @@
+"""The settings of tools, in a bar above the canvas."""

@@ -1,0 +1,93 @@
+"""The settings of the tools Fill, Gradient and Wand, in the bar above the canvas while one of them is in hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import ImVec2, imgui
+
+from app.desk.desk import Desk
+from app.desk.filling import gradients
+from app.desk.filling.fill_state import WIDEST_SHOWN
+from app.desk.filling.gradients import GRADIENT_SHAPES
+from app.panels.controls import widgets as w
+
+_FILLS = (
+    ("fill", "Region", "Click a region: the brush fills it  (G)"),
+    ("gradient", "Gradient", "Drag: one colour turns into another  (Shift+G)"),
+)
+_ENDS = (("other", "Other colour", "It ends in the other colour"), ("nothing", "Transparent", "It fades to nothing"))
+_WAYS, _SHAPES, _SLIDER = 11.0, 15.0, 9.0  # widths, ems
+
+
+def draw(desk: Desk) -> None:
+    """Fills the present window, one line high."""
+    OF_TOOLS[desk.hand.tool](desk)
+
+
+def ways(desk: Desk) -> None:
+    """Draws the kinds of fill, of which one is in hand."""
+    tool = w.segments("fills", desk.hand.tool, _FILLS, _WAYS * imgui.get_font_size())
+    if tool is not None:
+        desk.hand.use(tool)
+    apart()
+
+
+def apart() -> None:
+    """Goes on in the same line, for something else."""
+    imgui.same_line(0, 0.9 * imgui.get_font_size())
+
+
+def slid(label: str, value: float, most: float, form: str, hint: str) -> float:
+    """Draws a slider from 0 on, as wide as those of this bar; returns its value."""
+    imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(0, 0))
+    imgui.begin_child(f"{label} cell", ImVec2(_SLIDER * imgui.get_font_size(), imgui.get_frame_height()))
+    imgui.pop_style_var()
+    _, value = w.slider(label, value, (0.0, most), hint, form=form)
+    imgui.end_child()
+    return value
+
+
+def _region(desk: Desk) -> None:
+    ways(desk)
+    likeness(desk)
+    apart()
+    desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
+
+
+def _wand(desk: Desk) -> None:
+    likeness(desk)
+    apart()
+    desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
+
+
+_ONE = "Off: everything in sight that is of that colour"
+
+
+def likeness(desk: Desk) -> None:
+    """Draws what counts as alike, and where that is looked for."""
+    state = desk.filling
+    hint = "How far colours may differ from the one you click"
+    state.tolerance = round(slid("Tolerance", state.tolerance * 100, 100.0, "%.0f%%", hint) / 100, 4)
+    apart()
+    hint = "Gaps in lines up to this width count as closed"
+    state.gap = round(slid("Close gaps", state.gap, WIDEST_SHOWN, "%.0f px", hint))
+    apart()
+    state.seen = w.tick("All layers", state.seen, "Look at all that is seen, not at the layer alone")[1]
+
+
+def _gradient(desk: Desk) -> None:
+    ways(desk)
+    state, em = desk.filling, imgui.get_font_size()
+    state.shape = w.segments("shape", state.shape, GRADIENT_SHAPES, _SHAPES * em) or state.shape
+    apart()
+    end = w.segments("end", "nothing" if state.fades else "other", _ENDS, _SHAPES * em)
+    if end is not None:
+        state.fades = end == "nothing"
+    apart()
+    hint = "Keep the last gradient among the textures, under a name of its own"
+    if w.text_button("Keep", hint, enabled=gradients.may_keep(desk)):
+        gradients.keep(desk)
+
+
+OF_TOOLS: dict[str, Callable[[Desk], None]] = {"fill": _region, "gradient": _gradient, "wand": _wand}

@@ -1,0 +1,28 @@
+"""What the tool in hand can be set to, in a bar above the canvas: it takes the place of nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from app.desk.desk import Desk
+from app.panels.options import fill_options
+
+
+class Options(NamedTuple):
+    """What a bar shows; `width`: of the bar, ems."""
+
+    width: float
+    draw: Callable[[Desk], None]
+
+
+_OF_TOOLS = {
+    "fill": Options(47.0, fill_options.draw),
+    "gradient": Options(48.0, fill_options.draw),
+    "wand": Options(35.0, fill_options.draw),
+}
+
+
+def wanted(desk: Desk) -> Options | None:
+    """Returns what is to be set now; None for nothing."""
+    return _OF_TOOLS.get(desk.hand.tool) if desk.panels else None
