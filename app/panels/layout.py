@@ -132,7 +132,7 @@ class Layout:
     def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
         """Draws the numbers of what is moved, or what the tool in hand can be set to, over the canvas, so that nothing
         gives way to them."""
-        moves, options = self.move_bar.wanted(desk), options_bar.wanted(desk)
+        moves, options = self.move_bar.wanted(desk), options_bar.options_of(desk)
         if not moves and options is None:
             return
         margin, high = 4 * desk.scale, imgui.get_frame_height() + 8 * desk.scale

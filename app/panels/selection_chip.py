@@ -11,7 +11,7 @@ from app.panels.controls import widgets as w
 from engine.studio.selecting.ants_records import Ants
 
 
-def words(ants: Ants | None) -> str:
+def chip_text(ants: Ants | None) -> str:
     """Returns what is told of a selection: its size at its level, and its feather; "" where nothing is selected."""
     if ants is None or not ants.selected:
         return ""
@@ -33,7 +33,7 @@ def _hint(ants: Ants) -> str:
 def draw(desk: Desk, right: float) -> float:
     """Draws the chip so that it ends there; returns where it begins, or `right` where there is none."""
     ants = desk.selecting.ants
-    text = words(ants)
+    text = chip_text(ants)
     if ants is None or not text:
         return right
     em, line = imgui.get_font_size(), imgui.get_text_line_height()

@@ -79,7 +79,7 @@ def test_the_painting_lists_the_last_one_alone_unless_one_is_kept_or_in_the_brus
     scene = replace(desk.known.scene, textures=("Gradient",), texture_kinds=(("Gradient", "gradient"),))
     desk.learn(scene=scene)
     assert gradients.may_keep(desk)
-    gradients.keep(desk)
+    gradients.keep_gradient(desk)
     assert desk.filling.gradient == replace(define, name="Gradient 1")
     assert not gradients.may_keep(desk)
     desk.hand.change(ink=fill.brush.ink)  # it paints with that one

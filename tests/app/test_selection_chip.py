@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.panels.selection_chip import words
+from app.panels.selection_chip import chip_text
 from engine.numeric.address import Rect
 from engine.studio.selecting.ants_records import Ants, Measure
 
@@ -11,7 +11,7 @@ NO_LINES = np.empty((0, 4), np.float32)
 
 
 def told(selected=True, bounded=True, measure=None):
-    return words(Ants(selected, (), 0, Rect(0, 0, 9, 9), NO_LINES, bounded, None, measure))
+    return chip_text(Ants(selected, (), 0, Rect(0, 0, 9, 9), NO_LINES, bounded, None, measure))
 
 
 @pytest.mark.parametrize(
@@ -27,5 +27,5 @@ def test_its_size_and_feather_are_told(feather, bounded, expected):
 
 
 def test_nothing_is_told_of_nothing_and_all_is_called_so():
-    assert words(None) == told(selected=False) == ""
+    assert chip_text(None) == told(selected=False) == ""
     assert told(bounded=False) == "All selected"

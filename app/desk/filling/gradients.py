@@ -70,7 +70,7 @@ def may_keep(desk: Desk) -> bool:
     return last is not None and last.name == LAST and _known(desk).get(LAST) == "gradient"
 
 
-def keep(desk: Desk) -> None:
+def keep_gradient(desk: Desk) -> None:
     """Gives the gradient laid last a name of its own, under which it stays among the textures."""
     last = desk.filling.gradient
     if last is not None:

@@ -30,10 +30,10 @@ def ways(desk: Desk) -> None:
     tool = w.segments("fills", desk.hand.tool, _FILLS, _WAYS * imgui.get_font_size())
     if tool is not None:
         desk.hand.use(tool)
-    apart()
+    spaced()
 
 
-def apart() -> None:
+def spaced() -> None:
     """Goes on in the same line, for something else."""
     imgui.same_line(0, 0.9 * imgui.get_font_size())
 
@@ -51,13 +51,13 @@ def slid(label: str, value: float, most: float, form: str, hint: str) -> float:
 def _region(desk: Desk) -> None:
     ways(desk)
     likeness(desk)
-    apart()
+    spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 
 
 def _wand(desk: Desk) -> None:
     likeness(desk)
-    apart()
+    spaced()
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 
 
@@ -69,10 +69,10 @@ def likeness(desk: Desk) -> None:
     state = desk.filling
     hint = "How far colours may differ from the one you click"
     state.tolerance = round(slid("Tolerance", state.tolerance * 100, 100.0, "%.0f%%", hint) / 100, 4)
-    apart()
+    spaced()
     hint = "Gaps in lines up to this width count as closed"
     state.gap = round(slid("Close gaps", state.gap, WIDEST_SHOWN, "%.0f px", hint))
-    apart()
+    spaced()
     state.seen = w.tick("All layers", state.seen, "Look at all that is seen, not at the layer alone")[1]
 
 
@@ -80,14 +80,14 @@ def _gradient(desk: Desk) -> None:
     ways(desk)
     state, em = desk.filling, imgui.get_font_size()
     state.shape = w.segments("shape", state.shape, GRADIENT_SHAPES, _SHAPES * em) or state.shape
-    apart()
+    spaced()
     end = w.segments("end", "nothing" if state.fades else "other", _ENDS, _SHAPES * em)
     if end is not None:
         state.fades = end == "nothing"
-    apart()
+    spaced()
     hint = "Keep the last gradient among the textures, under a name of its own"
     if w.text_button("Keep", hint, enabled=gradients.may_keep(desk)):
-        gradients.keep(desk)
+        gradients.keep_gradient(desk)
 
 
 OF_TOOLS: dict[str, Callable[[Desk], None]] = {"fill": _region, "gradient": _gradient, "wand": _wand}

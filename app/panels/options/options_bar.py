@@ -23,6 +23,6 @@ _OF_TOOLS = {
 }
 
 
-def wanted(desk: Desk) -> Options | None:
+def options_of(desk: Desk) -> Options | None:
     """Returns what is to be set now; None for nothing."""
     return _OF_TOOLS.get(desk.hand.tool) if desk.panels else None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -16,6 +14,7 @@ from engine.numeric.address import Rect
 from engine.painting.select_commands import Select
 from engine.painting.value import Painting, Refusal
 from engine.session.selecting import selected
+from engine.studio import requests as q
 from engine.studio.easel import Easel
 from engine.studio.results import frozen
 from engine.studio.selecting.ants_records import Ants, AskAnts, Measure, PreviewSelection
@@ -34,7 +33,7 @@ class AntsFinder(Owned):
         self._wanted: Select | None = None
         self._told: tuple[object, ...] = (None, None, None, NONE_SAVED)
         self._measured: tuple[Selection | None, Rect | None, Measure | None] = (None, None, None)
-        self.handlers: dict[type, Callable[[Any], None]] = {AskAnts: self._ask, PreviewSelection: self._preview}
+        self.handlers: q.Handlers = {AskAnts: self._ask, PreviewSelection: self._preview}
 
     def _ask(self, request: AskAnts) -> None:
         self._asked = request
