@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import numpy as np
 
 from engine.canvas.selecting.occupied import alpha_at
