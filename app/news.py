@@ -45,6 +45,7 @@ def _filmed(desk: Desk, told: results.Filming, _now: float) -> None:
 
 def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     desk.notices.shown(scene.serial)
+    desk.masks.follow(desk.post, desk.known.active)
     recovery_work.offer(desk, scene)
 
 

@@ -10,6 +10,7 @@ from app.actions.edit_actions import EDIT_ACTIONS
 from app.actions.endless_actions import ENDLESS_ACTIONS
 from app.actions.file_actions import FILE_ACTIONS
 from app.actions.layer_actions import LAYER_ACTIONS
+from app.actions.mask_actions import MASK_ACTIONS
 from app.actions.merging_actions import MERGING_ACTIONS
 from app.actions.placement_actions import PLACEMENT_ACTIONS
 from app.actions.select_actions import SELECT_ACTIONS
@@ -25,6 +26,7 @@ ACTIONS: dict[str, Action] = {
     **TOOL_ACTIONS,
     **LAYER_ACTIONS,
     **SELECT_ACTIONS,
+    **MASK_ACTIONS,
     **MERGING_ACTIONS,
     **PLACEMENT_ACTIONS,
     **ENDLESS_ACTIONS,

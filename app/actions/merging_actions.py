@@ -8,6 +8,7 @@ from dataclasses import replace
 from app.actions.action import Action as A
 from app.actions.action import active, asks, chosen, paint_chosen, ready
 from app.desk.desk import Desk
+from app.desk.filling.pouring import clear_mask
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
@@ -79,7 +80,14 @@ def _merge_visible(desk: Desk) -> None:
 
 
 def _clear(desk: Desk) -> None:
-    desk.post(Do(c.ClearLayer(active(desk))))
+    if desk.masks.on(desk.known.active):
+        clear_mask(desk)
+    else:
+        desk.post(Do(c.ClearLayer(active(desk))))
+
+
+def _can_clear(desk: Desk) -> bool:
+    return paint_chosen(desk) or (chosen(desk) and desk.masks.on(desk.known.active))
 
 
 def _on_another(desk: Desk) -> bool:
@@ -109,23 +117,6 @@ def _is_clipped(desk: Desk) -> bool:
     return desk.known.active is not None and desk.known.active.clip
 
 
-def _mask(desk: Desk) -> None:
-    desk.post(Do(c.SetLayer(active(desk), mask=True)))
-
-
-def _unmask(desk: Desk) -> None:
-    desk.post(Do(c.SetLayer(active(desk), mask=False)))
-
-
-def _can_mask(desk: Desk) -> bool:
-    row = desk.known.active
-    return chosen(desk) and desk.selecting.selected and row is not None and row.shows is None
-
-
-def _is_masked(desk: Desk) -> bool:
-    return chosen(desk) and desk.known.active is not None and desk.known.active.masked
-
-
 def _clear_outside(desk: Desk) -> None:
     desk.post(Do(c.ClearLayer(None, outside=True)))
 
@@ -138,16 +129,11 @@ MERGING_ACTIONS: dict[str, A] = {
     "merge_visible": A(
         "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
     ),
-    "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, paint_chosen),
+    "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, _can_clear),
     "clip": A(
         "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
         _clip, _on_another, _is_clipped,
     ),
-    "mask": A(
-        "Mask from selection", "Layer", (), "Show only what is selected of the layer; no paint is lost",
-        _mask, _can_mask,
-    ),
-    "unmask": A("Remove mask", "Layer", (), "Show all of the layer again", _unmask, _is_masked),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
     "paper": A("Paper…", "View", (), "The colour of the ground under all layers, or none", asks("paper"), ready),
     "clear_outside": A(

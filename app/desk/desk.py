@@ -20,6 +20,7 @@ from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
+from app.desk.masks.mask_state import MaskState
 from app.desk.match_state import MatchState
 from app.desk.moving.move_state import MoveState
 from app.desk.notices import Notice, Notices
@@ -118,6 +119,7 @@ class Desk:
     filling: FillState = field(default_factory=FillState)
     places: PlaceState = field(default_factory=PlaceState)
     guides: GuideState = field(default_factory=GuideState)
+    masks: MaskState = field(default_factory=MaskState)
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant

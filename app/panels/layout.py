@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from imgui_bundle import ImVec2, imgui
 
 from app import theme, trace
@@ -13,6 +15,7 @@ from app.panels.brush.brush_panel import BrushPanel
 from app.panels.colour.colour_panel import ColourPanel
 from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
+from app.panels.layers import mask_bar
 from app.panels.layers.layers_panel import LayersPanel
 from app.panels.moving import move_bar
 from app.panels.options import options_bar
@@ -130,21 +133,24 @@ class Layout:
         imgui.pop_style_color()
 
     def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
-        """Draws the numbers of what is moved, or what the tool in hand can be set to, over the canvas, so that nothing
-        gives way to them."""
-        moves, options = self.move_bar.wanted(desk), options_bar.options_of(desk)
-        if not moves and options is None:
-            return
+        """Draws bars over the canvas, so that nothing gives way to them: the numbers of what is moved, or what the tool
+        in hand can be set to, and below which mask is painted on."""
+        options, bars = options_bar.options_of(desk), list[tuple[str, float, Callable[[Desk], None]]]()
+        if options is not None:
+            bars.append(("options bar", options.width, options.draw))
+        elif self.move_bar.wanted(desk):
+            bars.append(("move bar", move_bar.BAR_WIDTH, self.move_bar.draw))
+        if mask_bar.wanted(desk):
+            bars.append(("mask bar", mask_bar.MASK_BAR_WIDTH, mask_bar.draw))
         margin, high = 4 * desk.scale, imgui.get_frame_height() + 8 * desk.scale
-        ems = move_bar.BAR_WIDTH if options is None else options.width
         free = desk.view.width - corner[0] - desk.insets[2] - 2 * margin
-        wide = min(ems * imgui.get_font_size(), free)
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 4) * desk.scale)
-        name = "move bar" if options is None else "options bar"
-        if self._begin(name, (corner[0] + margin, corner[1] + margin, wide, high), _SCROLLS_NOT):
-            with self._guard.spare_drawing(f"drawing the {name}"):
-                (self.move_bar.draw if options is None else options.draw)(desk)
-        imgui.end()
+        for n, (name, ems, draw) in enumerate(bars):
+            wide, top = min(ems * imgui.get_font_size(), free), corner[1] + margin + n * (high + margin)
+            if self._begin(name, (corner[0] + margin, top, wide, high), _SCROLLS_NOT):
+                with self._guard.spare_drawing(f"drawing the {name}"):
+                    draw(desk)
+            imgui.end()
         imgui.pop_style_var()
 
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:

@@ -61,8 +61,8 @@ class Begun(NamedTuple):
 
 
 def begin_stroke(desk: Desk, first: PenEvent) -> Begun | None:
-    """Begins a stroke at the level that is shown; on a placement, on what it shows.  None where that cannot be, which
-    is said."""
+    """Begins a stroke at the level that is shown; on a placement, on what it shows; on the mask that is painted on.
+    None where that cannot be, which is said."""
     if refused(desk):
         return None
     layer = desk.known.active
@@ -81,7 +81,7 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | None:
     copies = symmetry.copies_at(desk, level, origin)
     aimed = None if aim is None else aim.begun(level, origin)
     if aimed is None:
-        desk.post(Begin(level, origin, brush, copies=copies))
+        desk.post(Begin(level, origin, brush, copies=copies, onto=desk.masks.onto(layer)))
     else:
         desk.post(Begin(aimed.level, aimed.origin, brush, aimed.layer, copies=aimed.copies(copies)))
     return Begun(level, origin, brush, aimed)

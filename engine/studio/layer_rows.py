@@ -24,7 +24,7 @@ class LayerRow:
     what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
     `reference`: it is no part of the picture; `clip`: shown only where the one below has paint;
     `wrap`: the cell of which it shows repeats;
-    `masked`: it is shown within a mask of its own."""
+    `masked`: it has a mask of its own, within which it is shown unless that is put aside, `mask_off`."""
 
     name: str
     group: bool
@@ -42,3 +42,4 @@ class LayerRow:
     clip: bool = False
     wrap: SourcePart | None = None
     masked: bool = False
+    mask_off: bool = False

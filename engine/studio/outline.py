@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.placement import Placement
+from engine.canvas.selecting.mask_sheet import mask_of
 from engine.checks.roles import COPIED, REFERENCE
 from engine.studio import results
 
@@ -22,7 +23,7 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
         node = group.children[position]
         if isinstance(node, Layer) and node.role == COPIED:
             continue
-        is_group = isinstance(node, Group)
+        is_group, mask = isinstance(node, Group), mask_of(node)
         alpha_locked = isinstance(node, Layer) and node.alpha_locked
         out.append(
             results.LayerRow(
@@ -41,7 +42,8 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 not isinstance(node, Group) and node.role == REFERENCE,
                 node.clip,
                 node.wrap if isinstance(node, Layer) else None,
-                not isinstance(node, Placement) and node.mask is not None,
+                mask is not None,
+                mask is not None and mask.off,
             )
         )
         if isinstance(node, Group):

@@ -20,6 +20,7 @@ from engine.studio.copy_records import CopyPicture
 from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
+from engine.studio.masked.mask_requests import ShowMask
 from engine.studio.moving.move_requests import MoveRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
@@ -250,6 +251,7 @@ Request = (
     | Tend
     | CopyPicture
     | MoveRequest
+    | ShowMask
 )
 
 

@@ -21,6 +21,7 @@ from engine.strokes.example_stroke import Live
 from engine.strokes.paint_stroke import LiveStroke
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.masked.mask_alone import MaskAlone
 from engine.studio.moving import placed_stroke
 from engine.studio.sight import Key, Sight, grown_parts, tile_rect
 
@@ -46,7 +47,8 @@ class Viewer(Owned):
         self._level = 0
         self._where: Areas = lambda level: []  # what is fresh is seen
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
-        self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick}
+        self._alone = MaskAlone(self.changed)
+        self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick, **self._alone.handlers}
 
     @property
     def fresh(self) -> bool:
@@ -87,6 +89,7 @@ class Viewer(Owned):
     def forget(self) -> None:
         """Another painting is to be seen."""
         self._fresh, self.looking = [], None
+        self._alone.forget()
         self.sight.forget()
 
     def send_fresh(self) -> None:
@@ -119,6 +122,9 @@ class Viewer(Owned):
         """Returns what is to be seen of a rectangle: float32 (4, h, w), premultiplied; with the stroke in progress."""
         live = self._subject.live
         root = live.root if live is not None else (self.looking or self._subject.session.painting).root
+        alone = self._alone.picture(root, level, whole, self._read)
+        if alone is not None:
+            return alone
         return self.above(
             level, whole, composite(root, level, whole, piece_reader(level, whole, self._read, self._read_placed))
         )

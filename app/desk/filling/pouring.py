@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.filling.fill_state import all_in
+from engine.brush.settings import Brush
+from engine.painting.commands import SetLayer
 from engine.painting.fill_command import Fill, Like
+from engine.painting.layering.mask_member import MASK_EMPTY, MaskOp
 from engine.studio.requests import Do
 
 
@@ -46,9 +51,22 @@ def _bounded(desk: Desk) -> bool:
 
 def post_fill(desk: Desk, fill: Fill) -> None:
     """Asks for a fill, which is remembered: it may be asked for again, wherever its region ends."""
+    fill = replace(fill, onto=desk.masks.onto(desk.known.active))
     desk.filling.last = fill
     desk.notices.settle("fill")
     desk.post(Do(fill))
+
+
+def clear_mask(desk: Desk) -> None:
+    """Hides what is selected on the mask that is painted on, or all where nothing is."""
+    row, level = desk.known.active, desk.view.shown_level
+    if row is None:
+        return
+    if not desk.selecting.selected:
+        desk.post(Do(SetLayer(row.name, mask=MaskOp(MASK_EMPTY))))
+        return
+    like = None if _bounded(desk) else all_in(desk.view.visible(level), level)
+    post_fill(desk, Fill(Brush(colour="#000000"), like, open=like is not None, level=level if like is None else 0))
 
 
 def fill_selection(desk: Desk) -> None:

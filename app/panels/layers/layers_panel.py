@@ -9,6 +9,7 @@ from app.actions import actions
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.controls.fitting import ended
+from app.panels.layers import mask_picture
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow, Ready
@@ -139,6 +140,9 @@ class LayersPanel:
                 desk.post(Do(c.SelectLayer(source)))
             w.tooltip(f"Shows {source}: click to go there" if source else "Shows the whole painting", beside=True)
             imgui.same_line(0, 2 * desk.scale)
+        if row.masked:
+            mask_picture.draw(desk, row)
+            imgui.same_line(0, 4 * desk.scale)
         if self._editing == row.name:
             self._name_field(desk, row)
         else:
@@ -148,7 +152,6 @@ class LayersPanel:
         active = desk.known.scene is not None and desk.known.scene.active == row.name
         told = (
             (row.clip, icons.CLIP),
-            (row.masked, icons.MASK),
             (row.wrap is not None, icons.WRAP),
             (row.reference, icons.REFERENCE),
             (row.locked, icons.LOCK),
@@ -165,6 +168,8 @@ class LayersPanel:
                 self._editing, self._text, self._focus = row.name, row.name, True
             elif not active:
                 desk.post(Do(c.SelectLayer(row.name)))
+            elif desk.masks.on(row):
+                desk.masks.end(desk.post)
         imgui.pop_style_var()
         imgui.pop_style_color()
         w.named(row.name)
@@ -213,6 +218,7 @@ class LayersPanel:
             ("duplicate", icons.COPY),
             ("show_again", icons.LINK),
             ("independent", icons.UNLINK),
+            ("mask_full", icons.MASK),
             ("raise", icons.UP),
             ("lower", icons.DOWN),
             ("merge_down", icons.MERGE),

@@ -1,0 +1,1 @@
+"""Masks that are painted on, as the window knows of them."""

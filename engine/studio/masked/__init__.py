@@ -1,0 +1,1 @@
+"""Masks as the window shows them: alone, and as small pictures."""
