@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from engine.canvas.selecting.mask_sheet import mask_of, sheet_of
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.painting.difference import Areas
+from engine.studio import requests as q
 from engine.studio.masked.greys import greys
 from engine.studio.masked.mask_requests import ShowMask
 
@@ -23,7 +23,7 @@ class MaskAlone(Owned):
     def __init__(self, changed: Callable[[Areas], None]) -> None:
         self._name: str | None = None
         self._changed = changed
-        self.handlers: dict[type, Callable[[Any], None]] = {ShowMask: self._show}
+        self.handlers: q.Handlers = {ShowMask: self._show}
 
     def forget(self) -> None:
         """Shows the painting."""
