@@ -8,21 +8,21 @@ block is read from the top layer down, and reading stops at a layer that hides a
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
 from functools import partial
-from typing import Protocol, TypeAlias, cast
+from typing import Protocol, cast
 
 import numpy as np
 
-from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, stacks, walk
+from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
-from engine.canvas.placing.loops import holds_itself
+from engine.canvas.placing.drawing import NOTHING, Above, Asking, Copies, Drawing
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.self_copies import Asking, Drawing, Tiles
+from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
+from engine.canvas.placing.steps import CompositeStep, Found, Leaf, Placed, Sources, steps
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
 from engine.canvas.placing.unpainted import Unpainted
 from engine.canvas.selecting.layer_mask import Mask
@@ -38,156 +38,6 @@ class Read(Protocol):
     """The pixels of a layer: float32 (4, h, w), premultiplied, not necessarily clamped; None where it is empty."""
 
     def __call__(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None: ...
-
-
-@dataclass(frozen=True, slots=True)
-class CompositeStep:
-    """One operation on the picture so far: its source is a layer, the steps of an isolated group, what a placement
-    shows, the paper, or a mask.
-
-    `over`: the operator is src-over.  `atop`: the picture so far keeps its alpha.
-    """
-
-    row: blend.Blend
-    opacity: np.float32
-    source: Layer | tuple[CompositeStep, ...] | Placed | Paper | Mask
-    over: bool
-    atop: bool = False
-
-    @property
-    def may_cover(self) -> bool:
-        """Tells whether the step hides what lies below wherever it is opaque."""
-        return self.over and self.opacity == 1
-
-
-# What a block needs of a step: its pixels, (4, n) read-only, None if empty, or a list to be composited first.
-_Found = list[tuple[CompositeStep, "np.ndarray | _Found | None"]]
-_Leaf: TypeAlias = "Layer | Placed | Paper | Mask"
-
-
-class Sources:
-    """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal."""
-
-    def __init__(self, root: Group) -> None:
-        self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
-        self._steps: dict[int | None, tuple[CompositeStep, ...]] = {}
-        self._turns: dict[int | None, bool] = {}
-        self._tiles: dict[int | None, Tiles[_Leaf, _Found] | None] = {}
-
-    def steps(self, of: int | None) -> tuple[CompositeStep, ...]:
-        """Returns what to composite for a node of an id; None: for all of them."""
-        held = self._steps.get(of)
-        if held is None:
-            node: Node = self._root if of is None else next(node for node in walk(self._root) if node.id == of)
-            plan = steps(node, self) if isinstance(node, Group) else (self.step(node),)
-            held = self._steps[of] = masked(plan, node)
-        return held
-
-    def turns(self, of: int | None) -> bool:
-        """Tells whether something in a node is turned or scaled so that it has to be sampled."""
-        held = self._turns.get(of)
-        if held is None:
-            self._turns[of] = False  # until it is known: it may hold itself
-            held = self._turns[of] = any(map(self._turned, self.steps(of)))
-        return held
-
-    def _turned(self, step: CompositeStep) -> bool:
-        if isinstance(step.source, Placed):
-            placement = step.source.placement
-            return placement.pose.similarity.quarter is None or self.turns(placement.of)
-        return isinstance(step.source, tuple) and any(map(self._turned, step.source))
-
-    def tiles(self, of: int | None, read: Read) -> Tiles[_Leaf, _Found] | None:
-        """Returns the tiles of what a node shows, if it holds several copies of itself."""
-        if of not in self._tiles:
-            copies = [one.placement for one in _placed(self.steps(of)) if one.placement.of == of]
-            self._tiles[of] = Tiles(copies, _drawing(self.steps(of), of, read)) if len(copies) > 1 else None
-        return self._tiles[of]
-
-    def goes_round(self, one: Placement) -> bool:
-        """Tells whether a placement lies in what it shows."""
-        return holds_itself(one, lambda of: (inner.placement for inner in _placed(self.steps(of))))
-
-    def step(self, node: Layer | Placement) -> CompositeStep:
-        """Returns the step that lays a layer, or what a placement shows, over nothing."""
-        return CompositeStep(blend.BLENDS["src-over"], np.float32(1), self.source(node), True)
-
-    def source(self, node: Layer | Placement) -> Layer | Placed:
-        """Returns what a step of the node has for a source."""
-        return node if isinstance(node, Layer) else Placed(node, self)
-
-
-def _placed(plan: tuple[CompositeStep, ...]) -> Iterator[Placed]:
-    """Yields what placements show that are composited directly, or in groups."""
-    return (one for one in unrolled.leaves(step.source for step in plan) if isinstance(one, Placed))
-
-
-@dataclass(frozen=True, slots=True)
-class Placed:
-    """What a placement shows: the steps of its source, looked up when they are wanted, as they may hold it."""
-
-    placement: Placement
-    sources: Sources
-
-    @property
-    def steps(self) -> tuple[CompositeStep, ...]:
-        """Gives what of the source is composited."""
-        return self.sources.steps(self.placement.of)
-
-    @property
-    def place(self) -> int | None:
-        """Gives the place of the placement's own step among them: the picture contains itself; None if it does not."""
-        own = (i for i, step in enumerate(self.steps) if isinstance(step.source, Placed))
-        return next((i for i in own if self.steps[i].source == self), None)
-
-
-def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, ...]:
-    """Returns what to composite, bottom first: invisible nodes left out, groups that pass through dissolved.
-
-    `sources`: those of the whole tree, where `root` is a group of it."""
-    sources = Sources(root) if sources is None else sources
-    out: list[CompositeStep] = []
-    for node, clipped in stacks(root.children):
-        row = blend.BLENDS[node.blend]
-        if not node.visible or (node.opacity == 0 and not row.outside):
-            continue
-        if clipped:
-            both = _clipped(node, clipped, sources)
-            out.append(CompositeStep(row, np.float32(node.opacity), both, row.name == "src-over"))
-            continue
-        if isinstance(node, Group) and passes_through(node):
-            out.extend(steps(node, sources))
-            continue
-        source = _source(node, sources)
-        if source or row.outside:
-            out.append(CompositeStep(row, np.float32(node.opacity), source, row.name == "src-over"))
-    return tuple(out)
-
-
-def masked(plan: tuple[CompositeStep, ...], node: Node) -> tuple[CompositeStep, ...]:
-    """Returns the steps of a node's picture with its mask taken off them."""
-    mask = Mask.of(node) if plan else None
-    return plan if mask is None else (*plan, CompositeStep(blend.BLENDS["dst-in"], np.float32(1), mask, False))
-
-
-def _source(node: Node, sources: Sources) -> Layer | Placed | tuple[CompositeStep, ...]:
-    if isinstance(node, Group):
-        return masked(steps(node, sources), node)
-    if isinstance(node, Layer) and node.mask is not None:
-        return masked((sources.step(node),), node)
-    return sources.source(node)
-
-
-def _clipped(node: Node, clipped: Sequence[Node], sources: Sources) -> tuple[CompositeStep, ...]:
-    """Returns a node and what is clipped to it as one picture: that keeps the node's alpha."""
-    own = CompositeStep(
-        blend.BLENDS["src-over"],
-        np.float32(1),
-        _source(node, sources),
-        True,
-    )
-    above = steps(Group(node.id, node.name, children=tuple(replace(one, clip=False) for one in clipped)), sources)
-    return own, *(replace(step, over=False, atop=True) for step in above)
 
 
 def _whole(root: Group) -> tuple[CompositeStep, ...]:
@@ -229,29 +79,34 @@ def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray |
     return out
 
 
-def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> _Found:
+def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> Found:
     """Returns the sources that matter for a block.  `seen`: through which similarity all of them are."""
     asking, planes = _asking(plan), None
     try:
         while True:
             planes = _pixels(asking.send(planes)[0], level, rect, read, seen)
     except StopIteration as done:
-        return cast("_Found", done.value)
+        return cast("Found", done.value)
 
 
-def _asking(plan: tuple[CompositeStep, ...], inner: bool = False) -> Asking[_Leaf, _Found]:
+def _asking(plan: tuple[CompositeStep, ...], around: Above | None = NOTHING) -> Asking[Leaf, Found]:
     """Asks for the pixels of sources, from the top down to the first that covers all; returns what matters, bottom
-    first.  `inner`: the plan is a group's."""
-    found: _Found = []
+    first.  `around`: what lies above the group that the plan is of, if it is known."""
+    found: Found = []
     for step in reversed(plan):
-        source: np.ndarray | _Found | None
+        source: np.ndarray | Found | None
+        above = None
+        if around is not None and step.over:
+            above = Above(around.share * float(step.opacity), (*around.found, found))
         if isinstance(step.source, tuple):
-            source = (yield from _asking(step.source, True)) or None
+            source = (yield from _asking(step.source, above)) or None
         else:
-            planes = yield step.source, None if inner or not step.over else found
+            planes = yield step.source, above
             source = None if planes is None else blend.flat(planes)
         if source is None and not step.row.outside:
             continue
+        if source is None and isinstance(step.source, Mask):
+            return []  # nothing of the node shows
         found.append((step, source))
         if _covers(step, source):
             break
@@ -259,26 +114,26 @@ def _asking(plan: tuple[CompositeStep, ...], inner: bool = False) -> Asking[_Lea
     return found
 
 
-def _drawing(plan: tuple[CompositeStep, ...], of: int | None, layers: Read) -> Drawing[_Leaf, _Found]:
-    """Returns how a node is drawn that holds copies of itself."""
+def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found]:
+    """Returns the tiles of nodes that hold copies of one another."""
     unpainted = Unpainted()
 
-    def copy(source: _Leaf) -> Placement | None:
-        return source.placement if isinstance(source, Placed) and source.placement.of == of else None
+    def copy(source: Leaf) -> Placement | None:
+        return source.placement if isinstance(source, Placed) and source.of in loop else None
 
-    def read(source: _Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
+    def read(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
         empty = isinstance(source, Layer) and (source, level, rect, seen) in unpainted
         return None if empty else _pixels(source, level, rect, layers, seen)
 
-    return Drawing(partial(_asking, plan), copy, read, _drawn)
+    return Tiles(loop, Drawing(lambda of: _asking(sources.steps(of)), copy, read, _drawn))
 
 
-def _covers(step: CompositeStep, source: np.ndarray | _Found | None) -> bool:
+def _covers(step: CompositeStep, source: np.ndarray | Found | None) -> bool:
     """Tells whether a step hides all that lies below."""
     return step.may_cover and isinstance(source, np.ndarray) and bool(source[3, 0] >= 1) and blend.opaque(source)
 
 
-def _pixels(source: _Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
+def _pixels(source: Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:
     """Returns the pixels of a layer, or what a placement shows, through a similarity: (4, h, w), None if empty."""
     if isinstance(source, Paper):
         return source.planes(rect)
@@ -286,13 +141,13 @@ def _pixels(source: _Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np
         return source.planes(read, level, rect, seen)
     if isinstance(source, Layer):
         return looked_through(repeated(partial(read, source), source.wrap), level, rect, seen)
-    plan, through = source.steps, seen.of(source.placement)
-    tiles = source.sources.tiles(source.placement.of, read)
+    sources, of, plan, through = source.sources, source.of, source.steps, seen.of(source.placement)
+    tiles = sources.tiles(of, partial(_tiles_of, sources, read))
     if tiles is not None:
-        return looked_coarser(tiles.picture, level, rect, through)
-    if source.place is not None:
+        return looked_coarser(tiles.of(of), level, rect, through)
+    if sources.is_own(source.placement):
         return _turns(source, level, rect, read, seen)
-    if not source.placement.repeat and not through.whole(level) and source.sources.turns(source.placement.of):
+    if not source.placement.repeat and not through.whole(level) and sources.turns(of):
         # What is turned in it is not sampled twice, but once, through both similarities.
         part = Rect(0, 0, 0, 0) if through.ends(level) else through.meets(level, rect)
         pixels = None if part.empty else _picture(plan, level, part, read, through.unclipped)
@@ -301,9 +156,8 @@ def _pixels(source: _Leaf, level: int, rect: Rect, read: Read, seen: Seen) -> np
     def picture(at: int, part: Rect) -> np.ndarray | None:
         return _picture(plan, at, part, read, UNPLACED)
 
-    look = looked_coarser if source.sources.goes_round(source.placement) else looked_through
     cell = source.placement.part if source.placement.repeat else None
-    return look(repeated(picture, cell), level, rect, through)
+    return looked_through(repeated(picture, cell), level, rect, through)
 
 
 def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> np.ndarray | None:
@@ -315,7 +169,8 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
     part = outer.meets(level, rect)
     if part.empty:
         return None
-    turns, plan, at = turns_of(source.placement, outer.unclipped), source.steps, source.place
+    turns, plan = turns_of(source.placement, outer.unclipped), source.sources.opened(source.of)
+    at = source.sources.own(source.of)
     assert at is not None
     own, below, above = plan[at], plan[:at], plan[at + 1 :]
 
@@ -325,7 +180,7 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
     def both(turn: int, shown: Rect, inner: np.ndarray | None) -> np.ndarray | None:
         seen = turns[turn].unclipped
         under, over = (_gather(steps, level, shown, read, seen) for steps in (below, above))
-        middle: _Found = [] if inner is None else [(own, blend.flat(inner))]
+        middle: Found = [] if inner is None else [(own, blend.flat(inner))]
         return _drawn([*under, *middle, *over], shown, False)
 
     if own.opacity != 1 or not all(step.over for step in above):
@@ -344,7 +199,7 @@ def _picture(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read
     return _drawn(_gather(plan, level, rect, read, seen), rect, len(plan) == 1)
 
 
-def _drawn(found: _Found, rect: Rect, own: bool = True) -> np.ndarray | None:
+def _drawn(found: Found, rect: Rect, own: bool = True) -> np.ndarray | None:
     """Returns the sources composited onto nothing: (4, h, w), with `own` those of a single one; None: empty."""
     if own and len(found) == 1 and found[0][0].may_cover and isinstance(found[0][1], np.ndarray):
         return found[0][1].reshape(4, rect.height, rect.width)
@@ -352,7 +207,7 @@ def _drawn(found: _Found, rect: Rect, own: bool = True) -> np.ndarray | None:
     return None if pixels is None else pixels.reshape(4, rect.height, rect.width)
 
 
-def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.ndarray | None:
+def _draw(found: Found, n: int, buffers: list[np.ndarray], depth: int) -> np.ndarray | None:
     """Returns the sources composited onto nothing: (4, n) in the buffer of this depth; None if it stayed empty."""
     if depth == len(buffers):
         buffers.append(np.empty(4 * max(n, BLOCK * BLOCK), np.float32))
@@ -377,7 +232,7 @@ def _draw(found: _Found, n: int, buffers: list[np.ndarray], depth: int) -> np.nd
     return None if empty else target
 
 
-def _pair_at(found: _Found, i: int) -> bool:
+def _pair_at(found: Found, i: int) -> bool:
     if i + 1 >= len(found) or not (found[i][0].over and found[i + 1][0].over):
         return False
     return isinstance(found[i][1], np.ndarray) and isinstance(found[i + 1][1], np.ndarray)

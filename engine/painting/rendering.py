@@ -14,6 +14,7 @@ from engine.canvas.attenuate import fold
 from engine.canvas.composite import Read, composite
 from engine.canvas.layers import Group, Layer
 from engine.canvas.reading import covered, layer_planes
+from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
@@ -147,13 +148,17 @@ def sheets(
                 if planes is not None:
                     found[layer.id] = planes
                     known[layer.id][part.slices(parts[layer.id])] = to_rgba8(planes[:, *part.slices(piece)])
-            merged[piece.slices(band)] = to_rgba8(composite(root, level, piece, _known(found, level, piece)))
+            merged[piece.slices(band)] = to_rgba8(composite(root, level, piece, _known(found, level, piece, evaluated)))
         yield known, merged
 
 
-def _known(found: Mapping[int, np.ndarray], level: int, piece: Rect) -> Read:
-    """Hands out blocks of the planes of a piece of a level, by the ids of layers."""
-    return piece_reader(level, piece, lambda layer, level, rect: found.get(layer.id))
+def _known(found: Mapping[int, np.ndarray], level: int, piece: Rect, evaluated: _Evaluated) -> Read:
+    """Hands out blocks of the planes of a piece of a level, by the ids of layers; masks are evaluated."""
+
+    def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+        return evaluated.planes(layer, level, rect) if isinstance(layer, MaskSheet) else found.get(layer.id)
+
+    return piece_reader(level, piece, read)
 
 
 def _clear(rect: Rect) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 
 from engine.canvas import layers
 from engine.canvas.compact import compact
-from engine.canvas.composite import CompositeStep, composite, steps
+from engine.canvas.composite import composite
 from engine.canvas.evaluate import add_texture, evaluate, evaluate_sparse
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer, Node
@@ -23,6 +23,7 @@ from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.baking import stored_tiles, ways_of
 from engine.canvas.placing.filled import TilePlace
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.steps import CompositeStep, steps
 from engine.canvas.placing.through import UNPLACED, Seen
 from engine.canvas.reading import layer_planes
 from engine.canvas.store import Level, Pyramid, Record

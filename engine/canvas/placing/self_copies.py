@@ -1,7 +1,8 @@
 """A picture that contains itself several times: followed inwards copy by copy, each piece read straight through all.
 
-A tile is a piece.  Of each copy that its layers show, the part in the tile is a piece in turn, and so on inwards while
-the frames are larger than `TILED` pixels: deep in the picture mostly one frame holds all of a piece, so they are few.
+So are several that show one another, as long as one gets round.  A tile of one is a piece.  Of each copy that its
+layers show, the part in the tile is a piece in turn, and so on inwards while the frames are larger than `TILED` pixels:
+deep in the picture mostly one frame holds all of a piece, so they are few.
 Smaller copies are read from tiles of the level where what they show is as small.  These are few, and each is made once:
 copies of copies, of which there are ever more, are never told apart.
 
@@ -13,14 +14,15 @@ on.  All of that follows from the tile alone: its pixels are the same whatever e
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Generator, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Generic, NamedTuple, Protocol, TypeVar
+import itertools
+from collections.abc import Callable, Generator, Iterator
+from typing import Generic, NamedTuple
 
 import numpy as np
 
+from engine.canvas.placing.drawing import Above, Copies, Drawing, FoundT, Shown, SourceT
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.sampling import source_level
+from engine.canvas.placing.sampling import Picture, source_level
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, set_in
 from engine.canvas.placing.unrolled import HIDING
 from engine.numeric.address import Rect, TileKey
@@ -35,46 +37,11 @@ _PATHS = 1 << 14  # ways inwards that are kept
 _CHAINS = 8  # nodes of which they are
 
 
-class Laid(Protocol):
-    """What is asked of a composite's step: whether it is laid over what is below, and how opaque."""
-
-    @property
-    def over(self) -> bool:
-        """Tells whether the operator is src-over."""
-
-    @property
-    def opacity(self) -> np.float32:
-        """Gives its opacity, 0..1."""
-
-
-SourceT = TypeVar("SourceT")  # a source of a step
-FoundT = TypeVar("FoundT")  # what was found of all
-Above = Sequence[tuple[Laid, object]]  # steps, and their pixels, (4, n), where they are of one source
-Asking = Generator[
-    tuple[SourceT, "Above | None"], "np.ndarray | None", FoundT
-]  # also for what lies above, where that is known
-
-
-@dataclass(frozen=True)
-class Drawing(Generic[SourceT, FoundT]):
-    """How the node is drawn whose copies these are.
-
-    `asking`: asks for the pixels of its sources, from the top down; returns what was found.  `copy`: the placement if a
-    source is a copy of the node.  `read`: the pixels of one that is none: float32 (4, h, w), None where it is empty.
-    `drawn`: what was found composited, likewise, not to be written to.
-    """
-
-    asking: Callable[[], Asking[SourceT, FoundT]]
-    copy: Callable[[SourceT], Placement | None]
-    read: Callable[[SourceT, int, Rect, Seen], np.ndarray | None]
-    drawn: Callable[[FoundT, Rect], np.ndarray | None]
-
-
 class _Path:
-    """A way inwards through copies: how what the last of them shows is seen."""
+    """A way inwards through copies: how the node that the last of them shows is seen."""
 
-    def __init__(self, seen: Seen, paths: _Paths) -> None:
-        self.seen, self.inside, self._paths = seen, seen.unclipped, paths
+    def __init__(self, node: Shown, seen: Seen, paths: _Paths) -> None:
+        self.node, self.seen, self.inside, self._paths = node, seen, seen.unclipped, paths
         self.turned = seen.similarity.quarter is None
         self._inner: dict[Placement, _Path] = {}
         self._bounds: dict[int, Rect] = {}
@@ -82,7 +49,7 @@ class _Path:
     def inner(self, copy: Placement) -> _Path:
         found = self._inner.get(copy)
         if found is None:
-            found = self._inner[copy] = _Path(self.inside.of(copy), self._paths)
+            found = self._inner[copy] = _Path(copy.of, self.inside.of(copy), self._paths)
             self._paths.kept += 1
         return found
 
@@ -105,18 +72,20 @@ class _Paths:
 
     def __init__(self) -> None:
         self.kept = 0
-        self._first = _Path(UNPLACED, self)
+        self._first: dict[Shown, _Path] = {}
 
-    @property
-    def first(self) -> _Path:
-        """Gives the way through none."""
+    def first(self, node: Shown) -> _Path:
+        """Returns the way to a node through none."""
         if self.kept > _PATHS:
-            self.kept, self._first = 0, _Path(UNPLACED, self)
-        return self._first
+            self.kept, self._first = 0, {}
+        found = self._first.get(node)
+        if found is None:
+            found = self._first[node] = _Path(node, UNPLACED, self)
+        return found
 
 
 @functools.lru_cache(_CHAINS)
-def _paths_of(copies: tuple[Placement, ...]) -> _Paths:
+def _paths_of(copies: tuple[tuple[Shown, tuple[Placement, ...]], ...]) -> _Paths:
     del copies
     return _Paths()
 
@@ -134,52 +103,108 @@ class _Piece(NamedTuple):
     turn: int
 
 
-class Tiles(Generic[SourceT, FoundT]):
-    """The tiles of what a node shows, which holds `copies` of itself."""
+class _MissingError(Exception):
+    """A tile has to be made first."""
 
-    def __init__(self, copies: Sequence[Placement], drawing: Drawing[SourceT, FoundT]) -> None:
-        self._copies, self._drawing = tuple(copies), drawing
-        self._paths = _paths_of(self._copies)
-        parts = [one.part for one in copies if one.part is not None]
-        self._side = max(max(part.rect.width, part.rect.height).bit_length() - part.level for part in parts)
-        self._small: dict[TileKey, np.ndarray | None] = {}
-        self._large: dict[TileKey, np.ndarray | None] = {}
+    def __init__(self, wanted: _Wanted) -> None:
+        super().__init__(wanted)
+        self.wanted = wanted
+
+
+class _Wanted(NamedTuple):
+    """A tile of what a node shows."""
+
+    node: Shown
+    key: TileKey
+
+
+_Making = Generator["_Wanted", None, "np.ndarray | None"]  # asks for tiles that have to be made first
+
+
+class Tiles(Generic[SourceT, FoundT]):
+    """The tiles of what some nodes show that hold `copies` of one another, or of themselves."""
+
+    def __init__(self, copies: Copies, drawing: Drawing[SourceT, FoundT]) -> None:
+        self.copies, self._drawing = copies, drawing
+        self._paths = _paths_of(tuple((node, tuple(held)) for node, held in copies.items()))
+        self._sides = {node: max(map(_side, held)) for node, held in copies.items()}
+        self._means: dict[Shown, np.ndarray | None] = {}
+        self._small: dict[_Wanted, np.ndarray | None] = {}
+        self._large: dict[_Wanted, np.ndarray | None] = {}
         self.pieces = self.reads = self.made = 0
 
-    def picture(self, level: int, rect: Rect) -> np.ndarray | None:
-        """Returns what the node shows of a rectangle: float32 (4, h, w), None where it is empty."""
+    def of(self, node: Shown) -> Picture:
+        """Returns what a node shows, as a picture."""
+        return functools.partial(self.picture, node)
+
+    def picture(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
+        """Returns what a node shows of a rectangle: float32 (4, h, w), None where it is empty."""
+        return self._picture(node, level, rect, self._tile)
+
+    def small(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
+        """As `picture`, of tiles that are there; else _MissingError."""
+        return self._picture(node, level, rect, self._known)
+
+    def _picture(
+        self, node: Shown, level: int, rect: Rect, tile: Callable[[_Wanted], np.ndarray | None]
+    ) -> np.ndarray | None:
         out: np.ndarray | None = None
         for key in rect.tiles(level):
-            pixels = self._tile(key)
+            pixels = tile(_Wanted(node, key))
             if pixels is not None:
                 out = np.zeros((4, rect.height, rect.width), np.float32) if out is None else out
                 part = key.rect.intersect(rect)
                 out[:, *part.slices(rect)] = pixels[:, *part.slices(key.rect)]
         return out
 
-    def _is_small(self, level: int) -> bool:
-        return level + self._side <= TILED.bit_length() - 1
+    def _known(self, wanted: _Wanted) -> np.ndarray | None:
+        if wanted not in self._small:
+            raise _MissingError(wanted)
+        return self._small[wanted]
 
-    def _tile(self, key: TileKey) -> np.ndarray | None:
-        held = self._small if self._is_small(key.level) else self._large
-        if key not in held:
-            made = self._make(key)
-            while held is self._large and len(held) >= _LARGE_KEPT:
-                del held[next(iter(held))]
-            held[key] = None if made is None else made.copy()
-            self.made += 1
-        return held[key]
+    def _tile(self, wanted: _Wanted) -> np.ndarray | None:
+        """Returns a tile; what it needs is made first, one after another: they may be too many for calls in calls."""
+        held = self._held(wanted)
+        if wanted in held:
+            return held[wanted]
+        waiting = [(wanted, self._make(wanted))]
+        while waiting:
+            try:
+                needed = next(waiting[-1][1])
+            except StopIteration as done:
+                one, _ = waiting.pop()
+                self._hold(one, done.value)
+            else:
+                waiting.append((needed, self._make(needed)))
+        return held[wanted]
 
-    def _make(self, key: TileKey) -> np.ndarray | None:
-        whole = _Piece(self._paths.first, key.rect, None, 0)
+    def _held(self, wanted: _Wanted) -> dict[_Wanted, np.ndarray | None]:
+        return self._small if self.is_small(wanted.node, wanted.key.level) else self._large
+
+    def _hold(self, wanted: _Wanted, made: np.ndarray | None) -> None:
+        held = self._held(wanted)
+        while held is self._large and len(held) >= _LARGE_KEPT:
+            del held[next(iter(held))]
+        held[wanted] = None if made is None else made.copy()
+        self.made += 1
+
+    def is_small(self, node: Shown, level: int) -> bool:
+        """Tells whether the frames in a node are so small at a level that its tiles are few."""
+        return level + self._sides[node] <= TILED.bit_length() - 1
+
+    def _make(self, wanted: _Wanted) -> _Making:
+        key = wanted.key
+        whole = _Piece(self._paths.first(wanted.node), key.rect, None, 0)
         try:
-            return _Work(self, self._drawing, key.level, None).drawn(whole)
+            return (yield from _Work(self, self._drawing, key.level, None).drawn(whole))
         except _TooManyError:
-            return _Work(self, self._drawing, key.level, self._turns(key)).drawn(whole)
+            turns = self._turns(wanted)
+        return (yield from _Work(self, self._drawing, key.level, turns).drawn(whole))
 
-    def _turns(self, key: TileKey) -> int:
+    def _turns(self, wanted: _Wanted) -> int:
         """Returns how many turns of copies there are pieces enough for in a tile."""
-        edge, count, turns = [(self._paths.first, key.rect)], 0, 0
+        key = wanted.key
+        edge, count, turns = [(self._paths.first(wanted.node), key.rect)], 0, 0
         while edge:
             edge = list(self._next(edge, key.level))
             count += sum(_TURNED_READ if path.turned else 1 for path, _ in edge)
@@ -190,27 +215,31 @@ class Tiles(Generic[SourceT, FoundT]):
 
     def _next(self, edge: list[tuple[_Path, Rect]], level: int) -> Iterator[tuple[_Path, Rect]]:
         for path, rect in edge:
-            for copy in self._copies:
+            for copy in self.copies[path.node]:
                 inner = path.inner(copy)
                 part = inner.part(level, rect)
                 if not part.empty:
                     yield inner, part
 
-    def is_read(self, seen: Seen, level: int) -> bool:
-        """Tells whether what is seen so is read from tiles."""
-        return self._is_small(source_level(seen.similarity, level))
+    def mean(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
+        """Returns pixels of the mean colour of all that copies show of a node, for a tile of a level."""
+        at = _MEAN.bit_length() - 1 - self._sides[node]
+        if level <= max(_MEAN.bit_length() - 1 - side for side in self._sides.values()):
+            return None  # of such tiles it is made
+        if node not in self._means:
+            part = next(copy.part for held in self.copies.values() for copy in held if copy.of == node)
+            assert part is not None
+            found = self.picture(node, at, part.rect.zoomed(at - part.level))
+            colour = None if found is None else found.mean(axis=(1, 2), dtype=np.float64).astype(np.float32)
+            self._means[node] = None if colour is None else colour[:, None, None]
+        mean = self._means[node]
+        return None if mean is None else np.broadcast_to(mean, (4, rect.height, rect.width))
 
-    def mean(self, rect: Rect) -> np.ndarray | None:
-        """Returns pixels of the mean colour of all that copies show."""
-        return None if self._mean is None else np.broadcast_to(self._mean, (4, rect.height, rect.width))
 
-    @functools.cached_property
-    def _mean(self) -> np.ndarray | None:
-        level = _MEAN.bit_length() - 1 - self._side
-        part = self._copies[0].part
-        assert part is not None
-        found = self.picture(level, part.rect.zoomed(level - part.level))
-        return None if found is None else found.mean(axis=(1, 2), dtype=np.float64).astype(np.float32)[:, None, None]
+def _side(copy: Placement) -> int:
+    """Returns the logarithm of the pixels of level 0 along a frame, at most."""
+    assert copy.part is not None
+    return max(copy.part.rect.width, copy.part.rect.height).bit_length() - copy.part.level
 
 
 class _Work(Generic[SourceT, FoundT]):
@@ -225,7 +254,7 @@ class _Work(Generic[SourceT, FoundT]):
         self._tiles, self._drawing, self._level, self._most = tiles, drawing, level, most
         self._pieces = self._reads = self._deepest = 0
 
-    def drawn(self, piece: _Piece) -> np.ndarray | None:
+    def drawn(self, piece: _Piece) -> _Making:
         """Returns the pixels of a piece: float32 (4, h, w), None where it is empty."""
         waiting = [self._drawing_of(piece)]
         pixels: np.ndarray | None = None
@@ -236,17 +265,20 @@ class _Work(Generic[SourceT, FoundT]):
                 waiting.pop()
                 pixels = done.value
             else:
-                waiting.append(self._drawing_of(inner))
                 pixels = None
+                if isinstance(inner, _Piece):
+                    waiting.append(self._drawing_of(inner))
+                else:
+                    yield inner
         return pixels
 
-    def _drawing_of(self, piece: _Piece) -> Generator[_Piece, np.ndarray | None, np.ndarray | None]:
-        """Asks for the pieces within one, and returns its pixels."""
+    def _drawing_of(self, piece: _Piece) -> Generator[_Piece | _Wanted, np.ndarray | None, np.ndarray | None]:
+        """Asks for the pieces within one, and tiles that are to be made; returns its pixels."""
         path, rect, _, turn = piece
         self._count_piece(piece)
         if turn and turn == self._most:
-            return self._cut(piece, self._tiles.mean(rect))
-        asking = self._drawing.asking()
+            return self._cut(piece, self._tiles.mean(path.node, self._level, rect))
+        asking = self._drawing.asking(path.node)
         pixels: np.ndarray | None = None
         while True:
             try:
@@ -267,12 +299,25 @@ class _Work(Generic[SourceT, FoundT]):
                 left = left[part.slices(rect)]
                 if (left < 1 - HIDING).all():
                     continue
-            if self._tiles.is_read(inner.seen, self._level):
-                pixels = looked_coarser(self._tiles.picture, self._level, part, inner.seen)
-                self._count_reads(inner, 1)
+            if self._is_read(inner):
+                pixels = yield from self._from_tiles(inner, part)
             else:
                 pixels = yield _Piece(inner, part, left, turn + 1)
             pixels = None if pixels is None else set_in(pixels, part, rect)
+
+    def _is_read(self, path: _Path) -> bool:
+        """Tells whether what is seen of a node is read from tiles of a coarser level."""
+        level = source_level(path.seen.similarity, self._level)
+        return level < self._level and self._tiles.is_small(path.node, level)
+
+    def _from_tiles(self, path: _Path, part: Rect) -> Generator[_Wanted, None, np.ndarray | None]:
+        self._count_reads(path, 1)
+        while True:
+            try:
+                picture = functools.partial(self._tiles.small, path.node)
+                return looked_coarser(picture, self._level, part, path.seen)
+            except _MissingError as missing:
+                yield missing.wanted
 
     def _count_piece(self, piece: _Piece) -> None:
         weight = _TURNED_PIECE if piece.path.turned else 1
@@ -298,11 +343,17 @@ class _Work(Generic[SourceT, FoundT]):
 def _left(piece: _Piece, above: Above | None) -> np.ndarray | None:
     """Returns how much of each pixel is left behind what lies above in a piece and before it, float32 (h, w); None:
     all of it, or it is not known."""
-    if above is None or not all(step.over for step, _ in above):
+    if above is None:
         return None
-    left = piece.left
-    for step, pixels in above:
+    left, (height, width) = piece.left, (piece.rect.height, piece.rect.width)
+    if above.share != 1:
+        share = np.float32(above.share)
+        left = np.full((height, width), share) if left is None else left * share
+    for step, pixels in itertools.chain.from_iterable(above.found):
+        if not (step.over or step.cuts):
+            return None
         if isinstance(pixels, np.ndarray):
-            shown = np.float32(1) - step.opacity * pixels[3].reshape(piece.rect.height, piece.rect.width)
+            alpha = pixels[3].reshape(height, width)
+            shown = alpha if step.cuts else np.float32(1) - step.opacity * alpha
             left = shown if left is None else left * shown
     return left

@@ -1,0 +1,234 @@
+"""What is composited: the tree of layers as a list of steps, with what placements show, looked up when it is wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, stacks, walk
+from engine.canvas.merging.paper import Paper
+from engine.canvas.placing import unrolled
+from engine.canvas.placing.drawing import Copies, Shown
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.self_copies import Tiles
+from engine.canvas.selecting.layer_mask import Mask
+from engine.numeric import blend
+
+
+@dataclass(frozen=True, slots=True)
+class CompositeStep:
+    """One operation on the picture so far: its source is a layer, the steps of an isolated group, what a placement
+    shows, the paper, or a mask.
+
+    `over`: the operator is src-over.  `atop`: the picture so far keeps its alpha.
+    """
+
+    row: blend.Blend
+    opacity: np.float32
+    source: Layer | tuple[CompositeStep, ...] | Placed | Paper | Mask
+    over: bool
+    atop: bool = False
+
+    @property
+    def may_cover(self) -> bool:
+        """Tells whether the step hides what lies below wherever it is opaque."""
+        return self.over and self.opacity == 1
+
+    @property
+    def cuts(self) -> bool:
+        """Tells whether all that it leaves of what is below is what lies within its own alpha."""
+        return isinstance(self.source, Mask)
+
+
+Leaf: TypeAlias = "Layer | Placed | Paper | Mask"
+# What a block needs of a step: its pixels, (4, n) read-only, None if empty, or a list to be composited first.
+Found = list[tuple[CompositeStep, "np.ndarray | Found | None"]]
+
+
+class Sources:
+    """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal."""
+
+    def __init__(self, root: Group) -> None:
+        self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
+        self._steps: dict[Shown, tuple[CompositeStep, ...]] = {}
+        self._turns: dict[Shown, bool] = {}
+        self._loops: dict[Shown, Copies | None] = {}
+        self._opened: dict[Shown, tuple[CompositeStep, ...]] = {}
+        self._own: dict[Shown, int | None] = {}
+        self._tiles: dict[Shown, Tiles[Leaf, Found]] = {}
+
+    def steps(self, of: Shown) -> tuple[CompositeStep, ...]:
+        """Returns what to composite for a node of an id; None: for all of them."""
+        held = self._steps.get(of)
+        if held is None:
+            node: Node = self._root if of is None else next(node for node in walk(self._root) if node.id == of)
+            plan = steps(node, self) if isinstance(node, Group) else (self.step(node),)
+            held = self._steps[of] = masked(plan, node)
+        return held
+
+    def turns(self, of: Shown) -> bool:
+        """Tells whether something in a node is turned or scaled so that it has to be sampled."""
+        held = self._turns.get(of)
+        if held is None:
+            self._turns[of] = False  # until it is known: it may hold itself
+            held = self._turns[of] = any(map(self._turned, self.steps(of)))
+        return held
+
+    def _turned(self, step: CompositeStep) -> bool:
+        if isinstance(step.source, Placed):
+            placement = step.source.placement
+            return placement.pose.similarity.quarter is None or self.turns(placement.of)
+        return isinstance(step.source, tuple) and any(map(self._turned, step.source))
+
+    def loop(self, of: Shown) -> Copies | None:
+        """Returns the placements within what shows one another that a node is part of, by the nodes they lie in; None
+        if it does not hold itself."""
+        if of not in self._loops:
+            ahead = self._reached(of, lambda node: [one.placement.of for one in placed(self.steps(node))])
+            behind: dict[Shown, list[Shown]] = {}
+            for node in ahead:
+                for one in placed(self.steps(node)):
+                    behind.setdefault(one.placement.of, []).append(node)
+            round_ = [node for node in ahead if node in self._reached(of, lambda node: behind.get(node, []))]
+            copies = {
+                node: tuple(one.placement for one in placed(self.steps(node)) if one.placement.of in round_)
+                for node in round_
+            }
+            self._loops[of] = copies or None
+        return self._loops[of]
+
+    @staticmethod
+    def _reached(of: Shown, ways: Callable[[Shown], Iterable[Shown]]) -> dict[Shown, None]:
+        """Returns the nodes that one comes to from one by at least one way, in their order."""
+        found: dict[Shown, None] = {}
+        waiting = [of]
+        while waiting:
+            for node in ways(waiting.pop()):
+                if node not in found:
+                    found[node] = None
+                    waiting.append(node)
+        return found
+
+    def opened(self, of: Shown) -> tuple[CompositeStep, ...]:
+        """Returns the steps of a node, with those groups dissolved that lie over the rest as they are."""
+        if of not in self._opened:
+            self._opened[of] = tuple(_opened(self.steps(of)))
+        return self._opened[of]
+
+    def own(self, of: Shown) -> int | None:
+        """Returns the place, among its opened steps, of the one placement by which a node holds itself; None if there
+        is none, or if there are more ways."""
+        if of not in self._own:
+            loop, at = self.loop(of), []
+            if loop is not None and tuple(map(len, loop.values())) == (1,):
+                plan = self.opened(of)
+                at = [i for i, step in enumerate(plan) if isinstance(step.source, Placed) and step.source.of == of]
+            self._own[of] = at[0] if at else None
+        return self._own[of]
+
+    def is_own(self, one: Placement) -> bool:
+        """Tells whether a placement is the one way by which a node holds itself."""
+        at = self.own(one.of)
+        own = None if at is None else self.opened(one.of)[at].source
+        return isinstance(own, Placed) and own.placement == one
+
+    def tiles(self, of: Shown, made: Callable[[Copies], Tiles[Leaf, Found]]) -> Tiles[Leaf, Found] | None:
+        """Returns the tiles of what a node shows, if it holds itself in several ways; new ones are `made`."""
+        loop = self.loop(of)
+        if loop is None or self.own(of) is not None:
+            return None
+        if of not in self._tiles:
+            self._tiles.update(dict.fromkeys(loop, made(loop)))
+        return self._tiles[of]
+
+    def step(self, node: Layer | Placement) -> CompositeStep:
+        """Returns the step that lays a layer, or what a placement shows, over nothing."""
+        return CompositeStep(blend.BLENDS["src-over"], np.float32(1), self.source(node), True)
+
+    def source(self, node: Layer | Placement) -> Layer | Placed:
+        """Returns what a step of the node has for a source."""
+        return node if isinstance(node, Layer) else Placed(node, self)
+
+
+def placed(plan: Sequence[CompositeStep]) -> Iterator[Placed]:
+    """Yields what placements show that are composited directly, or in groups."""
+    return (one for one in unrolled.leaves(step.source for step in plan) if isinstance(one, Placed))
+
+
+def _opened(plan: Sequence[CompositeStep]) -> Iterator[CompositeStep]:
+    for step in plan:
+        inner = step.source
+        if isinstance(inner, tuple) and step.may_cover and all(one.over for one in _opened(inner)):
+            yield from _opened(inner)
+        else:
+            yield step
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """What a placement shows: the steps of its source, looked up when they are wanted, as they may hold it."""
+
+    placement: Placement
+    sources: Sources
+
+    @property
+    def of(self) -> Shown:
+        """Gives the node that is shown."""
+        return self.placement.of
+
+    @property
+    def steps(self) -> tuple[CompositeStep, ...]:
+        """Gives what of the source is composited."""
+        return self.sources.steps(self.of)
+
+
+def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, ...]:
+    """Returns what to composite, bottom first: invisible nodes left out, groups that pass through dissolved.
+
+    `sources`: those of the whole tree, where `root` is a group of it."""
+    sources = Sources(root) if sources is None else sources
+    out: list[CompositeStep] = []
+    for node, clipped in stacks(root.children):
+        row = blend.BLENDS[node.blend]
+        if not node.visible or (node.opacity == 0 and not row.outside):
+            continue
+        if clipped:
+            both = _clipped(node, clipped, sources)
+            out.append(CompositeStep(row, np.float32(node.opacity), both, row.name == "src-over"))
+            continue
+        if isinstance(node, Group) and passes_through(node):
+            out.extend(steps(node, sources))
+            continue
+        source = _source(node, sources)
+        if source or row.outside:
+            out.append(CompositeStep(row, np.float32(node.opacity), source, row.name == "src-over"))
+    return tuple(out)
+
+
+def masked(plan: tuple[CompositeStep, ...], node: Node) -> tuple[CompositeStep, ...]:
+    """Returns the steps of a node's picture with its mask taken off them."""
+    mask = Mask.of(node) if plan else None
+    return plan if mask is None else (*plan, CompositeStep(blend.BLENDS["dst-in"], np.float32(1), mask, False))
+
+
+def _source(node: Node, sources: Sources) -> Layer | Placed | tuple[CompositeStep, ...]:
+    if isinstance(node, Group):
+        return masked(steps(node, sources), node)
+    if isinstance(node, Layer) and node.mask is not None:
+        return masked((sources.step(node),), node)
+    return sources.source(node)
+
+
+def _clipped(node: Node, clipped: Sequence[Node], sources: Sources) -> tuple[CompositeStep, ...]:
+    """Returns a node and what is clipped to it as one picture: that keeps the node's alpha."""
+    own = CompositeStep(
+        blend.BLENDS["src-over"],
+        np.float32(1),
+        _source(node, sources),
+        True,
+    )
+    above = steps(Group(node.id, node.name, children=tuple(replace(one, clip=False) for one in clipped)), sources)
+    return own, *(replace(step, over=False, atop=True) for step in above)
