@@ -122,10 +122,18 @@ def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found
         return source.placement if isinstance(source, Placed) and source.of in loop else None
 
     def read(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
-        empty = isinstance(source, Layer) and (source, level, rect, seen) in unpainted
-        return None if empty else _pixels(source, level, rect, layers, seen)
+        paint = source.sheet if isinstance(source, Mask) else source
+        if not isinstance(paint, Layer) or (paint, level, rect, seen) not in unpainted:
+            return _pixels(source, level, rect, layers, seen)
+        return _pixels(source, level, rect, _nothing, seen) if isinstance(source, Mask) else None
 
     return Tiles(loop, Drawing(lambda of: _asking(sources.steps(of)), copy, read, _drawn))
+
+
+def _nothing(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
+    """Reads layers in which nothing lies."""
+    del layer, level, rect
+    return None
 
 
 def _covers(step: CompositeStep, source: np.ndarray | Found | None) -> bool:
@@ -183,8 +191,9 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
         middle: Found = [] if inner is None else [(own, blend.flat(inner))]
         return _drawn([*under, *middle, *over], shown, False)
 
-    if own.opacity != 1 or not all(step.over for step in above):
-        pixels = unrolled.all_turns(turns, level, part, both)
+    plainly = all(step.over for step in above)
+    if own.opacity != 1 or not plainly:
+        pixels = unrolled.all_turns(turns, level, part, both, own.opacity if plainly else np.float32(1))
     else:
         pixels = unrolled.lying_below(turns, level, part, lambda turn, shown, _: drawn(below, turn, shown))
         if above:

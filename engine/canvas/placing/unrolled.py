@@ -20,11 +20,13 @@ HIDING = np.float32(1 - 2.0**-12)  # alpha in front of a pixel from which on not
 Draw = Callable[[int, Rect, "np.ndarray | None"], "np.ndarray | None"]
 
 
-def all_turns(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
-    """Returns the picture in a rectangle, from the innermost turn outwards: float32 (4, h, w), None where empty."""
+def all_turns(turns: Turns, level: int, rect: Rect, draw: Draw, share: np.float32) -> np.ndarray | None:
+    """Returns the picture in a rectangle, from the innermost turn outwards that counts: float32 (4, h, w), None where
+    empty.  `share`: how much of a turn shows in the one around it, at most."""
     shown: list[Rect] = []
-    part = turns.within(0, level, rect)
-    while not part.empty:
+    part, left = turns.within(0, level, rect), np.float32(1)
+    while not part.empty and left >= 1 - HIDING:
+        left *= share
         shown.append(part)
         part = turns.within(len(shown), level, part)
     pixels: np.ndarray | None = None

@@ -1,0 +1,161 @@
+"""Pictures that contain themselves in a group, behind a mask, or round about others: as each turn of what is farther
+out, at any depth, and each tile of them once."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from test_self_turns import FRAME, POSES, as_seen, fixed, painted, picture
+
+from engine.canvas.composite import composite
+from engine.canvas.layers import EMPTY, Alone, Group, Layer, find, walk
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose, SourcePart
+from engine.canvas.reading import layer_planes
+from engine.canvas.selecting.selection import Selection
+from engine.numeric.address import Rect
+
+HALF, QUARTER = POSES["half"], POSES["quarter"]
+
+
+def itself(number, of=None, pose=HALF, part=FRAME, **more):
+    return Placement(number, f"copy {number}", of=of, pose=pose, part=part, **more)
+
+
+def grouped(pose=HALF, **more):
+    """A group over a layer, with a copy of all in it."""
+    a, b = painted()
+    return replace(EMPTY, children=(a, Group(80, "g", children=(b, itself(90, pose=pose)), **more)))
+
+
+def masked(pose=HALF, inverse=False):
+    """The same behind a mask that hides a corner of the group, or all but that corner."""
+    return grouped(pose, mask=Selection(painted()[1].pyramid, not inverse))
+
+
+def round_about(pose=HALF, more=()):
+    """A shows B as large as it is, B shows A smaller."""
+    a, b = painted()
+    to_b = itself(51, 60, Pose(at=(10, 10)), SourcePart(0, Rect(-10, -10, 118, 118)))
+    whole = Group(50, "A", children=(a, to_b))
+    return replace(EMPTY, children=(whole, Group(60, "B", children=(b, itself(61, 50, pose), *more), opacity=0.6)))
+
+
+TREES = {
+    "in a group": grouped,
+    "in a thin group": lambda pose: grouped(pose, opacity=0.7),
+    "in a group and thin itself": lambda pose: replace(
+        grouped(), children=(painted()[0], Group(80, "g", children=(itself(90, pose=pose, opacity=0.5),)))
+    ),
+    "behind a mask": masked,
+    "within a mask": lambda pose: masked(pose, inverse=True),
+    "round about": round_about,
+    "round about twice": lambda pose: round_about(pose, (itself(62, 50, Pose(at=(60, 50), levels=-2, turn=1)),)),
+    "beside a copy": lambda pose: replace(round_about(pose), children=(*round_about(pose).children, itself(70, 50))),
+}
+
+
+def at_once(root, level, rect):
+    """What the picture is by what copies show of it farther out: they are layers of that."""
+    copies = {one.id: one for one in walk(root) if isinstance(one, Placement)}
+
+    def plain(node):
+        if isinstance(node, Placement):
+            return Layer(node.id, node.name, opacity=node.opacity)
+        return replace(node, children=tuple(map(plain, node.children))) if isinstance(node, Group) else node
+
+    def read(layer, level, rect):
+        if layer.id not in copies:
+            return layer_planes(layer, level, rect)
+        one = copies[layer.id]
+        part = one.pose.similarity.shown(one.part.rect, one.part.level, level).intersect(rect)
+        if part.empty:
+            return None
+        source = one.pose.similarity.inverse().shown(part, level, level + one.pose.levels)
+        out = np.zeros((4, rect.height, rect.width), np.float32)
+        out[:, *part.slices(rect)] = as_seen(picture(shown(root, one), level + one.pose.levels, source), one.pose)
+        return out
+
+    return composite(plain(root), level, rect, read)
+
+
+def shown(root, one):
+    """A tree of what a copy shows."""
+    if one.of is None:
+        return root
+    node = next(node for node in walk(root) if node.id == one.of)
+    return Alone(0, "root", children=(replace(node, opacity=1.0),), tree=root)
+
+
+@settings(deadline=None, max_examples=8)
+@given(
+    st.sampled_from(sorted(TREES)),
+    st.sampled_from(["half", "quarter", "mirrored"]),
+    st.sampled_from([1, 4, 9, 40, 333, 1000]),
+    st.tuples(st.integers(-60, 60), st.integers(-60, 60)),
+)
+def test_a_turn_is_what_lies_farther_out(name, pose, level, by):
+    root = TREES[name](POSES[pose])
+    x, y = fixed(POSES[pose], level)
+    rect = Rect.at(x + by[0], y + by[1], 50, 40)
+    found = picture(root, level, rect)
+    assert found.any()
+    np.testing.assert_allclose(found, at_once(root, level, rect), atol=4e-3)
+
+
+@settings(deadline=None, max_examples=6)
+@given(
+    st.sampled_from(sorted(TREES)),
+    st.sampled_from(sorted(POSES)),
+    st.sampled_from([0, 3, 8, 200]),
+    st.integers(0, 90),
+    st.integers(0, 60),
+)
+def test_a_pixel_does_not_depend_on_what_else_was_asked_for(name, pose, level, left, top):
+    root, (x, y) = TREES[name](POSES[pose]), fixed(POSES[pose], level)
+    whole = Rect.at(x - 70, y - 60, 140, 110)
+    part = Rect.at(whole.x0 + left, whole.y0 + top, 43, 50)
+    one = picture(root, level, whole)
+    np.testing.assert_array_equal(picture(root, level, part), one[:, *part.slices(whole)])
+
+
+@pytest.mark.parametrize("name", ["in a thin group", "round about twice"])
+def test_two_threads_see_what_one_sees(name):
+    root, (x, y) = TREES[name](HALF), fixed(HALF, 6)
+    parts = [Rect.at(x + 64 * i, y - 40 * j, 64, 40) for i in (-1, 0, 1) for j in (0, 1)]
+    with ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(lambda part: picture(root, 6, part), parts))
+    for part, found in zip(parts, together, strict=True):
+        np.testing.assert_array_equal(found, picture(root, 6, part))
+
+
+def test_each_tile_is_made_once_however_many_ways_lead_round():
+    """A in B eight times, in each of which B is once more: 8^9 copies of copies."""
+    more = tuple(itself(62 + n, 50, Pose(at=(16 * n, 8 * n), levels=-1)) for n in range(7))
+    reads = []
+
+    def read(layer, level, rect):
+        reads.append(level)
+        return layer_planes(layer, level, rect)
+
+    composite(round_about(more=more), 3, Rect.at(300, 300, 100, 100), read)
+    assert 0 < len(reads) < 4000
+
+
+def test_what_a_mask_hides_of_a_copy_is_not_read():
+    mask = replace(painted()[1], id=3)
+    hidden = Group(80, "g", children=(itself(90),), mask=Selection(mask.pyramid))
+    root = replace(EMPTY, children=(painted()[0], hidden))
+    reads = []
+
+    def read(layer, level, rect):
+        reads.append(layer.name)
+        return layer_planes(layer, level, rect)
+
+    rect = Rect.at(500, 500, 90, 90)  # far from the mask's paint
+    composite(root, 3, rect, read)
+    assert sorted(set(reads)) == ["a", "g"]
+    assert find(root, "copy 90").of is None
