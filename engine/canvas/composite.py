@@ -18,11 +18,11 @@ from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
-from engine.canvas.placing.drawing import NOTHING, Above, Asking, Copies, Drawing
+from engine.canvas.placing.composite_steps import CompositeStep, Found, Leaf, Placed, Sources, steps
+from engine.canvas.placing.drawn_copies import ABOVE_ALL, Above, Asking, Copies, Drawing
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
-from engine.canvas.placing.steps import CompositeStep, Found, Leaf, Placed, Sources, steps
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
 from engine.canvas.placing.unpainted import Unpainted
 from engine.canvas.selecting.layer_mask import Mask
@@ -89,7 +89,7 @@ def _gather(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read,
         return cast("Found", done.value)
 
 
-def _asking(plan: tuple[CompositeStep, ...], around: Above | None = NOTHING) -> Asking[Leaf, Found]:
+def _asking(plan: tuple[CompositeStep, ...], around: Above | None = ABOVE_ALL) -> Asking[Leaf, Found]:
     """Asks for the pixels of sources, from the top down to the first that covers all; returns what matters, bottom
     first.  `around`: what lies above the group that the plan is of, if it is known."""
     found: Found = []

@@ -21,9 +21,9 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.baking import stored_tiles, ways_of
+from engine.canvas.placing.composite_steps import CompositeStep, steps
 from engine.canvas.placing.filled import TilePlace
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.steps import CompositeStep, steps
 from engine.canvas.placing.through import UNPLACED, Seen
 from engine.canvas.reading import layer_planes
 from engine.canvas.store import Level, Pyramid, Record

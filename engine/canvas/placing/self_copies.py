@@ -20,7 +20,7 @@ from typing import Generic, NamedTuple
 
 import numpy as np
 
-from engine.canvas.placing.drawing import Above, Copies, Drawing, FoundT, Shown, SourceT
+from engine.canvas.placing.drawn_copies import Above, Copies, Drawing, FoundT, Shown, SourceT
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.sampling import Picture, source_level
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, set_in

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from engine.canvas import layers
 from engine.canvas.composite import BLOCK, blocks, composite
 from engine.canvas.layers import EMPTY, Group, Layer
-from engine.canvas.placing.steps import steps
+from engine.canvas.placing.composite_steps import steps
 from engine.numeric.address import Rect
 from engine.numeric.blend import BLENDS, blend
 from engine.numeric.grid import snapped

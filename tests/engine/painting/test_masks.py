@@ -18,9 +18,11 @@ from engine.canvas.reading import layer_planes
 from engine.files.limits import LIMITS
 from engine.files.zip_reader import ZipArchive
 from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8
 from engine.painting import commands as c
 from engine.painting.difference import areas
 from engine.painting.recording import Header, version_of
+from engine.painting.rendering import sheets
 from engine.painting.value import Refusal, first_painting
 from engine.session.replay import replay
 from engine.session.session import Session
@@ -180,3 +182,15 @@ def test_what_cannot_be_is_refused_in_a_line(before, command, wrong):
     session = done(*before)
     with pytest.raises(Refusal, match=wrong):
         session.do(c.parse(command))
+
+
+@pytest.mark.parametrize("inverse", [False, True])
+def test_the_picture_that_a_file_shows_to_other_programs_is_within_the_mask(inverse):
+    root = masked().painting.root
+    mask = layers.find(root, "sky").mask
+    root = layers.set_fields(root, "sky", mask=mask.inverted() if inverse else mask)
+    places = {layer.id: FRAME for layer in layers.layers(root)}
+    merged = np.concatenate([band for _, band in sheets(root, 0, FRAME, places)])
+    plain = picture(layers.set_fields(root, "sky", mask=None))
+    assert not np.array_equal(merged, to_rgba8(plain))
+    np.testing.assert_array_equal(merged, to_rgba8(picture(root)))

@@ -43,7 +43,7 @@ class Above(NamedTuple):
     found: tuple[Sequence[tuple[Laid, object]], ...]
 
 
-NOTHING = Above(1.0, ())
+ABOVE_ALL = Above(1.0, ())
 Asking = Generator[
     tuple[SourceT, "Above | None"], "np.ndarray | None", FoundT
 ]  # also for what lies above, where that is known

@@ -11,7 +11,7 @@ import numpy as np
 from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, stacks, walk
 from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
-from engine.canvas.placing.drawing import Copies, Shown
+from engine.canvas.placing.drawn_copies import Copies, Shown
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.selecting.layer_mask import Mask
@@ -87,14 +87,14 @@ class Sources:
         """Returns the placements within what shows one another that a node is part of, by the nodes they lie in; None
         if it does not hold itself."""
         if of not in self._loops:
-            ahead = self._reached(of, lambda node: [one.placement.of for one in placed(self.steps(node))])
+            ahead = self._reached(of, lambda node: [one.placement.of for one in placements_in(self.steps(node))])
             behind: dict[Shown, list[Shown]] = {}
             for node in ahead:
-                for one in placed(self.steps(node)):
+                for one in placements_in(self.steps(node)):
                     behind.setdefault(one.placement.of, []).append(node)
             round_ = [node for node in ahead if node in self._reached(of, lambda node: behind.get(node, []))]
             copies = {
-                node: tuple(one.placement for one in placed(self.steps(node)) if one.placement.of in round_)
+                node: tuple(one.placement for one in placements_in(self.steps(node)) if one.placement.of in round_)
                 for node in round_
             }
             self._loops[of] = copies or None
@@ -153,7 +153,7 @@ class Sources:
         return node if isinstance(node, Layer) else Placed(node, self)
 
 
-def placed(plan: Sequence[CompositeStep]) -> Iterator[Placed]:
+def placements_in(plan: Sequence[CompositeStep]) -> Iterator[Placed]:
     """Yields what placements show that are composited directly, or in groups."""
     return (one for one in unrolled.leaves(step.source for step in plan) if isinstance(one, Placed))
 
