@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from imgui_bundle import ImVec2, imgui
 
 from app import theme
 from app.desk.desk import Desk
 from app.desk.guides import symmetry
+from app.desk.guides.guide_sight import clipped
 from app.tools.tools import TOOLS
 
 _SIDES = 24  # of a handle's circle
@@ -17,13 +16,14 @@ _SIDES = 24  # of a handle's circle
 def draw_guides(desk: Desk) -> None:
     """Draws the symmetry's lines from its centre to the edges of the screen."""
     guide = symmetry.guide_of(desk)
-    if guide is None or guide.off:
+    if guide is None or guide.off or not (desk.guides.shown or desk.hand.tool == "guides"):
         return
     x, y = desk.view.to_screen(symmetry.centre_of(guide))
     a, b, c, d = desk.view.matrix()
     strong = 1.0 if desk.hand.tool == "guides" else 0.6
     for dx, dy in symmetry.axes(guide):
-        ends = half_line((x, y), (a * dx + b * dy, c * dx + d * dy), (desk.view.width, desk.view.height))
+        ray = (x, y), (a * dx + b * dy, c * dx + d * dy)
+        ends = clipped(ray, (desk.view.width, desk.view.height), 0.0)
         if ends is not None:
             _line(desk, *ends, strong)
     if desk.hand.tool == "guides":
@@ -65,24 +65,6 @@ def draw_copies(desk: Desk) -> None:
         at = ImVec2(x + right, y + down)
         painter.add_circle(at, radius + 0.5, theme.packed((0.0, 0.0, 0.0), 0.3), 0, 1.2 * desk.scale)
         painter.add_circle(at, radius - 0.5, theme.packed((1.0, 1.0, 1.0), 0.4), 0, 1.0 * desk.scale)
-
-
-def half_line(
-    start: tuple[float, float], way: tuple[float, float], size: tuple[float, float]
-) -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """Returns the part on a screen of `size` of the half line from `start` on; None where it does not meet it."""
-    low, high = 0.0, math.inf
-    for at, step, side in zip(start, way, size, strict=True):
-        if abs(step) < 1e-12:
-            if not 0.0 <= at <= side:
-                return None
-            continue
-        near, far = sorted((-at / step, (side - at) / step))
-        low, high = max(low, near), min(high, far)
-    if low >= high or high is math.inf:
-        return None
-    (x, y), (dx, dy) = start, way
-    return (x + low * dx, y + low * dy), (x + high * dx, y + high * dy)
 
 
 def _line(desk: Desk, start: tuple[float, float], end: tuple[float, float], strong: float) -> None:

@@ -36,6 +36,7 @@ from app.faults.fault_guard import FaultGuard
 from app.input.pointers import Pointers
 from app.news import News
 from app.pace import Pace
+from app.panels.guides.assistant_marks import draw_assistants
 from app.panels.layout import Layout
 from app.panels.moving import box_marks
 from app.router import Router
@@ -182,6 +183,7 @@ class Window:
         with self._guard.spare_drawing("drawing the canvas's marks"):
             cursor.draw_frame(self.desk)
             cursor.draw_growing(self.desk)
+            draw_assistants(self.desk)
             guide_marks.draw_guides(self.desk)
             cursor.draw_outline(self.desk)
             guide_marks.draw_copies(self.desk)

@@ -9,6 +9,7 @@ from app.actions.action import Action, asks
 from app.actions.edit_actions import EDIT_ACTIONS
 from app.actions.endless_actions import ENDLESS_ACTIONS
 from app.actions.file_actions import FILE_ACTIONS
+from app.actions.guide_actions import GUIDE_ACTIONS
 from app.actions.layer_actions import LAYER_ACTIONS
 from app.actions.mask_actions import MASK_ACTIONS
 from app.actions.merging_actions import MERGING_ACTIONS
@@ -24,6 +25,7 @@ ACTIONS: dict[str, Action] = {
     **FILE_ACTIONS,
     **EDIT_ACTIONS,
     **TOOL_ACTIONS,
+    **GUIDE_ACTIONS,
     **LAYER_ACTIONS,
     **SELECT_ACTIONS,
     **MASK_ACTIONS,
@@ -36,7 +38,7 @@ ACTIONS: dict[str, Action] = {
     "copy_details": Action("Copy details", "Help", (), "Copy versions and the last faults", offers.copy_details),
     "about": Action("About Inkfall…", "Help", (), "What this program is", asks("about")),
 }  # fmt: skip
-MENUS = ("File", "Edit", "Tools", "Layer", "Select", "View", "Go", "Help")
+MENUS = ("File", "Edit", "Tools", "Layer", "Select", "Guides", "View", "Go", "Help")
 
 
 def by_key(keys: str) -> Action | None:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.actions.action import Action as A
-from app.actions.action import Check, always, ready, to_now
+from app.actions.action import Check, always, to_now
 from app.desk.desk import Desk
 from app.desk.filling.fill_state import unbounded
-from app.desk.guides import symmetry
 from engine.studio.requests import Do
 
 
@@ -25,15 +24,6 @@ def _is(name: str) -> Check:
 
 def _erasing(desk: Desk) -> bool:
     return desk.hand.erasing
-
-
-def _symmetric(desk: Desk) -> bool:
-    guide = symmetry.guide_of(desk)
-    return guide is not None and not guide.off
-
-
-def _drawn(desk: Desk) -> bool:
-    return ready(desk) and _symmetric(desk)
 
 
 def _toggle_eraser(desk: Desk) -> None:
@@ -86,15 +76,6 @@ TOOL_ACTIONS: dict[str, A] = {
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),
     "turn": A("Turn", "Tools", ("R",), "Drag to turn the view", _tool("turn"), always, _is("turn")),
     **{f"draw_{name}": _drawing(f"draw_{name}", *row) for name, row in _SHAPES.items()},
-    "guides": A(
-        "Move guides", "Tools", ("Shift+Y",), "Drag the centre of the symmetry, or turn its axis", _tool("guides"),
-        always, _is("guides"),
-    ),
-    "symmetry": A("Symmetry", "Tools", ("Y",), "Paint with symmetry, or without", symmetry.toggle, ready, _symmetric),
-    "symmetry_here": A(
-        "Bring the symmetry here", "Tools", (), "Its centre comes into the middle of what you see",
-        symmetry.bring_here, _drawn,
-    ),
     "smaller": A("Smaller brush", "Tools", ("[",), "Make the brush smaller", lambda d: d.hand.resize(1 / 1.15)),
     "larger": A("Larger brush", "Tools", ("]",), "Make the brush larger", lambda d: d.hand.resize(1.15)),
     "escape": A("Back to the brush", "Tools", ("Escape",), "Stop what is going on; back to the brush", _escape),

@@ -15,9 +15,10 @@ from app.panels.brush.brush_panel import BrushPanel
 from app.panels.colour.colour_panel import ColourPanel
 from app.panels.colour.ink_mixer import InkPanel
 from app.panels.dialogs.dialogs import Dialogs
+from app.panels.guides.guide_bar import GuideBar
 from app.panels.layers import mask_bar
 from app.panels.layers.layers_panel import LayersPanel
-from app.panels.moving import move_bar
+from app.panels.moving.move_bar import MoveBar
 from app.panels.options import options_bar
 from app.panels.panel import Painting
 from app.panels.places.place_field import PlaceField
@@ -42,7 +43,7 @@ class Layout:
         self._guard = guard
         self.brush, self.colour, self.ink, self.layers = BrushPanel(), ColourPanel(), InkPanel(), LayersPanel()
         self.dialogs, self.strip, self.place_field = Dialogs(), StripPanel(), PlaceField()
-        self.move_bar = move_bar.MoveBar()
+        self.move_bar, self.guide_bar = MoveBar(), GuideBar()
         self._covered: list[tuple[float, float, float, float]] = []
         self._popup, self._strip = False, ""
 
@@ -133,24 +134,23 @@ class Layout:
         imgui.pop_style_color()
 
     def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
-        """Draws bars over the canvas, so that nothing gives way to them: the numbers of what is moved, or what the tool
-        in hand can be set to, and below which mask is painted on."""
-        options, bars = options_bar.options_of(desk), list[tuple[str, float, Callable[[Desk], None]]]()
-        if options is not None:
-            bars.append(("options bar", options.width, options.draw))
-        elif self.move_bar.wanted(desk):
-            bars.append(("move bar", move_bar.BAR_WIDTH, self.move_bar.draw))
+        """Draws bars over the canvas, so that nothing gives way to them: the numbers of what is moved or of a guide, or
+        what the tool in hand can be set to, and below which mask is painted on."""
+        options = (options_bar.options_of(desk), self.move_bar.options(desk), self.guide_bar.options(desk))
+        bars = [("options bar", bar) for bar in options if bar is not None][:1]
         if mask_bar.wanted(desk):
-            bars.append(("mask bar", mask_bar.MASK_BAR_WIDTH, mask_bar.draw))
-        margin, high = 4 * desk.scale, imgui.get_frame_height() + 8 * desk.scale
-        free = desk.view.width - corner[0] - desk.insets[2] - 2 * margin
+            bars.append(("mask bar", options_bar.Options(mask_bar.MASK_BAR_WIDTH, mask_bar.draw)))
+        margin, gap = 4 * desk.scale, imgui.get_style().item_spacing.y
+        free, top = desk.view.width - corner[0] - desk.insets[2] - 2 * margin, corner[1] + margin
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 4) * desk.scale)
-        for n, (name, ems, draw) in enumerate(bars):
-            wide, top = min(ems * imgui.get_font_size(), free), corner[1] + margin + n * (high + margin)
+        for name, bar in bars:
+            high = bar.lines * (imgui.get_frame_height() + gap) - gap + 8 * desk.scale
+            wide = min(bar.width * imgui.get_font_size(), free)
             if self._begin(name, (corner[0] + margin, top, wide, high), _SCROLLS_NOT):
                 with self._guard.spare_drawing(f"drawing the {name}"):
-                    draw(desk)
+                    bar.draw(desk)
             imgui.end()
+            top += high + margin
         imgui.pop_style_var()
 
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:

@@ -15,11 +15,13 @@ def draw(desk: Desk) -> float:
     if not imgui.begin_main_menu_bar():
         return 0.0
     for menu in MENUS:
-        if imgui.begin_menu(menu):
-            for action in ACTIONS.values():
-                if action.menu == menu:
-                    _item(desk, action)
-            imgui.end_menu()
+        if not imgui.begin_menu(menu):
+            w.named(f"{menu} menu")
+            continue
+        for action in ACTIONS.values():
+            if action.menu == menu:
+                _item(desk, action)
+        imgui.end_menu()
     _title(desk)
     height = imgui.get_window_height()
     imgui.end_main_menu_bar()

@@ -13,6 +13,7 @@ from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.guides import symmetry
+from app.desk.guides.snapping import Snapper
 from app.desk.guides.tile_seams import tell_seams
 from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
@@ -88,26 +89,29 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | None:
 
 
 def paint(desk: Desk, first: PenEvent) -> Gesture:
-    """Returns a stroke, at the level that is shown; on a placement, on what it shows.  With Shift a straight line leads
-    to it from where the last one ended."""
+    """Returns a stroke, at the level that is shown; on a placement, on what it shows; drawn onto the guide that it goes
+    along.  With Shift it is straight, and a click with Shift draws a straight line from where the last one ended."""
     begun = begin_stroke(desk, first)
     if begun is None:
         return
     level, origin, brush, _ = begun
-    smoother = Smoother(desk.hand.stabiliser)
+    smoother, straight = Smoother(desk.hand.stabiliser), desk.pointer.shift
+    snapper = Snapper(desk, level, origin, straight)
     desk.painting = True
     done = False
     try:
         event = first
-        begun.post(desk, _from_last(desk, level, origin, first))
         while True:
             if event.kind in ("down", "move"):
                 points = np.array([_point(desk.view, level, origin, event, first.time)])
-                begun.post(desk, smoother.add(points))
+                begun.post(desk, snapper.add(smoother.add(points)))
             if event.kind in ENDS:
                 break
             event = yield
-        begun.post(desk, smoother.finish())
+        rest = snapper.add(smoother.finish())
+        if straight and snapper.waits:
+            begun.post(desk, _from_last(desk, level, origin, first))
+        begun.post(desk, np.concatenate([rest, snapper.finish()]))
         done = True
         desk.guides.last = desk.view.to_canvas(event.x, event.y)
     finally:
@@ -119,8 +123,8 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
 
 
 def _from_last(desk: Desk, level: int, origin: tuple[int, int], first: PenEvent) -> np.ndarray:
-    """Returns where the last stroke ended, as a point of the one that begins with Shift held; none without."""
-    if not desk.pointer.shift or desk.guides.last is None:
+    """Returns where the last stroke ended, as a point of a straight line from there; none where that is not known."""
+    if desk.guides.last is None:
         return np.empty((0, 6))
     x, y = desk.guides.last.offset(level, *origin)
     near = max(abs(x), abs(y)) <= REACH

@@ -40,7 +40,7 @@ TOOLS: dict[str, Tool] = {
         True,
     ),
     "guides": Tool(
-        "Move guides", icons.GUIDES, move_guide, "Drag the centre of the symmetry, or turn its axis; by 15° with Shift"
+        "Move guides", icons.GUIDES, move_guide, "Drag the points of guides, or the axis of symmetry; by 15° with Shift"
     ),
     "fill": Tool("Fill", icons.FILL, fill, "Click a region: it is filled with the chosen brush"),
     "gradient": Tool(

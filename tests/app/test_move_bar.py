@@ -7,7 +7,7 @@ import pytest
 
 from app.desk.known import Known
 from app.desk.moving.move_state import MoveState
-from app.panels.moving.move_bar import typed_number
+from app.panels.controls.number_field import typed_number
 from engine.numeric.address import Rect
 from engine.studio.layer_rows import LayerRow
 from engine.studio.moving.move_requests import Extent

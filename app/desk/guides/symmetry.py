@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from app.canvas.view import Place, View, place_of_pixel
 from app.desk.desk import Desk
+from app.desk.guides.present import present_guides
 from engine.brush.copies import NO_COPIES, Copies, symmetric
 from engine.painting.guiding.guides import Guide
 from engine.painting.stroke_copies import FURTHEST, fits
@@ -42,13 +43,7 @@ WAYS: dict[str, Way] = {
 
 def guide_of(desk: Desk) -> Guide | None:
     """Returns the painting's symmetry, as it is being moved if it is; None if it has none."""
-    held, scene = desk.guides.held, desk.known.scene
-    if held is not None and (scene is None or held.serial != scene.serial or held.guide in scene.guides):
-        desk.guides.held = held = None
-    if held is not None:
-        return held.guide
-    guides = scene.guides if scene is not None else ()
-    return next((guide for guide in guides if guide.kind == "symmetry"), None)
+    return next((guide for guide in present_guides(desk) if guide.kind == "symmetry"), None)
 
 
 def way_of(guide: Guide | None) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from fractions import Fraction
 
@@ -16,13 +15,13 @@ from app.desk.moving.box import spot
 from app.desk.moving.poses import Spin, exact, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_down
 from app.panels.controls import widgets as w
-from engine.canvas.placing.pose import FARTHEST, Pose, SourcePart
+from app.panels.controls.number_field import NumberFields, typed_number
+from app.panels.options.options_bar import Options
+from engine.canvas.placing.pose import Pose, SourcePart
 from engine.studio.results import LayerRow
 
 BAR_WIDTH = 33.0  # of the bar, ems
-_FLAGS = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
 _MOST = 10**9  # percent
-_NUMBER = re.compile(r"[+-]?[0-9]{1,2500}([.][0-9]{0,30})?")
 Typed = Callable[[Pose, SourcePart, int, Fraction], Pose]  # what a number makes of a pose, seen at a level
 
 
@@ -62,11 +61,11 @@ class MoveBar:
     """Remembers which number is being typed."""
 
     def __init__(self) -> None:
-        self._typing, self._text = "", ""
+        self._fields = NumberFields()
 
-    def wanted(self, desk: Desk) -> bool:
-        """Tells whether it is to be seen."""
-        return desk.panels and held_box.seen_box(desk) is not None
+    def options(self, desk: Desk) -> Options | None:
+        """Returns what is to be seen; None for nothing."""
+        return Options(BAR_WIDTH, self.draw) if desk.panels and held_box.seen_box(desk) is not None else None
 
     def draw(self, desk: Desk) -> None:
         """Fills the present window, one line high."""
@@ -79,11 +78,7 @@ class MoveBar:
         values = {"x": str(x), "y": str(y), "scale": scale_text(spin), "angle": turn_text(spin)}
         imgui.begin_disabled(row.locked or desk.moving.label is not None)
         for name, (sign, width, typed, hint) in _FIELDS.items():
-            if sign in "xy":
-                imgui.align_text_to_frame_padding()
-                imgui.text_disabled(sign)
-                imgui.same_line(0, 0.3 * imgui.get_font_size())
-            text = self._field(name, values[name], width, hint)
+            text = self._fields.draw(name, sign if sign in "xy" else "", values[name], width, hint)
             if text is not None:
                 _apply(desk, row, (text, typed), (pose, part, level))
             imgui.same_line(0, 0.7 * imgui.get_font_size())
@@ -94,18 +89,6 @@ class MoveBar:
                 actions.perform(desk, action)
             imgui.same_line()
         _told(exact(pose, level))
-
-    def _field(self, name: str, value: str, width: float, hint: str) -> str | None:
-        """Draws a field; returns what was typed when that is ended by Return."""
-        imgui.set_next_item_width(width * imgui.get_font_size())
-        entered, text = imgui.input_text(f"##{name}", self._text if self._typing == name else value, _FLAGS)
-        if imgui.is_item_active():
-            self._typing, self._text = name, text
-        elif self._typing == name:
-            self._typing = ""
-        w.named(f"##{name} field")
-        w.tooltip(hint)
-        return text if entered else None
 
 
 def _apply(desk: Desk, row: LayerRow, typed: tuple[str, Typed], where: tuple[Pose, SourcePart, int]) -> None:
@@ -120,13 +103,6 @@ def _apply(desk: Desk, row: LayerRow, typed: tuple[str, Typed], where: tuple[Pos
         desk.say("That is too far away", bad=True)
     elif pose != where[0]:
         set_down(desk, row, pose)
-
-
-def typed_number(text: str) -> Fraction | None:
-    """Returns the number that was typed, to its last digit; None if it is none, or too large."""
-    plain = text.strip().rstrip("%° ").replace("−", "-").replace(",", ".")
-    value = Fraction(plain) if _NUMBER.fullmatch(plain) else None
-    return value if value is not None and abs(value) < FARTHEST else None
 
 
 def _told(very: bool) -> None:

@@ -10,10 +10,11 @@ from app.panels.options import fill_options
 
 
 class Options(NamedTuple):
-    """What a bar shows; `width`: of the bar, ems."""
+    """What a bar shows; `width`: of the bar, ems; `lines`: how many it is high."""
 
     width: float
     draw: Callable[[Desk], None]
+    lines: int = 1
 
 
 _OF_TOOLS = {

@@ -1,4 +1,4 @@
-"""Guides: what lies on the canvas to draw by, and is no paint: axes of symmetry, and later rulers.
+"""Guides: what lies on the canvas to draw by, and is no paint: axes of symmetry, rulers, vanishing points, grids.
 
 A guide lies at a level, from a pixel on; it is saved with the painting, and making, changing and removing one are
 steps.
@@ -17,6 +17,7 @@ from engine.brush.checks import thawed
 from engine.checks.field_error import FieldError
 from engine.checks.values import is_number
 from engine.files.strict_json import Fields
+from engine.painting.layering.paper_command import read_colour
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT, Extra
 from engine.painting.points import plain
 from engine.painting.stroke_copies import COUNT_CAP
@@ -28,16 +29,26 @@ _NOTHING: Extra = Map()
 
 
 class GuideKind(NamedTuple):
-    """A row of the table: how many points a guide of a kind has, and whether some of them may not coincide."""
+    """A row of the table: how many points a guide of a kind has, and which; `wide`: they lie on no line."""
 
-    least: int
-    most: int
+    points: int
     what: str
+    wide: bool = False
 
 
 GUIDE_KINDS: dict[str, GuideKind] = {
-    "symmetry": GuideKind(2, 2, "its centre, and a point on its axis"),
+    "symmetry": GuideKind(2, "its centre, and a point on its axis"),
+    "ruler": GuideKind(2, "two points on its edge"),
+    "parallel": GuideKind(2, "two points in whose direction all its lines run"),
+    "ellipse": GuideKind(
+        3, "its centre, the end of one axis, and a point as far from that axis as the other is long", True
+    ),
+    "grid": GuideKind(3, "its origin, and the ends of two sides of a cell", True),
+    "perspective-1": GuideKind(2, "its vanishing point, and a point on the horizon"),
+    "perspective-2": GuideKind(2, "both vanishing points"),
+    "perspective-3": GuideKind(3, "its three vanishing points", True),
 }
+_FLAT = 1e-9  # of the sides' product: a triangle with less area is a line
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +56,8 @@ class Guide:
     """A guide under a name; one of this name that there is becomes this one.
 
     `points`: pixels of `level` from the pixel `at`.  A symmetry has `count` parts of a full turn; where it has a
-    `mirror`, each is mirrored, too.  One that is `off` stays where it is and does nothing.
+    `mirror`, each is mirrored, too.  One that is `off` stays where it is and does nothing.  `snap`: how much it draws
+    strokes onto it, 0..1.  `colour`: of its lines, None for the usual one.
     """
 
     name: str
@@ -56,6 +68,8 @@ class Guide:
     count: int = 1
     mirror: bool = False
     off: bool = False
+    snap: float = 1.0
+    colour: str | None = None
     extra: Extra = _NOTHING
 
 
@@ -101,6 +115,8 @@ def read_guide(members: Fields) -> GuideCommand:
         members.integer("count", 1, lo=1, hi=COUNT_CAP),
         members.flag("mirror", False),
         members.flag("off", False),
+        members.number("snap", 1.0, lo=0.0, hi=1.0),
+        read_colour(members, "colour"),
         members.rest(),
     )
 
@@ -113,13 +129,15 @@ def write_guide(command: GuideCommand) -> dict[str, object]:
     out |= {"at": list(command.at), "points": [list(map(plain, point)) for point in command.points]}
     out |= {"count": command.count} if command.count != 1 else {}
     out |= {name: True for name in ("mirror", "off") if getattr(command, name)}
+    out |= {"snap": plain(command.snap)} if command.snap != 1.0 else {}
+    out |= {"colour": command.colour} if command.colour is not None else {}
     return {**out, **thawed(command.extra)}
 
 
 def _points(members: Fields, row: GuideKind) -> tuple[tuple[float, float], ...]:
     told = members.take("points", expected=f"a list of points: {row.what}")
-    if not isinstance(told, list) or not row.least <= len(told) <= row.most:
-        raise members.fault("points", f"a list of {row.least} to {row.most} points: {row.what}")
+    if not isinstance(told, list) or len(told) != row.points:
+        raise members.fault("points", f"a list of {row.points} points: {row.what}")
     for place in told:
         if not (isinstance(place, list) and len(place) == 2 and all(map(is_number, place))):
             raise members.fault("points", "[x, y] each, two numbers")
@@ -128,7 +146,17 @@ def _points(members: Fields, row: GuideKind) -> tuple[tuple[float, float], ...]:
     points = tuple((float(x) + 0.0, float(y) + 0.0) for x, y in told)
     if len(set(points)) < len(points):
         raise members.fault("points", "points that do not coincide")
+    if row.wide and on_a_line(points):
+        raise members.fault("points", "points that lie on no line")
     return points
+
+
+def on_a_line(points: tuple[tuple[float, float], ...]) -> bool:
+    """Tells whether three points lie on a line, or as good as that."""
+    (x, y), (x1, y1), (x2, y2) = points
+    across = (x1 - x) * (y2 - y) - (y1 - y) * (x2 - x)
+    square = ((x1 - x) * (x1 - x) + (y1 - y) * (y1 - y)) * ((x2 - x) * (x2 - x) + (y2 - y) * (y2 - y))
+    return across * across <= _FLAT * _FLAT * square
 
 
 def read_guides(value: object) -> tuple[Guides, list[str]]:

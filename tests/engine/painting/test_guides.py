@@ -21,7 +21,7 @@ from engine.session.replay import replay
 from engine.session.session import Session
 
 DEEP = c.Guide(
-    "axis", "symmetry", 60, (3**200, -(5**90)), ((0.5, 0.25), (90.0, -3.5)), 7, True, False, frozen({"new": [1]})
+    "axis", "symmetry", 60, (3**200, -(5**90)), ((0.5, 0.25), (90.0, -3.5)), 7, True, False, extra=frozen({"new": [1]})
 )
 OFF = c.Guide("other", "symmetry", -2, (0, 0), ((0.0, 0.0), (0.0, -40.0)), off=True)
 NAMES = st.sampled_from("abc")

@@ -1,0 +1,1 @@
+"""The guides over the canvas: their lines and handles, and the bar with their numbers."""
