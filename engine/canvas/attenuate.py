@@ -114,7 +114,7 @@ def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
     file stores.  The past of `pyramid` is kept."""
     until = pyramid.depth if depth is None else depth
     folded = [waits for waits in pyramid.waiting() if waits.change.depth <= until]
-    levels = pyramid.levels
+    levels, known = pyramid.levels, pyramid.known
     for level, stored in pyramid.levels.items():
         if not (places := _places(pyramid, level, folded)):
             continue
@@ -134,7 +134,9 @@ def fold(pyramid: Pyramid, depth: int | None = None) -> Pyramid:
         finished = editable.finish()
         if changed:
             levels = levels.set(level, finished) if len(finished) else levels.delete(level)
-    return replace(pyramid, levels=levels, settled=until, waits=_left(pyramid, until))
+            blocks = pyramid.blocks(level)
+            known = known if blocks is None else known.set(level, blocks.after(finished, places))
+    return replace(pyramid, levels=levels, settled=until, waits=_left(pyramid, until), known=known)
 
 
 def _left(pyramid: Pyramid, depth: int) -> Attenuation | None:

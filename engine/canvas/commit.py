@@ -236,14 +236,17 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
     by_level: dict[int, list[TileKey]] = {}
     for key in records:
         by_level.setdefault(key.level, []).append(key)
-    levels = pyramid.levels
+    levels, known = pyramid.levels, pyramid.known
     for k, keys in by_level.items():
         stored = levels.get(k)
         editable = (Level() if stored is None else stored).mutate()
         _write(editable, keys, records)
         finished = editable.finish()
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
-    after = replace(pyramid, levels=levels, last=change, waits=waits, commits=number)
+        blocks = pyramid.blocks(k)
+        if blocks is not None:
+            known = known.set(k, blocks.after(finished, [(key.x, key.y) for key in keys]))
+    after = replace(pyramid, levels=levels, last=change, waits=waits, commits=number, known=known)
     waiting = list(after.waiting()) if keeps else []
     return fold(after, waiting[_MOST_WAITING].change.depth) if len(waiting) > _MOST_WAITING else after
 

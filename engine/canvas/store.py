@@ -19,6 +19,7 @@ from typing import Protocol
 import immutables
 import numpy as np
 
+from engine.canvas.rising.tile_blocks import Blocks
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.arithmetic import FINE
 from engine.numeric.grid import step_of
@@ -28,6 +29,7 @@ from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
 RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
 _NOWHERE = Rect(0, 0, 0, 0)
+_FEW = 256  # tiles of a level: so many are gone through one by one
 _serials = itertools.count(1)
 
 
@@ -158,7 +160,7 @@ class Pyramid:
     `uid` names the layer's line of history, for caches.  `waits`: the newest attenuation that was not applied to the
     records; `settled`: those of the commits up to this depth have been.  `ground`: the picture that the layer began
     with, if it began with one.  `grid`: on which all values lie, by its bits; `commits`: how many there were in all the
-    layer's life, which counts where the grid is coarse.
+    layer's life, which counts where the grid is coarse.  `known`: where the records of some levels lie (`blocks`).
     """
 
     levels: immutables.Map[int, Level] = field(default_factory=immutables.Map)
@@ -169,6 +171,7 @@ class Pyramid:
     waits: Attenuation | None = None
     grid: int = FINE
     commits: int = 0
+    known: immutables.Map[int, Blocks] = field(default_factory=immutables.Map, repr=False)
 
     @property
     def step(self) -> np.float32:
@@ -212,12 +215,14 @@ class Pyramid:
         if not stored or rect.empty:
             return
         places = rect.within_tiles()
-        if places.area <= len(stored):
+        if places.area <= min(len(stored), _FEW):
             candidates = ((key, stored.get((key.x, key.y))) for key in rect.tiles(level))
         else:
             x0, y0, x1, y1 = places
-            found = sorted((at, record) for at, record in stored.items() if x0 <= at[0] < x1 and y0 <= at[1] < y1)
-            candidates = ((TileKey(level, *place), record) for place, record in found)
+            blocks = self.blocks(level)
+            near = stored if blocks is None else blocks.within(places)
+            found = sorted(at for at in near if x0 <= at[0] < x1 and y0 <= at[1] < y1)
+            candidates = ((TileKey(level, *place), stored.get(place)) for place in found)
         for key, record in candidates:
             if record is not None:
                 yield key, record
@@ -232,10 +237,24 @@ class Pyramid:
         stored, places = self.levels.get(level), rect.within_tiles()
         if not stored or rect.empty:
             return False
-        if places.area <= len(stored):
+        if places.area <= min(len(stored), _FEW):
             return any((key.x, key.y) in stored for key in rect.tiles(level))
+        blocks = self.blocks(level)
+        if blocks is not None:
+            return blocks.any_within(places)
         x0, y0, x1, y1 = places
         return any(x0 <= x < x1 and y0 <= y < y1 for x, y in stored)
+
+    def blocks(self, level: int) -> Blocks | None:
+        """Returns where the records of a level lie; None where they are few.  Going through all of them is noted."""
+        stored = self.levels.get(level)
+        if stored is None or len(stored) < _FEW:
+            return None
+        known = self.known.get(level)
+        if known is None or known.stored is not stored:
+            known = Blocks.of(stored)
+            object.__setattr__(self, "known", self.known.set(level, known))
+        return known
 
     def all_records(self) -> Iterator[tuple[TileKey, Record]]:
         """Gives all records with their places, the coarsest level first, row by column of tiles."""

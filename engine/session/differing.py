@@ -15,6 +15,7 @@ from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
 _NOTHING = Level()
+_FEW = 256  # places that are looked at one by one
 OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 
 
@@ -104,7 +105,7 @@ def _apart(one: Pyramid, other: Pyramid) -> Iterator[tuple[TileKey, Record | Non
         here, there = one.levels.get(level, _NOTHING), other.levels.get(level, _NOTHING)
         if here is there:
             continue
-        for place in _places(_rewritten(one, other, folded, level), here, there):
+        for place in _places(_rewritten(one, other, folded, level), (one, other), level):
             record, beside = here.get(place), there.get(place)
             if record is not beside:
                 yield TileKey(level, *place), record, beside
@@ -126,10 +127,18 @@ def _rewritten(one: Pyramid, other: Pyramid, folded: list[Change], level: int) -
     return [rect.within_tiles() for rect in rects]
 
 
-def _places(rects: list[Rect], here: Level, there: Level) -> Iterable[tuple[int, int]]:
+def _places(rects: list[Rect], states: tuple[Pyramid, Pyramid], level: int) -> Iterable[tuple[int, int]]:
     """Returns the places in some rectangles of tiles, each once; where they are many, those that have records instead:
     columns and rows."""
-    if sum(rect.area for rect in rects) > len(here) + len(there):
-        return itertools.chain(here, (place for place in there if place not in here))
+    if sum(rect.area for rect in rects) > _FEW:
+        return dict.fromkeys(place for state in states for place in _held_within(rects, state, level))
     found = ((x, y) for x0, y0, x1, y1 in rects for y in range(y0, y1) for x in range(x0, x1))
     return found if len(rects) == 1 else dict.fromkeys(found)
+
+
+def _held_within(rects: list[Rect], state: Pyramid, level: int) -> Iterable[tuple[int, int]]:
+    """Returns the places in some rectangles of tiles that have records, or all where they are few."""
+    blocks = state.blocks(level)
+    if blocks is None:
+        return state.levels.get(level, _NOTHING)
+    return itertools.chain.from_iterable(map(blocks.within, rects))
