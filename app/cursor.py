@@ -16,6 +16,7 @@ from app.canvas.view import place_of_pixel
 from app.desk.desk import Desk
 from app.desk.moving import held_box
 from app.desk.moving.box import SCALES, TURN
+from app.desk.moving.move_state import TOOL
 from app.tools.tools import TOOLS
 
 _PATIENCE = 0.35  # seconds that something grows before that is shown
@@ -36,7 +37,7 @@ def shape(desk: Desk, panning: bool) -> int:
         return int(glfw.ARROW_CURSOR)
     if panning:
         return int(glfw.RESIZE_ALL_CURSOR)
-    if desk.hand.tool == held_box.TOOL:
+    if desk.hand.tool == TOOL:
         return _over_box(desk)
     return int(_SHAPES.get(desk.hand.tool, glfw.CROSSHAIR_CURSOR))
 

@@ -8,6 +8,10 @@ from app.actions.action import Action as A
 from app.actions.action import active, chosen, next_layer_name, paint_chosen, ready
 from app.desk.desk import Desk
 from app.desk.known import moved_by
+from app.desk.moving.floating import lift, set_part_down, takes_part
+from app.desk.moving.move_state import TOOL
+from app.desk.moving.poses import shifted
+from engine.canvas.placing.pose import UNMOVED
 from engine.checks.roles import REFERENCE
 from engine.painting import commands as c
 from engine.studio.requests import Do
@@ -51,9 +55,20 @@ def _nudges(x: int, y: int) -> Callable[[Desk], None]:
     def do(desk: Desk) -> None:
         row = desk.known.active
         if row is not None and not row.locked and desk.past.looking is None:
-            desk.post(Do(c.SetLayer(row.name, placing=moved_by(row, desk.view.shown_level, x, y))))
+            level = desk.view.shown_level
+            if not takes_part(desk, row):
+                desk.post(Do(c.SetLayer(row.name, placing=moved_by(row, level, x, y))))
+            elif desk.hand.tool == TOOL:
+                lift(desk, row, shifted(desk.moving.pose(desk.known, row), level, x, y))
+            else:
+                desk.post(Do(c.SetLayer(row.name, placing=moved_by(row, level, x, y), selected="cut")))
+                desk.selecting.carried = shifted(UNMOVED, level, x, y).similarity
 
     return do
+
+
+def _floats(desk: Desk) -> bool:
+    return ready(desk) and desk.moving.floating is not None
 
 
 def _is_reference(desk: Desk) -> bool:
@@ -115,5 +130,9 @@ LAYER_ACTIONS: dict[str, A] = {
     "right": A("Nudge right", "Layer", ("Right",), "Move the layer by a pixel of what you see", _nudges(1, 0), chosen),
     "up": A("Nudge up", "Layer", ("Up",), "Move the layer by a pixel of what you see", _nudges(0, -1), chosen),
     "down": A("Nudge down", "Layer", ("Down",), "Move the layer by a pixel of what you see", _nudges(0, 1), chosen),
+    "set_down": A(
+        "Set down", "Layer", ("Enter",), "Lay what you moved of the layer where it is now; Escape takes it back",
+        set_part_down, _floats,
+    ),
     "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),
 }  # fmt: skip

@@ -8,6 +8,7 @@ from app.actions.action import Action as A
 from app.actions.action import Check, always, to_now
 from app.desk.desk import Desk
 from app.desk.filling.fill_state import unbounded
+from app.desk.moving.floating import let_go
 from engine.studio.requests import Do
 
 
@@ -33,6 +34,9 @@ def _toggle_eraser(desk: Desk) -> None:
 def _escape(desk: Desk) -> None:
     if desk.known.opening is not None:
         desk.stop_opening()
+        return
+    if desk.moving.floating is not None:
+        let_go(desk)
         return
     desk.match.marking = None
     desk.past.asking = False

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import moderngl
+import numpy as np
 
 from app.canvas.screen import Insets, free_part, shader_source
-from app.canvas.view import View
+from app.canvas.view import View, dyadic_place
+from engine.numeric.similarity import Dyadic, Similarity
 from engine.studio.selecting.ants_records import Ants
 
 WALK, SECOND = 8, 0.3  # places of the walk, and seconds from one to the next
@@ -19,6 +22,7 @@ class AntPlan(NamedTuple):
 
     ants: int
     step: int
+    by: Similarity | None = None  # where it is seen, if that is elsewhere
 
 
 class AntLine:
@@ -31,9 +35,9 @@ class AntLine:
         self._buffer: moderngl.Buffer | None = None
         self._lines: moderngl.VertexArray | None = None
 
-    def plan(self, ants: Ants | None, now: float) -> AntPlan | None:
-        """Returns what to draw; None for nothing."""
-        return None if ants is None or not len(ants.lines) else AntPlan(id(ants), int(now / SECOND) % WALK)
+    def plan(self, ants: Ants | None, now: float, by: Similarity | None = None) -> AntPlan | None:
+        """Returns what to draw, seen through a similarity; None for nothing."""
+        return None if ants is None or not len(ants.lines) else AntPlan(id(ants), int(now / SECOND) % WALK, by)
 
     def draw(self, plan: AntPlan, ants: Ants, view: View, insets: Insets, scale: float) -> None:
         """Draws the rim where panels leave room."""
@@ -48,7 +52,12 @@ class AntLine:
             self._buffer.write(ants.lines.tobytes())
         program, (a, b, c, d), by = self._program, view.matrix(), view.scale(ants.level)
         program["origin"] = view.pixel_to_screen(ants.level, ants.area.x0, ants.area.y0)
-        program["turn"] = a * by, b * by, c * by, d * by
+        turn = np.array([[a, b], [c, d]]) * by
+        if plan.by is not None:
+            corner = plan.by(Dyadic.of(ants.area.x0, ants.area.y0, ants.level))
+            program["origin"] = view.to_screen(dyadic_place(corner))
+            turn = turn @ _matrix(plan.by)
+        program["turn"] = tuple(turn.ravel().tolist())
         program["size"], program["wide"] = (view.width, view.height), max(1.0, _WIDE * scale)
         program["turns"], program["phase"] = _TURNS * scale, plan.step / WALK
         self._ctx.scissor = free_part(view, insets)
@@ -56,3 +65,9 @@ class AntLine:
         assert self._lines is not None
         self._lines.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(ants.lines))
         self._ctx.scissor = None
+
+
+def _matrix(by: Similarity) -> np.ndarray:
+    """Returns what a similarity makes of steps to the right and down: float64 (2, 2)."""
+    re, im = (math.ldexp(float(v), -by.c.e) for v in (by.c.x, by.c.y))
+    return np.array([[re, im], [im, -re]]) if by.mirror else np.array([[re, -im], [im, re]])

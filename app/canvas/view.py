@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass, replace
 
 from engine.numeric.address import Rect
+from engine.numeric.similarity import Dyadic
 
 SUBPIXEL = 16  # bits: places are kept to 2^-16 of a pixel of the deepest level visited
 FAR = 1 << 40  # pixels: anything farther from the centre is clamped before it becomes a float
@@ -64,6 +65,11 @@ def place_of_pixel(level: int, x: int, y: int) -> Place:
     if level < 0:
         return Place(x << -level, y << -level, 0)
     return Place(x, y, level)
+
+
+def dyadic_place(place: Dyadic) -> Place:
+    """Returns the same place as a view tells it."""
+    return Place(place.x, place.y, place.e) if place.e >= 0 else Place(place.x << -place.e, place.y << -place.e, 0)
 
 
 @dataclass(frozen=True, slots=True)

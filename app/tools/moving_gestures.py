@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from app.canvas.view import View
+from app.canvas.view import View, dyadic_place
 from app.desk.desk import Desk
-from app.desk.moving import held_box
-from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, place_of, spot
+from app.desk.moving import floating, held_box
+from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, spot
 from app.desk.moving.move_state import Label, Trial
 from app.desk.moving.poses import Spin, exact, factor, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_copy_down, set_down
@@ -16,6 +16,7 @@ from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.numeric.similarity import Dyadic
+from engine.painting.layer_commands import COPY
 from engine.painting.layering.placing_members import Placing
 from engine.studio.moving.move_requests import Try
 from engine.studio.results import LayerRow
@@ -28,7 +29,8 @@ Way = Callable[
 def move(desk: Desk, first: PenEvent) -> Gesture:
     """The layer, group or placement that is chosen follows the pointer; by a handle of its box it is scaled or turned.
 
-    It is seen there at once, and done when it is let go, as one step.  With Alt held, a copy of it is moved.
+    It is seen there at once, and done when it is let go, as one step.  With Alt held, a copy of it is moved.  What is
+    selected of a layer is lifted out of it, and floats until it is set down.
     """
     row = desk.known.active
     if row is None or desk.past.looking is not None:
@@ -36,6 +38,9 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
         return
     if row.locked:
         desk.say(f"Layer “{row.name}” is locked", bad=True)
+        return
+    if floating.takes_part(desk, row):
+        yield from _move_part(desk, row, first)
         return
     box = held_box.seen_box(desk)
     desk.moving.grip = (box.grip(first.x, first.y) if box is not None else "") or INSIDE
@@ -54,6 +59,38 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
         else:
             desk.moving.trial = None
             desk.post(Try(row.name, None))
+
+
+def _move_part(desk: Desk, row: LayerRow, first: PenEvent) -> Gesture:
+    """What is selected of a layer follows the pointer; given up, it is where it was before."""
+    extent = desk.moving.extent
+    if extent is not None and (extent.name, extent.selected, extent.part) == (row.name, True, None):
+        desk.say(f"Nothing is painted on “{row.name}” where it is selected", bad=True)
+        return
+    box = held_box.seen_box(desk)
+    desk.moving.grip = (box.grip(first.x, first.y) if box is not None else "") or INSIDE
+    copying = desk.pointer.alt and desk.moving.grip == INSIDE
+    if copying:
+        floating.set_part_down(desk)  # the copy is of what is there now
+    before = desk.moving.floating
+    way, start = _way(desk, row, first), desk.moving.pose(desk.known, row)
+    event, pose, done = first, start, False
+    try:
+        while event.kind not in ENDS:
+            found, text = way(event)
+            if found.wrong() is None:
+                desk.moving.label = Label(f"copy  {text}" if copying else text, exact(found, desk.view.shown_level))
+                if found != pose:
+                    pose = found
+                    floating.lift(desk, row, pose, COPY if copying else "")
+            event = yield
+        done = event.kind == "up"
+    finally:
+        desk.moving.label, desk.moving.grip = None, ""
+        if not done and before is not None:
+            floating.lift(desk, row, before.pose, before.way)
+        elif not done:
+            floating.let_go(desk)
 
 
 def _tried(desk: Desk, row: LayerRow, before: tuple[Pose, bool], found: tuple[Pose, str]) -> Pose:
@@ -133,7 +170,7 @@ def _away(view: View, event: PenEvent, place: Dyadic) -> tuple[float, float]:
     """Returns how far the pointer is from a place, in pixels of the level that is shown."""
     level = view.shown_level
     x, y = view.centre.pixel(level)
-    (ax, ay), (bx, by) = (at.offset(level, x, y) for at in (view.to_canvas(event.x, event.y), place_of(place)))
+    (ax, ay), (bx, by) = (at.offset(level, x, y) for at in (view.to_canvas(event.x, event.y), dyadic_place(place)))
     return ax - bx, ay - by
 
 

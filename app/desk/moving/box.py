@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.canvas.view import Place, View
+from app.canvas.view import View, dyadic_place
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.numeric.similarity import Dyadic
 
@@ -87,11 +87,6 @@ def _long(vector: Point) -> float:
     return math.hypot(*vector)
 
 
-def place_of(place: Dyadic) -> Place:
-    """Returns the same place as a view tells it."""
-    return Place(place.x, place.y, place.e) if place.e >= 0 else Place(place.x << -place.e, place.y << -place.e, 0)
-
-
 def spot(part: SourcePart, pose: Pose, x: int, y: int) -> Dyadic:
     """Returns where a place of a part of a source is shown; -1 to 1 across and down, as of a Box."""
     rect = part.rect
@@ -107,8 +102,8 @@ def opposite(part: SourcePart, pose: Pose, handle: str) -> Dyadic:
 
 def box_of(view: View, scale: float, part: SourcePart, pose: Pose) -> Box | None:
     """Returns the box of what shows a part of a source; None if that is too far away to be drawn."""
-    middle = view.to_screen(place_of(spot(part, pose, 0, 0)))
-    sides = [view.to_screen(place_of(spot(part, pose, x, y))) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    middle = view.to_screen(dyadic_place(spot(part, pose, 0, 0)))
+    sides = [view.to_screen(dyadic_place(spot(part, pose, x, y))) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
     if max(map(abs, (*middle, *(v for side in sides for v in side)))) > _FAR:
         return None
     (ax, ay), (bx, by) = ((sides[i][0] - sides[i + 2][0], sides[i][1] - sides[i + 2][1]) for i in (0, 1))

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from app.desk.desk import Desk
+from app.desk.moving import floating
 from app.desk.moving.box import Box, box_of
+from app.desk.moving.move_state import TOOL
 from engine.canvas.placing.pose import SourcePart
 from engine.studio.results import LayerRow
 
-TOOL = "move"
-
 
 def part(desk: Desk, row: LayerRow) -> SourcePart | None:
-    """Returns what of a layer's own places is painted; of a placement, of its source's; None: nothing, or not known."""
+    """Returns what of a layer's own places is painted, or painted and selected; of a placement, of its source's; None:
+    nothing, or not known."""
     extent = desk.moving.extent
-    return extent.part if extent is not None and extent.name == row.name else None
+    known = extent is not None and (extent.name, extent.selected) == (row.name, floating.takes_part(desk, row))
+    return extent.part if known and extent is not None else None
 
 
 def seen_box(desk: Desk) -> Box | None:
@@ -34,5 +36,8 @@ def hover(desk: Desk) -> None:
 
 def wants(desk: Desk) -> None:
     """Posts what the tool lacks, or an action that waits."""
+    floating.watch(desk)
     if desk.hand.tool == TOOL or desk.moving.waits is not None:
-        desk.moving.wants(desk.post, desk.known, desk.view.shown_level)
+        row = desk.known.active
+        selected = row is not None and floating.takes_part(desk, row)
+        desk.moving.wants(desk.post, desk.known, desk.view.shown_level, selected)

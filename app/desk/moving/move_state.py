@@ -12,6 +12,8 @@ from engine.studio.moving.move_requests import AskExtent, Extent
 from engine.studio.requests import Request
 from engine.studio.results import LayerRow, Scene
 
+TOOL = "move"
+
 
 class Trial(NamedTuple):
     """Where something is seen meanwhile: until the painting is another one than that of a scene."""
@@ -19,6 +21,16 @@ class Trial(NamedTuple):
     scene: Scene | None
     name: str
     pose: Pose
+
+
+class Floating(NamedTuple):
+    """What is selected of a layer, lifted: of the layer of that name, in the painting of the number `serial`; `way`:
+    "cut" out of it, or as a "copy"."""
+
+    name: str
+    pose: Pose
+    way: str
+    serial: int
 
 
 class Label(NamedTuple):
@@ -30,42 +42,46 @@ class Label(NamedTuple):
 
 @dataclass(slots=True)
 class MoveState:
-    """`extent`: how far it reaches; `trial`: where it is seen while it is dragged; `label`: what is told of that;
-    `grip`: what of its box the pointer is over, or holds; `waits`: what is done as soon as it is known how far it
-    reaches."""
+    """`extent`: how far it reaches; `trial`: where it is seen while it is dragged; `floating`: a part of a layer,
+    lifted and not set down yet; `label`: what is told of a drag; `grip`: what of its box the pointer is over, or holds;
+    `waits`: what is done as soon as it is known how far it reaches."""
 
     extent: Extent | None = None
     trial: Trial | None = None
+    floating: Floating | None = None
     label: Label | None = None
     grip: str = ""
     waits: Callable[[], None] | None = None
     _told: Scene | None = None  # the one that `extent` is of
-    _asked: tuple[str, int, Scene | None] | None = None
+    _asked: tuple[str, int, bool, Scene | None] | None = None
 
     def pose(self, known: Known, row: LayerRow) -> Pose:
         """Returns where it is seen: a layer or group that is not dragged is where it is."""
-        trial = self.trial
+        trial, floating = self.trial, self.floating
+        if floating is not None and floating.name == row.name:
+            return floating.pose
         if trial is not None and trial.scene is known.scene and trial.name == row.name:
             return trial.pose
         return UNMOVED if row.shows is None else row.shows.pose
 
-    def wants(self, post: Callable[[Request], None], known: Known, level: int) -> None:
-        """Posts a question how far the chosen one reaches, at the level that is seen, if that may be another answer."""
+    def wants(self, post: Callable[[Request], None], known: Known, level: int, selected: bool = False) -> None:
+        """Posts a question how far the chosen one reaches, or what is `selected` of it, at the level that is seen, if
+        that may be another answer."""
         row = known.active
-        if row is None:
+        if row is None or self.floating is not None:
             return
         if row.shows is not None:
             level += row.shows.pose.similarity.like_levels
-        asked, before = (row.name, level, known.scene), self._asked
+        asked, before = (row.name, level, selected, known.scene), self._asked
         # Two scenes may tell the same while other paint lies there: it is the very one that counts.
-        if before is None or asked[:2] != before[:2] or asked[2] is not before[2]:
+        if before is None or asked[:3] != before[:3] or asked[3] is not before[3]:
             self._asked = asked
-            post(AskExtent(row.name, level))
+            post(AskExtent(row.name, level, selected))
 
     def told(self, extent: Extent) -> None:
         """Takes the answer, and does what waits for it."""
         self.extent = extent
-        self._told = None if self._asked is None else self._asked[2]
+        self._told = None if self._asked is None else self._asked[3]
         waits, self.waits = self.waits, None
         if waits is not None:
             waits()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.desk.desk import Desk
-from app.desk.moving import held_box
+from app.desk.moving import floating, held_box
 from app.desk.moving.move_state import Trial
 from app.desk.naming import free_name
 from engine.canvas.placing.pose import Pose, SourcePart
@@ -15,7 +15,10 @@ from engine.studio.results import LayerRow
 
 
 def set_down(desk: Desk, row: LayerRow, pose: Pose) -> None:
-    """Moves a layer, group or placement to a pose."""
+    """Moves a layer, group or placement to a pose; what is selected of a layer floats there."""
+    if floating.takes_part(desk, row):
+        floating.lift(desk, row, pose)
+        return
     desk.post(Do(SetLayer(row.name, placing=Placing.at_pose(pose))))
     held = held_box.part(desk, row)
     if held is not None and row.shows is None and not row.group and pose.similarity.quarter is not None:

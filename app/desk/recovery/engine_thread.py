@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 
 from app.desk.desk import Desk, Hear
+from app.desk.moving.floating import settling
 from engine.studio import results
 from engine.studio.requests import Recover, Request, at_time
 from engine.studio.results import Note, Result
@@ -27,7 +28,8 @@ class EngineThread:
         self._began = -SOON
         self.worker = start(None)
         self.hears: dict[type, Hear] = {results.Stopped: self._stopped}
-        desk.post, desk.behind, desk.start_engine = self._post, lambda: self.worker.behind, self.begin_again
+        desk.post, desk.start_engine = settling(desk, self._post), self.begin_again
+        desk.behind = lambda: self.worker.behind or desk.moving.floating is not None
         taken(self.worker, False)
 
     def news(self) -> list[Result]:

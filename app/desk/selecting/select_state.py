@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from app.canvas.view import Place, View
 from engine.numeric.address import Rect
+from engine.numeric.similarity import Similarity
 from engine.painting.select_commands import Select, Whole
 from engine.studio.requests import Do, Request
 from engine.studio.selecting.ants_records import Ants, AskAnts
@@ -28,7 +29,7 @@ class CopiedHere(NamedTuple):
 class SelectState:
     """`ants`: the rim, None before the engine told of it; `shape`: the corners of what is being drawn, `closed` where
     that is no line that still goes on; `amount`: pixels by which a selection is changed, `change`: how; `copied`: what
-    was copied here, None before."""
+    was copied here, None before; `carried`: by what the rim is seen elsewhere, until the engine tells of it there."""
 
     ants: Ants | None = None
     shape: list[Place] = field(default_factory=list)
@@ -36,6 +37,7 @@ class SelectState:
     amount: int = 8
     change: str = "grow"
     copied: CopiedHere | None = None
+    carried: Similarity | None = None
     _asked: tuple[int, Rect] | None = None
     _awaited: bool | None = None  # whether something will be selected, until the engine tells so
 
@@ -58,7 +60,7 @@ class SelectState:
 
     def hear(self, ants: Ants) -> None:
         """Takes over what the engine tells."""
-        self.ants = ants
+        self.ants, self.carried = ants, None
         if self._awaited == ants.selected:
             self._awaited = None
 

@@ -48,7 +48,7 @@ def lifted_part(painting: Painting, node: Node, way: str) -> LiftedPart:
     left = layers.find((cleared(painting, node.name) if way == CUT else painting).root, node.name)
     assert isinstance(left, Layer)
     left = flattened(left) if left.growth else left
-    return LiftedPart(left, part, painting.selection)
+    return LiftedPart(left, part.branched(), painting.selection)
 
 
 def part_moved(painting: Painting, node: Node, placing: Placing, way: str) -> Painting:
@@ -71,7 +71,7 @@ def part_moved(painting: Painting, node: Node, placing: Placing, way: str) -> Pa
 def _with_part_above(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
     """Returns the painting with what was taken out of a layer on one above it, which a placement shows."""
     root, name = painting.root, layers.free_name(painting.root, f"{lifted.layer.name} part")
-    made = replace(lifted.layer, id=layers.next_id(root), name=name, pyramid=lifted.part.branched())
+    made = replace(lifted.layer, id=layers.next_id(root), name=name, pyramid=lifted.part)
     group, position = layers.place(root, lifted.layer.name)
     root = layers.insert(layers.substitute(root, lifted.layer.name, lifted.layer), made, group, position + 1)
     return replace(painting, root=shown_from_beside(root, made, pose), active=name)

@@ -11,19 +11,22 @@ from engine.painting.layering.placing_members import Placing
 @dataclass(frozen=True, slots=True)
 class Try:
     """Shows a layer, group or placement elsewhere, or a `copy` of it besides, and changes nothing; None: as the
-    painting has it."""
+    painting has it.  `selected`: only what is selected of a layer, "cut" out of it or as a "copy"."""
 
     name: str
     placing: Placing | None
     copy: bool = False
+    selected: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class AskExtent:
-    """Asks how far a layer, group or placement reaches, to a pixel of a level where that can be.  The newest counts."""
+    """Asks how far a layer, group or placement, or what is `selected` of a layer, reaches, to a pixel of a level where
+    that can be.  The newest counts."""
 
     name: str
     level: int
+    selected: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +35,7 @@ class Extent:
 
     name: str
     part: SourcePart | None
+    selected: bool = False
 
 
 MoveRequest = Try | AskExtent

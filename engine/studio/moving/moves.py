@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
+from engine.canvas import layers
 from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.pose import UNMOVED
 from engine.checks.owned import Owned
+from engine.painting.layer_commands import CUT
+from engine.painting.layering.placing_members import Placing
+from engine.painting.value import Painting
+from engine.session.lifting.moved_part import LiftedPart, lifted_part, part_tried
 from engine.session.moving import tried
 from engine.studio.easel import Easel
 from engine.studio.moving.move_requests import AskExtent, Extent, Try
@@ -19,7 +26,8 @@ class Moves(Owned):
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
-        self._asked: tuple[str, Reach] | None = None
+        self._asked: tuple[str, bool, Reach] | None = None
+        self._lifted: tuple[Painting, str, str, LiftedPart] | None = None  # the last one, and of what
         self.handlers: dict[type, Callable[[Any], None]] = {Try: self._try, AskExtent: self._ask}
 
     @property
@@ -31,29 +39,46 @@ class Moves(Owned):
         """Looks at the next piece of what is asked for; tells it when that was the last."""
         assert self._asked is not None
         asked, self._asked = self._asked, None  # what fails is not tried again
-        name, reach = asked
+        name, selected, reach = asked
         try:
             next(reach)
         except StopIteration as told:
-            self._easel.send(Extent(name, None if told.value.rect.empty else told.value))
+            self._easel.send(Extent(name, None if told.value.rect.empty else told.value, selected))
         except LayerError:  # it is gone meanwhile
-            self._easel.send(Extent(name, None))
+            self._easel.send(Extent(name, None, selected))
         else:
             self._asked = asked
 
     def _ask(self, request: AskExtent) -> None:
         session = self._easel.session
+        painting, name = session.painting, request.name
         try:
-            self._asked = request.name, reach_of(session.painting, request.name, request.level, session.cache)
+            if request.selected:
+                lifted = self._part(painting, name, CUT)
+                alone = replace(lifted.layer, pyramid=lifted.part)
+                painting = replace(painting, root=layers.substitute(painting.root, name, alone))
+            self._asked = name, request.selected, reach_of(painting, name, request.level, session.cache)
         except LayerError:
             self._asked = None
-            self._easel.send(Extent(request.name, None))
+            self._easel.send(Extent(name, None, request.selected))
+
+    def _part(self, painting: Painting, name: str, way: str) -> LiftedPart:
+        """Returns what is selected of a layer, taken out of it: it is asked for again with each move of the hand."""
+        if self._lifted is None or self._lifted[0] is not painting or self._lifted[1:3] != (name, way):
+            self._lifted = painting, name, way, lifted_part(painting, layers.find(painting.root, name), way)
+        return self._lifted[3]
 
     def _try(self, request: Try) -> None:
         painting, placing = self._easel.session.painting, request.placing
         try:
-            seen = None if placing is None else tried(painting, request.name, placing, request.copy)
+            seen = None if placing is None else self._tried(painting, request, placing)
         except LayerError:  # it is gone meanwhile
             seen = None
         if self._easel.live is None:
             self._easel.viewer.look_back(seen)
+
+    def _tried(self, painting: Painting, request: Try, placing: Placing) -> Painting:
+        if request.selected is None:
+            return tried(painting, request.name, placing, request.copy)
+        lifted = self._part(painting, request.name, request.selected)
+        return part_tried(painting, lifted, placing.posed(UNMOVED))

@@ -1,0 +1,88 @@
+"""What is selected of a layer, lifted: it follows the hand, and nothing is changed until it is set down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.desk.desk import Desk
+from app.desk.moving.move_state import TOOL, Floating
+from engine.canvas.placing.pose import UNMOVED, Pose, SourcePart
+from engine.numeric.similarity import Similarity
+from engine.painting.layer_commands import CUT, SetLayer
+from engine.painting.layering.placing_members import Placing
+from engine.studio.copy_records import CopyPicture
+from engine.studio.filing.film_requests import MakeFilm
+from engine.studio.moving.move_requests import Extent, Try
+from engine.studio.past.past_records import Jump, LookBack
+from engine.studio.requests import Begin, Do, Export, Open, Request, Save
+from engine.studio.results import LayerRow
+
+_AFTER = Do, Begin, Save, Export, Open, CopyPicture, MakeFilm, Jump, LookBack  # before these it is set down
+
+
+def takes_part(desk: Desk, row: LayerRow) -> bool:
+    """Tells whether only what is selected of a layer is moved: groups and placements have no paint of their own."""
+    return desk.selecting.selected and not row.group and row.shows is None and row.wrap is None
+
+
+def lift(desk: Desk, row: LayerRow, pose: Pose, way: str = "") -> None:
+    """Shows what is selected of a layer elsewhere, lifted out of it; `way`: "cut", "copy", or "" for as before."""
+    before = desk.moving.floating
+    way = way or (CUT if before is None else before.way)
+    desk.moving.floating = Floating(row.name, pose, way, desk.known.scene.serial if desk.known.scene else 0)
+    desk.post(Try(row.name, Placing.at_pose(pose), selected=way))
+
+
+def let_go(desk: Desk) -> None:
+    """Gives it up: all is as it was before it was lifted."""
+    floating, desk.moving.floating = desk.moving.floating, None
+    if floating is not None:
+        desk.post(Try(floating.name, None))
+
+
+def set_part_down(desk: Desk) -> None:
+    """Lays it into its layer, where that is exact, or shown above it: one command, one step."""
+    floating, extent = desk.moving.floating, desk.moving.extent
+    if floating is None or (floating.pose == UNMOVED and floating.way == CUT):
+        let_go(desk)
+        return
+    desk.moving.floating = None
+    pose = floating.pose
+    desk.selecting.carried = pose.similarity
+    desk.post(Do(SetLayer(floating.name, placing=Placing.at_pose(pose), selected=floating.way)))
+    if pose.similarity.quarter is None:
+        desk.moving.extent = None
+        offers = "independent", "undo"
+        desk.say(f"Turned or scaled by parts, it lies above “{floating.name}”, nothing of it lost", offers=offers)
+    elif extent is not None and extent.part is not None:
+        level = extent.part.level - pose.levels
+        there = SourcePart(level, pose.similarity.shown(extent.part.rect, extent.part.level, level))
+        desk.moving.extent = Extent(floating.name, there, True)
+
+
+def carried(desk: Desk) -> Similarity | None:
+    """Returns by what the rim of what is selected is seen elsewhere; None: where it is."""
+    floating = desk.moving.floating
+    return desk.selecting.carried if floating is None else floating.pose.similarity
+
+
+def watch(desk: Desk) -> None:
+    """Sets it down when another tool or layer is taken up; another painting has no place for it."""
+    floating, row = desk.moving.floating, desk.known.active
+    if floating is None:
+        return
+    if desk.known.scene is not None and desk.known.scene.serial != floating.serial:
+        desk.moving.floating = None
+    elif desk.hand.tool != TOOL or row is None or row.name != floating.name:
+        set_part_down(desk)
+
+
+def settling(desk: Desk, post: Callable[[Request], None]) -> Callable[[Request], None]:
+    """Returns what posts a request, and before any that needs the painting as it is seen, sets down what floats."""
+
+    def posted(request: Request) -> None:
+        if desk.moving.floating is not None and isinstance(request, _AFTER):
+            set_part_down(desk)
+        post(request)
+
+    return posted
