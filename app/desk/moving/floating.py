@@ -51,9 +51,9 @@ def set_part_down(desk: Desk) -> None:
     desk.selecting.carried = pose.similarity
     desk.post(Do(SetLayer(floating.name, placing=Placing.at_pose(pose), selected=floating.way)))
     if pose.similarity.quarter is None:
-        desk.moving.extent = None
-        offers = "independent", "undo"
-        desk.say(f"Turned or scaled by parts, it lies above “{floating.name}”, nothing of it lost", offers=offers)
+        part = None if extent is None else extent.part
+        desk.moving.extent = None if part is None else Extent(f"{floating.name} part", part)
+        desk.moving.laid_above = floating.name
     elif extent is not None and extent.part is not None:
         level = extent.part.level - pose.levels
         there = SourcePart(level, pose.similarity.shown(extent.part.rect, extent.part.level, level))
@@ -67,8 +67,12 @@ def carried(desk: Desk) -> Similarity | None:
 
 
 def watch(desk: Desk) -> None:
-    """Sets it down when another tool or layer is taken up; another painting has no place for it."""
+    """Sets it down when another tool or layer is taken up; another painting has no place for it.  Tells of what lies
+    above its layer by now."""
     floating, row = desk.moving.floating, desk.known.active
+    if desk.moving.laid_above and row is not None and row.shows is not None:
+        name, desk.moving.laid_above = desk.moving.laid_above, ""
+        desk.say(f"Turned or scaled by parts, it lies above “{name}”; nothing of it is lost", offer="independent")
     if floating is None:
         return
     if desk.known.scene is not None and desk.known.scene.serial != floating.serial:

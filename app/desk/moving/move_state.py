@@ -44,13 +44,15 @@ class Label(NamedTuple):
 class MoveState:
     """`extent`: how far it reaches; `trial`: where it is seen while it is dragged; `floating`: a part of a layer,
     lifted and not set down yet; `label`: what is told of a drag; `grip`: what of its box the pointer is over, or holds;
-    `waits`: what is done as soon as it is known how far it reaches."""
+    `laid_above`: the layer that a part was taken out of, until it is seen above; `waits`: what is done as soon as it is
+    known how far it reaches."""
 
     extent: Extent | None = None
     trial: Trial | None = None
     floating: Floating | None = None
     label: Label | None = None
     grip: str = ""
+    laid_above: str = ""
     waits: Callable[[], None] | None = None
     _told: Scene | None = None  # the one that `extent` is of
     _asked: tuple[str, int, bool, Scene | None] | None = None
