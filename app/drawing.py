@@ -14,7 +14,7 @@ from app.canvas.ant_line import AntLine, AntPlan
 from app.canvas.overlay import Overlay
 from app.canvas.screen import Screen, ScreenPlan
 from app.desk.desk import Desk
-from app.desk.moving.floating import carried
+from app.desk.moving.floating import rim_similarity
 
 assert imgui_bundle
 
@@ -36,7 +36,7 @@ class Drawing:
         plan = self._screen.plan(desk.view, desk.known.frame, now, desk.insets, desk.known.paper)
         told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
         rim = desk.selecting.ants
-        by = carried(desk)
+        by = rim_similarity(desk)
         ants = self._line.plan(rim, now, by)
         self.drawn = told or plan != self._plan or ants != self._ants or exposed
         if self.drawn:

@@ -202,13 +202,13 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
         else:
             if layers.is_locked(painting.root, command.name):
                 raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
-            painting = _moved(painting, node, command.placing, command.selected)
+            painting = _all_or_part_moved(painting, node, command.placing, command.selected)
     if not changes:
         return _shown(painting)
     return _shown(replace(painting, root=layers.set_fields(painting.root, command.name, **changes)))
 
 
-def _moved(painting: Painting, node: Node, placing: c.Placing, selected: str | None) -> Painting:
+def _all_or_part_moved(painting: Painting, node: Node, placing: c.Placing, selected: str | None) -> Painting:
     if selected is None and not isinstance(node, Placement):
         return elsewhere(painting, node, placing)
     assert selected is not None

@@ -60,7 +60,7 @@ def set_part_down(desk: Desk) -> None:
         desk.moving.extent = Extent(floating.name, there, True)
 
 
-def carried(desk: Desk) -> Similarity | None:
+def rim_similarity(desk: Desk) -> Similarity | None:
     """Returns by what the rim of what is selected is seen elsewhere; None: where it is."""
     floating = desk.moving.floating
     return desk.selecting.carried if floating is None else floating.pose.similarity
