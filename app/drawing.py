@@ -35,7 +35,7 @@ class Drawing:
         data = imgui.get_draw_data()
         plan = self._screen.plan(desk.view, desk.known.frame, now, desk.insets, desk.known.paper)
         told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
-        rim = desk.selecting.ants
+        rim = None if desk.selecting.masking else desk.selecting.ants
         by = rim_similarity(desk)
         ants = self._line.plan(rim, now, by)
         self.drawn = told or plan != self._plan or ants != self._ants or exposed

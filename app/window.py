@@ -13,7 +13,7 @@ import glfw  # isort: skip
 import moderngl
 from imgui_bundle.imgui import backends
 
-from app import cursor, guide_marks, theme
+from app import cursor, guide_marks, mask_veil, theme
 from app.actions.file_actions import close
 from app.callbacks import Callbacks
 from app.canvas.gallery import Gallery
@@ -44,6 +44,7 @@ from app.trace import trace_rest
 from app.wanted_tiles import Tiles
 from engine.studio import results
 from engine.studio.selecting.ants_records import Ants
+from engine.studio.selecting.tint_records import Tint
 from engine.studio.worker import Worker
 
 _FAULT = results.Note("A fault in Inkfall", True, fault=True, stays=True, offers=("copy_details",), about="fault")
@@ -99,6 +100,8 @@ class Window:
             return [lambda desk, picture, now: self.gallery.hang(picture.ident, picture.pixels)]
         if kind is results.PicturePart:
             return [lambda desk, part, now: self.gallery.touch(part.ident, part.size, part.area, part.pixels)]
+        if kind is Tint:
+            return [lambda desk, tint, now: mask_veil.hang(desk, self.gallery, tint)]
         return [hears[kind] for hears in (self.tiles.hears, self.engine.hears, _ANTS) if kind in hears]
 
     def _dropped(self, path: Path) -> bool:
@@ -181,6 +184,7 @@ class Window:
         backends.glfw_new_frame()
         imgui.new_frame()
         with self._guard.spare_drawing("drawing the canvas's marks"):
+            mask_veil.draw_veil(self.desk)
             cursor.draw_frame(self.desk)
             cursor.draw_growing(self.desk)
             draw_assistants(self.desk)

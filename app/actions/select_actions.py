@@ -48,6 +48,14 @@ def _from_layer(desk: Desk) -> None:
     desk.selecting.choose(desk.post, c.Select(Named(active(desk)), level=desk.view.shown_level))
 
 
+def _quick_mask(desk: Desk) -> None:
+    desk.selecting.masking = not desk.selecting.masking
+
+
+def _masking(desk: Desk) -> bool:
+    return desk.selecting.masking
+
+
 def _tool(name: str) -> Callable[[Desk], None]:
     return lambda desk: desk.hand.use(name)
 
@@ -63,6 +71,9 @@ SELECT_ACTIONS: dict[str, A] = {
     "select_layer": A("From the layer", "Select", (), "Select what the layer covers", _from_layer, _on_layer),
     "fill_selection": A(
         "Fill", "Select", ("Shift+F5", "Alt+Backspace"), "Fill the selection with the brush", fill_selection, _some
+    ),
+    "quick_mask": A(
+        "Quick mask", "Select", ("Q",), "Paint what is selected; again to see its rim", _quick_mask, _now, _masking
     ),
     "select_change": A("Grow, shrink, feather…", "Select", (), "Move or soften its rim", asks("select_change"), _some),
     "crop": A("Crop to the selection", "Select", (), "End the picture there; no paint is lost", _crop, _bounded),

@@ -32,18 +32,25 @@ class Gallery:
         viewport = (box.x0, box.y0, box.width, box.height)
         self._of(name, *size).write(np.ascontiguousarray(pixels), viewport=viewport, alignment=1)
 
+    def veil(self, name: str, size: tuple[int, int], box: Rect, alpha: np.ndarray) -> None:
+        """Hangs a part, uint8 (h, w), of a veil of `size` (width, height): white, as dense as the numbers say."""
+        viewport = (box.x0, box.y0, box.width, box.height)
+        shown = self._of(name, *size, parts=1)
+        shown.swizzle = "111R"
+        shown.write(np.ascontiguousarray(alpha), viewport=viewport, alignment=1)
+
     def fresh(self) -> set[int]:
         """Returns the textures that have changed since the last call."""
         fresh, self._fresh = self._fresh, set()
         return fresh
 
-    def _of(self, name: str, width: int, height: int) -> moderngl.Texture:
+    def _of(self, name: str, width: int, height: int, parts: int = 3) -> moderngl.Texture:
         """Returns the texture that a picture is written to."""
         old = self._textures.get(name)
         if old is None or old.size != (width, height):
             if old is not None:
                 old.release()
-            old = self._textures[name] = self._ctx.texture((width, height), 3, alignment=1)
+            old = self._textures[name] = self._ctx.texture((width, height), parts, alignment=1)
             self._shown[name] = imgui.ImTextureRef(old.glo)
         self._fresh.add(old.glo)
         return old

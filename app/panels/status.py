@@ -74,6 +74,10 @@ def _left(desk: Desk, right: float) -> None:
         _offer(desk, "No paint in sight", "nearest")
     elif not desk.known.ready:
         imgui.text_disabled("Loading the paint engine…")
+    elif desk.selecting.masking and TOOLS[desk.hand.tool].outline:
+        imgui.text_disabled(
+            "Take from what is selected" if desk.hand.erasing else "Paint what is selected, erase what is not"
+        )
     else:
         imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)
 

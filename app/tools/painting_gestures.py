@@ -18,6 +18,7 @@ from app.desk.guides.tile_seams import tell_seams
 from app.desk.moving.painted_through import Aimed, through
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
+from app.tools.mask_strokes import MaskBegun, begin_on_mask
 from app.trace import trace, trace_points
 from engine.brush.settings import Brush
 from engine.brush.smoothing import Smoother
@@ -42,7 +43,7 @@ def refused(desk: Desk) -> bool:
         desk.say("This is an earlier step: nothing can be painted on it", bad=True, offer="now")
         return True
     layer = desk.known.active
-    if layer is not None and layer.locked:
+    if layer is not None and layer.locked and not desk.selecting.masking:
         desk.say(f"Layer “{layer.name}” is locked", bad=True)
         return True
     return False
@@ -60,12 +61,18 @@ class Begun(NamedTuple):
         """Posts more of its points, float64 (n, 6) from the origin."""
         _post(desk, points if self.aimed is None else self.aimed.points(points))
 
+    def end(self, desk: Desk, done: bool) -> None:
+        """Ends it: it stays if it is `done`."""
+        desk.post(Finish() if done else Abandon())
 
-def begin_stroke(desk: Desk, first: PenEvent) -> Begun | None:
-    """Begins a stroke at the level that is shown; on a placement, on what it shows; on the mask that is painted on.
-    None where that cannot be, which is said."""
+
+def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
+    """Begins a stroke at the level that is shown; on a placement, on what it shows; on the mask, or the
+    selection, while that is painted.  None where that cannot be, which is said."""
     if refused(desk):
         return None
+    if desk.selecting.masking:
+        return begin_on_mask(desk, first)
     layer = desk.known.active
     aim = through(desk.known, layer, desk.view.shown_level) if layer is not None and layer.shows is not None else None
     if isinstance(aim, str):
@@ -94,7 +101,7 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
     begun = begin_stroke(desk, first)
     if begun is None:
         return
-    level, origin, brush, _ = begun
+    level, origin, brush = begun.level, begun.origin, begun.brush
     smoother, straight = Smoother(desk.hand.stabiliser), desk.pointer.shift
     snapper = Snapper(desk, level, origin, straight)
     desk.painting = True
@@ -116,9 +123,9 @@ def paint(desk: Desk, first: PenEvent) -> Gesture:
         desk.guides.last = desk.view.to_canvas(event.x, event.y)
     finally:
         desk.painting = False
-        desk.post(Finish() if done else Abandon())
+        begun.end(desk, done)
         trace("a stroke is posted" if done else "a stroke is dropped")
-    if brush.row.lays_ink:
+    if brush.row.lays_ink and not isinstance(begun, MaskBegun):
         desk.hand.remember()
 
 

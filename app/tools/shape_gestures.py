@@ -13,9 +13,9 @@ from app.desk.guides import shape_paths
 from app.desk.guides.shape_paths import Corner, Path
 from app.input.events import PenEvent
 from app.tools.gesture import Gesture
+from app.tools.mask_strokes import MaskBegun
 from app.tools.painting_gestures import begin_stroke, refused
 from engine.painting.points import REACH
-from engine.studio.requests import Finish
 
 _DOUBLE = 0.4  # seconds between the presses that end a polyline
 _SAME, _CLOSING = 6.0, 10.0  # points of the screen within which a press is on the last corner, or on the first
@@ -100,8 +100,8 @@ def _painted(desk: Desk, first: PenEvent, path: Sequence[Corner]) -> None:
     begun = begin_stroke(desk, first)
     if begun is not None:
         begun.post(desk, rows)
-        desk.post(Finish())
-        if begun.brush.row.lays_ink:
+        begun.end(desk, True)
+        if begun.brush.row.lays_ink and not isinstance(begun, MaskBegun):
             desk.hand.remember()
 
 

@@ -25,6 +25,7 @@ from engine.studio.moving.move_requests import MoveRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 from engine.studio.selecting.ants_records import AskAnts, PreviewSelection
+from engine.studio.selecting.tint_records import TintRequest
 from engine.studio.textures.texture_requests import LabRequest, MatchRequest, RegionRequest
 
 if TYPE_CHECKING:
@@ -242,6 +243,7 @@ Request = (
     | AskMap
     | AskAnts
     | PreviewSelection
+    | TintRequest
     | AskMiniatures
     | GetReady
     | FileGrown

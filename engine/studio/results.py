@@ -20,6 +20,7 @@ from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import Extent
 from engine.studio.past.past_records import PastResult
 from engine.studio.selecting.ants_records import Ants
+from engine.studio.selecting.tint_records import Tint
 from engine.studio.textures.texture_results import TextureResult
 
 if TYPE_CHECKING:
@@ -301,6 +302,7 @@ Result = (
     | PastResult
     | Extent
     | Ants
+    | Tint
     | Held
 )
 

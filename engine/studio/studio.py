@@ -37,6 +37,7 @@ from engine.studio.past.trail import Trail
 from engine.studio.past.travels import Travels
 from engine.studio.ready import ready
 from engine.studio.selecting.ants import AntsFinder
+from engine.studio.selecting.tints import TintFinder
 from engine.studio.textures import swatch_files, swatches
 from engine.studio.textures.lab import Lab
 from engine.studio.textures.matcher import Matcher
@@ -104,7 +105,7 @@ class Studio(Owned):
         self._rows = (
             Work(lambda: easel.behind, easel.follow),
             Work(lambda: viewer.fresh, viewer.send_fresh),
-            _of(AntsFinder(easel)),
+            *_each(AntsFinder(easel), TintFinder(easel)),
             _of(Regions(send)),
             _of(self.lab),
             _of(MaskPictures(easel)),

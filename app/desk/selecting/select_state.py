@@ -7,11 +7,13 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from app.canvas.view import Place, View
+from app.desk.colours import RGB
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Similarity
 from engine.painting.select_commands import Select, Whole
 from engine.studio.requests import Do, Request
 from engine.studio.selecting.ants_records import Ants, AskAnts
+from engine.studio.selecting.tint_records import AskTint, Tint
 
 _GRAIN = 256  # px: the rectangle that is asked for begins and ends at multiples of these, so that it seldom changes
 
@@ -29,7 +31,9 @@ class CopiedHere(NamedTuple):
 class SelectState:
     """`ants`: the rim, None before the engine told of it; `shape`: the corners of what is being drawn, `closed` where
     that is no line that still goes on; `amount`: pixels by which a selection is changed, `change`: how; `copied`: what
-    was copied here, None before; `carried`: by what the rim is seen elsewhere, until the engine tells of it there."""
+    was copied here, None before; `carried`: by what the rim is seen elsewhere, until the engine tells of it there;
+    `masking`: what strokes paint is the selection, seen as a tint of `mask_colour`, 0..1, `mask_part` of it; `tint`:
+    where that lies, None before the engine told of it."""
 
     ants: Ants | None = None
     shape: list[Place] = field(default_factory=list)
@@ -38,6 +42,11 @@ class SelectState:
     change: str = "grow"
     copied: CopiedHere | None = None
     carried: Similarity | None = None
+    masking: bool = False
+    mask_colour: RGB = (1.0, 0.0, 0.0)
+    mask_part: float = 0.5
+    tint: Tint | None = None
+    _tinted: tuple[int, Rect] | None = None
     _asked: tuple[int, Rect] | None = None
     _awaited: bool | None = None  # whether something will be selected, until the engine tells so
 
@@ -65,10 +74,15 @@ class SelectState:
             self._awaited = None
 
     def wants(self, post: Callable[[Request], None], view: View) -> None:
-        """Asks for the rim in sight, when that is elsewhere than what was asked for."""
+        """Asks for the rim in sight, and for the mask, when they are elsewhere than what was asked for."""
         level = view.shown_level
         x0, y0, x1, y1 = view.visible(level)
         area = Rect(x0 // _GRAIN * _GRAIN, y0 // _GRAIN * _GRAIN, -(-x1 // _GRAIN) * _GRAIN, -(-y1 // _GRAIN) * _GRAIN)
         if self._asked != (level, area):
             self._asked = level, area
             post(AskAnts(level, area))
+        masked = (level, area) if self.masking else None
+        if self._tinted != masked:
+            self._tinted = masked
+            post(AskTint(level, area if self.masking else None))
+            self.tint = self.tint if self.masking else None

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.desk.desk import Desk
-from app.panels.options import fill_options
+from app.panels.options import fill_options, mask_options
+from app.tools.tools import TOOLS
 
 
 class Options(NamedTuple):
@@ -22,8 +23,11 @@ _OF_TOOLS = {
     "gradient": Options(48.0, fill_options.draw),
     "wand": Options(35.0, fill_options.draw),
 }
+_MASK = Options(32.0, mask_options.draw_mask)
 
 
 def options_of(desk: Desk) -> Options | None:
     """Returns what is to be set now; None for nothing."""
-    return _OF_TOOLS.get(desk.hand.tool) if desk.panels else None
+    if not desk.panels:
+        return None
+    return _MASK if desk.selecting.masking and TOOLS[desk.hand.tool].outline else _OF_TOOLS.get(desk.hand.tool)
