@@ -37,7 +37,7 @@ from engine.studio.past.trail import Trail
 from engine.studio.past.travels import Travels
 from engine.studio.ready import ready
 from engine.studio.selecting.ants import AntsFinder
-from engine.studio.selecting.tints import TintFinder
+from engine.studio.selecting.mask_tint import TintFinder
 from engine.studio.textures import swatch_files, swatches
 from engine.studio.textures.lab import Lab
 from engine.studio.textures.matcher import Matcher

@@ -10,8 +10,8 @@ from engine.painting import commands as c
 from engine.painting.points import rounded
 from engine.painting.select_commands import Line
 from engine.studio.easel import Easel
+from engine.studio.selecting.mask_tint import TintFinder
 from engine.studio.selecting.tint_records import AskTint, MaskBegin, MaskEnd, MaskPoints
-from engine.studio.selecting.tints import TintFinder
 
 AREA = Rect(-40, -100, 260, 190)
 OVAL = {"do": "select", "ellipse": [0, 20, 10, 90, 80], "feather": 5}
