@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from engine.canvas.selecting.selection import Selection
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
-    from engine.session.painted_here import ShownStroke
+    from engine.session.here.painted_here import ShownStroke
 
 _WIDE = 2048  # pixels: how finely bounds are found
 
@@ -61,7 +61,7 @@ def strokes_at(
     Failed if the painting does not say how it was made.
     """
     from engine.painting.value import blank
-    from engine.session.painted_here import CanvasPixel, PaintedHere
+    from engine.session.here.painted_here import CanvasPixel, PaintedHere
     from engine.session.steps import Steps
 
     found = opened_painting(path, tell, salvage)

@@ -1,58 +1,37 @@
 """The steps of a log: which are done and which undone, and on which layer each stroke lies by now.
 
-Layers are followed through renaming, copying and removing; no pixel is painted for it.
+Layers are followed through renaming, copying, moving, merging, clearing and removing; no pixel is painted for it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from immutables import Map
 
 from engine.canvas import layers
-from engine.canvas.layers import Group, Layer, Node
+from engine.canvas.layers import Group
 from engine.canvas.node_checks import LayerError
-from engine.canvas.selecting.selection import EVERYTHING
-from engine.canvas.store import Pyramid
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.session.apply import STEPS, apply
-
-Definitions = Map[str, c.DefineTexture]
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class LoggedStep:
-    """`index`: the place of its command in the log, from 0; `number`: how many steps were done with it, from 1;
-    `textures`: those defined when it was done; `locked`: whether the alpha of a stroke's layer was."""
-
-    index: int
-    number: int
-    command: c.Command
-    textures: Definitions
-    locked: bool = False
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Laid:
-    """The last stroke on a layer, and those before it."""
-
-    step: LoggedStep
-    before: Laid | None
+from engine.session.here.chosen import Definitions, choosing
+from engine.session.here.laid import Change, Laid, Pasts, bare, given, mask_painted, moved_along, pasts_after
+from engine.session.here.laid import LoggedStep as LoggedStep
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _State:
-    """The layers without their paint, the last step that led here, and what was laid on each layer, by its id.
+    """The layers without their paint, the last step that led here, and what each layer came to, by its id.
 
     `active`: the active layer right after that step; the painting has the one that was chosen since.
     """
 
     painting: Painting
     step: LoggedStep | None
-    laid: Map[int, Laid | None]
+    pasts: Pasts
     active: str | None = None
 
 
@@ -63,7 +42,7 @@ class Steps(Owned):
     """
 
     def __init__(self, base: Painting, log: Sequence[c.Command] = ()) -> None:
-        self._now = _State(replace(base, root=_bare(base.root), textures=Map()), None, Map())
+        self._now = _State(replace(base, root=bare(base.root), textures=Map()), None, given(base.root))
         self._done: list[_State] = []  # before each step that is done
         self._undone: list[_State] = []  # after each that is undone
         self._textures: Definitions = Map()
@@ -105,12 +84,15 @@ class Steps(Owned):
         """Gives the layers, without paint."""
         return self._now.painting.root
 
-    def strokes(self, layer: Layer) -> Iterator[LoggedStep]:
-        """Yields the strokes and fills on a layer, by its name now, the newest first."""
-        laid = self._now.laid.get(layer.id)
-        while laid is not None:
-            yield laid.step
-            laid = laid.before
+    @property
+    def painting(self) -> Painting:
+        """Gives the painting without paint; what is selected in it, and its masks, are known by their commands."""
+        return self._now.painting
+
+    @property
+    def pasts(self) -> Pasts:
+        """Gives what each layer came to, by its id in `root`."""
+        return self._now.pasts
 
     def _take(self, index: int, command: c.Command) -> None:
         if isinstance(command, c.DefineTexture):
@@ -133,41 +115,28 @@ class Steps(Owned):
         if isinstance(command, c.Stroke | c.Fill):
             return self._after_stroke(step, command)
         if isinstance(command, c.Select):  # what is selected depends on paint, which is not here
-            return replace(now, step=step, active=now.painting.active)
-        if isinstance(command, c.SetLayer) and command.selected is not None:
-            return self._after_part(step, command)
-        painting, laid = _applied(now.painting, command), now.laid
-        if isinstance(command, c.DuplicateLayer) and painting is not now.painting:
-            copied = _applied(now.painting, replace(command, placing=None))  # moved, they have the same numbers
-            for one, copy in _copied(copied.root, command):
-                laid = laid.set(copy.id, laid.get(one.id))
-        if isinstance(
-            command, c.RemoveLayer | c.MergeLayer | c.FlattenGroup | c.DuplicateLayer
-        ):  # a later layer may get the number of one that is gone
-            held = {node.id for node in layers.walk(painting.root)}
-            laid = Map({number: last for number, last in laid.items() if number in held})
-        return _State(painting, step, laid, painting.active)
-
-    def _after_part(self, step: LoggedStep, command: c.SetLayer) -> _State:
-        """Returns the state after what is selected of a layer was moved: on a layer of its own, all that was laid on
-        the layer may be."""
-        now, chosen = self._now, replace(self._now.painting, selection=EVERYTHING)
-        painting, laid = replace(_applied(chosen, command), selection=None), now.laid
-        for node in layers.layers(painting.root):
-            if not layers.has(now.painting.root, node.name):
-                laid = laid.set(node.id, laid.get(layers.find(now.painting.root, command.name).id))
-        return _State(painting, step, laid, painting.active)
+            painting = choosing(now.painting, command, step.number, step.textures)
+        elif isinstance(command, c.AddPicture):  # its picture is not here
+            painting = _applied(now.painting, c.AddLayer(command.name, group=command.group, to=command.to))
+            painting = _applied(painting, c.SetLayer(command.name, role=command.role))
+        else:
+            painting = _applied(now.painting, command)
+        change = Change(now.painting, painting, now.pasts, step)
+        if painting is not now.painting:
+            painting = moved_along(change)
+        return _State(painting, step, pasts_after(change), painting.active)
 
     def _after_stroke(self, step: LoggedStep, stroke: c.Stroke | c.Fill) -> _State:
         now = self._now
-        if stroke.onto:  # no paint: it is nothing that shows
-            return replace(now, step=step)
         try:
             painting, layer = layer_for(now.painting, stroke.layer)
         except (Refusal, LayerError):  # the log is of another painting
             return replace(now, step=step)
+        if stroke.onto:  # no paint: it is nothing that shows
+            return _State(mask_painted(painting, layer, step), step, now.pasts, painting.active)
         step = replace(step, locked=layer.alpha_locked)
-        return _State(painting, step, now.laid.set(layer.id, Laid(step, now.laid.get(layer.id))), painting.active)
+        laid = Laid(step, now.pasts.get(layer.id), now.painting.selection, layer.wrap, now.painting.frame)
+        return _State(painting, step, now.pasts.set(layer.id, laid), painting.active)
 
     def _travel(self, count: int, back: list[_State], forth: list[_State], redone: bool) -> None:
         """As `Session` does it: what is no step stays as it is.  Where the active layer is gone, it is the one before
@@ -188,23 +157,3 @@ def _applied(painting: Painting, command: c.Command) -> Painting:
         return apply(painting, command)
     except (Refusal, LayerError):
         return painting
-
-
-def _copied(root: Group, command: c.DuplicateLayer) -> Iterable[tuple[Node, Node]]:
-    """Returns the nodes of what was copied, each with its copy."""
-    return zip(_within(layers.find(root, command.name)), _within(layers.find(root, command.to)), strict=True)
-
-
-def _within(node: Node) -> list[Node]:
-    return [node, *layers.walk(node)] if isinstance(node, Group) else [node]
-
-
-def _bare(group: Group) -> Group:
-    """Returns the same layers without any paint."""
-    return replace(group, children=tuple(_without_paint(child) for child in group.children))
-
-
-def _without_paint(node: Node) -> Node:
-    if isinstance(node, Group):
-        return _bare(node)
-    return replace(node, pyramid=Pyramid(), growth=()) if isinstance(node, Layer) else node

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.brush import ops, relief, tip
-from engine.brush.copies import copied, copied_places
+from engine.brush.copies import Copies, Torus, copied, copied_places, each
 from engine.brush.dabs import Stroker
 from engine.brush.dynamics import knots_of
 from engine.brush.extent import WIDEST
@@ -70,6 +70,13 @@ def _reach(stroke: Stroke) -> float:
     return widest + 2.0 + (WIDEST if brush.extent else 0.0)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class OnCell(Stroke):
+    """A stroke as it was laid on a cell, over whose rim it comes in again: `torus` has its copies, too."""
+
+    torus: Torus | None = None
+
+
 def near(stroke_level: int, level: int, rect: Rect) -> Rect:
     """Returns the pixels of a stroke's level whose coverage is seen in `rect` of another level."""
     found = rect.zoomed(stroke_level - level)
@@ -115,7 +122,7 @@ class Covering:
         corner, dabs = _dabs(stroke, coarser)
         if not _keep_near(dabs, corner, rect.grown(parts.relief.reach + 1)):
             return None
-        mask = StrokeMask(at, corner, tip=parts.tip, each=1 + len(stroke.copies))
+        mask = StrokeMask(at, corner, tip=parts.tip, each=each(_copies(stroke)))
         mask.paint(dabs)
         coverage = parts.relief.over(mask.coverage())
         out = np.zeros((rect.height, rect.width), np.float32)
@@ -152,7 +159,14 @@ def plain_over(strokes: Sequence[Stroke], level: int, rect: Rect) -> np.ndarray:
 def plainly(stroke: Stroke, level: int) -> bool:
     """Tells whether how much a stroke covers of pixels of a level follows from its dabs alone."""
     row = stroke.brush.row
-    return not (row.grows or stroke.copies) and (stroke.level > level + _EXACT or spots.is_plain(stroke.brush))
+    return not (row.grows or stroke.copies or isinstance(stroke, OnCell)) and (
+        stroke.level > level + _EXACT or spots.is_plain(stroke.brush)
+    )
+
+
+def lays(brush: Brush) -> bool:
+    """Tells whether a stroke lays paint where there is none."""
+    return brush.row.lays_ink or brush.row.grows
 
 
 def hides(brush: Brush) -> bool:
@@ -173,9 +187,13 @@ def _resolved(brush: Brush, level: int, textures: Textures, seeds: Seeds) -> _Pa
     return _Parts(tip.resolve(brush, textures, level, seeds.own), relief.resolve(brush, textures, level, seeds), mixed)
 
 
+def _copies(stroke: Stroke) -> Copies | Torus:
+    return stroke.torus if isinstance(stroke, OnCell) and stroke.torus is not None else stroke.copies
+
+
 def _dabs(stroke: Stroke, coarser: int) -> tuple[tuple[int, int], np.ndarray]:
     """Returns the stroke's origin and its dabs, float64 (n, 6), in pixels of a level so much coarser."""
-    dabs = np.concatenate([*copied(Stroker(stroke.brush).walk(stroke.points), stroke.copies)])
+    dabs = np.concatenate([*copied(Stroker(stroke.brush).walk(stroke.points), _copies(stroke))])
     x, y = stroke.origin
     corner = x >> coarser, y >> coarser
     if coarser:
@@ -198,7 +216,7 @@ def _keep_near(dabs: np.ndarray, corner: tuple[int, int], rect: Rect) -> bool:
 
 def _taken(stroke: Stroke, at: int, rect: Rect) -> np.ndarray | None:
     """Returns 1 where a stroke with an example takes pixels, 0 elsewhere: its dabs' shape is not looked at."""
-    found = Footprint(stroke.brush, stroke.origin, at - stroke.level, None, rect, stroke.copies)
+    found = Footprint(stroke.brush, stroke.origin, at - stroke.level, None, rect, _copies(stroke))
     out = np.zeros((rect.height, rect.width), np.float32)
     for part, mask in found.lay(stroke.points):
         meeting = part.intersect(rect)

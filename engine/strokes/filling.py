@@ -63,7 +63,7 @@ def covered_by(painting: Painting, command: Fill, cache: TileCache | None = None
     """Returns how much of each pixel of its level a fill covers, at most."""
     region, limit = _region(painting, command, cache)
     left = region if limit is None else limit.over(region)
-    return left if kind_of(command.brush) is not LiveStroke else thinned(left, _opacity(command.brush))
+    return left if kind_of(command.brush) is not LiveStroke else thinned(left, opacity_of(command.brush))
 
 
 def _region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple[Coverage, Limit | None]:
@@ -79,7 +79,7 @@ def _region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple
     return alpha_at(selection.pyramid, command.level, "fill"), None
 
 
-def _opacity(brush: Brush) -> float:
+def opacity_of(brush: Brush) -> float:
     """Returns the opacity under the pen's full pressure."""
     return min(brush.opacity * float(dynamics.evaluate(brush.dynamics.get("opacity"), np.ones(1))[0]), 1.0)
 
@@ -104,7 +104,7 @@ class Pouring:
         """Returns the layer with its paint edited; what is painted with examples is taken away with it, or made paint
         where the region meets it."""
         brush, layer, level = self._brush, self._layer, region.level
-        coverage = thinned(region, _opacity(brush))
+        coverage = thinned(region, opacity_of(brush))
         if layer.growth and brush.row.takes_away and not layer.alpha_locked:
             rect, mask = coverage.rect, taken(coverage)
             change = self._limited(lambda growth, rect, mask: growths.cut(growth, level, rect, mask), level)

@@ -25,7 +25,7 @@ _NO_PAINT = np.zeros((COLOURS, TILE, TILE), np.float32)
 
 
 @dataclass(frozen=True, slots=True)
-class _Outside:
+class Outside:
     """All that lies outside a frame of level 0."""
 
     frame: Rect
@@ -41,9 +41,9 @@ class _Outside:
         return out
 
 
-def framing(frame: Rect) -> _Outside:
+def framing(frame: Rect) -> Outside:
     """Returns what lies outside a frame."""
-    return _Outside(frame)
+    return Outside(frame)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,7 @@ class _Clearing:
 
     level: int
     tiles: list[TileKey]
-    taken: Selection | _Outside
+    taken: Selection | Outside
     spares_alpha: bool = False
 
     @property
@@ -70,11 +70,11 @@ class _Clearing:
         return Stamp(snapped(keep), _NO_PAINT)
 
 
-def without(paint: Pyramid, taken: Selection | _Outside) -> Pyramid:
+def without(paint: Pyramid, taken: Selection | Outside) -> Pyramid:
     """Returns paint without what is taken.  LayerError if that would be too much."""
     if paint.coarsest is None:
         return paint
-    level = taken.level if isinstance(taken, _Outside) else taken.pyramid.finest
+    level = taken.level if isinstance(taken, Outside) else taken.pyramid.finest
     if level is None:  # all, or nothing
         level = paint.coarsest
         if isinstance(taken, Selection) and taken.inverse:
@@ -92,6 +92,6 @@ def without(paint: Pyramid, taken: Selection | _Outside) -> Pyramid:
     return commit(paint, _Clearing(level, met, taken)) if met else paint
 
 
-def _meets(taken: Selection | _Outside, key: TileKey, cache: TileCache) -> bool:
+def _meets(taken: Selection | Outside, key: TileKey, cache: TileCache) -> bool:
     part = taken.part(key.level, key.rect, cache)
     return part != 0 if isinstance(part, float) else bool(part.any())

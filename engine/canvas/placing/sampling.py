@@ -59,6 +59,17 @@ def density(similarity: Similarity) -> float:
     return math.sqrt(Fraction(1 << max(by, 0), n << max(-by, 0)))
 
 
+def weights_at(similarity: Similarity, level: int, x: int, y: int) -> tuple[int, Rect, np.ndarray]:
+    """Returns which pixels of a source tell of a pixel of `level` that is sampled: their level, the 4 x 4 of them, and
+    the weight of each, float32 (4, 4)."""
+    at_level = source_level(similarity, level)
+    u, v = (value - _HALF for value in similarity.back((2 * x + 1, 2 * y + 1), level, at_level, BITS))
+    half, table = 1 << (_TO_PHASE - 1), _table(round(density(similarity) * 16))
+    u, v = u + half, v + half
+    across, down = table[(u >> _TO_PHASE) & 255], table[(v >> _TO_PHASE) & 255]
+    return at_level, Rect.at((u >> BITS) - 1, (v >> BITS) - 1, _TAPS, _TAPS), down[:, None] * across
+
+
 def _pieces(rect: Rect) -> Iterator[Rect]:
     for y in range(rect.y0 - rect.y0 % _PIECE, rect.y1, _PIECE):
         for x in range(rect.x0 - rect.x0 % _PIECE, rect.x1, _PIECE):

@@ -60,7 +60,7 @@ def part_moved(painting: Painting, node: Node, placing: Placing, way: str) -> Pa
     """
     lifted, pose = lifted_part(painting, node, way), placing.posed(UNMOVED)
     root = painting.root
-    chosen = _selection_at(lifted.selection, pose, painting.frame, painting.grid)
+    chosen = selection_at(lifted.selection, pose, painting.frame, painting.grid)
     if pose.similarity.quarter is not None:
         paint = laid_over(lifted.layer.pyramid, baked(lifted.part, pose.similarity))
         root = layers.substitute(root, node.name, replace(lifted.layer, pyramid=paint))
@@ -93,7 +93,7 @@ def part_tried(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:
     return replace(painting, root=layers.substitute(painting.root, node.name, shown))
 
 
-def _selection_at(selection: Selection, pose: Pose, frame: Rect, grid: int) -> Selection:
+def selection_at(selection: Selection, pose: Pose, frame: Rect, grid: int) -> Selection:
     """Returns a selection as a pose shows it."""
     if pose.similarity.quarter is not None:
         return replace(selection, pyramid=baked(selection.pyramid, pose.similarity))

@@ -6,10 +6,8 @@ import time
 
 from engine.brush.settings import textures_of
 from engine.checks.owned import Owned
-from engine.painting.value import Painting
-from engine.session.painted_here import CanvasPixel, PaintedHere, Search, ShownStroke
+from engine.session.here.painted_here import CanvasPixel, PaintedHere, Search, ShownStroke
 from engine.session.session import Session
-from engine.session.steps import LoggedStep
 from engine.studio.past import past_records as p
 from engine.studio.past.trail import Trail
 from engine.studio.requests import Handlers
@@ -25,7 +23,7 @@ class HereFinder(Owned):
 
     def __init__(self, trail: Trail) -> None:
         self._trail = trail
-        self._session, self._finder = trail.session, PaintedHere(trail.session.cache, self._before)
+        self._session, self._finder = trail.session, PaintedHere(trail.session.cache, trail.held)
         self._search: _Open | None = None
         self.handlers: Handlers = {p.AskHere: self._begin}
 
@@ -59,14 +57,10 @@ class HereFinder(Owned):
             trail.easel.finish()
         trail.follow()
         if self._session is not trail.session:
-            self._session, self._finder = trail.session, PaintedHere(trail.session.cache, self._before)
+            self._session, self._finder = trail.session, PaintedHere(trail.session.cache, trail.held)
         place, session = CanvasPixel(request.level, request.x, request.y), self._session
         self._search = _Open(place, session, self._finder.search(place, session.painting, session.steps))
         self.step()
-
-    def _before(self, step: LoggedStep) -> Painting | None:
-        """Returns the painting that a step was done on, if it is at hand."""
-        return self._trail.held(step.number - 1)
 
     def _told(self, shown: ShownStroke, session: Session) -> p.HereStroke:
         stroke = shown.stroke

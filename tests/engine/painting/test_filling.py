@@ -22,7 +22,7 @@ from engine.painting import commands as c
 from engine.painting.grown import settled
 from engine.painting.recording import read_from, version_of
 from engine.painting.value import Leak, Painting, Refusal
-from engine.session.painted_here import CanvasPixel, PaintedHere
+from engine.session.here.painted_here import CanvasPixel, PaintedHere
 from engine.session.replay import replay
 from engine.session.session import Session
 
@@ -240,11 +240,11 @@ def test_what_was_painted_here_knows_of_fills():
     session = done(WASH, LINE, fill())
     history, count = session.history, session.steps.count
 
-    def before(step):
-        return history.at(step.number - 1 - count)
+    def held(number):
+        return history.at(number - count)
 
     def found(x, y, level=0, finder=None):
-        finder = finder or PaintedHere(session.cache, before)
+        finder = finder or PaintedHere(session.cache, held)
         return finder.at(CanvasPixel(level, x, y), session.painting, session.steps)
 
     assert [shown.step.index for shown in found(80, 60)] == [2]

@@ -13,7 +13,7 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
-from engine.session.painted_here import LEAST_SHARE, CanvasPixel, PaintedHere
+from engine.session.here.painted_here import LEAST_SHARE, CanvasPixel, PaintedHere
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.session.steps import Steps

@@ -18,7 +18,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.session.differing import difference
-from engine.session.painted_here import CanvasPixel, PaintedHere
+from engine.session.here.painted_here import CanvasPixel, PaintedHere
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
@@ -326,7 +326,7 @@ def test_kept_states_are_bounded_and_each_leads_on():
 
 def test_strokes_that_show_are_told_piece_by_piece_the_newest_first(monkeypatch):
     monkeypatch.setattr("engine.studio.past.here._PIECE", 0.0)
-    monkeypatch.setattr("engine.session.painted_here._AT_FIRST", 8)
+    monkeypatch.setattr("engine.session.here.painted_here._AT_FIRST", 8)
     stack = [c.AddLayer("Below"), c.AddLayer("Above")]
     for n in range(60):
         told = {"do": "stroke", "layer": ("Below", "Above")[n % 2], "points": [[20, 20], [30, 20 + n % 3]]}

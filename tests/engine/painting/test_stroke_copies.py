@@ -18,7 +18,7 @@ from engine.numeric.address import TILE, Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.painting.grown import settled
-from engine.session.painted_here import CanvasPixel, PaintedHere
+from engine.session.here.painted_here import CanvasPixel, PaintedHere
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.strokes.coverage_at import stroke_bounds

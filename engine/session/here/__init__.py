@@ -1,0 +1,1 @@
+"""What was painted at a place: how each layer came to its paint, and which strokes show there."""
