@@ -18,8 +18,8 @@ from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.session.apply import STEPS, apply
 from engine.session.here.chosen import Definitions, choosing
-from engine.session.here.laid import Change, Laid, Pasts, bare, given, mask_painted, moved_along, pasts_after
-from engine.session.here.laid import LoggedStep as LoggedStep
+from engine.session.here.lineage import Change, Laid, Pasts, bare, given, mask_painted, moved_along, pasts_after
+from engine.session.here.lineage import LoggedStep as LoggedStep
 
 
 @dataclass(frozen=True, eq=False, slots=True)

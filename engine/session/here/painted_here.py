@@ -28,7 +28,7 @@ from engine.painting.times import untimed
 from engine.painting.value import Painting
 from engine.session.here.chosen import Choices, Definitions, Held
 from engine.session.here.gazes import LEAST_SHARE, Gaze, Sight, Sightline
-from engine.session.here.laid import Given
+from engine.session.here.lineage import Given
 from engine.session.here.plies import Begin, Cover, End, Part, Ply, Shade, Turn
 from engine.session.here.poured_here import Poured
 from engine.session.here.unfolded import Bounds, Candidate, Entry, Unfolding

@@ -13,7 +13,7 @@ from engine.canvas.selecting.selection import Selection
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Similarity
 from engine.session.here.gazes import LEAST_SHARE, Gaze, source_of
-from engine.session.here.laid import Given
+from engine.session.here.lineage import Given
 from engine.texture.placed import oriented
 
 Part = Selection | Outside

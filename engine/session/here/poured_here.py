@@ -11,7 +11,7 @@ from engine.painting import commands as c
 from engine.painting.fill_command import place_of
 from engine.painting.value import Refusal
 from engine.session.here.chosen import UNKNOWN, Choices, Held
-from engine.session.here.laid import Laid
+from engine.session.here.lineage import Laid
 from engine.strokes.coverage_at import carried_to
 from engine.strokes.filling import covered_by, opacity_of
 

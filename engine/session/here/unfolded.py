@@ -16,7 +16,7 @@ from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Refusal
 from engine.session.here.gazes import Gaze, source_of
-from engine.session.here.laid import Given, Joined, Laid, Left, LoggedStep, Moved, Past
+from engine.session.here.lineage import Given, Joined, Laid, Left, LoggedStep, Moved, Past
 from engine.session.here.plies import Begin, Cover, End, Ply, Shade, Turn, Veil
 from engine.session.here.poured_here import Poured
 from engine.session.merging import PLAIN_BLEND
