@@ -19,10 +19,10 @@ from engine.archive.manifest import MANIFEST, RECORDING, Manifest
 from engine.archive.opening import open_native
 from engine.archive.plot_files import Mark, Nursery
 from engine.archive.salvage.damaged_layer import rebuilt
+from engine.archive.salvage.damaged_selections import found_selections
 from engine.archive.salvage.remains import Remains
 from engine.archive.salvage.seen import Shown
 from engine.archive.saving import MERGED, shown_level
-from engine.archive.selected.selection_files import LEFT_OUT
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group, Layer
@@ -129,7 +129,8 @@ class _Parts:
 
     def run(self) -> Opened:
         remains, manifest = self._remains, self._manifest
-        most = sum(pack.plain for packs in manifest.packs.values() for pack in packs) + manifest.grown_bytes()
+        packs = [*manifest.packs.values(), *(entry.packs for entry in manifest.selections)]
+        most = sum(pack.plain for some in packs for pack in some) + manifest.grown_bytes()
         if most > memory_cap():
             raise TooMuch(remains.archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
         root = manifest.root
@@ -140,11 +141,12 @@ class _Parts:
         if not self._had:
             raise FileError(remains.archive.name, "no layer of it is whole")
         told: tuple[str, ...] = ()
-        painting = manifest.painting(root, self._textures())
+        selections = found_selections(manifest.selections, remains, root, manifest.grid)
+        painting = manifest.painting(root, self._textures(), selections.chosen)
         if self._unseen:
             root, told = _with_seen(remains, painting)
             painting = replace(painting, root=root)
-        told = (*told, *manifest.notes, *((LEFT_OUT,) if manifest.selections else ()))
+        told = (*told, *manifest.notes, *selections.notes)
         notes = (IN_PART, *self._notes, *told, *steps_missing(remains))
         return Opened(painting, notes, False, None, remains.pictures, tuple(self._marks))
 

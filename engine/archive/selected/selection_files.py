@@ -25,7 +25,6 @@ from engine.painting.value import Painting
 
 Packs = list[Any]  # of `manifest.Pack`s
 MOST_SELECTIONS = 4096  # of one painting
-LEFT_OUT = "what was selected is left out, and so are masks"
 
 
 @dataclass(frozen=True)
