@@ -97,7 +97,7 @@ def source_of(similarity: Similarity, level: int, rect: Rect) -> tuple[int, Rect
     return level + levels, Rect.at(found.x0, found.y0, width, height)
 
 
-class Sight(NamedTuple):
+class SeenLayer(NamedTuple):
     """A layer that is looked at in some places, each by itself; `weight`: how much of it is seen, 0..1, behind what
     hides it; `alpha`: its own there."""
 
@@ -107,7 +107,7 @@ class Sight(NamedTuple):
     alpha: float
 
 
-Sights = Generator[Sight, None, float]
+SeenLayers = Generator[SeenLayer, None, float]
 
 
 class Sightline:
@@ -116,11 +116,11 @@ class Sightline:
     def __init__(self, root: Group, cache: TileCache | None) -> None:
         self._root, self._read = root, partial(layer_planes, cache=cache)
 
-    def sights(self, gaze: Gaze) -> Iterator[Sight]:
+    def sights(self, gaze: Gaze) -> Iterator[SeenLayer]:
         """Yields them."""
         return self._nodes(self._root.children, gaze, UNPLACED, 1.0, 0)
 
-    def _nodes(self, nodes: Sequence[Node], gaze: Gaze, seen: Seen, weight: float, depth: int) -> Sights:
+    def _nodes(self, nodes: Sequence[Node], gaze: Gaze, seen: Seen, weight: float, depth: int) -> SeenLayers:
         """Yields those of some nodes, bottom first; returns their alpha together."""
         left = 1.0
         for base, clipped in reversed(stacks(nodes)):
@@ -135,7 +135,7 @@ class Sightline:
 
     def _clipped(
         self, base: Node, clipped: Sequence[Node], gaze: Gaze, seen: Seen, weight: float, depth: int
-    ) -> Sights:
+    ) -> SeenLayers:
         """Yields those of what is clipped to a node; returns how much of that they leave to be seen."""
         left, within = 1.0, _returned(self._node(base, gaze, seen, 1.0, depth))
         for node in reversed(clipped):
@@ -144,7 +144,7 @@ class Sightline:
                 left *= 1.0 - node.opacity * alpha if node.blend == PLAIN_BLEND else 1.0
         return left
 
-    def _node(self, node: Node, gaze: Gaze, seen: Seen, weight: float, depth: int) -> Sights:
+    def _node(self, node: Node, gaze: Gaze, seen: Seen, weight: float, depth: int) -> SeenLayers:
         """Yields those of a node; returns its alpha."""
         if weight < LEAST_SHARE:
             return 0.0
@@ -160,10 +160,10 @@ class Sightline:
         there = gaze.through(seen)
         if there is not None:
             gazes = [there] if node.wrap is None else there.within(node.wrap)
-            yield Sight(node, gazes, weight * shown * _unclipped(gaze, seen), alpha)
+            yield SeenLayer(node, gazes, weight * shown * _unclipped(gaze, seen), alpha)
         return alpha * shown
 
-    def _placed(self, node: Placement, gaze: Gaze, seen: Seen, weight: float, depth: int) -> Sights:
+    def _placed(self, node: Placement, gaze: Gaze, seen: Seen, weight: float, depth: int) -> SeenLayers:
         through = seen.of(node)
         if depth == _DEEPEST or through.vanishes(gaze.level):
             return 0.0
@@ -191,7 +191,7 @@ def _unclipped(gaze: Gaze, seen: Seen) -> float:
     return min(1.0, _mean(seen.clipped(ones, gaze.level, part, gaze.rect), gaze) / max(float(gaze.weights.sum()), 1e-9))
 
 
-def _returned(sights: Sights) -> float:
+def _returned(sights: SeenLayers) -> float:
     """Goes through all of them; returns what they return."""
     try:
         while True:

@@ -27,9 +27,9 @@ from engine.painting.textures import Texture
 from engine.painting.times import untimed
 from engine.painting.value import Painting
 from engine.session.here.chosen import Choices, Definitions, Held
-from engine.session.here.gazes import LEAST_SHARE, Gaze, Sight, Sightline
+from engine.session.here.gazes import LEAST_SHARE, Gaze, SeenLayer, Sightline
 from engine.session.here.lineage import Given
-from engine.session.here.plies import Begin, Cover, End, Part, Ply, Shade, Turn
+from engine.session.here.plies import BeginPly, CoverPly, EndPly, Part, Ply, ShadePly, Turn
 from engine.session.here.poured_here import Poured
 from engine.session.here.unfolded import Bounds, Candidate, Entry, Unfolding
 from engine.session.picturing import laid_picture
@@ -72,7 +72,7 @@ class _Ground:
     """A layer that is seen at a place: what its past tells of it, from the topmost stroke on, each entry with a number
     that never grows: its place in the log, or that of what lies above it."""
 
-    def __init__(self, sight: Sight, unfolding: Unfolding) -> None:
+    def __init__(self, sight: SeenLayer, unfolding: Unfolding) -> None:
         self.sight, self.finer = sight, min(max(unfolding.finer, 0), _PARTS)
         self.entries: list[_Row] = []
         lowest = 1 << 62
@@ -157,11 +157,11 @@ class PaintedHere:
 
     def _turn(self, turn: Turn, ground: _Ground) -> None:
         ply = turn.ply
-        if isinstance(turn, Begin):
+        if isinstance(turn, BeginPly):
             ply.begin(ground.finer, self._part_of)
-        elif isinstance(turn, End):
+        elif isinstance(turn, EndPly):
             ply.end()
-        elif isinstance(turn, Shade):
+        elif isinstance(turn, ShadePly):
             ply.shade(turn.part, turn.outside, self._part_of)
         elif ply.parent is not None:
             alpha = self._given(turn, ply)
@@ -230,7 +230,7 @@ class PaintedHere:
             return self._choices.part(part, level, rect)
         return part.part(level, rect)
 
-    def _given(self, turn: Cover, ply: Ply) -> np.ndarray | None:
+    def _given(self, turn: CoverPly, ply: Ply) -> np.ndarray | None:
         """Returns the alpha of paint that is no stroke."""
         layer = turn.given.layer if turn.given.picture is None else self._pictured(turn.given)
         planes = None

@@ -157,21 +157,21 @@ def _unclipped(gaze: Gaze, seen: Seen) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Begin:
+class BeginPly:
     """A ply's paint begins."""
 
     ply: Ply
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class End:
+class EndPly:
     """A ply's paint ends."""
 
     ply: Ply
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Shade:
+class ShadePly:
     """Of what lies below in a ply, something was taken off."""
 
     ply: Ply
@@ -180,11 +180,11 @@ class Shade:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cover:
+class CoverPly:
     """Paint that no stroke laid."""
 
     ply: Ply
     given: Given
 
 
-Turn = Begin | End | Shade | Cover
+Turn = BeginPly | EndPly | ShadePly | CoverPly

@@ -17,7 +17,7 @@ from engine.painting import commands as c
 from engine.painting.value import Refusal
 from engine.session.here.gazes import Gaze, source_of
 from engine.session.here.lineage import Given, Joined, Laid, Left, LoggedStep, Moved, Past
-from engine.session.here.plies import Begin, Cover, End, Ply, Shade, Turn, Veil
+from engine.session.here.plies import BeginPly, CoverPly, EndPly, Ply, ShadePly, Turn, Veil
 from engine.session.here.poured_here import Poured
 from engine.session.merging import PLAIN_BLEND
 from engine.strokes.coverage_at import OnCell, bounds_of, near
@@ -114,7 +114,7 @@ class Unfolding:
 
     def unfold(self, past: Past) -> Iterator[None]:
         """Lists all of a past, with a break now and then."""
-        self.entries.append(Begin(self.ply))
+        self.entries.append(BeginPly(self.ply))
         yield from self._past(past, self.ply, 0)
 
     def _past(self, past: Past, ply: Ply, depth: int) -> Iterator[None]:
@@ -127,14 +127,14 @@ class Unfolding:
                 self._near(run, ply)
                 yield
             elif isinstance(past, Left):
-                self.entries.append(Shade(ply, past.part, past.outside))
+                self.entries.append(ShadePly(ply, past.part, past.outside))
                 past = past.before
             elif isinstance(past, Moved):
                 return (yield from self._moved(past, ply, depth))
             elif isinstance(past, Joined):
                 return (yield from self._nodes(past.nodes, past, ply, depth))
             elif isinstance(past, Given):
-                self.entries.append(Cover(ply, past))
+                self.entries.append(CoverPly(ply, past))
                 return None
         return None
 
@@ -152,9 +152,9 @@ class Unfolding:
                 self.strokes += 1
 
     def _within(self, ply: Ply, what: Callable[[], Iterator[None]]) -> Iterator[None]:
-        self.entries.append(Begin(ply))
+        self.entries.append(BeginPly(ply))
         yield from what()
-        self.entries.append(End(ply))
+        self.entries.append(EndPly(ply))
 
     def _moved(self, past: Moved, ply: Ply, depth: int) -> Iterator[None]:
         level, rect = source_of(past.by, ply.gaze.level, ply.gaze.rect)
