@@ -120,6 +120,10 @@ class Similarity:
     def inverse(self) -> Similarity:
         """Returns the similarity back.  Only of one with a quarter turn and a scale of 2^k: others have none that is
         dyadic."""
+        return self._inverse
+
+    @cached_property
+    def _inverse(self) -> Similarity:
         assert self.quarter is not None
         c = Dyadic.of(self.c.x, -self.c.y, -self.c.e)
         c = c.conjugate if self.mirror else c
@@ -135,7 +139,10 @@ class Similarity:
 
     def shown(self, rect: Rect, level: int, at_level: int) -> Rect:
         """Returns the pixels of `at_level` that meet what a rectangle of the source's `level` is shown as."""
-        corners = [self(Dyadic.of(x, y, level)) for x in (rect.x0, rect.x1) for y in (rect.y0, rect.y1)]
+        places = [(rect.x0, rect.y0), (rect.x1, rect.y1)]  # of quarter turns, two opposite corners tell
+        if self.quarter is None:
+            places += [(rect.x0, rect.y1), (rect.x1, rect.y0)]
+        corners = [self(Dyadic.of(*place, level)) for place in places]
         xs, ys = [(p.x, at_level - p.e) for p in corners], [(p.y, at_level - p.e) for p in corners]
         return Rect(
             min(_floor(*x) for x in xs), min(_floor(*y) for y in ys),

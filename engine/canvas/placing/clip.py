@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -92,8 +93,12 @@ def _shares(clip: Clip, level: int, rect: Rect) -> tuple[np.ndarray, np.ndarray]
     sides = []
     for a, b, first, last in ((one.x, other.x, rect.x0, rect.x1), (one.y, other.y, rect.y0, rect.y1)):
         low, high = sorted((_scaled(a, level - one.e), _scaled(b, level - other.e)))
-        shares: list[Fraction] = [min(high, Fraction(i + 1)) - max(low, Fraction(i)) for i in range(first, last)]
-        sides.append(np.array([max(float(share), 0.0) for share in shares], np.float32))
+        shares = np.zeros(last - first, np.float32)
+        left, right = max(math.floor(low), first), min(math.ceil(high), last)
+        shares[max(left - first, 0) : max(right - first, 0)] = 1.0
+        for i in {left, right - 1} if left < right else ():  # pixels that the rim may cross
+            shares[i - first] = float(min(high, Fraction(i + 1)) - max(low, Fraction(i)))
+        sides.append(shares)
     return sides[0], sides[1]
 
 
