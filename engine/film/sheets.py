@@ -22,7 +22,7 @@ from engine.numeric.address import Rect
 from engine.numeric.askew import Askew
 from engine.numeric.convolution import Part, faded, margin, taps
 from engine.painting.difference import areas
-from engine.painting.rendering import piece_reader
+from engine.painting.rendering import keeping, piece_reader
 from engine.painting.value import Painting
 
 FADE = 0.5  # of a level: over so much the coarser picture gives way to the finer one
@@ -117,6 +117,7 @@ class Sheets:
         self._plan, self._pool, self._ahead = plan, pool, ahead
         self._planes: dict[int, tuple[Painting, np.ndarray]] = {}
         self._coming: dict[int, Future[np.ndarray]] = {}
+        self._elsewhere = keeping()
 
     def parts(self, frame: int, painting: Painting) -> Parts:
         """Returns what a frame is the sum of; frames are asked for in their order."""
@@ -186,7 +187,8 @@ class Sheets:
 
     def _evaluate(self, sheet: Sheet, rect: Rect, painting: Painting, planes: np.ndarray) -> None:
         def evaluate(piece: Rect) -> None:
-            pixels = composite(layers.pictured(painting.root), sheet.level, piece, piece_reader(sheet.level, piece))
+            read = piece_reader(sheet.level, piece, placed=self._elsewhere)
+            pixels = composite(layers.pictured(painting.root), sheet.level, piece, read)
             pixels[:3] += UNDER - UNDER * pixels[3]
             pixels[:3] *= 255.0
             planes[:, *piece.slices(sheet.rect)] = np.rint(pixels[:3])

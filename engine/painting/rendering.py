@@ -6,6 +6,7 @@ import os
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 
@@ -13,8 +14,9 @@ from engine.canvas import growth, layers
 from engine.canvas.attenuate import fold
 from engine.canvas.composite import Read, composite
 from engine.canvas.layers import Group, Layer
-from engine.canvas.reading import covered, layer_planes
+from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.canvas.selecting.mask_sheet import MaskSheet
+from engine.canvas.tile_cache import TileCache
 from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
@@ -24,6 +26,7 @@ _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 64
 _SHEET_ROWS, _SHEET_COLUMNS = 256, 512  # of the pieces of sheets: those of all layers fit into a processor's caches
 _HELD, _HELD_OF_ALL = 1 << 19, 1 << 22  # pixels of a coarser level up to which it is held: of a layer, of all of them
+_ELSEWHERE = 48 << 20  # bytes of what placements show that are kept
 _COLUMNS = 1024  # of the pieces in which layers are evaluated: see `_Pieces`
 _SHARING, _COARSER = 512, 3  # rows whose pieces are evaluated from one part of a level, so many levels coarser
 TOGETHER = 1 << 23  # pixels of all layers' parts of a band, about: 32 MB
@@ -109,6 +112,7 @@ class _Pieces:
         self._root, self._level, self._cancelled = root, level, cancelled
         self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
         self._evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
+        self._elsewhere = keeping()
 
     def of(self, band: Rect) -> list[Rect]:
         """Returns the pieces of a band, from the left."""
@@ -119,7 +123,8 @@ class _Pieces:
     def composited(self, piece: Rect) -> np.ndarray:
         """Returns the picture of a piece: float32 (4, h, w).  Cancelled, if the one who asked says so."""
         check_cancelled(self._cancelled)
-        return composite(self._root, self._level, piece, piece_reader(self._level, piece, self._evaluated.planes))
+        read = piece_reader(self._level, piece, self._evaluated.planes, self._elsewhere)
+        return composite(self._root, self._level, piece, read)
 
 
 def sheets(
@@ -132,6 +137,7 @@ def sheets(
     """
     all_layers = list(layers.layers(root))
     evaluated = _Evaluated(level, frame, min(_HELD, _HELD_OF_ALL // max(1, len(all_layers))))
+    elsewhere = keeping()
     rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width) & ~1)
     for y in range(frame.y0, frame.y1, rows):
         band = Rect(frame.x0, y, frame.x1, min(y + rows, frame.y1))
@@ -148,17 +154,19 @@ def sheets(
                 if planes is not None:
                     found[layer.id] = planes
                     known[layer.id][part.slices(parts[layer.id])] = to_rgba8(planes[:, *part.slices(piece)])
-            merged[piece.slices(band)] = to_rgba8(composite(root, level, piece, _known(found, level, piece, evaluated)))
+            merged[piece.slices(band)] = to_rgba8(
+                composite(root, level, piece, _known(found, level, piece, evaluated, elsewhere))
+            )
         yield known, merged
 
 
-def _known(found: Mapping[int, np.ndarray], level: int, piece: Rect, evaluated: _Evaluated) -> Read:
+def _known(found: Mapping[int, np.ndarray], level: int, piece: Rect, evaluated: _Evaluated, elsewhere: Read) -> Read:
     """Hands out blocks of the planes of a piece of a level, by the ids of layers; masks are evaluated."""
 
     def read(layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         return evaluated.planes(layer, level, rect) if isinstance(layer, MaskSheet) else found.get(layer.id)
 
-    return piece_reader(level, piece, read)
+    return piece_reader(level, piece, read, elsewhere)
 
 
 def _clear(rect: Rect) -> np.ndarray:
@@ -169,6 +177,12 @@ def check_cancelled(cancelled: Stop) -> None:
     """Raises Cancelled if the one who asked says so."""
     if cancelled is not None and cancelled():
         raise Cancelled
+
+
+def keeping() -> Read:
+    """Returns what evaluates layers for placements, in tiles that it keeps: pieces beside one another, and turns of a
+    picture in itself, ask for the same.  Safe for several threads."""
+    return partial(kept_planes, cache=TileCache(_ELSEWHERE))
 
 
 def piece_reader(level: int, piece: Rect, evaluate: Read = layer_planes, placed: Read = layer_planes) -> Read:

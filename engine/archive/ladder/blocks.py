@@ -7,18 +7,18 @@ import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 
 from engine.archive.ladder.rungs import Block, Ladder
 from engine.canvas import layers
-from engine.canvas.composite import composite
+from engine.canvas.composite import Read, composite
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
-from engine.painting.rendering import HELD, Stop, check_cancelled, piece_reader
+from engine.painting.rendering import HELD, Stop, check_cancelled, keeping, piece_reader
 
 AHEAD = 3  # blocks of each thread that are begun before the first of them is asked for
 _COLUMNS, _ROWS = 1024, 512  # of the pieces in which layers are evaluated
@@ -33,6 +33,7 @@ class Source:
 
     root: Group
     ladder: Ladder
+    elsewhere: Read = field(default_factory=keeping)  # what placements show
 
     def prepare(self) -> None:
         """Has the kernels compiled, or loaded: by the coarsest rung, and a little of the finest."""
@@ -49,9 +50,8 @@ class Source:
         out = np.empty((rect.height, rect.width, 4), kind)
         for piece in _pieces(area, sum(1 for _ in layers.layers(self.root))):
             check_cancelled(cancelled)
-            out[piece.slices(area)] = convert(
-                composite(self.root, place.level, piece, piece_reader(place.level, piece))
-            )
+            read = piece_reader(place.level, piece, placed=self.elsewhere)
+            out[piece.slices(area)] = convert(composite(self.root, place.level, piece, read))
         return out
 
 
