@@ -18,7 +18,7 @@ from engine.canvas.layers import Group, Layer
 from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.cells import repeated
-from engine.canvas.placing.composite_steps import CompositeStep, Found, Leaf, Placed, Sources, steps
+from engine.canvas.placing.composite_steps import CompositeStep, Found, Leaf, Placed, Planned, Sources, steps_of
 from engine.canvas.placing.drawn_copies import ABOVE_ALL, Above, Asking, Copies, Drawing
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.self_copies import Tiles
@@ -40,21 +40,13 @@ class Read(Protocol):
     def __call__(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None: ...
 
 
-def _whole(root: Group) -> tuple[CompositeStep, ...]:
-    """Returns the steps of a root, over its paper."""
-    plan = steps(root)
-    if root.paper is None:
-        return plan
-    return (CompositeStep(blend.BLENDS["src-over"], np.float32(1), Paper(root.paper), True), *plan)
-
-
-def blocks(root: Group, level: int, rect: Rect, read: Read) -> Iterator[tuple[Rect, np.ndarray | None]]:
+def blocks(root: Group | Planned, level: int, rect: Rect, read: Read) -> Iterator[tuple[Rect, np.ndarray | None]]:
     """(place, pixels) of every block of `rect`, row by row; together they tile it.
 
     The pixels are float32 (4, h, w), premultiplied, clamped for display (0 <= alpha <= 1, 0 <= colour <= alpha), valid
     until the next block is asked for; None where the picture is empty.  A pixel's value does not depend on `rect`.
     """
-    plan = _whole(root)
+    plan = steps_of(root)
     buffers: list[np.ndarray] = []
     for y0 in range(rect.y0 - rect.y0 % BLOCK, rect.y1, BLOCK):
         for x0 in range(rect.x0 - rect.x0 % BLOCK, rect.x1, BLOCK):
@@ -65,13 +57,13 @@ def blocks(root: Group, level: int, rect: Rect, read: Read) -> Iterator[tuple[Re
             yield place, None if pixels is None else pixels.reshape(4, place.height, place.width)
 
 
-def composite(root: Group, level: int, rect: Rect, read: Read, out: np.ndarray | None = None) -> np.ndarray:
+def composite(root: Group | Planned, level: int, rect: Rect, read: Read, out: np.ndarray | None = None) -> np.ndarray:
     """Returns the picture of `rect`: float32 (4, h, w), premultiplied and clamped for display; in `out` where it is
     given."""
     if out is None:
         out = np.empty((4, rect.height, rect.width), np.float32)
     if 0 < rect.area <= AT_ONCE and out.flags.c_contiguous:
-        if _draw(_gather(_whole(root), level, rect, read, UNPLACED), rect.area, [out.reshape(-1)], 0) is None:
+        if _draw(_gather(steps_of(root), level, rect, read, UNPLACED), rect.area, [out.reshape(-1)], 0) is None:
             out[:] = 0
         return out
     for place, pixels in blocks(root, level, rect, read):

@@ -16,6 +16,7 @@ import numpy as np
 
 from engine.canvas import layers
 from engine.canvas.composite import composite
+from engine.canvas.placing.composite_steps import Planned
 from engine.film.aim import Aim, Crop
 from engine.film.closing import Other
 from engine.numeric.address import Rect
@@ -118,6 +119,7 @@ class Sheets:
         self._planes: dict[int, tuple[Painting, np.ndarray]] = {}
         self._coming: dict[int, Future[np.ndarray]] = {}
         self._elsewhere = keeping()
+        self._planned: tuple[Painting, Planned] | None = None
 
     def parts(self, frame: int, painting: Painting) -> Parts:
         """Returns what a frame is the sum of; frames are asked for in their order."""
@@ -185,10 +187,18 @@ class Sheets:
             self._evaluate(sheet, rect, painting, planes)
         return planes
 
+    def _plan_of(self, painting: Painting) -> Planned:
+        held = self._planned
+        if held is None or held[0] is not painting:
+            held = self._planned = painting, Planned.of(layers.pictured(painting.root))
+        return held[1]
+
     def _evaluate(self, sheet: Sheet, rect: Rect, painting: Painting, planes: np.ndarray) -> None:
+        planned = self._plan_of(painting)
+
         def evaluate(piece: Rect) -> None:
             read = piece_reader(sheet.level, piece, placed=self._elsewhere)
-            pixels = composite(layers.pictured(painting.root), sheet.level, piece, read)
+            pixels = composite(planned, sheet.level, piece, read)
             pixels[:3] += UNDER - UNDER * pixels[3]
             pixels[:3] *= 255.0
             planes[:, *piece.slices(sheet.rect)] = np.rint(pixels[:3])

@@ -14,6 +14,7 @@ from engine.canvas import growth, layers
 from engine.canvas.attenuate import fold
 from engine.canvas.composite import Read, composite
 from engine.canvas.layers import Group, Layer
+from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.canvas.selecting.mask_sheet import MaskSheet
 from engine.canvas.tile_cache import TileCache
@@ -109,7 +110,7 @@ class _Pieces:
 
     def __init__(self, root: Group, level: int, rect: Rect, cancelled: Stop) -> None:
         count = sum(1 for _ in layers.layers(root))
-        self._root, self._level, self._cancelled = root, level, cancelled
+        self._planned, self._level, self._cancelled = Planned.of(root), level, cancelled
         self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
         self._evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
         self._elsewhere = keeping()
@@ -124,7 +125,7 @@ class _Pieces:
         """Returns the picture of a piece: float32 (4, h, w).  Cancelled, if the one who asked says so."""
         check_cancelled(self._cancelled)
         read = piece_reader(self._level, piece, self._evaluated.planes, self._elsewhere)
-        return composite(self._root, self._level, piece, read)
+        return composite(self._planned, self._level, piece, read)
 
 
 def sheets(
@@ -137,7 +138,7 @@ def sheets(
     """
     all_layers = list(layers.layers(root))
     evaluated = _Evaluated(level, frame, min(_HELD, _HELD_OF_ALL // max(1, len(all_layers))))
-    elsewhere = keeping()
+    elsewhere, planned = keeping(), Planned.of(root)
     rows = max(16, min(_SHEET_ROWS, TOGETHER // (len(all_layers) + 1) // frame.width) & ~1)
     for y in range(frame.y0, frame.y1, rows):
         band = Rect(frame.x0, y, frame.x1, min(y + rows, frame.y1))
@@ -155,7 +156,7 @@ def sheets(
                     found[layer.id] = planes
                     known[layer.id][part.slices(parts[layer.id])] = to_rgba8(planes[:, *part.slices(piece)])
             merged[piece.slices(band)] = to_rgba8(
-                composite(root, level, piece, _known(found, level, piece, evaluated, elsewhere))
+                composite(planned, level, piece, _known(found, level, piece, evaluated, elsewhere))
             )
         yield known, merged
 

@@ -8,7 +8,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.canvas.composite import composite
-from engine.canvas.layers import Layer
+from engine.canvas.layers import Group, Layer
+from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
@@ -46,6 +47,7 @@ class Viewer(Owned):
         self._fresh: list[Rect] = []  # pixels of the live stroke's level not sent yet
         self._level = 0
         self._where: Areas = lambda level: []  # what is fresh is seen
+        self._planned: Planned | None = None
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self._alone = MaskAlone(self.changed)
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick, **self._alone.handlers}
@@ -88,7 +90,7 @@ class Viewer(Owned):
 
     def forget(self) -> None:
         """Another painting is to be seen."""
-        self._fresh, self.looking = [], None
+        self._fresh, self.looking, self._planned = [], None, None
         self._alone.forget()
         self.sight.forget()
 
@@ -125,9 +127,14 @@ class Viewer(Owned):
         alone = self._alone.picture(root, level, whole, self._read)
         if alone is not None:
             return alone
-        return self.above(
-            level, whole, composite(root, level, whole, piece_reader(level, whole, self._read, self._read_placed))
-        )
+        planned = root if live is not None else self._plan_of(root)  # strokes in progress change what is read
+        read = piece_reader(level, whole, self._read, self._read_placed)
+        return self.above(level, whole, composite(planned, level, whole, read))
+
+    def _plan_of(self, root: Group) -> Planned:
+        if self._planned is None or self._planned.root is not root:
+            self._planned = Planned.of(root)
+        return self._planned
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live

@@ -185,6 +185,30 @@ class Placed:
         return self.sources.steps(self.of)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Planned:
+    """A root with its steps, for many rectangles that are composited from the same layers: what copies of copies show
+    is kept from one to the next."""
+
+    root: Group
+    steps: tuple[CompositeStep, ...]
+
+    @classmethod
+    def of(cls, root: Group) -> Planned:
+        """Plans a root."""
+        return cls(root, steps_of(root))
+
+
+def steps_of(root: Group | Planned) -> tuple[CompositeStep, ...]:
+    """Returns the steps of a root, over its paper."""
+    if isinstance(root, Planned):
+        return root.steps
+    plan = steps(root)
+    if root.paper is None:
+        return plan
+    return (CompositeStep(blend.BLENDS["src-over"], np.float32(1), Paper(root.paper), True), *plan)
+
+
 def steps(root: Group, sources: Sources | None = None) -> tuple[CompositeStep, ...]:
     """Returns what to composite, bottom first: invisible nodes left out, groups that pass through dissolved.
 

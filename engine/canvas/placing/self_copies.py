@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import threading
 from collections.abc import Callable, Generator, Iterator
 from typing import Generic, NamedTuple
 
@@ -122,7 +123,8 @@ _Making = Generator["_Wanted", None, "np.ndarray | None"]  # asks for tiles that
 
 
 class Tiles(Generic[SourceT, FoundT]):
-    """The tiles of what some nodes show that hold `copies` of one another, or of themselves."""
+    """The tiles of what some nodes show that hold `copies` of one another, or of themselves.  Safe for several
+    threads."""
 
     def __init__(self, copies: Copies, drawing: Drawing[SourceT, FoundT]) -> None:
         self.copies, self._drawing = copies, drawing
@@ -131,6 +133,7 @@ class Tiles(Generic[SourceT, FoundT]):
         self._means: dict[Shown, np.ndarray | None] = {}
         self._small: dict[_Wanted, np.ndarray | None] = {}
         self._large: dict[_Wanted, np.ndarray | None] = {}
+        self._lock = threading.RLock()
         self.pieces = self.reads = self.made = 0
 
     def of(self, node: Shown) -> Picture:
@@ -139,7 +142,8 @@ class Tiles(Generic[SourceT, FoundT]):
 
     def picture(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
         """Returns what a node shows of a rectangle: float32 (4, h, w), None where it is empty."""
-        return self._picture(node, level, rect, self._tile)
+        with self._lock:
+            return self._picture(node, level, rect, self._tile)
 
     def small(self, node: Shown, level: int, rect: Rect) -> np.ndarray | None:
         """As `picture`, of tiles that are there; else _MissingError."""

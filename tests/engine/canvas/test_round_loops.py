@@ -12,6 +12,7 @@ from test_self_turns import FRAME, POSES, as_seen, fixed, painted, picture
 
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Alone, Group, Layer, find, walk
+from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import layer_planes
@@ -159,3 +160,21 @@ def test_what_a_mask_hides_of_a_copy_is_not_read():
     composite(root, 3, rect, read)
     assert sorted(set(reads)) == ["a", "g"]
     assert find(root, "copy 90").of is None
+
+
+@pytest.mark.parametrize("name", ["in a thin group", "round about twice", "behind a mask"])
+def test_a_planned_picture_is_the_same_and_its_copies_are_made_once(name):
+    root, (x, y) = TREES[name](HALF), fixed(HALF, 5)
+    reads = []
+
+    def read(layer, level, rect):
+        reads.append(level)
+        return layer_planes(layer, level, rect)
+
+    planned, rect = Planned.of(root), Rect.at(x - 64, y - 40, 64, 40)
+    for part in (rect, Rect.at(x, y, 64, 40), rect):
+        np.testing.assert_array_equal(composite(planned, 5, part, read), picture(root, 5, part))
+    before = len(reads)
+    composite(planned, 5, rect, read)
+    again = len(reads) - before
+    assert again < before / 8
