@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from engine.canvas.composite import composite
-from engine.canvas.layers import Group, Layer
+from engine.canvas.layers import Layer
 from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
@@ -127,14 +127,11 @@ class Viewer(Owned):
         alone = self._alone.picture(root, level, whole, self._read)
         if alone is not None:
             return alone
-        planned = root if live is not None else self._plan_of(root)  # strokes in progress change what is read
         read = piece_reader(level, whole, self._read, self._read_placed)
-        return self.above(level, whole, composite(planned, level, whole, read))
-
-    def _plan_of(self, root: Group) -> Planned:
-        if self._planned is None or self._planned.root is not root:
-            self._planned = Planned.of(root)
-        return self._planned
+        if live is not None:  # it changes what is read
+            return self.above(level, whole, composite(root, level, whole, read))
+        self._planned = Planned.of(root, self._planned)
+        return self.above(level, whole, composite(self._planned, level, whole, read))
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live

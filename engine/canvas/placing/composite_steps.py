@@ -194,9 +194,9 @@ class Planned:
     steps: tuple[CompositeStep, ...]
 
     @classmethod
-    def of(cls, root: Group) -> Planned:
-        """Plans a root."""
-        return cls(root, steps_of(root))
+    def of(cls, root: Group, held: Planned | None = None) -> Planned:
+        """Returns a root planned; what is `held` if that is of the same."""
+        return held if held is not None and held.root is root else cls(root, steps_of(root))
 
 
 def steps_of(root: Group | Planned) -> tuple[CompositeStep, ...]:
