@@ -17,16 +17,19 @@ from engine.archive import grounds, maskpacks
 from engine.archive.imports import Opened, read_raster
 from engine.archive.manifest import MANIFEST, RECORDING, Manifest
 from engine.archive.opening import open_native
+from engine.archive.others.stack_entries import bases_of
 from engine.archive.plot_files import Mark, Nursery
 from engine.archive.salvage.damaged_layer import rebuilt
 from engine.archive.salvage.damaged_selections import found_selections
 from engine.archive.salvage.remains import Remains
 from engine.archive.salvage.seen import Shown
 from engine.archive.saving import MERGED, shown_level
+from engine.archive.selected.selection_files import with_masks
 from engine.canvas import layers
 from engine.canvas.growth import Growth
 from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
+from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError, TooMuch, shown
@@ -204,9 +207,20 @@ class _Parts:
         stack = self._remains.stack
         return {} if stack is None else {entry.src: entry for entry in stack.root.layers()}
 
+    @cached_property
+    def _limited(self) -> frozenset[int]:
+        """Gives the layers of whose paint their pictures show a part alone: within masks and bases, or a cell over and
+        over."""
+        root = self._manifest.root
+        masks = {one.masks: Selection(Pyramid()) for one in self._manifest.selections if one.masks is not None}
+        wrapped = (layer.id for layer in layers.layers(root) if layer.wrap is not None)
+        return frozenset((*bases_of(with_masks(root, masks)), *wrapped))
+
     def _shown(self, layer: Layer) -> Shown | None:
-        """Returns a layer's picture and its place, if that is whole."""
+        """Returns the picture of a layer's paint and its place, if that is whole."""
         name = f"data/L{layer.id}.png"
+        if layer.id in self._limited:
+            return None
         entry = self._entries.get(name)
         pixels = None if entry is None else self._remains.png(name)
         if entry is None or pixels is None:
