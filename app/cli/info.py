@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import sys
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
@@ -60,16 +61,29 @@ def strokes_at(
 
     Failed if the painting does not say how it was made.
     """
-    from engine.painting.value import blank
+    from engine.files.fault import FileError
+    from engine.painting.value import Refusal
     from engine.session.here.painted_here import CanvasPixel, PaintedHere
-    from engine.session.steps import Steps
+    from engine.session.session import Session
+    from engine.studio.past.found_again import FoundAgain
 
     found = opened_painting(path, tell, salvage)
     if found.recording is None:
         raise Failed(f"{path}: found no recording, expected one: what was painted where is not known")
     painting = grown(path, found)
-    steps = Steps(blank(painting), found.recording.commands)
-    return painting.seed, PaintedHere().at(CanvasPixel(*at), painting, steps)
+    session = Session(painting, log=found.recording.commands, folder=found.recording.folder)
+    session.pictures = found.pictures
+    again = FoundAgain(session, lambda number: None)
+    place = CanvasPixel(*at)
+    strokes = PaintedHere(held=again.held).at(place, painting, session.steps)
+    if again.wanted and again.begin():  # what fills covered is found by playing the recording
+        try:
+            while again.play():
+                pass
+        except (FileError, Refusal) as error:
+            print(f"{path}: {error}; fills count for half", file=sys.stderr)
+        strokes = PaintedHere(held=again.held).at(place, painting, session.steps)
+    return painting.seed, strokes
 
 
 def told_stroke(shown: ShownStroke, seed: int) -> dict[str, object]:

@@ -9,6 +9,7 @@ from engine.checks.owned import Owned
 from engine.session.here.painted_here import CanvasPixel, PaintedHere, Search, ShownStroke
 from engine.session.session import Session
 from engine.studio.past import past_records as p
+from engine.studio.past.found_again import FoundAgain
 from engine.studio.past.trail import Trail
 from engine.studio.requests import Handlers
 
@@ -18,12 +19,13 @@ _PIECE = 0.01  # seconds of looking at a time
 class HereFinder(Owned):
     """Finds the strokes that show at a place.  It belongs to the engine's thread.
 
-    The first of them are told at once, the others while nothing else waits.
+    The first of them are told at once, the others while nothing else waits; so is the log played anew where what a fill
+    covered cannot be told otherwise.
     """
 
     def __init__(self, trail: Trail) -> None:
         self._trail = trail
-        self._session, self._finder = trail.session, PaintedHere(trail.session.cache, trail.held)
+        self._follow()
         self._search: _Open | None = None
         self.handlers: Handlers = {p.AskHere: self._begin}
 
@@ -38,6 +40,10 @@ class HereFinder(Owned):
         if search is None or search.session is not trail.easel.session:
             self._search = None  # another painting is on the easel
             return
+        if search.playing:
+            self._search = None  # a fault ends it
+            self._play(search)
+            return
         before = len(search.found)
         end = time.monotonic() + _PIECE
         self._search = None  # a fault ends it
@@ -46,10 +52,13 @@ class HereFinder(Owned):
             if time.monotonic() > end:
                 self._search = search
                 break
-        if self._search is None or len(search.found) > before:
+        if self._search is None and self._again.wanted and not search.again:
+            search.playing = self._again.begin()
+            self._search = search if search.playing else None
+        if self._search is None or (len(search.found) > before and not search.again):
             place, more = search.place, self._search is not None
-            told = p.Here((place.level, place.x, place.y), tuple(search.found), more)
-            trail.easel.send(told)
+            found = tuple(sorted(search.found, key=lambda one: -one.step.index))
+            trail.easel.send(p.Here((place.level, place.x, place.y), found, more))
 
     def _begin(self, request: p.AskHere) -> None:
         trail = self._trail
@@ -57,10 +66,28 @@ class HereFinder(Owned):
             trail.easel.finish()
         trail.follow()
         if self._session is not trail.session:
-            self._session, self._finder = trail.session, PaintedHere(trail.session.cache, trail.held)
-        place, session = CanvasPixel(request.level, request.x, request.y), self._session
-        self._search = _Open(place, session, self._finder.search(place, session.painting, session.steps))
+            self._follow()
+        self._look(CanvasPixel(request.level, request.x, request.y))
         self.step()
+
+    def _follow(self) -> None:
+        trail = self._trail
+        self._session, self._again = trail.session, FoundAgain(trail.session, trail.held, trail.states)
+        self._finder = PaintedHere(trail.session.cache, self._again.held)
+
+    def _look(self, place: CanvasPixel, again: bool = False) -> None:
+        session = self._session
+        self._search = _Open(place, session, self._finder.search(place, session.painting, session.steps), again)
+
+    def _play(self, search: _Open) -> None:
+        """Plays a piece of the log; where that is done, looks at the place again."""
+        end = time.monotonic() + _PIECE
+        while self._again.play():
+            if time.monotonic() > end:
+                self._search = search
+                return
+        self._finder = PaintedHere(search.session.cache, self._again.held)
+        self._look(search.place, True)
 
     def _told(self, shown: ShownStroke, session: Session) -> p.HereStroke:
         stroke = shown.stroke
@@ -73,6 +100,7 @@ class HereFinder(Owned):
 class _Open:
     """A search that goes on, and what it found."""
 
-    def __init__(self, place: CanvasPixel, session: Session, strokes: Search) -> None:
+    def __init__(self, place: CanvasPixel, session: Session, strokes: Search, again: bool) -> None:
         self.place, self.session, self.strokes = place, session, strokes
+        self.playing, self.again = False, again  # the log is played for it; it is looked for the second time
         self.found: list[p.HereStroke] = []
