@@ -3,8 +3,8 @@
 import json
 
 import pytest
-from app.__main__ import main
 
+from app.__main__ import main
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.numeric.address import Rect
