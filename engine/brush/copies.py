@@ -107,7 +107,7 @@ def _about(centre: tuple[float, float], re: float, im: float, mirror: bool) -> C
 @lru_cache(64)
 def _table(copies: Copies) -> np.ndarray:
     """Returns columns re, im, x, y, sign of x, |c|: float64 (n, 6)."""
-    return np.array([(c.re, c.im, c.x, c.y, -1.0 if c.mirror else 1.0, c.scale) for c in copies])
+    return np.array([(c.re, c.im, c.x, c.y, -1.0 if c.mirror else 1.0, c.scale) for c in copies]).reshape(-1, 6)
 
 
 def copied_places(points: np.ndarray, copies: Copies) -> np.ndarray:

@@ -19,7 +19,7 @@ from engine.brush.copies import NO_COPIES, Copies, Torus, one_by_one
 from engine.brush.dabs import Stroker
 from engine.brush.discs import CEILING, CX, CY, RIN2, ROUT
 from engine.brush.settings import Brush
-from engine.brush.tip import Pattern
+from engine.brush.tip import Pattern, for_copies
 from engine.numeric.address import TILE, Rect
 from engine.numeric.kernel import inner, kernel
 
@@ -50,7 +50,8 @@ class Footprint:
             dynamics = dynamics.delete(name) if name in dynamics else dynamics
         self._brush = replace(brush, opacity=1.0, flow=1.0, dynamics=dynamics)
         self._stroker, self._copies = Stroker(self._brush), copies
-        self._scale, self._tip = 2.0**finer, tip
+        self._scale, self._tip = 2.0**finer, for_copies(tip, copies)
+        self._around = copies.each // (1 + len(copies.copies)) if isinstance(copies, Torus) else 1
         places = [value << finer if finer >= 0 else value >> -finer for value in origin]
         self._origin = places[0], places[1]
         left_over = (value & ((1 << -finer) - 1) if finer < 0 else 0 for value in origin)
@@ -86,17 +87,18 @@ class Footprint:
 
     def _taken(self, dabs: np.ndarray, laid: int) -> Iterator[tuple[Rect, np.ndarray]]:
         """Yields what dabs take; `laid` of the stroke's lie before them."""
-        for part in one_by_one(dabs, self._copies):
+        for number, part in enumerate(one_by_one(dabs, self._copies)):
             discs, boxes = self._met(part)
+            tip = None if self._tip is None else self._tip.of_copy(number // self._around)
             for first, last, around in _groups(boxes):
                 box = around if self._within is None else around.intersect(self._within)
                 if box.empty:
                     continue
                 mask = np.zeros((box.height, box.width), np.bool_)
-                if self._tip is None:
+                if tip is None:
                     _take(mask, discs[first:last], float(box.x0), float(box.y0))
                 else:
-                    self._stamp(mask, discs, range(first, last), laid, box)
+                    _stamp(tip, mask, (discs, range(first, last), laid), box)
                 yield _moved(box, *self._origin), mask
 
     def _count(self, discs: np.ndarray, boxes: np.ndarray) -> None:
@@ -110,20 +112,21 @@ class Footprint:
                     "stroke", f"one that meets {len(self._tiles)} squares of {_SIDE} px", f"at most {TILES_CAP}"
                 )
 
-    def _stamp(self, mask: np.ndarray, discs: np.ndarray, which: range, laid: int, box: Rect) -> None:
-        """Dabs in the shape of the tip's pattern, each for itself."""
-        assert self._tip is not None
-        for index in which:
-            x0, y0, x1, y1 = (int(v) for v in _boxes(discs[index : index + 1])[0])
-            for y in range(y0, y1, TILE):
-                for x in range(x0, x1, TILE):
-                    whole = Rect.at(x, y, TILE, TILE)
-                    place = whole.intersect(box)
-                    if place.empty:
-                        continue
-                    tile = np.zeros((TILE, TILE), np.float32)
-                    self._tip.lay(tile, discs, np.array([index]), (laid, 1), (x, y))
-                    mask[place.slices(box)] |= tile[place.slices(whole)] >= _HALF
+
+def _stamp(tip: Pattern, mask: np.ndarray, dabs: tuple[np.ndarray, range, int], box: Rect) -> None:
+    """Dabs in the shape of the tip's pattern, each for itself: discs, which of them, how many were laid before them."""
+    discs, which, laid = dabs
+    for index in which:
+        x0, y0, x1, y1 = (int(v) for v in _boxes(discs[index : index + 1])[0])
+        for y in range(y0, y1, TILE):
+            for x in range(x0, x1, TILE):
+                whole = Rect.at(x, y, TILE, TILE)
+                place = whole.intersect(box)
+                if place.empty:
+                    continue
+                tile = np.zeros((TILE, TILE), np.float32)
+                tip.lay(tile, discs, np.array([index]), (laid, 1), (x, y))
+                mask[place.slices(box)] |= tile[place.slices(whole)] >= _HALF
 
 
 def _moved(rect: Rect, x: int, y: int) -> Rect:

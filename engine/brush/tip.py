@@ -14,6 +14,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from engine.brush.copies import Copies, Copy, Torus
 from engine.brush.discs import CEILING, CX, CY, RATE, RIN2, ROUT, SCALE
 from engine.brush.ink import Texture, named
 from engine.brush.parts import Tip
@@ -47,13 +48,16 @@ class Pattern:
 
     `planes`: square planes of 0..1 one after the other, float32 (sum of their sizes squared,): the sample as wide as
     the brush's dab, half as wide, and so on; or, if `windows`, one field in pixels of the stroke's level.
-    `sizes`: int64 (n,), how many pixels each is wide.  `key`: of the windows' places, a uint64.
+    `sizes`: int64 (n,), how many pixels each is wide.  `key`: of the windows' places, a uint64.  `ways`: float64
+    (1 + copies, 4), from a stroke's own dab and from each copy of it, the matrix row by row by which a place of the dab
+    is brought onto the sample; None where all lie as the sample does.
     """
 
     planes: np.ndarray
     sizes: np.ndarray
     windows: bool
     key: int
+    ways: np.ndarray | None = None
 
     def lay(
         self,
@@ -70,8 +74,14 @@ class Pattern:
         """
         if self.windows:
             _lay_windows(coverage, discs, which, *count, np.uint64(self.key), *corner, self.planes, self.sizes[0])
-        else:
+        elif self.ways is None:
             _lay_samples(coverage, discs, which, *corner, self.planes, self.sizes)
+        else:
+            _lay_copies(coverage, discs, which, *count, self.ways, *corner, self.planes, self.sizes)
+
+    def of_copy(self, number: int) -> Pattern:
+        """Returns the pattern for the dabs of one copy alone; 0: of the stroke itself."""
+        return self if self.ways is None else replace(self, ways=self.ways[number : number + 1])
 
 
 def resolve(
@@ -92,6 +102,22 @@ def resolve(
     size = min(max(1 << math.ceil(log2(max(2.0 * brush.radius, 1.0))), 2 * _SMALLEST), LARGEST)
     made = _laid_out(tip, textures, level, seed, size, at)
     return Pattern(*_sample(cast(Hashable, made), tip.shaping, size), False, 0)
+
+
+def for_copies(pattern: Pattern | None, copies: Copies | Torus) -> Pattern | None:
+    """Returns the pattern with which the dabs of a stroke and of its copies are laid: each sample is turned and
+    mirrored with its copy.  Windows into a field lie as the field does."""
+    told = copies.copies if isinstance(copies, Torus) else copies
+    if pattern is None or pattern.windows:
+        return pattern
+    ways = np.array([(1.0, 0.0, 0.0, 1.0), *map(_way, told)])
+    return replace(pattern, ways=ways) if (ways != ways[0]).any() else pattern
+
+
+def _way(copy: Copy) -> tuple[float, float, float, float]:
+    """Returns the inverse of how a copy is turned and mirrored."""
+    re, im, sign = copy.re / copy.scale, copy.im / copy.scale, -1.0 if copy.mirror else 1.0
+    return sign * re, sign * im + 0.0, 0.0 - im, re
 
 
 def _laid_out(
@@ -206,4 +232,46 @@ def _lay_samples(coverage: Array, discs: Array, which: Array, left: int, top: in
                 high = upper[i] + (upper[i + 1] - upper[i]) * a
                 low = lower[i] + (lower[i + 1] - lower[i]) * a
                 d = _profile((x + 0.5 - cx) * (x + 0.5 - cx), dy2, disc[RIN2], disc[SCALE])
+                row[x] += max(_ZERO, ceiling - row[x]) * (rate * d * (high + (low - high) * b))
+
+
+@kernel
+def _lay_copies(
+    coverage: Array,
+    discs: Array,
+    which: Array,
+    number: int,
+    each: int,
+    ways: Array,
+    left: int,
+    top: int,
+    packed: Array,
+    sizes: Array,
+) -> None:
+    """As `_lay_samples`, each disc's sample brought onto it by the way of its copy."""
+    for index in which:
+        disc = discs[index]
+        way = ways[(number + index) % each * ways.shape[0] // each]
+        cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
+        ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
+        radius = outer - 0.5
+        start, level = 0, 0
+        while level + 1 < sizes.size and sizes[level] > 2.5 * radius:
+            start += sizes[level] * sizes[level]
+            level += 1
+        n = sizes[level]
+        plane = packed[start : start + n * n].reshape(n, n)
+        step = n / (2.0 * radius)
+        for y in range(max(0, math.floor(cy - outer)), min(TILE, math.ceil(cy + outer))):
+            down = y + 0.5 - cy
+            row = coverage[y]
+            for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer))):
+                right = x + 0.5 - cx
+                u = min(max((way[0] * right + way[1] * down + radius) * step - 0.5, 0.0), n - 1.001)
+                v = min(max((way[2] * right + way[3] * down + radius) * step - 0.5, 0.0), n - 1.001)
+                i, j = int(u), int(v)
+                a, b = np.float32(u - i), np.float32(v - j)
+                high = plane[j, i] + (plane[j, i + 1] - plane[j, i]) * a
+                low = plane[j + 1, i] + (plane[j + 1, i + 1] - plane[j + 1, i]) * a
+                d = _profile(right * right, down * down, disc[RIN2], disc[SCALE])
                 row[x] += max(_ZERO, ceiling - row[x]) * (rate * d * (high + (low - high) * b))

@@ -122,7 +122,8 @@ class Covering:
         corner, dabs = _dabs(stroke, coarser)
         if not _keep_near(dabs, corner, rect.grown(parts.relief.reach + 1)):
             return None
-        mask = StrokeMask(at, corner, tip=parts.tip, each=each(_copies(stroke)))
+        copies = _copies(stroke)
+        mask = StrokeMask(at, corner, tip=tip.for_copies(parts.tip, copies), each=each(copies))
         mask.paint(dabs)
         coverage = parts.relief.over(mask.coverage())
         out = np.zeros((rect.height, rect.width), np.float32)

@@ -15,7 +15,7 @@ from engine.brush.footprint import Footprint
 from engine.brush.mask import StrokeMask
 from engine.brush.stamp import Edit
 from engine.brush.thinning import Thinning
-from engine.canvas import commit, evaluate, layers
+from engine.canvas import commit, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
@@ -30,6 +30,7 @@ from engine.strokes.bed import Bed, Meeting
 from engine.strokes.live_stroke import Drawn
 from engine.strokes.mask_painting import edit_of, greys_of
 from engine.strokes.scenery import Scenery, reader
+from engine.strokes.wrapping import around
 from engine.texture.planes import Planes
 
 
@@ -57,7 +58,8 @@ class LiveStroke(Drawn):
         self._meeting = Meeting(level, self.origin, brush.radius, None if self.limit is None else self.limit.meets)
 
     def _new_mask(self) -> StrokeMask:
-        return StrokeMask(self.level, self.origin, tip=self._tip, each=copying.each(self.copies))
+        laid = tip.for_copies(self._tip, self.copies)
+        return StrokeMask(self.level, self.origin, tip=laid, each=copying.each(self.copies))
 
     def _new_bed(self) -> Bed | None:
         if not self.brush.row.takes_away or not self.layer.growth or self.layer.alpha_locked:
@@ -83,10 +85,9 @@ class LiveStroke(Drawn):
             dirty = tile_bounds(touched)
             dirty = dirty if dirty.empty else dirty.grown(self._relief.reach)
             whole = self._scenery.lay(points, self._mask)
-            self.areas = (
-                []
-                if not self.copies or isinstance(self.copies, copying.Torus) or not whole.empty
-                else copying.boxes(dabs, self.copies, self.origin, TILE + self._relief.reach)
+            told = self.copies.copies if isinstance(self.copies, copying.Torus) else self.copies
+            self.areas = (  # of a torus, wherever in its cells: they are seen in all of them
+                copying.boxes(dabs, told, self.origin, TILE + self._relief.reach) if self.copies and whole.empty else []
             )
             dirty = dirty.union(whole)
             if self.bed is not None:
@@ -147,7 +148,7 @@ class LiveStroke(Drawn):
         return self._edit
 
     def _read(self, rect: Rect) -> Planes:
-        return greys_of(evaluate.evaluate(self.layer.pyramid, self.level, rect, self.cache), self.layer)
+        return greys_of(around(self.layer, self.level, rect, self.cache), self.layer)
 
     def preview(self, rect: Rect) -> Planes:
         """Returns the layer's paint in `rect` at the stroke's level, as it will be."""

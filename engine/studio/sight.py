@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import deque
 
+from engine.canvas.placing.cells import SeenAreas
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
-from engine.painting.difference import Areas
 from engine.studio import requests as q
 
 Key = tuple[int, int, int]
@@ -23,19 +23,19 @@ class Sight(Owned):
         self.revision = 0
         self.open: deque[Key] = deque()  # tiles to look at
         self._wanted: dict[Key, int] = {}  # tile: revision that the window holds, -1 for none; in order of urgency
-        self._changes: deque[tuple[int, Areas]] = deque(maxlen=STEPS_KEPT)
+        self._changes: deque[tuple[int, SeenAreas]] = deque(maxlen=STEPS_KEPT)
 
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
         self._wanted = {(level, x, y): held for level, x, y, held in request.tiles}
         self.open = deque(self._wanted)
 
-    def changed(self, where: Areas) -> None:
+    def changed(self, where: SeenAreas) -> None:
         """The picture changed in the areas that `where` gives for a level: all tiles are looked at again."""
         self.grew(where, False)
         self.open = deque(self._wanted)
 
-    def grew(self, where: Areas, more: bool) -> None:
+    def grew(self, where: SeenAreas, more: bool) -> None:
         """A stroke in progress changed the picture; `more`: `where` holds what the change before told as well."""
         if more:
             self._changes.pop()
@@ -46,7 +46,7 @@ class Sight(Owned):
         """Another painting is to be seen: no change of the old one matters."""
         self._changes.clear()
 
-    def meeting(self, where: Areas) -> list[Key]:
+    def meeting(self, where: SeenAreas) -> list[Key]:
         """Returns the tiles that the window holds and that meet areas of their levels."""
         held = ((key, where(key[0])) for key, held in self._wanted.items() if held >= 0)
         return [key for key, found in held if found is None or any(area.meets(tile_rect(key)) for area in found)]

@@ -9,12 +9,13 @@ import numpy as np
 
 from engine.canvas.composite import composite
 from engine.canvas.layers import Layer
+from engine.canvas.placing.cells import SeenAreas
 from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
-from engine.painting.difference import Areas, areas
+from engine.painting.difference import areas
 from engine.painting.rendering import piece_reader
 from engine.painting.value import Painting
 from engine.session.session import Session
@@ -46,7 +47,7 @@ class Viewer(Owned):
         self.above: Above = lambda level, rect, pixels: pixels  # lays over a picture what is not painted yet
         self._fresh: list[Rect] = []  # pixels of the live stroke's level not sent yet
         self._level = 0
-        self._where: Areas = lambda level: []  # what is fresh is seen
+        self._where: SeenAreas = lambda level: []  # what is fresh is seen
         self._planned: Planned | None = None
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self._alone = MaskAlone(self.changed)
@@ -69,7 +70,7 @@ class Viewer(Owned):
         self._where = placed_stroke.areas_of(self._subject.live, level, self._fresh)
         self.sight.grew(self._where, more)
 
-    def changed(self, where: Areas) -> None:
+    def changed(self, where: SeenAreas) -> None:
         """The picture changed in the areas that `where` gives for a level; whatever was fresh is among them."""
         self._fresh = []
         self.sight.changed(where)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +15,34 @@ from engine.numeric.pyramid import reduce
 _FINER = 3  # levels by which a cell may be read finer, and averaged, where its sides lie within pixels
 _MEAN = 64  # pixels along a cell whose mean stands for it where these levels do not do
 _FEW = 4  # cells that are read whole, at most, for a rectangle
+
+
+class Repeats(NamedTuple):
+    """A rectangle, and as it is seen again and again in a picture that repeats a cell."""
+
+    part: Rect
+    cell: Rect
+
+    def meets(self, rect: Rect) -> bool:
+        """Tells whether it is seen anywhere in a rectangle."""
+        return not self.intersect(rect).empty
+
+    def intersect(self, rect: Rect) -> Rect:
+        """Returns the least rectangle that holds all that is seen of it in another one."""
+        x0, x1 = _seen(self.part.x0, self.part.x1, self.cell.width, rect.x0, rect.x1)
+        y0, y1 = _seen(self.part.y0, self.part.y1, self.cell.height, rect.y0, rect.y1)
+        return Rect(x0, y0, x1, y1)
+
+
+SeenAreas = Callable[[int], Sequence[Rect | Repeats] | None]  # by level; None: anywhere
+
+
+def _seen(first: int, last: int, period: int, low: int, high: int) -> tuple[int, int]:
+    """Returns the least span of [low, high) that holds what lies there of a span and its repeats."""
+    begin, end = -((last - 1 - low) // period), (high - 1 - first) // period
+    if begin > end or first >= last:
+        return low, low
+    return max(low, first + begin * period), min(high, last + end * period)
 
 
 def repeated(picture: Picture, part: SourcePart | None) -> Picture:

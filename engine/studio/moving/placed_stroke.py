@@ -7,24 +7,27 @@ from functools import cache
 import numpy as np
 
 from engine.canvas.layers import Layer
+from engine.canvas.placing.cells import Repeats, SeenAreas
 from engine.canvas.placing.views import Views
 from engine.canvas.reading import layer_planes
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import reduce
-from engine.painting.difference import Areas
 from engine.strokes.example_stroke import Live
 from engine.strokes.paint_stroke import LiveStroke
 
 _COARSER = 4  # levels at which a stroke is seen, besides its own
 
 
-def areas_of(live: Live | None, level: int, parts: list[Rect]) -> Areas:
-    """Returns where parts of a stroke's level is seen: where it is, and through placements; anywhere, where its layer
-    is repeated."""
-    if live is not None and live.layer.wrap is not None:
-        return lambda n: None
+def areas_of(live: Live | None, level: int, parts: list[Rect]) -> SeenAreas:
+    """Returns where parts of a stroke's level is seen: where it is, again in each cell where its layer is repeated, and
+    through placements; anywhere, where there are both."""
     views = None if live is None else Views(live.root)
+    if live is not None and live.layer.wrap is not None:
+        if views is None or views.any:
+            return lambda n: None
+        cell = live.layer.wrap.rect.zoomed(level - live.layer.wrap.level)
+        return lambda n: [Repeats(part, cell) for part in parts] if n == level else []
     if live is None or views is None or not views.any:
         return lambda n: parts if n == level else []
     layer = live.layer.id

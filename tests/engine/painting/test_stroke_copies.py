@@ -161,12 +161,28 @@ def test_where_no_copy_comes_it_is_the_plain_stroke(look):
     assert np.array_equal(pixels(both, 0, moved), pixels(there, 0, moved))
 
 
-def test_mirrored_and_turned_by_half_it_is_the_very_picture():
-    session = painted(stroke(symmetry={"centre": [128, 128], "count": 2, "mirror": True}, **LOOKS["paint"]))
+@pytest.mark.parametrize("look", ["paint", "sample"])
+def test_mirrored_and_turned_by_half_it_is_the_very_picture(look):
+    """Also where its tip is a picture: that is mirrored and turned with the stroke."""
+    line = [[x, y, pressure] for x, y, pressure in LINE]
+    session = painted(stroke(line, symmetry={"centre": [128, 128], "count": 2, "mirror": True}, **LOOKS[look]))
     whole = pixels(session, 0, FRAME)
     assert whole[3, :128, :128].any()
     assert np.array_equal(whole, whole[:, :, ::-1])
     assert np.array_equal(whole, whole[:, ::-1])
+
+
+def test_the_sample_of_a_tip_is_turned_with_its_copy_and_a_copy_that_is_only_moved_lies_as_it_does():
+    look = {"radius": 20, "tip": {"texture": "stripes", "period": 64}, "dynamics": {}, "hardness": 1}
+    at = [[64.5, 128.5]]
+    quarter = pixels(painted(stroke(at, symmetry={"centre": [128.5, 128.5], "count": 4}, **look)), 0, FRAME)[3]
+    plain = pixels(painted(stroke(at, **look)), 0, FRAME)[3]
+    own = plain[108:149, 44:85]
+    assert np.abs(own - own.T).max() > 0.2
+    assert np.array_equal(quarter[108:149, 44:85], own)
+    np.testing.assert_allclose(quarter[44:85, 108:149], np.rot90(own, -1), atol=2 / 65536)
+    moved = pixels(painted(stroke(at, copies=[[1, 0, 100, 0]], **look)), 0, FRAME)[3]
+    assert np.array_equal(moved[108:149, 144:185], own)
 
 
 def test_where_copies_cross_the_opacity_stays_a_ceiling():

@@ -13,15 +13,17 @@ from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.composite import composite
 from engine.canvas.evaluate import evaluate
+from engine.canvas.placing.cells import Repeats
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.reading import layer_planes
 from engine.checks.field_error import FieldError
-from engine.numeric.address import Rect
+from engine.numeric.address import TILE, Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.painting.value import Refusal
 from engine.session.replay import replay
 from engine.session.session import Session
+from engine.studio.moving.placed_stroke import areas_of
 
 CELL = Rect.at(-24, 16, 256, 128)  # of whole pixels down to level -3
 LOOKS = {
@@ -29,6 +31,7 @@ LOOKS = {
     "window": {"tip": {"texture": "rock", "from": "window"}, "spacing": 0.6},
     "erase": {"mode": "erase", "opacity": 0.7},
     "multiply": {"mode": "raster", "op": "multiply", "colour": "#40a060"},
+    "smooth": {"mode": "smooth", "radius": 14},
 }
 
 
@@ -141,6 +144,67 @@ def test_at_the_rim_it_goes_on_as_in_the_middle(level):
     np.testing.assert_allclose(
         seen(made(0, 0), CELL.zoomed(level), level), seen(made(*half), there, level), atol=8 / 65536
     )
+
+
+spans = st.tuples(st.integers(-90, 90), st.integers(-90, 90), st.integers(1, 60), st.integers(1, 60))
+
+
+@given(spans, spans, st.integers(1, 40), st.integers(1, 40))
+def test_what_is_seen_again_and_again_is_found_wherever_it_is(part, rect, width, height):
+    part, rect, cell = Rect.at(*part), Rect.at(*rect), Rect.at(3, -5, width, height)
+    found = Repeats(part, cell)
+    shown = Rect(0, 0, 0, 0)
+    columns = [n for n in range(rect.x0, rect.x1) if any(part.x0 <= n + k * width < part.x1 for k in range(-250, 251))]
+    rows = [n for n in range(rect.y0, rect.y1) if any(part.y0 <= n + k * height < part.y1 for k in range(-250, 251))]
+    if columns and rows:
+        shown = Rect(columns[0], rows[0], columns[-1] + 1, rows[-1] + 1)
+    assert found.meets(rect) == (not shown.empty)
+    if not shown.empty:
+        assert found.intersect(rect) == shown
+
+
+def test_a_live_stroke_tells_of_little_more_than_its_new_dabs_also_over_the_rim():
+    cell = Rect.at(-24, 16, 1024, 1024)
+    session = painted(wrap(cell))
+    command = c.parse(stroke([[900, 60], [960, 60], [995, 60], [1010, 60]]))
+    live = session.begin(command.level, command.origin, command.brush, command.layer, command.seed)
+    live.add(command.points[:2])
+    live.add(command.points[2:])
+    seen = areas_of(live, 0, live.areas)
+    (area,) = seen(0)
+    assert seen(1) == []
+    assert area.meets(Rect.at(-24, 60, 4, 4))  # it came in at the other side
+    assert area.meets(Rect.at(995 - 3 * 1024, 60 + 1024, 4, 4))
+    assert not area.meets(Rect.at(300, 16, 300, 1024))
+    assert not area.meets(Rect.at(-24, 400, 1024, 300))
+
+
+AROUND = {
+    "smooth": {"mode": "smooth", "radius": 30},
+    "evened": {"mode": "raster", "op": {"name": "smooth", "reach": 9}, "radius": 24},
+    "sharpened": {"mode": "raster", "op": {"name": "sharpen", "reach": 9}, "radius": 24},
+    "displaced": {"mode": "raster", "op": {"name": "displace", "distance": 20}, "radius": 24},
+}
+
+
+@pytest.mark.parametrize("look", AROUND)
+def test_what_looks_around_sees_over_the_rim(look):
+    """Smoothed, sharpened or shifted at the rim as in the middle: what lies at the other side lies beside it."""
+    half = CELL.width // 2, CELL.height // 2
+
+    def made(x, y):
+        ground = [[[-22, 60], [-14, 110]], [[228, 70], [224, 90]], [[60, 18], [100, 20]], [[80, 140], [110, 142]]]
+        lines = [
+            stroke([[px + x, py + y] for px, py in points], radius=7, hardness=1, colour=colour)
+            for points, colour in zip(ground, ("#c03020", "#30a050", "#f0e020", "#2030c0"), strict=True)
+        ]
+        over = stroke([[-24 + x, 50 + y], [-24 + x, 130 + y], [90 + x, 16 + y]], **AROUND[look])
+        return painted(wrap(), *lines, over)
+
+    there = moved(CELL, *half)
+    there, here = seen(made(*half), there), seen(made(0, 0), CELL)
+    assert np.abs(here[3, 30:60, :8] - here[3, 30:60, 8:16]).max() > 0
+    np.testing.assert_allclose(here, there, atol=8 / 65536)
 
 
 def test_the_cell_is_kept_in_files_told_by_commands_and_taken_off(tmp_path):
