@@ -17,7 +17,7 @@ from engine.canvas.placing.cells import Repeats
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.reading import layer_planes
 from engine.checks.field_error import FieldError
-from engine.numeric.address import TILE, Rect
+from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
 from engine.painting.value import Refusal
