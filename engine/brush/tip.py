@@ -173,6 +173,35 @@ def _profile(dx2: np.float32, dy2: np.float32, inner: np.float32, scale: np.floa
     return v * v * (_THREE - _TWO * v)
 
 
+@inlined
+def _sample_for(radius: float, sizes: Array) -> tuple[int, int]:
+    """Returns where the level begins that is about as wide as a disc, and how many pixels wide it is."""
+    start, level = 0, 0
+    while level + 1 < sizes.size and sizes[level] > 2.5 * radius:
+        start += sizes[level] * sizes[level]
+        level += 1
+    return start, sizes[level]
+
+
+@inlined
+def _span(centre: float, outer: float) -> tuple[int, int]:
+    """Returns the pixels of a tile that a disc may meet along one side."""
+    return max(0, math.floor(centre - outer)), min(TILE, math.ceil(centre + outer))
+
+
+@inlined
+def _between(plane: Array, x: float, y: float, step: float) -> np.float32:
+    """Returns what a square plane has at a place, with straight lines between its pixels."""
+    n = plane.shape[0]
+    u, v = min(max(x * step - 0.5, 0.0), n - 1.001), min(max(y * step - 0.5, 0.0), n - 1.001)
+    i, j = int(u), int(v)
+    a, b = np.float32(u - i), np.float32(v - j)
+    high = plane[j, i] + (plane[j, i + 1] - plane[j, i]) * a
+    low = plane[j + 1, i] + (plane[j + 1, i + 1] - plane[j + 1, i]) * a
+    found: np.float32 = high + (low - high) * b
+    return found
+
+
 @kernel
 def _lay_windows(
     coverage: Array,
@@ -212,11 +241,7 @@ def _lay_samples(coverage: Array, discs: Array, which: Array, left: int, top: in
         cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
         ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
         radius = outer - 0.5
-        start, level = 0, 0
-        while level + 1 < sizes.size and sizes[level] > 2.5 * radius:
-            start += sizes[level] * sizes[level]
-            level += 1
-        n = sizes[level]
+        start, n = _sample_for(radius, sizes)
         plane = packed[start : start + n * n].reshape(n, n)
         step = n / (2.0 * radius)
         for y in range(max(0, math.floor(cy - outer)), min(TILE, math.ceil(cy + outer))):
@@ -253,25 +278,15 @@ def _lay_copies(
         disc = discs[index]
         way = ways[(number + index) % each * ways.shape[0] // each]
         cx, cy, outer = disc[CX] - left, disc[CY] - top, disc[ROUT]
-        ceiling, rate = np.float32(disc[CEILING]), np.float32(disc[RATE])
-        radius = outer - 0.5
-        start, level = 0, 0
-        while level + 1 < sizes.size and sizes[level] > 2.5 * radius:
-            start += sizes[level] * sizes[level]
-            level += 1
-        n = sizes[level]
+        start, n = _sample_for(outer - 0.5, sizes)
         plane = packed[start : start + n * n].reshape(n, n)
-        step = n / (2.0 * radius)
-        for y in range(max(0, math.floor(cy - outer)), min(TILE, math.ceil(cy + outer))):
+        first, last = _span(cx, outer)
+        for y in range(*_span(cy, outer)):
             down = y + 0.5 - cy
-            row = coverage[y]
-            for x in range(max(0, math.floor(cx - outer)), min(TILE, math.ceil(cx + outer))):
+            for x in range(first, last):
                 right = x + 0.5 - cx
-                u = min(max((way[0] * right + way[1] * down + radius) * step - 0.5, 0.0), n - 1.001)
-                v = min(max((way[2] * right + way[3] * down + radius) * step - 0.5, 0.0), n - 1.001)
-                i, j = int(u), int(v)
-                a, b = np.float32(u - i), np.float32(v - j)
-                high = plane[j, i] + (plane[j, i + 1] - plane[j, i]) * a
-                low = plane[j + 1, i] + (plane[j + 1, i + 1] - plane[j + 1, i]) * a
+                at = way[0] * right + way[1] * down, way[2] * right + way[3] * down
+                seen = _between(plane, at[0] + (outer - 0.5), at[1] + (outer - 0.5), n / (2.0 * (outer - 0.5)))
                 d = _profile(right * right, down * down, disc[RIN2], disc[SCALE])
-                row[x] += max(_ZERO, ceiling - row[x]) * (rate * d * (high + (low - high) * b))
+                room = max(_ZERO, np.float32(disc[CEILING]) - coverage[y, x])
+                coverage[y, x] += room * (np.float32(disc[RATE]) * d * seen)
