@@ -195,8 +195,8 @@ def painted_bounds(pyramid: Pyramid) -> list[int] | None:
     if level is None:
         return None
     finest, rect = level, pyramid.bounds(level)
-    while max(rect.width, rect.height) > _WIDE:
-        level -= 1
+    while (side := max(rect.width, rect.height)) > _WIDE:
+        level -= max(1, side.bit_length() - _WIDE.bit_length())  # paint may be thousands of levels apart
         rect = pyramid.bounds(level)
     found = _painted(pyramid, level, rect.grown(2))
     while found is not None and level < finest and max(found.width, found.height) <= _WIDE // 2:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from engine.canvas import layers
 from engine.canvas.layers import Group, Node
 from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.copies import checked_copies
 from engine.canvas.placing.placement import Placement
 
 if TYPE_CHECKING:
@@ -61,10 +62,17 @@ def checked(root: Group) -> Group:
     found = list(placements(root))
     if not found:
         return root
-    names = {root.id: "the painting", **{node.id: repr(node.name) for node in layers.walk(root)}}
+    nodes: dict[int, Node] = {root.id: root, **{node.id: node for node in layers.walk(root)}}
     for one in found:
-        if one.of is not None and one.of not in names:
+        if one.of is not None and one.of not in nodes:
             raise LayerError(f"layer {one.name!r}: of: found a node that is not there, expected one that is")
+    if checked_copies(root, nodes):
+        _check_loops(root, found)
+    return root
+
+
+def _check_loops(root: Group, found: list[Placement]) -> None:
+    """Raises LayerError unless all that shows itself shrinks each time round."""
     through = [_Way(one.id, root.id if one.of is None else one.of, _log(one)) for one in found]
     graph = _Graph([*_into(root), *through])
     for one, way in zip(found, through, strict=True):
@@ -72,9 +80,9 @@ def checked(root: Group) -> Group:
             _check_in_loop(one)
     loop = graph.not_halving([way for way in through if graph.goes_round(way) and way.log > _ROUND])
     if loop:
+        names = {root.id: "the painting", **{node.id: repr(node.name) for node in layers.walk(root)}}
         told = " in ".join(names[node] for node in loop)
         raise LayerError(f"layer: found a loop that does not halve each time round ({told}), expected one that does")
-    return root
 
 
 def _log(one: Placement) -> float:
