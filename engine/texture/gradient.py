@@ -24,6 +24,7 @@ from engine.numeric.kernel import kernel
 GRADIENTS = ("linear", "radial", "angular")
 COLOURS_CAP = 64
 _FAR_BITS = 50  # of the distance in pixels up to which halves of pixels count
+_NEAREST = 2.0**-60  # pixels of its own level along the ramp at least
 _STEEPEST = 900  # levels between a gradient's own and that of its pixels, beyond which it is as far as that
 
 _COLOUR = re.compile(r"#(?:[0-9a-f]{6}|[0-9a-f]{8})")
@@ -109,7 +110,7 @@ def gradient(parameters: Mapping[str, object], base: int) -> Gradient:
     level = parameters.get("level", 0)
     if not isinstance(level, int) or isinstance(level, bool) or abs(level) > 1 << 12:
         raise FieldError("level", described(level), "an integer from -4096 to 4096")
-    if start == end:
+    if max(abs(end[0] - start[0]), abs(end[1] - start[1])) < _NEAREST:
         raise FieldError("to", described(list(end)), "another place than from")
     return Gradient(base, shape, start, end, level, _ramp(parameters.get("ramp")))
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from engine.brush.mask import Coverage
 from engine.checks.field_error import FieldError
+from engine.checks.values import described
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.kernel import inner, kernel
 
@@ -20,7 +21,7 @@ _FEWEST, _MOST = 64, 4096  # pieces of a quarter of it
 def checked_size(rect: Rect, where: str) -> Rect:
     """Returns a rectangle itself; FieldError if it has too many pixels."""
     if max(rect.width, rect.height) > LONGEST_SIDE or rect.area > COVERED_CAP:
-        found = f"{rect.width} x {rect.height} px"
+        found = f"{described(rect.width)} x {described(rect.height)} px"
         raise FieldError(where, found, f"at most {LONGEST_SIDE} px along a side and 2^28 in all; take a coarser level")
     return rect
 

@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 FRAME = [0, 0, 64, 48]
@@ -59,13 +60,32 @@ RIGHT: dict[str, dict[str, Any]] = {
     "picture": layer("add", "C", kind="picture", texture="ramp", level=1, at=[2, 3], role="reference"),
     "frame": {"do": "frame", "rect": [1, 2, 30, 40]},
     "paper": {"do": "paper", "colour": "#f0e0d0"},
-    "guide": {"do": "guide", "name": "g", "kind": "symmetry", "level": 1, "at": [3, 4], "points": [[0, 0], [0, 9]], "count": 6},
+    "guide": {
+        "do": "guide",
+        "name": "g",
+        "kind": "symmetry",
+        "level": 1,
+        "at": [3, 4],
+        "points": [[0, 0], [0, 9]],
+        "count": 6,
+    },
     "bookmark": {"do": "bookmark", "name": "b", "level": 1.5, "origin": [0, 0], "size": [20, 20], "angle": 3},
-    "gradient": {"do": "texture", "name": "r", "maker": "gradient", "kind": "radial", "from": [0, 0], "to": [9, 9], "level": 1, "ramp": RAMP},
+    "gradient": {
+        "do": "texture",
+        "name": "r",
+        "maker": "gradient",
+        "kind": "radial",
+        "from": [0, 0],
+        "to": [9, 9],
+        "level": 1,
+        "ramp": RAMP,
+    },
     "rect": select(rect=[1, 10, 10, 30, 30], op="add", feather=2, grow=1, keep="k"),
     "ellipse": select(ellipse=[0, 10, 10, 30, 30]),
     "outline": select(outline=[[0, 0], [30, 0], [9, 20]], level=1, origin=[2, 2]),
-    "selecting stroke": select(stroke={"points": [[9, 9], [30, 30]], "brush": {"radius": 9}, "level": 1, "origin": [1, 1]}),
+    "selecting stroke": select(
+        stroke={"points": [[9, 9], [30, 30]], "brush": {"radius": 9}, "level": 1, "origin": [1, 1]}
+    ),
     "selecting like": select(**like(9, 9, tolerance=0.2, gap=2, rect=[0, 0, 30, 30], of=None, contiguous=False)),
     "by a layer": select(layer="A", level=1),
     "by what was kept": select(saved="kept", op="intersect", level=0),
@@ -115,7 +135,7 @@ def wrong_members(name: str) -> Iterator[tuple[str, Commands]]:
 def _chain(count: int, **pose: Any) -> Commands:
     """So many placements, each of the one before."""
     names = ["A", *(f"p{i}" for i in range(count))]
-    return [*GROUND[:2], *(placed(name, of, **pose) for of, name in zip(names, names[1:], strict=False))]
+    return [*GROUND[:2], *(placed(name, of, **pose) for of, name in pairwise(names))]
 
 
 def _fan(count: int, **pose: Any) -> Commands:
@@ -140,24 +160,45 @@ MANY: dict[str, Commands] = {
     "a chain of 3,000 exact placements": _chain(3000, at=[1, 0]),
     "a chain of 3,000 turned placements": _chain(3000, **TURN),
     "a chain of 3,000 halves": _chain(3000, levels=-1, at=[5, 3]),
-    "a chain of 3,000 of which one is seen": [*_chain(3000, at=[1, 0]), *(layer("set", f"p{i}", visible=False) for i in range(2999))],
+    "a chain of 3,000 of which one is seen": [
+        *_chain(3000, at=[1, 0]),
+        *(layer("set", f"p{i}", visible=False) for i in range(2999)),
+    ],
     "3,000 placements of one layer": [*GROUND[:2], *(placed(f"p{i}", "A", at=[i % 60, i // 60]) for i in range(3000))],
-    "3,000 turned placements of one layer": [*GROUND[:2], *(placed(f"p{i}", "A", at=[i % 60, i // 60], c=[0.9, 0.3]) for i in range(3000))],
+    "3,000 turned placements of one layer": [
+        *GROUND[:2],
+        *(placed(f"p{i}", "A", at=[i % 60, i // 60], c=[0.9, 0.3]) for i in range(3000)),
+    ],
     "a fan of 2^20": _fan(20),
     "a fan of 2^20 of which one is seen": _hidden(_fan(20)),
     "a turned fan of 2^20": _hidden(_fan(20, c=[0.9, 0.3])),
     "a fan of 2^60": _hidden(_fan(60)),
     "a fan of halves, 2^20": _hidden(_fan(20, levels=-1)),
-    "16 copies of the painting in itself": [*GROUND, *(placed(f"p{i}", None, **{**HALF, "at": [i * 3, i * 2]}) for i in range(16))],
-    "200 copies of the painting in itself": [*GROUND, *(placed(f"p{i}", None, **{**HALF, "at": [i % 30, i // 8]}) for i in range(200))],
+    "16 copies of the painting in itself": [
+        *GROUND,
+        *(placed(f"p{i}", None, **{**HALF, "at": [i * 3, i * 2]}) for i in range(16)),
+    ],
+    "200 copies of the painting in itself": [
+        *GROUND,
+        *(placed(f"p{i}", None, **{**HALF, "at": [i % 30, i // 8]}) for i in range(200)),
+    ],
     "1,000 selections that are kept": [*GROUND, *(select(rect=[0, i, 0, 9, 9], keep=f"k{i}") for i in range(1000))],
     "1,000 masks set": [*BEFORE, *[layer("set", "A", mask="kept"), layer("set", "A", mask=None)] * 500],
-    "255 copies of a large dab": [*GROUND, stroke([0, 0], brush={"radius": 60}, copies=[[1, 0, i, i] for i in range(255)])],
+    "255 copies of a large dab": [
+        *GROUND,
+        stroke([0, 0], brush={"radius": 60}, copies=[[1, 0, i, i] for i in range(255)]),
+    ],
     "255 copies far apart": [*GROUND, stroke([0, 0], copies=[[1, 0, i << 20, -i << 20] for i in range(255)])],
     "255 copies, 1024 times as large": [*GROUND, stroke([0, 0], copies=[[1024, 0, i * 9, i] for i in range(255)])],
-    "an outline of 100,000 points": [*GROUND, select(outline=[[i % 317 * 7 % 64, i % 211 * 5 % 48] for i in range(100_000)])],
+    "an outline of 100,000 points": [
+        *GROUND,
+        select(outline=[[i % 317 * 7 % 64, i % 211 * 5 % 48] for i in range(100_000)]),
+    ],
     "a gradient of 65 stops": [*GROUND, {**RIGHT["gradient"], "ramp": [[i / 64, "#ffffff"] for i in range(65)]}],
-    "grown by 4,096 px at every turn": [*GROUND, *[select(rect=[0, 0, 0, 9, 9], grow=4096, feather=4096), select(grow=4096)] * 6],
+    "grown by 4,096 px at every turn": [
+        *GROUND,
+        *[select(rect=[0, 0, 0, 9, 9], grow=4096, feather=4096), select(grow=4096)] * 6,
+    ],
 }
 
 SHRINKING: dict[str, Commands] = {
@@ -195,7 +236,12 @@ SHRINKING: dict[str, Commands] = {
     ],
     "a source that is merged": [*GROUND, placed("P", "B"), layer("merge", "B")],
     "a source that is flattened": [*GROUND, placed("P", "B"), layer("flatten", None)],
-    "a source that becomes a placement of it": [*GROUND, placed("P", "A"), layer("set", "A", c=[0.6, 0.8]), layer("set", "A (source)", levels=3)],
+    "a source that becomes a placement of it": [
+        *GROUND,
+        placed("P", "A"),
+        layer("set", "A", c=[0.6, 0.8]),
+        layer("set", "A (source)", levels=3),
+    ],
     "baked of the painting": [*GROUND, placed("P", None, **HALF), layer("bake", "P")],
     "baked at level 4096": [*GROUND, placed("P", "A", levels=4096, level=DEEPEST), layer("bake", "P")],
     "at level 4096": [*GROUND, placed("P", "A", level=DEEPEST, at=[1, 1], levels=-DEEPEST)],
@@ -208,14 +254,21 @@ SHRINKING: dict[str, Commands] = {
     "of itself, of a rect without end": [*GROUND, placed("P", None, rect=[0, -FAR, -FAR, 2 * FAR, 2 * FAR], levels=-1)],
     "repeated, a cell of 2^-4096 px": [*GROUND, placed("P", "A", rect=[DEEPEST, 0, 0, 1, 1], repeat=True)],
     "repeated, a cell of 10^400 px": [*GROUND, placed("P", "A", rect=[0, 0, 0, FAR, 1], repeat=True)],
-    "repeated and turned, a cell of a pixel": [*GROUND, placed("P", "A", rect=[6, 0, 0, 1, 1], repeat=True, c=[0.6, 0.8])],
+    "repeated and turned, a cell of a pixel": [
+        *GROUND,
+        placed("P", "A", rect=[6, 0, 0, 1, 1], repeat=True, c=[0.6, 0.8]),
+    ],
     "repeated far away": [*GROUND, placed("P", "A", rect=[0, 0, 0, 9, 9], repeat=True, at=[FAR, -FAR])],
     "turned, at 10^400": [*GROUND, placed("P", "A", c=[0.6, 0.8], at=[FAR, FAR])],
     "turned by the least that there is": [*GROUND, placed("P", "A", c=[1, 5e-324])],
 }
 
 SELECTING: dict[str, Commands] = {
-    "nothing by a rect that is subtracted": [*GROUND, select(rect=[0, 0, 0, 9, 9]), select(op="subtract", rect=[0, 0, 0, 9, 9])],
+    "nothing by a rect that is subtracted": [
+        *GROUND,
+        select(rect=[0, 0, 0, 9, 9]),
+        select(op="subtract", rect=[0, 0, 0, 9, 9]),
+    ],
     "nothing by layers apart": [*GROUND, select(rect=[0, 1000, 0, 9, 9]), select(op="intersect", layer="A")],
     "nothing shrunk": [*GROUND, select(rect=[0, 0, 0, 9, 9], grow=-100)],
     "nothing of an empty layer": [*GROUND, layer("add", "C"), select(layer="C")],
@@ -245,9 +298,17 @@ SELECTING: dict[str, Commands] = {
     "a mask that is not kept": [*GROUND, layer("set", "A", mask="nobody")],
     "a mask of nothing selected": [*GROUND, layer("set", "A", mask=True)],
     "a mask of a placement": [*BEFORE, placed("P", "A"), layer("set", "P", mask="kept")],
-    "copied where there is no paint": [*GROUND, select(rect=[0, 999, 0, 9, 9]), layer("duplicate", "A", to="C", selected="copy")],
+    "copied where there is no paint": [
+        *GROUND,
+        select(rect=[0, 999, 0, 9, 9]),
+        layer("duplicate", "A", to="C", selected="copy"),
+    ],
     "cut of a group": [*GROUND, layer("add", "G", kind="group"), layer("duplicate", "G", to="C", selected="cut")],
-    "cut of a layer that is locked": [*GROUND, layer("set", "A", locked=True), layer("duplicate", "A", to="C", selected="cut")],
+    "cut of a layer that is locked": [
+        *GROUND,
+        layer("set", "A", locked=True),
+        layer("duplicate", "A", to="C", selected="cut"),
+    ],
     "pasted before it is copied": [*GROUND, layer("duplicate", "C", to="D")],
 }
 
@@ -266,8 +327,14 @@ PAINTING: dict[str, Commands] = {
     "a fill of a placement": [*GROUND, placed("P", "A"), fill(**like(3, 3), open=True, layer="P")],
     "a fill of a locked layer": [*GROUND, layer("set", "A", locked=True), fill(**like(3, 3), open=True, layer="A")],
     "a fill like nobody": [*GROUND, fill(**like(3, 3, of="nobody"), open=True)],
-    "a fill with an example that is none": [*GROUND, fill(**like(3, 3), open=True, brush={"mode": "example", "example": "no"})],
-    "a fill with a formula that divides by 0": [*GROUND, fill(**like(3, 3), open=True, brush={"mode": "raster", "op": {"formula": "pic/0"}})],
+    "a fill with an example that is none": [
+        *GROUND,
+        fill(**like(3, 3), open=True, brush={"mode": "example", "example": "no"}),
+    ],
+    "a fill with a formula that divides by 0": [
+        *GROUND,
+        fill(**like(3, 3), open=True, brush={"mode": "raster", "op": {"formula": "pic/0"}}),
+    ],
     "a tolerance of 2": [*GROUND, fill(**like(3, 3, tolerance=2), open=True)],
     "a gap of 1025": [*GROUND, fill(**like(3, 3, gap=1025), open=True)],
     "a torus without sides": [*GROUND, layer("set", "A", wrap=[0, 0, 0, 0, 0])],
@@ -276,11 +343,19 @@ PAINTING: dict[str, Commands] = {
     "a torus of 2^-4096 px": [*GROUND, layer("set", "A", wrap=[DEEPEST, 0, 0, 1, 1]), stroke(layer="A")],
     "a torus of 2^4096 px": [*GROUND, layer("set", "A", wrap=[-DEEPEST, 0, 0, 1, 1]), stroke(layer="A")],
     "a torus, painted too coarsely": [*GROUND, layer("set", "A", wrap=[0, 0, 0, 9, 9]), stroke(layer="A", level=-5)],
-    "a torus, painted finely": [*GROUND, layer("set", "A", wrap=[0, 0, 0, 32, 32]), stroke([5, 5], layer="A", level=20)],
+    "a torus, painted finely": [
+        *GROUND,
+        layer("set", "A", wrap=[0, 0, 0, 32, 32]),
+        stroke([5, 5], layer="A", level=20),
+    ],
     "a torus, moved": [*GROUND, layer("set", "A", wrap=[0, 0, 0, 32, 32]), layer("set", "A", at=[3, 3])],
     "a torus, merged": [*GROUND, layer("set", "B", wrap=[0, 0, 0, 32, 32]), layer("merge", "B")],
     "a torus of a group": [*GROUND, layer("add", "G", kind="group"), layer("set", "G", wrap=[0, 0, 0, 32, 32])],
-    "a thin torus filled": [*GROUND, layer("set", "A", wrap=[0, 0, 0, 1, 32]), fill(**like(3, 3), open=True, layer="A")],
+    "a thin torus filled": [
+        *GROUND,
+        layer("set", "A", wrap=[0, 0, 0, 1, 32]),
+        fill(**like(3, 3), open=True, layer="A"),
+    ],
     "copies of scale 0": [*GROUND, stroke(copies=[[0, 0, 1, 1]])],
     "copies of 2^11": [*GROUND, stroke(copies=[[2048, 0, 1, 1]])],
     "copies beyond 2^30": [*GROUND, stroke(copies=[[1, 0, 2**31, 1]])],
@@ -290,29 +365,75 @@ PAINTING: dict[str, Commands] = {
     "copies and symmetry": [*GROUND, stroke(copies=[[1, 0, 3, 3]], symmetry={"centre": [0, 0], "count": 2})],
     "a gradient without length": [*GROUND, {**RIGHT["gradient"], "to": [0, 0]}],
     "a gradient of stops that fall": [*GROUND, {**RIGHT["gradient"], "ramp": [[1, "#ffffff"], [0, "#000000"]]}],
-    "a gradient of level 4096": [*GROUND, {**RIGHT["gradient"], "level": DEEPEST}, stroke(brush={"ink": [{"texture": "r"}]})],
-    "a gradient of level -4096": [*GROUND, {**RIGHT["gradient"], "level": -DEEPEST}, stroke(brush={"ink": [{"texture": "r"}]})],
-    "a gradient of 1e-300 px": [*GROUND, {**RIGHT["gradient"], "to": [1e-300, 0]}, stroke(brush={"ink": [{"texture": "r"}]})],
-    "a gradient painted at level 4096": [*GROUND, RIGHT["gradient"], stroke(level=DEEPEST, brush={"ink": [{"texture": "r"}]})],
+    "a gradient of level 4096": [
+        *GROUND,
+        {**RIGHT["gradient"], "level": DEEPEST},
+        stroke(brush={"ink": [{"texture": "r"}]}),
+    ],
+    "a gradient of level -4096": [
+        *GROUND,
+        {**RIGHT["gradient"], "level": -DEEPEST},
+        stroke(brush={"ink": [{"texture": "r"}]}),
+    ],
+    "a gradient of 1e-300 px": [
+        *GROUND,
+        {**RIGHT["gradient"], "to": [1e-300, 0]},
+        stroke(brush={"ink": [{"texture": "r"}]}),
+    ],
+    "a gradient painted at level 4096": [
+        *GROUND,
+        RIGHT["gradient"],
+        stroke(level=DEEPEST, brush={"ink": [{"texture": "r"}]}),
+    ],
 }
 
 LAYERING: dict[str, Commands] = {
     "clipped to nothing": [*GROUND, layer("set", "A", clip=True), layer("set", "B", clip=True)],
-    "clipped to a placement of itself": [*GROUND, placed("P", None, **HALF), layer("move", "P", to=0), layer("set", "A", clip=True)],
+    "clipped to a placement of itself": [
+        *GROUND,
+        placed("P", None, **HALF),
+        layer("move", "P", to=0),
+        layer("set", "A", clip=True),
+    ],
     "a clipped placement of the painting": [*GROUND, placed("P", None, **HALF), layer("set", "P", clip=True)],
     "the lowest merged": [*GROUND, layer("merge", "A")],
     "a locked layer merged": [*GROUND, layer("set", "A", locked=True), layer("merge", "B")],
     "a placement of the painting merged": [*GROUND, placed("P", None, **HALF), layer("merge", "P")],
     "flattened with the painting in itself": [*GROUND, placed("P", None, **HALF), layer("flatten", None)],
-    "merged onto a clipped one": [*GROUND, layer("set", "B", clip=True), layer("add", "C"), stroke(), layer("merge", "C")],
-    "paint of two levels 8192 apart merged": [*GROUND, stroke(level=DEEPEST, layer="A"), stroke(level=-DEEPEST, layer="B"), layer("merge", "B")],
-    "paint of two levels 8192 apart flattened": [*GROUND, stroke(level=DEEPEST), stroke(level=-DEEPEST), layer("flatten", None)],
+    "merged onto a clipped one": [
+        *GROUND,
+        layer("set", "B", clip=True),
+        layer("add", "C"),
+        stroke(),
+        layer("merge", "C"),
+    ],
+    "paint of two levels 8192 apart merged": [
+        *GROUND,
+        stroke(level=DEEPEST, layer="A"),
+        stroke(level=-DEEPEST, layer="B"),
+        layer("merge", "B"),
+    ],
+    "paint of two levels 8192 apart flattened": [
+        *GROUND,
+        stroke(level=DEEPEST),
+        stroke(level=-DEEPEST),
+        layer("flatten", None),
+    ],
     "an empty painting flattened": [layer("flatten", None)],
     "an empty group flattened": [layer("add", "G", kind="group"), layer("flatten", "G")],
     "a layer flattened": [*GROUND, layer("flatten", "A")],
     "no layer cleared": [*GROUND, layer("clear", "nobody")],
-    "the outside of an endless frame cleared": [*GROUND, {"do": "frame", "rect": [0, 0, 1 << 40, 1 << 40]}, layer("clear", None, outside=True)],
-    "the outside of a frame far away cleared": [*GROUND, {"do": "frame", "rect": [FAR, FAR, 9, 9]}, layer("clear", None, outside=True), {"do": "frame", "rect": FRAME}],
+    "the outside of an endless frame cleared": [
+        *GROUND,
+        {"do": "frame", "rect": [0, 0, 1 << 40, 1 << 40]},
+        layer("clear", None, outside=True),
+    ],
+    "the outside of a frame far away cleared": [
+        *GROUND,
+        {"do": "frame", "rect": [FAR, FAR, 9, 9]},
+        layer("clear", None, outside=True),
+        {"do": "frame", "rect": FRAME},
+    ],
     "a frame of 0": [*GROUND, {"do": "frame", "rect": [0, 0, 0, 9]}],
     "a frame of 2^41": [*GROUND, {"do": "frame", "rect": [0, 0, 1 << 41, 9]}],
     "a frame of 1.5": [*GROUND, {"do": "frame", "rect": [0, 0, 1.5, 9]}],
@@ -320,8 +441,12 @@ LAYERING: dict[str, Commands] = {
     "paper with alpha": [{"do": "paper", "colour": "#ffffff80"}],
     "a picture of nothing": [layer("add", "C", kind="picture", texture="nothing")],
     "a picture of a gradient": [*BEFORE, layer("add", "C", kind="picture", texture="ramp")],
-    "a picture whose file is gone": [{"do": "texture", "name": "t", "maker": "image", "path": "gone.png", "sha": "0" * 64}],
-    "a picture of other pixels": [{"do": "texture", "name": "t", "maker": "image", "path": "spots.png", "sha": "0" * 64}],
+    "a picture whose file is gone": [
+        {"do": "texture", "name": "t", "maker": "image", "path": "gone.png", "sha": "0" * 64}
+    ],
+    "a picture of other pixels": [
+        {"do": "texture", "name": "t", "maker": "image", "path": "spots.png", "sha": "0" * 64}
+    ],
     "a picture at level 4096": [
         {"do": "texture", "name": "t", "maker": "image", "path": "spots.png"},
         layer("add", "C", kind="picture", texture="t", level=DEEPEST, at=[FAR, 0]),
@@ -346,7 +471,12 @@ LAYERING: dict[str, Commands] = {
 }
 RECORDED: dict[str, Commands] = {
     f"{about}: {name}": commands
-    for about, table in (("placing", SHRINKING), ("selecting", SELECTING), ("painting", PAINTING), ("layering", LAYERING))
+    for about, table in (
+        ("placing", SHRINKING),
+        ("selecting", SELECTING),
+        ("painting", PAINTING),
+        ("layering", LAYERING),
+    )
     for name, commands in table.items()
 }
 
@@ -479,7 +609,17 @@ def _file_fan(of: int, count: int) -> list[dict[str, Any]]:
     common = {"opacity": 1.0, "visible": True, "blend": "src-over", "locked": False}
     out = []
     for i in range(count):
-        inner = [{"kind": "placement", "id": 5000 + 2 * i + side, "name": f"f{i} {side}", "source": of, "at": [side * 7, i], **common} for side in (0, 1)]
+        inner = [
+            {
+                "kind": "placement",
+                "id": 5000 + 2 * i + side,
+                "name": f"f{i} {side}",
+                "source": of,
+                "at": [side * 7, i],
+                **common,
+            }
+            for side in (0, 1)
+        ]
         out.append({"kind": "group", "isolated": False, "visible": i == count - 1, "children": inner})
         of = 1000 + i
     return out

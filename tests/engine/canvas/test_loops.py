@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
@@ -102,3 +103,38 @@ def test_what_shows_a_node_is_told():
     assert [one.name for one in loops.showing(root, "g")] == ["p4", "p5"]
     assert all(loops.source(root, one).id == of for one, of in zip(loops.placements(root), (2, 2, 1), strict=True))
     assert len(list(itertools.islice(loops.placements(root), 9))) == 3
+
+
+def doubled(count, **more):
+    """Groups of two placements of the group before."""
+    return [
+        Group(
+            10 * n,
+            f"g{n}",
+            children=(shows(10 * n + 1, 10 * n - 10, 0, **more), shows(10 * n + 2, 10 * n - 10, 0, **more)),
+        )
+        for n in range(1, count + 1)
+    ]
+
+
+@pytest.mark.parametrize("visible", [False, True])
+def test_more_than_anybody_could_wait_for_is_refused_before_it_is_drawn(visible):
+    """Whether it is seen by now or not."""
+    seed = Group(0x1000, "g0", children=(Layer(0x1001, "a"),))
+    first = [Group(10, "g1", children=(shows(11, 0x1000, 0), shows(12, 0x1000, 0)), visible=visible), *doubled(60)[1:]]
+    assert loops.checked(tree(seed, *first[:8]))
+    with pytest.raises(LayerError, match=r"found \d+,\d+ layers and placements to draw in it, expected at most 8,192"):
+        loops.checked(tree(seed, *first))
+
+
+def test_a_chain_of_placements_has_an_end():
+    def chain(count):
+        return tree(Layer(1, "a"), *(shows(number, number - 1, 0) for number in range(2, count + 2)))
+
+    assert loops.checked(chain(100))
+    with pytest.raises(LayerError, match="placements and groups in one another"):
+        loops.checked(replace(chain(3000), children=chain(3000).children[::-1]))
+
+
+def test_thousands_of_placements_of_one_layer_may_be():
+    assert loops.checked(tree(Layer(1, "a"), *(shows(number, 1, 0) for number in range(2, 3002))))

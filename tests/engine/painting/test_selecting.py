@@ -280,6 +280,7 @@ def test_files_and_recordings_without_selections_say_nothing_of_them(tmp_path):
         ({"rect": [0, 0, 0, 0, 5]}, "W and H at least 1"),
         ({"rect": [4097, 0, 0, 5, 5]}, "L from -4096 to 4096"),
         ({"rect": [0, 0, 0, 1 << 40, 5]}, "take a coarser level"),
+        ({"rect": [0, 0, 0, 10**400, 5]}, "found an integer of about 400 digits x 5 px"),
         ({"ellipse": [4096, 0, 0, 1 << 17, 5]}, "take a coarser level"),
         ({"rect": [0, 0, 0, 5, 5], "all": True}, "at most one of"),
         ({"rect": [0, 0, 0, 5.5, 5]}, "5 integers"),

@@ -118,6 +118,7 @@ def test_what_is_transparent_in_it_shows_the_brushes_colour():
         ({"kind": "square"}, "kind"),
         ({"from": [0]}, "from"),
         ({"to": [10, 20]}, "to"),
+        ({"from": [0, 0], "to": [1e-300, 0]}, "to"),
         ({"to": [math.inf, 0]}, "to"),
         ({"level": 0.5}, "level"),
         ({"ramp": [[0, "#000000"]]}, "ramp"),
