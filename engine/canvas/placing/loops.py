@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from engine.canvas import layers
 from engine.canvas.layers import Group, Node
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing.copies import checked_copies
+from engine.canvas.placing.drawable import checked_drawable
 from engine.canvas.placing.placement import Placement
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def checked(root: Group) -> Group:
     for one in found:
         if one.of is not None and one.of not in nodes:
             raise LayerError(f"layer {one.name!r}: of: found a node that is not there, expected one that is")
-    if checked_copies(root, nodes):
+    if checked_drawable(root, nodes):
         _check_loops(root, found)
     return root
 

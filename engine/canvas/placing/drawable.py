@@ -15,7 +15,7 @@ MOST_DRAWN = 1 << 13  # layers and placements, each as often as it is shown
 MOST_NESTED = 128  # groups and placements in one another
 
 
-def checked_copies(root: Group, nodes: Mapping[int, Node]) -> bool:
+def checked_drawable(root: Group, nodes: Mapping[int, Node]) -> bool:
     """Tells whether something in the tree shows itself; LayerError if there is too much to draw, or too deep.
     `nodes`: all of them, the root too, by their ids.  Each turn of what shows itself counts once."""
     known: dict[int, tuple[int, int]] = {}  # how much there is to draw, and how many lie in one another
