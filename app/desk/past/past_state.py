@@ -17,7 +17,7 @@ Post = Callable[[Request], None]
 
 
 class Run(NamedTuple):
-    """Steps in a row that are shown as one: strokes of one brush, or a single other step."""
+    """Steps in a row that are shown as one: strokes or fills of one brush, steps of one kind, or a single other one."""
 
     steps: tuple[PastStep, ...]
 
@@ -76,9 +76,16 @@ class PastState:
 
 
 def runs_of(steps: Sequence[PastStep]) -> tuple[Run, ...]:
-    """Returns steps in runs: those of one brush together, whatever its size, strength and colour."""
-    grouped = groupby(steps, lambda step: step.number if step.brush is None else look_of(step.brush))
-    return tuple(Run(tuple(run)) for _, run in grouped)
+    """Returns steps in runs: strokes of one brush together, whatever its size, strength and colour, fills likewise, and
+    steps of one kind."""
+    return tuple(Run(tuple(run)) for _, run in groupby(steps, _together))
+
+
+def _together(step: PastStep) -> object:
+    """Returns what steps in a row must have in common to be shown as one."""
+    if step.brush is None:
+        return step.kind or step.number
+    return step.title, look_of(step.brush)
 
 
 def look_of(brush: Brush) -> tuple[object, ...]:
@@ -110,7 +117,10 @@ def brush_name(brush: Brush, presets: Sequence[Preset]) -> str:
 
 def step_name(step: PastStep, presets: Sequence[Preset]) -> str:
     """Returns what a step is called."""
-    return step.title if step.brush is None else brush_name(step.brush, presets)
+    if step.brush is None:
+        return step.title
+    name = brush_name(step.brush, presets)
+    return name if step.title == step.brush.row.label else f"{step.title}: {name}"
 
 
 def when(time: float | None, now: datetime) -> str:

@@ -56,7 +56,7 @@ PastRequest = ShowPast | LookBack | Jump | StopJump | AskHere
 @dataclass(frozen=True, slots=True)
 class PastStep:
     """A step; `brush` of a stroke or a fill, at `level`; `time`: seconds since 1970, if that is known; `picture`: the
-    name of its picture."""
+    name of its picture; `kind`: steps in a row of one are shown together, "" for one that stands for itself."""
 
     index: int
     number: int
@@ -65,6 +65,7 @@ class PastStep:
     brush: Brush | None = None
     level: int = 0
     time: float | None = None
+    kind: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from engine.painting import commands as c
 from engine.painting.fill_command import place_of
-from engine.painting.select_commands import Named, Whole
+from engine.painting.layering.mask_member import (
+    MASK_APPLY,
+    MASK_EMPTY,
+    MASK_FULL,
+    MASK_INVERT,
+    MASK_OFF,
+    MASK_ON,
+    MaskOp,
+)
+from engine.painting.select_commands import Box, Line, Named, Whole
 from engine.painting.times import time_of
 from engine.session.steps import LoggedStep
 from engine.studio.past.past_records import PastStep
@@ -15,11 +24,21 @@ def told(step: LoggedStep, serial: int) -> PastStep:
     command, picture = step.command, f"step {serial}.{step.index}"
     when = time_of(command)
     if isinstance(command, c.Stroke):
-        title = command.brush.row.label
+        title = f"{command.brush.row.label} on the mask" if command.onto else command.brush.row.label
         return PastStep(step.index, step.number, title, picture, command.brush, command.level, when)
     if isinstance(command, c.Fill):
-        return PastStep(step.index, step.number, "Fill", picture, command.brush, place_of(command)[0], when)
-    return PastStep(step.index, step.number, _title(command), picture, time=when)
+        title = "Fill the mask" if command.onto else "Fill"
+        return PastStep(step.index, step.number, title, picture, command.brush, place_of(command)[0], when)
+    title = _title(command)
+    return PastStep(step.index, step.number, title, picture, time=when, kind=_kind(command, title))
+
+
+def _kind(command: c.Command, title: str) -> str:
+    """Returns what steps in a row are shown together as: changes of the selection, and one layer being moved."""
+    if isinstance(command, c.Select):
+        return "Selection"
+    moved = isinstance(command, c.SetLayer) and command.placing is not None and command.selected is None
+    return title if moved else ""
 
 
 def _title(command: c.Command) -> str:
@@ -48,7 +67,7 @@ def _title(command: c.Command) -> str:
             words = {"copy": "Copy", "cut": "Cut"} if aside else {"copy": "Copy from", "cut": "Cut from"}
             return f"{words.get(selected or '', 'Duplicate')} “{name}”"
         case c.MoveLayer(name=name):
-            return f"Move “{name}”"
+            return f"Order of “{name}”"
         case c.SetLayer():
             return _setting(command)
         case c.Select():
@@ -62,6 +81,14 @@ def _title(command: c.Command) -> str:
 
 _JOINING = {"replace": "Select", "add": "Select more", "subtract": "Select less", "intersect": "Select in both"}
 _WHOLE = {"all": "Select all", "none": "Select nothing", "invert": "Invert selection"}
+_MASK_OPS = {
+    MASK_FULL: "Mask of {} shows all",
+    MASK_EMPTY: "Mask of {} hides all",
+    MASK_INVERT: "Invert mask of {}",
+    MASK_APPLY: "Apply mask of {}",
+    MASK_OFF: "Mask of {} off",
+    MASK_ON: "Mask of {} on",
+}
 
 
 def _selecting(command: c.Select) -> str:
@@ -74,7 +101,23 @@ def _selecting(command: c.Select) -> str:
             return f"Keep selection “{command.keep}”" if first is None else f"{first} selection"
         case Named(name=name):
             return f"{_JOINING[command.op]}: “{name}”"
-    return _JOINING[command.op]
+        case Box(round=round_one):
+            what = "ellipse" if round_one else "rectangle"
+        case Line(brush=brush):
+            what = "outline" if brush is None else "by brush"
+        case _:
+            what = "like colour"
+    return f"{_JOINING[command.op]}: {what}"
+
+
+def _placing(name: str, placing: c.Placing) -> str:
+    """Returns how a layer was moved."""
+    quarter = placing.turn not in (0, c.Same.SAME)
+    turned, scaled = quarter or placing.turned is not c.Same.SAME, placing.levels not in (0, c.Same.SAME)
+    mirrored = placing.mirror is True
+    if turned + scaled + mirrored > 1:
+        return f"Transform “{name}”"
+    return f"{'Turn' if turned else 'Scale' if scaled else 'Mirror' if mirrored else 'Move'} “{name}”"
 
 
 def _setting(command: c.SetLayer) -> str:
@@ -83,7 +126,7 @@ def _setting(command: c.SetLayer) -> str:
     if command.selected is not None:
         return f"{'Copy' if command.selected == 'copy' else 'Move'} a part of “{name}”"
     if command.placing is not None:
-        return f"Move “{name}”"
+        return _placing(name, command.placing)
     if "role" in changes:
         return f"“{name}” is a reference" if changes["role"] else f"“{name}” is no reference"
     if "clip" in changes:
@@ -92,6 +135,8 @@ def _setting(command: c.SetLayer) -> str:
         return f"{'Show' if changes['visible'] else 'Hide'} “{name}”"
     if "opacity" in changes:
         return f"Opacity of “{name}”: {changes['opacity']:.0%}"
+    if isinstance(command.mask, MaskOp):
+        return _MASK_OPS[command.mask.op].format(f"“{name}”")
     if command.mask is not None:
         return f"{'Mask' if command.mask else 'No mask'} of “{name}”"
     if command.clip is not None:
@@ -100,4 +145,8 @@ def _setting(command: c.SetLayer) -> str:
         return f"Blending of “{name}”"
     if "wrap" in changes:
         return f"“{name}” wraps around" if changes["wrap"] is not None else f"“{name}” no longer wraps around"
-    return f"Lock of “{name}”"
+    if "isolated" in changes:
+        return f"“{name}” {'by itself' if changes['isolated'] else 'not by itself'}"
+    if "locked" in changes:
+        return f"{'Lock' if changes['locked'] else 'Unlock'} “{name}”"
+    return f"{'Lock' if changes.get('alpha_locked') else 'Unlock'} the alpha of “{name}”"
