@@ -102,10 +102,9 @@ def _base(waits: Attenuation, rect: Rect) -> np.ndarray:
     """Returns a at the stroke's own level: 1 outside its tiles."""
     keep = np.ones((rect.height, rect.width), np.float32)
     for key in rect.tiles(waits.change.level):
-        tile = waits.keep.get((key.x, key.y))
-        if tile is not None:
-            part = key.rect.intersect(rect)
-            keep[part.slices(rect)] = tile[part.slices(key.rect)]
+        kept = waits.keep.get((key.x, key.y))
+        if kept is not None and not (part := kept.rect.intersect(rect)).empty:
+            keep[part.slices(rect)] = kept.data[part.slices(kept.rect)]
     return keep
 
 

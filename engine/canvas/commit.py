@@ -11,14 +11,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from engine.brush.stamp import Edit
 from engine.canvas.attenuate import fold
 from engine.canvas.evaluate import evaluate
 from engine.canvas.front import Around, Patch, climbs, cropped, lift, united
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
+from engine.canvas.rising.lasting import Lasting
 from engine.canvas.store import Attenuation, Change, Level, Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
@@ -28,7 +27,7 @@ from engine.texture.record import Instance
 if TYPE_CHECKING:
     from immutables._protocols import MapMutation
 
-Keeps = dict[tuple[int, int], np.ndarray]
+Keeps = dict[tuple[int, int], Lasting]
 _AT_ONCE = 96 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
 _FEW = 1 << 18  # pixels of bounds whose inks are not counted: smaller pieces would not be fewer bytes
 _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together; where much
@@ -80,8 +79,13 @@ def commit(pyramid: Pyramid, edit: Edit, cache: TileCache | None = None) -> Pyra
 def _noted(painted: Sequence[Patch], keeps: Keeps | None) -> Rect:
     """Returns the bounds of what changed; A by tile for the finer levels."""
     if keeps is not None:
-        keeps.update(((patch.key.x, patch.key.y), patch.keep) for patch in painted)
+        keeps.update(((patch.key.x, patch.key.y), _lasting(patch)) for patch in painted)
     return united(patch.dirty for patch in painted)
+
+
+def _lasting(patch: Patch) -> Lasting:
+    """Returns A of a patch where it is not 1."""
+    return Lasting(patch.dirty, patch.keep[patch.dirty.slices(patch.at)].copy())
 
 
 def _climb_to_the_top(
@@ -248,7 +252,13 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
             known = known.set(k, blocks.after(finished, [(key.x, key.y) for key in keys]))
     after = replace(pyramid, levels=levels, last=change, waits=waits, commits=number, known=known)
     waiting = list(after.waiting()) if keeps else []
-    return fold(after, waiting[_MOST_WAITING].change.depth) if len(waiting) > _MOST_WAITING else after
+    if len(waiting) <= _MOST_WAITING:
+        return after
+    folded = fold(after, waiting[_MOST_WAITING].change.depth)
+    for gone in waiting[_MOST_WAITING:]:  # only older states have them by now
+        for kept in gone.keep.values():
+            kept.pack()
+    return folded
 
 
 def _write(editable: MapMutation[tuple[int, int], Record], keys: Iterable[TileKey], records: NewRecords) -> None:

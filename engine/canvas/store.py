@@ -19,6 +19,7 @@ from typing import Protocol
 import immutables
 import numpy as np
 
+from engine.canvas.rising.lasting import Lasting
 from engine.canvas.rising.tile_blocks import Blocks
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.arithmetic import FINE
@@ -122,12 +123,12 @@ class Change:
 class Attenuation:
     """What a commit leaves of finer detail, waiting to be applied; linked to the one before.
 
-    `keep`: A at the commit's level by tile, float32 (128, 128), 1 elsewhere; `spares_alpha`: alpha keeps all of itself;
+    `keep`: A at the commit's level by tile, 1 elsewhere; `spares_alpha`: alpha keeps all of itself;
     `number`: of the commit (`Pyramid.commits`).
     """
 
     change: Change
-    keep: Mapping[tuple[int, int], np.ndarray]
+    keep: Mapping[tuple[int, int], Lasting]
     before: Attenuation | None
     spares_alpha: bool = False
     number: int = 0
@@ -135,7 +136,7 @@ class Attenuation:
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return RECORD_OVERHEAD + sum(a.nbytes for a in self.keep.values())
+        return RECORD_OVERHEAD + sum(kept.nbytes for kept in self.keep.values())
 
 
 Level = immutables.Map[tuple[int, int], Record]
