@@ -34,6 +34,10 @@ def draw_guides(desk: Desk) -> None:
 def draw_path(desk: Desk) -> None:
     """Draws the shape in hand, and its copies, as thin lines."""
     path, guide = desk.guides.path, symmetry.guide_of(desk)
+    if desk.guides.bar:
+        _path(desk, desk.guides.bar, 0.6)
+        for at in desk.guides.bar:
+            _handle(desk, at)
     if len(path) < 2:
         return
     _path(desk, path, 1.0)

@@ -24,6 +24,7 @@ _IMGUI_BUTTON = {LEFT: 0, RIGHT: 1, MIDDLE: 2}
 _ACTIONS = {BACK: "back", FORWARD: "forward"}  # of buttons that mean the same wherever they are pressed
 _AWAY = -3.4e38  # where imgui looks for a pointer that is not there
 FOCUSING = 0.5  # seconds after a press on a panel in which a text field there may get the focus
+_TOLD = {"Enter": "done", "Backspace": "back"}  # keys that a gesture is told of
 _TYPED_ANYWHERE = ("Ctrl+S", "Ctrl+Q", "F1")
 
 
@@ -157,8 +158,8 @@ class Router:
         if keys == "Escape" and self.gesture is not None:
             self.cancel()
             return
-        if keys == "Enter" and self.gesture is not None:
-            self._send(replace(self._last, kind="done"))
+        if keys in _TOLD and self.gesture is not None:
+            self._send(replace(self._last, kind=_TOLD[keys]))
             return
         dialog = _dialog(self.desk, self.layout)
         if keys == "Escape" and self.layout.popup and not dialog:

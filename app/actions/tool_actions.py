@@ -63,6 +63,7 @@ def _drawing(tool: str, title: str, key: str, hint: str) -> A:
 _SHAPES = {
     "line": ("Draw a line", "U", "A straight line"),
     "polyline": ("Draw a polyline", "Shift+U", "A line with corners"),
+    "curve": ("Draw a curve", "Ctrl+U", "A curve with handles"),
     "rectangle": ("Draw a rectangle", "N", "A rectangle or a square"),
     "ellipse": ("Draw an ellipse", "Shift+N", "An ellipse or a circle"),
 }

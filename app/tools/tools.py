@@ -39,6 +39,13 @@ TOOLS: dict[str, Tool] = {
         "A corner at each click; Enter or a double click ends it",
         True,
     ),
+    "draw_curve": Tool(
+        "Curve",
+        icons.CURVE,
+        DRAWN["draw_curve"],
+        "Click, and drag to bend; Enter or a double click ends it, Backspace takes the last knot back",
+        True,
+    ),
     "guides": Tool(
         "Move guides", icons.GUIDES, move_guide, "Drag the points of guides, or the axis of symmetry; by 15° with Shift"
     ),

@@ -134,3 +134,51 @@ def test_a_shape_has_the_copies_of_the_symmetry(desk):
     with pytest.raises(StopIteration):
         events(DRAWN["draw_line"](desk, PenEvent("down", 200, 200)), PenEvent("up", 300, 260))
     assert len(posted[0].copies) == 3
+
+
+KNOT = st.builds(shape_paths.Knot, *[st.floats(-900, 900)] * 4, st.floats(0, 1))
+
+
+@given(st.lists(KNOT, min_size=2, max_size=5))
+def test_a_curve_goes_through_its_knots_along_their_handles_and_is_cut_finely(knots):
+    rows = np.array(shape_paths.bezier(knots))
+    at = [np.flatnonzero((rows[:, :2] == (knot.x, knot.y)).all(axis=1)) for knot in knots]
+    assert all(len(found) for found in at)
+    assert rows[:, 2].min() >= min(knot.pressure for knot in knots) - 1e-9
+    one, other = knots[:2]
+    rows = np.array(shape_paths.bezier(knots[:2]))
+    for t in (0.3, 0.77):
+        u = 1 - t
+        ways = ((one.x, one.dx, other.dx, other.x), (one.y, one.dy, other.dy, other.y))
+        place = [u**3 * a + 3 * u * u * t * (a + da) + 3 * u * t * t * (b - db) + t**3 * b for a, da, db, b in ways]
+        start, finish = rows[:-1, :2], rows[1:, :2]
+        along = finish - start
+        part = ((place - start) * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-12)
+        gaps = np.hypot(*(place - start - np.clip(part, 0, 1)[:, None] * along).T)
+        assert gaps.min() < 0.11
+
+
+def test_a_curve_is_clicked_bent_taken_back_and_ended(desk):
+    desk, posted = desk
+    gesture = DRAWN["draw_curve"](desk, PenEvent("down", 200, 200, time=0.0))
+    told = [
+        PenEvent("move", 240, 160, time=0.1), PenEvent("up", 240, 160, time=0.2),
+        PenEvent("down", 340, 220, time=1.0), PenEvent("up", 340, 220, time=1.1),
+        PenEvent("down", 640, 520, time=2.0), PenEvent("up", 640, 520, time=2.1), PenEvent("back", 640, 520),
+    ]  # fmt: skip
+    events(gesture, *told)
+    assert len(desk.guides.path) > 10
+    with pytest.raises(StopIteration):
+        gesture.send(PenEvent("done", 640, 520))
+    begin, points, _ = posted
+    assert [type(one) for one in posted] == [Begin, Points, Finish]
+    assert desk.guides.path == desk.guides.bar == ()
+    ends = [desk.view.to_canvas(*at).offset(begin.level, *begin.origin) for at in ((200, 200), (340, 220))]
+    assert points.points[0, :2] == pytest.approx(ends[0])
+    assert points.points[-1, :2] == pytest.approx(ends[1])
+    assert len(points.points) > 5
+    posted.clear()
+    gesture = DRAWN["draw_curve"](desk, PenEvent("down", 200, 200, time=0.0))
+    with pytest.raises(StopIteration):
+        events(gesture, PenEvent("up", 200, 200), PenEvent("back", 200, 200))
+    assert posted == []

@@ -18,12 +18,13 @@ class Held(NamedTuple):
 
 @dataclass(slots=True)
 class GuideState:
-    """`held`: the guide in hand; `path`: the shape in hand, on the screen; `last`: where the last stroke ended;
-    `seams`: the textures that were said not to fit a tile; `shown`: whether guides are drawn; `snaps`: whether strokes
-    are drawn onto them; `chosen`: the name of the one whose numbers are shown."""
+    """`held`: the guide in hand; `path`: the shape in hand, on the screen; `bar`: the handles of its last knot; `last`:
+    where the last stroke ended; `seams`: the textures that were said not to fit a tile; `shown`: whether guides are
+    drawn; `snaps`: whether strokes are drawn onto them; `chosen`: the name of the one whose numbers are shown."""
 
     held: Held | None = None
     path: tuple[tuple[float, float], ...] = ()
+    bar: tuple[tuple[float, float], ...] = ()
     last: Place | None = None
     seams: tuple[str, ...] = ()
     shown: bool = True

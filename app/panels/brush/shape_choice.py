@@ -16,7 +16,7 @@ def draw(desk: Desk, side: float) -> None:
     """Draws the button, `side` pixels wide, lit while a shape is chosen."""
     chosen = desk.hand.tool in DRAWN
     icon = TOOLS[desk.hand.tool].icon if chosen else icons.SHAPES
-    if w.icon_button("shapes", icon, "Line, rectangle, ellipse, polyline, drawn by the brush", on=chosen, size=side):
+    if w.icon_button("shapes", icon, "Lines, curves, rectangles, ellipses, drawn by the brush", on=chosen, size=side):
         imgui.open_popup("shapes")
     if not imgui.begin_popup("shapes"):
         return

@@ -8,14 +8,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.archive.export import Picture, export
 from engine.archive.manifest import FORMAT, MANIFEST, format_of
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.brush.checks import frozen
 from engine.checks.field_error import FieldError
+from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import recording as r
-from engine.painting.guiding.guides import GUIDES_CAP, guides_after, read_guides, write_guide
+from engine.painting.guiding.guides import GUIDE_KINDS, GUIDES_CAP, guides_after, read_guides, write_guide
 from engine.session.apply import Painting, Refusal
 from engine.session.replay import replay
 from engine.session.session import Session
@@ -78,6 +80,31 @@ def test_a_recording_and_a_file_hold_them(tmp_path):
     assert list(open_painting(tmp_path / "a.ora").painting.guides.values()) == [DEEP, OFF]
     session.do(c.RemoveGuide("axis"))
     assert list(session.painting.guides.values()) == [OFF]
+
+
+def test_no_export_shows_them(tmp_path):
+    """Neither a picture nor the pictures within a file for other programs."""
+    session = Session()
+    for command in (c.AddLayer("A"), c.SetFrame(Rect(0, 0, 90, 70))):
+        session.do(command)
+    stroke = {"do": "stroke", "points": [[20, 20], [70, 60]], "brush": {"radius": 9, "colour": "#c03020"}}
+    session.do(c.parse(stroke))
+    bare = session.painting
+    for n, kind in enumerate(GUIDE_KINDS):
+        points = [[0, 0], [40, 12], [-9, 30]][: GUIDE_KINDS[kind].points]
+        told = {"do": "guide", "name": kind, "kind": kind, "points": points, "snap": 0.5, "colour": "#ff0000"}
+        session.do(c.parse({**told, "at": [10 + n, 30]}))
+    assert len(session.painting.guides) == len(GUIDE_KINDS)
+    pictures = []
+    for name, painting in (("bare", bare), ("guided", session.painting)):
+        export(tmp_path / f"{name}.png", Picture(painting))
+        save(tmp_path / f"{name}.ora", Snapshot(painting, None))
+        with zipfile.ZipFile(tmp_path / f"{name}.ora") as file:
+            shown = [file.read(member) for member in ("mergedimage.png", "Thumbnails/thumbnail.png")]
+        pictures.append([(tmp_path / f"{name}.png").read_bytes(), *shown])
+    assert pictures[0] == pictures[1]
+    opened = open_painting(tmp_path / "guided.ora").painting.guides
+    assert list(opened.values()) == list(session.painting.guides.values())
 
 
 def test_what_a_file_tells_wrongly_is_left_out_with_a_line():
