@@ -15,6 +15,7 @@ from bench import Figure
 from bench.clock import processor
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, Layer, layers
+from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import kept_planes, layer_planes
@@ -83,7 +84,7 @@ def _within(name: str, look: Work, most: float, repeats: int) -> Figure:
 
 def _look(root: Group, level: int, view: Rect, kept: bool = False) -> Work:
     """All tiles of the screen, as the window's are made; `kept`: those of the layers are there from the last time."""
-    held = TileCache(CACHE)
+    held, planned = TileCache(CACHE), Planned.of(root)
 
     def look() -> None:
         cache = held if kept else TileCache(CACHE)
@@ -97,7 +98,7 @@ def _look(root: Group, level: int, view: Rect, kept: bool = False) -> Work:
         for y in range(view.y0 - view.y0 % SCREEN_TILE, view.y1, SCREEN_TILE):
             for x in range(view.x0 - view.x0 % SCREEN_TILE, view.x1, SCREEN_TILE):
                 tile = Rect.at(x, y, SCREEN_TILE, SCREEN_TILE)
-                composite(root, level, tile, piece_reader(level, tile, read, placed))
+                composite(planned, level, tile, piece_reader(level, tile, read, placed))
 
     return look
 
