@@ -38,6 +38,7 @@ from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
 
 STACK = "stack.xml"
+_NO_PAINT = Pyramid()
 NOTES = 20
 PIXELS = 1 << 24  # of a band of rows that is laid down at once
 _LAID_ROWS = 512  # rows of a picture that are laid down at once, at most
@@ -104,16 +105,18 @@ def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) 
         held.append(band)
         count += band.shape[0] * band.shape[1]
         if count > grounds.LAID:
-            return _committed(chain(held, bands), x, y, cancelled)
+            return committed(chain(held, bands), (x, y), cancelled)
     return grounds.lay_ground(held[0] if len(held) == 1 else np.concatenate(held), x, y) if held else Pyramid()
 
 
-def _committed(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop) -> Pyramid:
-    """Returns the same, part by part."""
-    pyramid = Pyramid()
+def committed(
+    bands: Iterator[np.ndarray], corner: tuple[int, int], cancelled: Stop, pyramid: Pyramid = _NO_PAINT, level: int = 0
+) -> Pyramid:
+    """Returns the same, part by part, laid onto a pyramid at a level."""
+    x, y = corner
     for rows in _regrouped(bands, y):
         check_cancelled(cancelled)
-        pyramid = commit(pyramid, Pasted(rows, Rect.at(x, y, rows.shape[1], len(rows))))
+        pyramid = commit(pyramid, Pasted(rows, Rect.at(x, y, rows.shape[1], len(rows)), level))
         y += len(rows)
     return pyramid
 

@@ -15,6 +15,7 @@ from immutables import Map
 from engine.archive import grounds, plot_files
 from engine.archive.grounds import GroundEntry
 from engine.archive.implied import TEXTURES
+from engine.archive.others.lost_sources import layers_instead, lost_sources, told_of
 from engine.archive.plot_files import ExampleEntry, PlotEntry
 from engine.archive.selected import selection_files
 from engine.archive.selected.selection_files import Chosen, SelectionEntry
@@ -75,7 +76,8 @@ class PictureEntry:
 class Manifest:
     """The parsed manifest.  `root` has layers without paint; `packs`: where their paint is, by the layer's id;
     `plots`: what was painted there with `examples`; `members`: (size, SHA-256) of all members but the manifest;
-    `notes`: what of it could not be read and is left out, a line each."""
+    `pictured`: the layers whose paint is their picture, as what they showed is not there; `notes`: what could not be
+    read and is left out, a line each."""
 
     frame: Rect
     seed: int
@@ -99,6 +101,7 @@ class Manifest:
     selections: tuple[SelectionEntry, ...] = ()
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
     paper: str | None = None
+    pictured: frozenset[int] = frozenset()
 
     def textures_with(self, pictures: Mapping[str, ImageSource]) -> Map[str, Texture]:
         """Returns the named textures; FieldError if one cannot be made."""
@@ -243,7 +246,10 @@ def parse_manifest(value: Any) -> Manifest:
     if members.take("unit", expected="a value") != _UNIT.format(held.grid):
         raise members.fault("unit", repr(_UNIT.format(held.grid)))
     nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
-    root = loops.checked(layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes)))
+    told = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
+    lost = lost_sources(told)
+    root = loops.checked(layers_instead(told, lost, held.grid) if lost else told)
+    held.packs.update((one.id, ()) for one in lost)
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
         raise members.fault("active", "the name of a layer")
@@ -262,12 +268,13 @@ def parse_manifest(value: Any) -> Manifest:
         {name: _member(v, f"members.{name}") for name, v in _object(members, "members").items()},
         TEXTURES if version < 2 else members.integer("texture", lo=1, hi=1 << 30),
         members.integer("synthesis", SYNTHESIS, lo=1, hi=1 << 30),
-        *_bookmarks(members.take("bookmarks", []), left_out),
+        *_bookmarks(members.take("bookmarks", []), [*told_of(lost), *left_out]),
         members.integer("arithmetic", LIBRARY, lo=LIBRARY, hi=EVERYWHERE),
         held.grid,
         selection_files.read_selections(members.take("selections", []), _packs),
         guides,
         read_paper(members) if version > PLACED_FORMAT else None,
+        frozenset(one.id for one in lost),
     )
 
 

@@ -20,6 +20,7 @@ from engine.archive.implied import TEXTURES, Coded, restored
 from engine.archive.imports import STACK, Opened, read_raster
 from engine.archive.manifest import FORMAT, MANIFEST, RECORDING, Manifest, Pack, PictureEntry, parse_manifest
 from engine.archive.members import LOST, PIECE, WORKERS, Members, Stored
+from engine.archive.others.lost_sources import picture_paint
 from engine.archive.packing import unpack
 from engine.archive.plot_files import Mark, Nursery
 from engine.archive.selected import selection_files
@@ -180,6 +181,9 @@ class _Opening:
                     shelf = Shelf()
                     tiles = shelved(list(self._tiles(manifest.packs[layer.id], members, sources, at_once=False)), shelf)
                     ground = laid.pop(layer.id).result() if layer.id in laid else layer.pyramid
+                    if layer.id in manifest.pictured:
+                        found = picture_paint(self._archive, layer, manifest.frame, self._limits, self._cancelled)
+                        ground = found or ground
                     pyramid = shelf.laid(grounds.with_tiles(ground, self._levels(tiles)))
                     coloured.append(colours.submit(_coloured, shelf, pyramid, tiles, squares.map))
                     root = layers.with_pyramid(root, layer.name, pyramid)
