@@ -5,21 +5,23 @@ from __future__ import annotations
 from dataclasses import replace
 
 from engine.canvas import layers
-from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
+from engine.canvas.placing import loops
 from engine.canvas.placing.bake import baked
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, Pose
 from engine.painting.layering.placing_members import Placing, Same
 from engine.painting.value import Painting
+from engine.session.lifting.moved_group import group_moved, layer_moved, moves_exactly
 
 
 def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Painting:
     """Returns the painting with a layer or group elsewhere, as a placement would show it.
 
-    A layer that is moved by quarter turns and powers of two stays one, with its paint in other places.  Any other node
-    stays where it is, hidden, as "NAME (source)", and a placement shows it under its name.
+    A layer that is moved by quarter turns and powers of two stays one, with its paint in other places, and so does a
+    group of such, unless it shows what holds it or is shown elsewhere.  Any other node stays where it is, hidden, as
+    "NAME (source)", and a placement shows it under its name.
     """
     given = placing.fields() or placing.of is not Same.SAME
     if given:
@@ -28,15 +30,18 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
     if isinstance(node, Layer) and node.wrap is not None:
         raise LayerError(f"layer {node.name!r}: found it wrapped around, expected wrap-around off before it is moved")
     if isinstance(node, Layer) and pose.similarity.quarter is not None:
-        paint = (flattened(node) if node.growth else node).pyramid
         mask = None if node.mask is None else replace(node.mask, pyramid=baked(node.mask.pyramid, pose.similarity))
-        here = replace(node, pyramid=baked(paint, pose.similarity), growth=(), mask=mask)
+        here: Node = layer_moved(replace(node, mask=mask), pose.similarity)
+        return replace(painting, root=layers.substitute(painting.root, node.name, here))
+    if isinstance(node, Group) and pose.similarity.quarter is not None and moves_exactly(painting.root, node):
+        here = group_moved(node, pose.similarity)
         return replace(painting, root=layers.substitute(painting.root, node.name, here))
     return replace(painting, root=shown_from_beside(painting.root, node, pose))
 
 
 def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -> Painting:
-    """Returns how a painting looks with a node, or a copy of it, elsewhere, made at once: no paint is touched."""
+    """Returns how a painting looks with a node, or a copy of it, elsewhere, made at once: no paint is touched.
+    LayerError if it cannot be."""
     node = layers.find(painting.root, name)
     if copy:
         root = _shown_besides(painting.root, node, placing)
@@ -44,7 +49,7 @@ def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -
         root = layers.substitute(painting.root, name, replace(node, pose=placing.posed(node.pose)))
     else:
         root = shown_from_beside(painting.root, node, placing.posed(UNMOVED))
-    return replace(painting, root=root)
+    return replace(painting, root=loops.checked(root))
 
 
 def _shown_besides(root: Group, node: Node, placing: Placing) -> Group:

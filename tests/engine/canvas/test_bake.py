@@ -88,6 +88,17 @@ def test_a_move_by_large_powers_of_two_moves_every_record(grid):
         )
 
 
+def test_a_move_by_single_pixels_is_exact_on_the_coarse_grid():
+    pyramid = painted(12)
+    for pose in (Pose(at=(5, 3)), Pose(at=(-7, 1), level=1, turn=1), Pose(at=(1, 1), level=-1, mirror=True)):
+        similarity = pose.similarity
+        made = baked(pyramid, similarity)
+        for level in range(similarity.aligned_from or 0, 4):
+            around = similarity.shown(Rect(-130, -130, 190, 190), 0, level)
+            middle = Rect.at((around.x0 + around.x1) // 2 - 70, (around.y0 + around.y1) // 2 - 60, 140, 120)
+            compare(pyramid, made, similarity, level, middle)
+
+
 def test_nothing_stays_nothing():
     assert not baked(Pyramid(), Pose(at=(3, 4)).similarity).levels
 

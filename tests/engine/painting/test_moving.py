@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from engine.canvas import layers
 from engine.canvas.composite import composite
+from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose
 from engine.canvas.reading import layer_planes
@@ -78,6 +79,51 @@ def test_a_group_keeps_all_that_it_shows():
     before = picture(session.painting)
     session.do(c.parse({"do": "layer", "set": "Group", "at": [5, 3]}))
     np.testing.assert_array_equal(picture(session.painting, 0, Rect(-55, -47, 145, 123)), before)
+
+
+INNER = {"do": "layer", "add": "Again", "kind": "placement", "of": "Layer 1", "group": "Group"}
+GROUPED = (
+    {"do": "layer", "add": "Group", "kind": "group"},
+    {"do": "layer", "move": "Layer 1", "to": 0, "group": "Group"},
+    {**INNER, "c": [0.8, 0.6], "at": [9, 40], "rect": [0, 0, 0, 50, 40]},
+    {"do": "select", "ellipse": [0, -10, -10, 90, 70]},
+    {"do": "layer", "set": "Group", "opacity": 0.7, "mask": True},
+)
+
+
+@settings(deadline=None, max_examples=5)
+@given(st.integers(-40, 40), st.integers(-40, 40), st.integers(0, 3), st.booleans(), st.integers(-1, 1))
+def test_a_group_that_is_moved_exactly_stays_one(x, y, turn, mirror, levels):
+    session = painted(*GROUPED)
+    before = session.painting
+    where = {"do": "layer", "set": "Group", "at": [x, y], "turn": turn, "mirror": mirror, "levels": levels}
+    seen = picture(tried(before, "Group", c.parse(where).placing))
+    session.do(c.parse(where))
+    assert [n.name for n in layers.walk(session.painting.root)] == [n.name for n in layers.walk(before.root)]
+    np.testing.assert_allclose(picture(session.painting), seen, atol=0.02)  # the mask was sampled in another place
+    assert np.abs(picture(session.painting) - seen).mean() < 2e-4
+    session.do(c.parse({"do": "undo"}))
+    np.testing.assert_array_equal(picture(session.painting), picture(before))
+
+
+def test_a_group_that_shows_the_whole_painting_is_not_moved():
+    inside = {"of": None, "group": "Group", "levels": -1, "rect": [0, 0, 0, 64, 64]}
+    session = painted(*GROUPED[:2], {**INNER, **inside})
+    command = c.parse({"do": "layer", "set": "Group", "at": [5, 3]})
+    with pytest.raises(LayerError, match="shows itself"):
+        tried(session.painting, "Group", command.placing)
+    with pytest.raises(Refusal, match="shows itself"):
+        session.do(command)
+
+
+@pytest.mark.parametrize("shown", ["Group", "Layer 1"])
+def test_a_group_that_is_shown_elsewhere_stays_as_a_source(shown):
+    more = {"do": "layer", "add": "More", "kind": "placement", "of": shown, "at": [200, 0], "group": None}
+    session = painted(*GROUPED[:2], more)
+    seen = picture(tried(session.painting, "Group", c.parse({"do": "layer", "set": "Group", "at": [5, 3]}).placing))
+    session.do(c.parse({"do": "layer", "set": "Group", "at": [5, 3]}))
+    assert layers.has(session.painting.root, "Group (source)")
+    np.testing.assert_array_equal(picture(session.painting), seen)
 
 
 def test_what_cannot_be_is_refused():
