@@ -245,11 +245,7 @@ def parse_manifest(value: Any) -> Manifest:
     held = _Held(read_grid(members) if version > FINE_FORMAT else FINE)
     if members.take("unit", expected="a value") != _UNIT.format(held.grid):
         raise members.fault("unit", repr(_UNIT.format(held.grid)))
-    nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
-    told = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
-    lost = lost_sources(told)
-    root = loops.checked(layers_instead(told, lost, held.grid) if lost else told)
-    held.packs.update((one.id, ()) for one in lost)
+    root, lost = _tree(members, held)
     active = members.take("active", None)
     if active is not None and not (isinstance(active, str) and layers.has(root, active)):
         raise members.fault("active", "the name of a layer")
@@ -276,6 +272,15 @@ def parse_manifest(value: Any) -> Manifest:
         read_paper(members) if version > PLACED_FORMAT else None,
         frozenset(one.id for one in lost),
     )
+
+
+def _tree(members: Fields, held: _Held) -> tuple[Group, tuple[Placement, ...]]:
+    """Returns the tree, with layers for those placements that show what is not there, and these."""
+    nodes = tuple(_node(v, f"layers[{i}]", held, 0) for i, v in enumerate(_list(members, "layers")))
+    root = layers.checked(Group(layers.EMPTY.id, layers.EMPTY.name, children=nodes))
+    lost = lost_sources(root)
+    held.packs.update((one.id, ()) for one in lost)
+    return loops.checked(layers_instead(root, lost, held.grid) if lost else root), lost
 
 
 def _frame(members: Fields) -> Rect:
