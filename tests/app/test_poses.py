@@ -1,5 +1,6 @@
 """Scales, turns and places of what is moved: what is exact stays exact, what is set back is as it was."""
 
+import math
 from fractions import Fraction
 
 import pytest
@@ -92,6 +93,28 @@ def test_turns_snap_to_quarters_and_by_steps_to_fifteen_degrees():
     assert spin.turned(80.0).snapped_turn(True).degrees == 75.0
     assert spin.scaled(0.49).snapped_scale() == Spin(-1, 1.0, 0.0)
     assert not spin.scaled(0.7).snapped_scale().exact
+
+
+@given(
+    st.floats(-3, 3), st.floats(-2, 6), st.integers(-20, 20), st.integers(-20, 20), st.integers(100, 900),
+    st.integers(100, 900),
+)  # fmt: skip
+def test_handles_of_what_is_larger_than_the_view_are_kept_within_it(angle, zoom, x, y, width, height):
+    area = (240.0, 20.0, 1000.0, 770.0)
+    view = View(Place(0, 0, 0), int(zoom // 1), zoom % 1, 1280, 800, angle)
+    part = SourcePart(0, Rect.at(x - width, y - height, 2 * width, 2 * height))
+    box = box_of(view, 1.0, part, UNMOVED, area)
+    free = box_of(view, 1.0, part, UNMOVED)
+    if not box.holds(620.0, 395.0):
+        return
+    for name, at in (*box.handles.items(), (TURN, box.turner)):
+        assert 250 <= at[0] <= 990
+        assert 60 <= at[1] <= 760
+        was = free.turner if name == TURN else free.at(*SCALES[name])
+        inside = 300 <= was[0] <= 940 and 120 <= was[1] <= 700
+        assert not inside or math.dist(at, was) < 1e-6
+        across, down = (was[0] - 620.0, was[1] - 395.0), (at[0] - 620.0, at[1] - 395.0)
+        assert abs(across[0] * down[1] - across[1] * down[0]) <= 1e-6 * (math.hypot(*across) * math.hypot(*down) + 1)
 
 
 @given(

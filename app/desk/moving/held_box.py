@@ -24,7 +24,11 @@ def seen_box(desk: Desk) -> Box | None:
     if desk.hand.tool != TOOL or row is None or desk.past.looking is not None:
         return None
     held = part(desk, row)
-    return None if held is None else box_of(desk.view, desk.scale, held, desk.moving.pose(desk.known, row))
+    return (
+        None
+        if held is None
+        else box_of(desk.view, desk.scale, held, desk.moving.pose(desk.known, row), desk.free_area())
+    )
 
 
 def hover(desk: Desk) -> None:

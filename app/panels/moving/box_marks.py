@@ -26,7 +26,7 @@ def draw(desk: Desk) -> None:
     if box is None:
         return
     painter = imgui.get_background_draw_list()
-    lines = [[*box.corners, box.corners[0]], [box.at(0, -1), box.turner]]
+    lines = [[*box.corners, box.corners[0]], [box.handles.get("top", box.at(0, -1)), box.turner]]
     for (rgb, alpha), width in ((_DARK, 2.6), (_LIGHT, 1.2)):
         for line in lines:
             for a, b in pairwise(line):
