@@ -76,6 +76,9 @@ TOOL_ACTIONS: dict[str, A] = {
     "gradient": A(
         "Gradient", "Tools", ("Shift+G",), "Fill with a gradient", _tool("gradient"), always, _is("gradient")
     ),
+    "enclose": A(
+        "Fill within", "Tools", ("Alt+G",), "Fill all that you go round", _tool("enclose"), always, _is("enclose")
+    ),
     "fill_all": A("Fill all the same", "Tools", (), "Fill up to the end of what is looked at", _fill_all, _leaks),
     "pan": A("Pan", "Tools", ("H",), "Drag the picture", _tool("pan"), always, _is("pan")),
     "zoom": A("Zoom", "Tools", ("Z",), "Drag to zoom", _tool("zoom"), always, _is("zoom")),

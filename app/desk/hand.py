@@ -15,7 +15,7 @@ from engine.painting.commands import DefineTexture
 
 HISTORY = 24  # colours remembered
 SMALLEST, LARGEST = 0.5, 2000.0  # radius of a brush on the screen, pixels
-WITH_BRUSH = ("brush", "fill")  # tools that lay what the brush lays
+WITH_BRUSH = ("brush", "fill", "enclose")  # tools that lay what the brush lays
 BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
 

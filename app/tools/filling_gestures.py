@@ -1,6 +1,8 @@
-"""What fills a region of like colour: a click with the brush in hand, a colour that is dropped there."""
+"""What fills a region of like colour: a click with the brush in hand, a colour or a texture dropped there."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 from app.desk.colours import RGB, to_hex
 from app.desk.desk import Desk
@@ -9,9 +11,12 @@ from app.desk.filling.pouring import may_fill, outruns, post_fill, pour
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from app.tools.painting_gestures import refused
+from engine.brush.parts import Component
 from engine.brush.settings import Brush
+from engine.painting.commands import DefineTexture
 from engine.painting.fill_command import Fill, Like
 from engine.painting.layering.placing_members import Same
+from engine.studio.requests import Do
 
 
 def fill(desk: Desk, first: PenEvent) -> Gesture:
@@ -28,10 +33,24 @@ def fill(desk: Desk, first: PenEvent) -> Gesture:
 
 def drop_colour(desk: Desk, rgb: RGB, x: float, y: float) -> None:
     """Fills what is like a place on the screen with a plain colour."""
+    _dropped(desk, Brush(colour=to_hex(rgb)), x, y)
+
+
+def drop_texture(desk: Desk, needs: Iterable[DefineTexture], part: Component, x: float, y: float) -> None:
+    """Fills what is like a place on the screen with a texture over the colour in hand; `needs`: what the painting lacks
+    for that."""
+    if refused(desk) or not may_fill(desk):
+        return
+    for command in needs:
+        desk.post(Do(command))
+    _dropped(desk, Brush(colour=to_hex(desk.hand.colour), ink=(part,)), x, y)
+
+
+def _dropped(desk: Desk, brush: Brush, x: float, y: float) -> None:
     if refused(desk) or not may_fill(desk):
         return
     like = like_at(desk, x, y)
-    post_fill(desk, Fill(Brush(colour=to_hex(rgb)), like, open=outruns(desk, like)))
+    post_fill(desk, Fill(brush, like, open=outruns(desk, like)))
 
 
 def like_at(desk: Desk, x: float, y: float) -> Like:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app import icons
 from app.tools.asking_gestures import pick
+from app.tools.enclosing_gestures import enclose
 from app.tools.filling_gestures import fill
 from app.tools.gesture import Tool
 from app.tools.gradient_gestures import gradient
@@ -50,6 +51,9 @@ TOOLS: dict[str, Tool] = {
         "Move guides", icons.GUIDES, move_guide, "Drag the points of guides, or the axis of symmetry; by 15° with Shift"
     ),
     "fill": Tool("Fill", icons.FILL, fill, "Click a region: it is filled with the chosen brush"),
+    "enclose": Tool(
+        "Fill within", icons.ENCLOSE, enclose, "Drag around what is to be filled: all that is alike where you begin"
+    ),
     "gradient": Tool(
         "Gradient",
         icons.GRADIENT,

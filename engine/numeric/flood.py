@@ -17,7 +17,7 @@ from engine.numeric.kernel import Int, Real, forced, inner, kernel
 RINGS = 4  # pixels beyond a region that may belong to it in part
 HALO = 1.0 / 16.0  # of what lies under a soft line that may still be seen beside it
 _RIDGE = 2  # px around a pixel within which its line is strongest
-_SHUT, _FREE, _OWN, _OTHER = 0, 1, 2, 3  # what is known of a pixel
+SHUT, FREE, OWN, OTHER = 0, 1, 2, 3  # what is known of a pixel
 _BESIDE = np.float32(0.5)  # of pixels beside a region that are covered, at least
 
 
@@ -49,20 +49,20 @@ def region(picture: np.ndarray, x: int, y: int, likeness: Likeness) -> Region:
     colour, tolerance = planes[:, y, x].copy(), np.float32(likeness.tolerance)
     _, height, width = planes.shape
     known = np.zeros((height + 2, width + 2), np.uint8)  # what lies outside is not free
-    _mark(planes, colour, tolerance, known)
+    mark_alike(planes, colour, tolerance, known)
     if not likeness.contiguous:
-        known *= np.uint8(_OWN)
+        known *= np.uint8(OWN)
     elif likeness.gap > 0:
         _flood_closed(known, y + 1, x + 1, (likeness.gap + 1) // 2)
     else:
-        _flood(known, y + 1, x + 1)
+        flood_from(known, y + 1, x + 1)
     covered, bounds = np.empty((height, width), np.float32), np.zeros(4, np.int64)
-    reached = _cover(planes, colour, known, covered, bounds)
+    reached = cover_region(planes, colour, known, covered, bounds)
     return Region(covered, Rect(*bounds.tolist()), reached)
 
 
 @kernel
-def _mark(planes: np.ndarray, colour: np.ndarray, tolerance: np.float32, known: np.ndarray) -> None:
+def mark_alike(planes: np.ndarray, colour: np.ndarray, tolerance: np.float32, known: np.ndarray) -> None:
     """Marks as free what is alike: `known` is uint8 (h + 2, w + 2)."""
     for y in range(planes.shape[1]):
         r, g, b, a = planes[0, y], planes[1, y], planes[2, y], planes[3, y]
@@ -83,7 +83,7 @@ def _longer(stack: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def _flood(known: np.ndarray, y: int, x: int) -> None:
+def flood_from(known: np.ndarray, y: int, x: int) -> None:
     """Makes own what is free and hangs together with a pixel, run by run."""
     width = known.shape[1]
     stack = np.empty(1024, np.int64)
@@ -93,30 +93,30 @@ def _flood(known: np.ndarray, y: int, x: int) -> None:
         count -= 1
         y, x = stack[count] // width, stack[count] % width
         row = known[y]
-        if row[x] != _FREE:
+        if row[x] != FREE:
             continue
         first, end = x, x + 1
-        while row[first - 1] == _FREE:
+        while row[first - 1] == FREE:
             first -= 1
-        while row[end] == _FREE:
+        while row[end] == FREE:
             end += 1
-        row[first:end] = _OWN
+        row[first:end] = OWN
         for at in (y - 1, y + 1):
             beside, x = known[at], first
             while x < end:
-                if beside[x] != _FREE:
+                if beside[x] != FREE:
                     x += 1
                     continue
                 if count == stack.shape[0]:
                     stack = _longer(stack)
                 stack[count] = at * width + x
                 count += 1
-                while x < end and beside[x] == _FREE:
+                while x < end and beside[x] == FREE:
                     x += 1
 
 
 @kernel
-def _narrowed(known: np.ndarray, reach: int) -> np.ndarray:
+def narrowed(known: np.ndarray, reach: int) -> np.ndarray:
     """Returns what is free with all pixels within `reach`, along rows and columns; beyond the border all is."""
     height, width = known.shape[0] - 2, known.shape[1] - 2
     across = np.empty((height, width), np.uint8)
@@ -124,7 +124,7 @@ def _narrowed(known: np.ndarray, reach: int) -> np.ndarray:
         row, out = known[y + 1], across[y]
         last, x = -reach - 1, 0  # of the pixels that are not free
         for end in range(width + reach):
-            if end < width and row[end + 1] == _SHUT:
+            if end < width and row[end + 1] == SHUT:
                 last = end
             x = end - reach
             if x >= 0:
@@ -149,15 +149,15 @@ def _narrowed(known: np.ndarray, reach: int) -> np.ndarray:
 
 @kernel
 def _flood_closed(known: np.ndarray, y: int, x: int, reach: int) -> None:
-    """As `_flood`, with gaps of up to twice `reach` closed."""
-    core = _narrowed(known, reach)
+    """As `flood_from`, with gaps of up to twice `reach` closed."""
+    core = narrowed(known, reach)
     start = _nearest(known, core, y, x)
     if start < 0:
-        _flood(known, y, x)
+        flood_from(known, y, x)
         return
     width = known.shape[1]
-    _flood(core, start // width, start % width)
-    _grow_back(known, core, 2 * reach)
+    flood_from(core, start // width, start % width)
+    grow_back(known, core, 2 * reach)
 
 
 @inner
@@ -177,7 +177,7 @@ def _nearest(known: np.ndarray, core: np.ndarray, y: Int, x: Int) -> Int:
         done += 1
         for step in (-width, -1, 1, width):
             there: Int = here + step
-            if within[there] == _FREE and not seen[there]:
+            if within[there] == FREE and not seen[there]:
                 if flat[there]:
                     return there
                 seen[there] = 1
@@ -189,7 +189,7 @@ def _nearest(known: np.ndarray, core: np.ndarray, y: Int, x: Int) -> Int:
 
 
 @inner
-def _grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
+def grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
     """Makes own what is free and at most so many steps from the core's own pixels, and no farther than from others."""
     height, width = known.shape
     free = known.reshape(-1)
@@ -199,11 +199,11 @@ def _grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
     for y in range(1, height - 1):
         own, out = core[y], known[y]
         for x in range(width):
-            out[x] = _OWN if own[x] == _OWN else (_OTHER if own[x] == _FREE else out[x])
+            out[x] = OWN if own[x] == OWN else (OTHER if own[x] == FREE else out[x])
         if count + width > queue.shape[0]:
             queue = _longer(queue)
         before = count
-        count = _fronts(core, y, 1, width - 1, _OWN, queue, count)
+        count = _fronts(core, y, 1, width - 1, OWN, queue, count)
         if count > before:
             top, bottom = min(top, y), y + 1
             left, right = min(left, queue[before] - y * width), max(right, queue[count - 1] - y * width + 1)
@@ -211,11 +211,11 @@ def _grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
     for y in range(max(1, top - far), min(height - 1, bottom + far)):
         if others + width > other.shape[0]:
             other = _longer(other)
-        others = _fronts(core, y, max(1, left - far), min(width - 1, right + far), _FREE, other, others)
+        others = _fronts(core, y, max(1, left - far), min(width - 1, right + far), FREE, other, others)
     done = others_done = 0
     for _ in range(steps):
-        queue, done, count = _ring(free, width, queue, done, count, np.uint8(_OWN))
-        other, others_done, others = _ring(free, width, other, others_done, others, np.uint8(_OTHER))
+        queue, done, count = _ring(free, width, queue, done, count, np.uint8(OWN))
+        other, others_done, others = _ring(free, width, other, others_done, others, np.uint8(OTHER))
 
 
 @inner
@@ -223,7 +223,7 @@ def _fronts(core: np.ndarray, y: int, first: int, end: int, kind: int, queue: np
     """Lists the pixels of a part of a row of the core, of one kind, beside which there are others than the core's."""
     above, own, below, start = core[y - 1], core[y], core[y + 1], y * core.shape[1]
     for x in range(first, end):
-        inside = own[x - 1] != _SHUT and own[x + 1] != _SHUT and above[x] != _SHUT and below[x] != _SHUT
+        inside = own[x - 1] != SHUT and own[x + 1] != SHUT and above[x] != SHUT and below[x] != SHUT
         if own[x] == kind and not inside:
             queue[count] = start + x
             count += 1
@@ -239,7 +239,7 @@ def _ring(
     for n in range(done, end):
         for step in (-width, -1, 1, width):
             there = queue[n] + step
-            if free[there] == _FREE:
+            if free[there] == FREE:
                 free[there] = kind
                 if count == queue.shape[0]:
                     queue = _longer(queue)
@@ -264,9 +264,9 @@ def _rims(
     -1."""
     width = out.shape[0]
     for x in range(width + 2):
-        near[x] = (above[x] == _OWN) | (own[x] == _OWN) | (below[x] == _OWN)
+        near[x] = (above[x] == OWN) | (own[x] == OWN) | (below[x] == OWN)
     for x in range(width):
-        out[x] = own[x + 1] == _OWN
+        out[x] = own[x + 1] == OWN
     for x in range(width):
         rim[x] = near[x] | near[x + 1] | near[x + 2]
     first, last = 0, width - 1
@@ -275,7 +275,7 @@ def _rims(
     while last >= first and rim[last] == 0:
         last -= 1
     for x in range(width):
-        rim[x] &= own[x + 1] != _OWN
+        rim[x] &= own[x + 1] != OWN
     return first, last if first <= last else -1
 
 
@@ -289,7 +289,9 @@ def _listed(rim: np.ndarray, start: int, queue: np.ndarray, count: int) -> int:
 
 
 @kernel
-def _cover(planes: np.ndarray, colour: np.ndarray, known: np.ndarray, covered: np.ndarray, bounds: np.ndarray) -> bool:
+def cover_region(
+    planes: np.ndarray, colour: np.ndarray, known: np.ndarray, covered: np.ndarray, bounds: np.ndarray
+) -> bool:
     """Writes how much of each pixel is covered, and the bounds of that; tells whether own pixels lie at the border.
 
     Pixels beside the region are covered by a half at least.  From them on, as long as a line becomes stronger, and up
@@ -309,16 +311,16 @@ def _cover(planes: np.ndarray, colour: np.ndarray, known: np.ndarray, covered: n
             continue
         _widen(bounds, first, y)
         _widen(bounds, last, y)
-        reached |= own[1] == _OWN or own[width] == _OWN
+        reached |= own[1] == OWN or own[width] == OWN
         if y == 0 or y == height - 1:
             for x in range(width):
-                reached |= own[x + 1] == _OWN
+                reached |= own[x + 1] == OWN
         if count + width > queue.shape[0]:
             queue = _longer(queue)
         count = _listed(rim, y * width, queue, count)
     for n in range(count):
         y, x = queue[n] // width, queue[n] % width
-        part = _part(planes, colour, y, x) if known[y + 1, x + 1] == _SHUT else _BESIDE
+        part = _part(planes, colour, y, x) if known[y + 1, x + 1] == SHUT else _BESIDE
         covered[y, x] = max(part, _BESIDE)
     done = 0
     for _ in range(RINGS - 1):
@@ -352,7 +354,7 @@ def _rise(
         far = _unlike(planes, colour, y, x)
         for at in range(max(y - 1, 0), min(y + 2, height)):
             for to in range(max(x - 1, 0), min(x + 2, width)):
-                if covered[at, to] != 0 or known[at + 1, to + 1] != _SHUT or _unlike(planes, colour, at, to) <= far:
+                if covered[at, to] != 0 or known[at + 1, to + 1] != SHUT or _unlike(planes, colour, at, to) <= far:
                     continue
                 part = _part(planes, colour, at, to)
                 if part > 0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,16 +11,18 @@ from immutables import Map
 from engine.brush import settings
 from engine.brush.checks import thawed
 from engine.brush.settings import Brush
+from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.layering.placing_members import Same
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
-from engine.painting.points import plain
+from engine.painting.points import plain, points_array
 
 WIDEST_GAP = 1024  # px
 LOOKED_AT_CAP = 1 << 24  # pixels in which a region is looked for
 TOLERANCE = 0.1
+REGIONS = "alike", "empty", "all"  # within a line, that are meant
 _NOTHING: Map[str, Any] = Map()
 
 
@@ -30,6 +33,9 @@ class Like:
     where gaps of up to `gap` pixels count as closed.
 
     `of`: the name of what is looked at, None for all that is seen, SAME for the active layer.
+
+    `within`: the corners of a closed line, in pixels from `at`: of what it goes round, all regions that hang together
+    with nothing outside of it, by `regions`: "alike", of the colour at `at`; "empty", of none; "all", lines too.
     """
 
     at: tuple[int, int]
@@ -39,6 +45,18 @@ class Like:
     gap: int = 0
     contiguous: bool = True
     of: str | Same | None = Same.SAME
+    within: tuple[tuple[float, float], ...] | None = None
+    regions: str = "alike"
+
+    @property
+    def looked_at(self) -> Rect | None:
+        """Gives the pixels in which it is looked for; None for those of the frame."""
+        if self.within is None:
+            return self.rect
+        xs, ys = zip((0.0, 0.0), *self.within, strict=True)
+        x, y = self.at
+        low, high = (math.floor(min(xs)), math.floor(min(ys))), (math.ceil(max(xs)), math.ceil(max(ys)))
+        return Rect(x + low[0] - 1, y + low[1] - 1, x + high[0] + 2, y + high[1] + 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +75,7 @@ class Fill:
 
 def place_of(fill: Fill) -> tuple[int, Rect | None]:
     """Returns the level at which a fill is done, and where its region is looked for, if it says so."""
-    return (fill.level, None) if fill.like is None else (fill.like.level, fill.like.rect)
+    return (fill.level, None) if fill.like is None else (fill.like.level, fill.like.looked_at)
 
 
 def read_like(members: Fields, name: str) -> Like:
@@ -71,6 +89,12 @@ def read_like(members: Fields, name: str) -> Like:
         if width < 1 or height < 1 or width * height > LOOKED_AT_CAP:
             raise about.fault("rect", f"[X, Y, W, H], W and H at least 1, and at most {LOOKED_AT_CAP} pixels")
         rect = Rect.at(left, top, width, height)
+    within = _read_within(about) if about.take("within", None) is not None else None
+    if within is not None and rect is not None:
+        raise FieldError(about.place, "rect and within", "at most one of them")
+    regions = about.take("regions", REGIONS[0])
+    if regions not in REGIONS or (within is None and regions != REGIONS[0]):
+        raise about.fault("regions", " or ".join(f'"{known}"' for known in REGIONS) + ', with "within"')
     of: str | Same | None = Same.SAME
     if "of" in about:
         of = None if about.take("of") is None else about.text("of")
@@ -82,7 +106,17 @@ def read_like(members: Fields, name: str) -> Like:
         about.integer("gap", 0, lo=0, hi=WIDEST_GAP),
         about.flag("contiguous", True),
         of,
+        within,
+        regions,
     )
+
+
+def _read_within(about: Fields) -> tuple[tuple[float, float], ...]:
+    """Returns the corners of a line, in pixels."""
+    points = points_array(about.take("within"), about.at("within"))
+    if len(points) < 3:
+        raise about.fault("within", "a list of 3 points or more")
+    return tuple((float(x), float(y)) for x, y in points[:, :2].tolist())
 
 
 def write_like(like: Like) -> dict[str, Any]:
@@ -98,6 +132,10 @@ def write_like(like: Like) -> dict[str, Any]:
         out["contiguous"] = False
     if not isinstance(like.of, Same):
         out["of"] = like.of
+    if like.within is not None:
+        out["within"] = [[plain(x), plain(y)] for x, y in like.within]
+    if like.regions != REGIONS[0]:
+        out["regions"] = like.regions
     return out
 
 

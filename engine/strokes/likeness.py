@@ -11,6 +11,9 @@ from engine.brush.mask import Coverage
 from engine.canvas.composite import composite
 from engine.canvas.layers import Group
 from engine.canvas.reading import layer_planes
+from engine.canvas.selecting.enclosures import enclosed, enclosed_all
+from engine.canvas.selecting.occupied import raster
+from engine.canvas.selecting.outlines import outlined
 from engine.canvas.tile_cache import TileCache
 from engine.numeric import flood
 from engine.numeric.address import TILE, Rect, TileKey
@@ -26,17 +29,36 @@ def alike(painting: Painting, like: Like, open_too: bool, cache: TileCache | Non
     Refusal if its place lies outside what is looked at, or that is too large; Leak if the region reaches the border of
     that and is not meant to.
     """
-    rect = painting.frame.zoomed(like.level) if like.rect is None else like.rect
+    looked_at = like.looked_at
+    rect = painting.frame.zoomed(like.level) if looked_at is None else looked_at
     x, y = like.at[0] - rect.x0, like.at[1] - rect.y0
     if not (0 <= x < rect.width and 0 <= y < rect.height):
         raise Refusal(f"{what}.like.at: found {like.at[0]}, {like.at[1]}, expected a pixel of {_told(rect)}")
     if rect.area > LOOKED_AT_CAP:
         raise Refusal(f"{what}.like.rect: found {_told(rect)}, expected at most {LOOKED_AT_CAP} pixels")
     picture = _picture(painting, like, rect, cache)
+    if like.within is not None:
+        return _coverage(like.level, rect, _enclosed(like, rect, picture, what))
     found = flood.region(picture, x, y, flood.Likeness(like.tolerance, like.gap, like.contiguous))
     if found.open and not open_too:
         raise Leak(f"{what}: found a region that reaches the border of {_told(rect)}, expected one within, or open")
     return _coverage(like.level, rect, found)
+
+
+def _enclosed(like: Like, rect: Rect, picture: np.ndarray, what: str) -> flood.Region:
+    """Returns the regions of a picture of a rectangle that lie wholly within the line.  Refusal if there is none."""
+    line = outlined(like.level, like.at, np.array(like.within), f"{what}.like.within")
+    inside = raster(line, rect) >= np.float32(0.5)
+    if like.regions == "all":
+        found = enclosed_all(picture, inside, like.tolerance)
+    else:
+        colour = picture[:, like.at[1] - rect.y0, like.at[0] - rect.x0].copy()
+        if like.regions == "empty":
+            colour[:] = 0.0
+        found = enclosed(picture, inside, colour, flood.Likeness(like.tolerance, like.gap))
+    if not found.covered.any():
+        raise Refusal(f"{what}: found no region that lies wholly within the line, expected one or more")
+    return found
 
 
 def _told(rect: Rect) -> str:

@@ -56,3 +56,25 @@ def test_a_colour_that_is_dropped_into_a_region_fills_it(app):
     assert (screen[MIDDLE[1] - 40 : MIDDLE[1] + 40, MIDDLE[0] - 40 : MIDDLE[0] + 40] == colour).all()
     app.keys("ctrl+z")
     assert app.comes_to(app.outlined)
+
+
+def test_what_is_gone_round_is_filled_and_a_texture_that_is_dropped_into_a_region(app):
+    app.keys("alt+g")
+    app.box("Within")
+    app.stroke(*ring(170))
+    inside = app.canvas_unlike(app.outlined)[150:450, 140:440]
+    whole = (np.abs(inside - app.outlined[150:450, 140:440]).max(axis=2) > 8).sum()
+    assert 0.7 < whole / (math.pi * 105**2) < 1.1  # what lies within the ring, though more was gone round
+    app.keys("ctrl+z", "b")
+    assert app.comes_to(app.outlined)
+    app.click("Add texture")
+    app.do("mousemove", *app.at("texture Squares"))
+    app.do("mousedown", 1, "mousemove", 900, 400)
+    app.do("mousemove", 700, 380, "mousemove", *MIDDLE)
+    app.settled(calm=2)
+    app.do("mouseup", 1)
+    app.until_gone("texture Squares")
+    laid = app.canvas_unlike(app.outlined)[230:370, 220:360]
+    assert np.ptp(laid.reshape(-1, 3), axis=0).max() > 60  # no plain colour
+    app.keys("ctrl+z")
+    assert app.comes_to(app.outlined)

@@ -15,7 +15,8 @@ WIDEST_SHOWN = 64.0  # px of the screen that the panel offers
 @dataclass(slots=True)
 class FillState:
     """`tolerance`: 0..1; `gap`: px of the screen; `seen`: all that is seen is looked at, not the layer alone; `last`:
-    what was asked for last.  Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`:
+    what was asked for last.  Of what is gone round `boxed`: by a rectangle; `regions`: which of it, as
+    `Like` has them.  Of gradients `shape`: its kind; `fades`: to nothing, not to the other colour; `gradient`:
     the one laid last; `named`: the names of those that were asked for."""
 
     tolerance: float = 0.12
@@ -23,6 +24,8 @@ class FillState:
     seen: bool = True
     contiguous: bool = True
     last: Fill | None = None
+    boxed: bool = False
+    regions: str = "alike"
     shape: str = "linear"
     fades: bool = False
     gradient: DefineTexture | None = None

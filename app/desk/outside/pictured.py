@@ -18,8 +18,12 @@ NAME_LENGTH = 24
 
 def from_file(desk: Desk, path: Path) -> None:
     """Asks for a texture made of a picture file; it joins the ink as soon as it is there."""
-    name = free_texture_name(desk, path.stem)
-    _define(desk, DefineTexture(name, "image", Map({"path": str(path.absolute())})))
+    _define(desk, texture_of(desk, path))
+
+
+def texture_of(desk: Desk, path: Path) -> DefineTexture:
+    """Returns what makes a texture of a picture file, under a name that none has yet."""
+    return DefineTexture(free_texture_name(desk, path.stem), "image", Map({"path": str(path.absolute())}))
 
 
 def from_view(desk: Desk) -> None:

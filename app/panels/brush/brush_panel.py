@@ -23,6 +23,7 @@ from app.panels.brush.symmetry_section import SymmetrySection
 from app.panels.brush.texturing import Texturing
 from app.panels.controls import widgets as w
 from app.panels.controls.curve_editor import CurveEditor
+from app.panels.options.fill_options import FILL_TOOLS
 from app.tools.tools import TOOLS
 from engine.brush.modes import MODES
 from engine.brush.settings import SETTINGS
@@ -133,7 +134,7 @@ class BrushPanel:
         ]
         names += [(name, TOOLS[name].icon, desk.hand.tool == name) for name in ("pick", "move", "pan", "zoom", "turn")]
         gap = _tool_row(desk, names, side)
-        fills = "gradient" if desk.hand.tool == "gradient" else "fill"
+        fills = desk.hand.tool if desk.hand.tool in FILL_TOOLS else "fill"
         regions = ("rectangle", "ellipse", "lasso", "polygon", "wand", fills)
         _tool_row(desk, [(name, TOOLS[name].icon, desk.hand.tool == name) for name in regions], side, gap)
         imgui.same_line(0, gap)

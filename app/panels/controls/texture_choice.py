@@ -9,9 +9,11 @@ from imgui_bundle import ImVec2, imgui
 from immutables import Map
 
 from app import theme
+from app.desk.colours import to_hex
 from app.desk.desk import Desk
 from app.panels.controls import texture_rows
 from app.panels.controls import widgets as w
+from app.tools.filling_gestures import drop_texture
 from engine.brush.parts import Component, Surface
 from engine.brush.settings import Brush
 from engine.studio.requests import Swatch
@@ -90,7 +92,10 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
     scale, corner = desk.scale, imgui.get_cursor_screen_pos()
     wide, tall = (size * scale for size in _PICTURE)
     pressed = imgui.selectable(f"##{label} {name}", on, 0, ImVec2(wide + NAME * scale, tall))[0]
-    w.tooltip(f"{label}\n{hint}".strip())
+    w.named(f"texture {label}")
+    w.tooltip(f"{label}\n{hint}\nDrag it into a region to fill that".strip())
+    if _dragged(desk, name):
+        imgui.close_current_popup()
     if not imgui.is_item_visible():
         return pressed
     painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + wide, corner.y + tall)
@@ -104,6 +109,31 @@ def _row(desk: Desk, name: str, label: str, hint: str, on: bool) -> bool:
     painter.add_text(at, theme.packed(theme.TEXT), label)
     painter.pop_clip_rect()
     return pressed
+
+
+def _dragged(desk: Desk, name: str) -> bool:
+    """Takes the picture of the texture just drawn along with the pointer; True where that lets it go on the canvas,
+    whose region it fills."""
+    at, (left, top, right, bottom) = imgui.get_mouse_pos(), desk.free_area()
+    low, high = imgui.get_window_pos(), imgui.get_window_pos() + imgui.get_window_size()
+    outside = not (low.x <= at.x < high.x and low.y <= at.y < high.y)
+    if not outside or not (left <= at.x < right and top <= at.y < bottom):
+        return False
+    if imgui.is_item_deactivated():
+        pictured = any(
+            row.name == texture_rows.texture_kind(desk, name) and row.pictured for row in desk.known.tables.kinds
+        )
+        part = Component(name, 1.0, _LIGHT if pictured else to_hex(desk.hand.other_colour))
+        drop_texture(desk, texture_rows.brought(desk, name), part, at.x, at.y)
+        return True
+    if imgui.is_item_active():
+        shown, painter = desk.pictures.get(f"texture {name}"), imgui.get_foreground_draw_list()
+        wide, tall = (size * desk.scale / 2 for size in _PICTURE)
+        corner, end = ImVec2(at.x - wide, at.y - tall), ImVec2(at.x + wide, at.y + tall)
+        if shown is not None:
+            painter.add_image(shown, corner, end)
+        painter.add_rect(corner, end, theme.packed((1.0, 1.0, 1.0)), 0.0, thickness=1.5 * desk.scale)
+    return False
 
 
 def _picture(desk: Desk, name: str) -> Any:

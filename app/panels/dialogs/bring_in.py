@@ -11,6 +11,8 @@ from app.desk.examples import example_work
 from app.desk.outside import bringing, pictured
 from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
+from app.tools.filling_gestures import drop_texture
+from engine.brush.parts import Component
 
 _SIDE = 150.0  # of the small picture, points
 
@@ -45,6 +47,11 @@ class BringIn:
             return True
         if w.text_button("Texture", "Paint with it: it joins the ink", width=wide):
             pictured.from_file(desk, self._path)
+            return True
+        if w.text_button("Fill", "Fill the region where it was dropped with it", width=wide):
+            texture = pictured.texture_of(desk, self._path)
+            at = desk.view.to_screen(self._place)
+            drop_texture(desk, (texture,), Component(texture.name, 1.0, "#ffffff"), *at)
             return True
         if w.text_button("Example", "Paint with more of the same, with its own rim", width=wide):
             desk.strip, desk.panels = "examples", True

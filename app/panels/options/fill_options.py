@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from imgui_bundle import ImVec2, imgui
 
+from app import icons
 from app.desk.desk import Desk
 from app.desk.filling import gradients
 from app.desk.filling.fill_state import WIDEST_SHOWN
@@ -14,10 +15,19 @@ from app.panels.controls import widgets as w
 
 _FILLS = (
     ("fill", "Region", "Click a region: the brush fills it  (G)"),
+    ("enclose", "Within", "Drag around regions: the brush fills them all  (Alt+G)"),
     ("gradient", "Gradient", "Drag: one colour turns into another  (Shift+G)"),
 )
+FILL_TOOLS = tuple(row[0] for row in _FILLS)
+_LINES = (("lasso", icons.LASSO, "Go round them freely"), ("box", icons.AREA, "Go round them by a rectangle"))
+_REGIONS = (("alike", "Alike"), ("empty", "Empty"), ("all", "Everything"))
+_WHICH = (
+    "Regions of the colour where you begin",
+    "Regions where there is no paint",
+    "All that does not reach the line: lines within it, too",
+)
 _ENDS = (("other", "Other colour", "It ends in the other colour"), ("nothing", "Transparent", "It fades to nothing"))
-_WAYS, _SHAPES, _SLIDER = 11.0, 15.0, 9.0  # widths, ems
+_WAYS, _SHAPES, _SLIDER = 14.0, 14.0, 8.0  # widths, ems
 
 
 def draw(desk: Desk) -> None:
@@ -55,6 +65,19 @@ def _region(desk: Desk) -> None:
     desk.filling.contiguous = w.tick("One region", desk.filling.contiguous, _ONE)[1]
 
 
+def _within(desk: Desk) -> None:
+    ways(desk)
+    state, em = desk.filling, imgui.get_font_size()
+    line = w.segments("line", "box" if state.boxed else "lasso", _LINES, 4.0 * em)
+    if line is not None:
+        state.boxed = line == "box"
+    spaced()
+    hint = "Which regions within are filled"
+    state.regions = w.choice("which", state.regions, _REGIONS, hint, 6.5 * em, _WHICH) or state.regions
+    spaced()
+    likeness(desk)
+
+
 def _wand(desk: Desk) -> None:
     likeness(desk)
     spaced()
@@ -90,4 +113,9 @@ def _gradient(desk: Desk) -> None:
         gradients.keep_gradient(desk)
 
 
-OF_TOOLS: dict[str, Callable[[Desk], None]] = {"fill": _region, "gradient": _gradient, "wand": _wand}
+OF_TOOLS: dict[str, Callable[[Desk], None]] = {
+    "fill": _region,
+    "enclose": _within,
+    "gradient": _gradient,
+    "wand": _wand,
+}

@@ -19,9 +19,10 @@ class Options(NamedTuple):
 
 
 _OF_TOOLS = {
-    "fill": Options(47.0, fill_options.draw),
-    "gradient": Options(48.0, fill_options.draw),
-    "wand": Options(35.0, fill_options.draw),
+    "fill": Options(48.0, fill_options.draw),
+    "enclose": Options(49.0, fill_options.draw),
+    "gradient": Options(49.0, fill_options.draw),
+    "wand": Options(33.0, fill_options.draw),
 }
 _MASK = Options(32.0, mask_options.draw_mask)
 
