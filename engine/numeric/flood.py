@@ -17,7 +17,7 @@ from engine.numeric.kernel import Int, Real, forced, inner, kernel
 RINGS = 4  # pixels beyond a region that may belong to it in part
 HALO = 1.0 / 16.0  # of what lies under a soft line that may still be seen beside it
 _RIDGE = 2  # px around a pixel within which its line is strongest
-SHUT, FREE, OWN, OTHER = 0, 1, 2, 3  # what is known of a pixel
+SHUT, FREE, REACHED, OTHER = 0, 1, 2, 3  # what is known of a pixel
 _BESIDE = np.float32(0.5)  # of pixels beside a region that are covered, at least
 
 
@@ -51,7 +51,7 @@ def region(picture: np.ndarray, x: int, y: int, likeness: Likeness) -> Region:
     known = np.zeros((height + 2, width + 2), np.uint8)  # what lies outside is not free
     mark_alike(planes, colour, tolerance, known)
     if not likeness.contiguous:
-        known *= np.uint8(OWN)
+        known *= np.uint8(REACHED)
     elif likeness.gap > 0:
         _flood_closed(known, y + 1, x + 1, (likeness.gap + 1) // 2)
     else:
@@ -100,7 +100,7 @@ def flood_from(known: np.ndarray, y: int, x: int) -> None:
             first -= 1
         while row[end] == FREE:
             end += 1
-        row[first:end] = OWN
+        row[first:end] = REACHED
         for at in (y - 1, y + 1):
             beside, x = known[at], first
             while x < end:
@@ -199,11 +199,11 @@ def grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
     for y in range(1, height - 1):
         own, out = core[y], known[y]
         for x in range(width):
-            out[x] = OWN if own[x] == OWN else (OTHER if own[x] == FREE else out[x])
+            out[x] = REACHED if own[x] == REACHED else (OTHER if own[x] == FREE else out[x])
         if count + width > queue.shape[0]:
             queue = _longer(queue)
         before = count
-        count = _fronts(core, y, 1, width - 1, OWN, queue, count)
+        count = _fronts(core, y, 1, width - 1, REACHED, queue, count)
         if count > before:
             top, bottom = min(top, y), y + 1
             left, right = min(left, queue[before] - y * width), max(right, queue[count - 1] - y * width + 1)
@@ -214,7 +214,7 @@ def grow_back(known: np.ndarray, core: np.ndarray, steps: int) -> None:
         others = _fronts(core, y, max(1, left - far), min(width - 1, right + far), FREE, other, others)
     done = others_done = 0
     for _ in range(steps):
-        queue, done, count = _ring(free, width, queue, done, count, np.uint8(OWN))
+        queue, done, count = _ring(free, width, queue, done, count, np.uint8(REACHED))
         other, others_done, others = _ring(free, width, other, others_done, others, np.uint8(OTHER))
 
 
@@ -264,9 +264,9 @@ def _rims(
     -1."""
     width = out.shape[0]
     for x in range(width + 2):
-        near[x] = (above[x] == OWN) | (own[x] == OWN) | (below[x] == OWN)
+        near[x] = (above[x] == REACHED) | (own[x] == REACHED) | (below[x] == REACHED)
     for x in range(width):
-        out[x] = own[x + 1] == OWN
+        out[x] = own[x + 1] == REACHED
     for x in range(width):
         rim[x] = near[x] | near[x + 1] | near[x + 2]
     first, last = 0, width - 1
@@ -275,7 +275,7 @@ def _rims(
     while last >= first and rim[last] == 0:
         last -= 1
     for x in range(width):
-        rim[x] &= own[x + 1] != OWN
+        rim[x] &= own[x + 1] != REACHED
     return first, last if first <= last else -1
 
 
@@ -311,10 +311,10 @@ def cover_region(
             continue
         _widen(bounds, first, y)
         _widen(bounds, last, y)
-        reached |= own[1] == OWN or own[width] == OWN
+        reached |= own[1] == REACHED or own[width] == REACHED
         if y == 0 or y == height - 1:
             for x in range(width):
-                reached |= own[x + 1] == OWN
+                reached |= own[x + 1] == REACHED
         if count + width > queue.shape[0]:
             queue = _longer(queue)
         count = _listed(rim, y * width, queue, count)

@@ -12,7 +12,7 @@ from engine.numeric.address import Rect
 from engine.numeric.flood import (
     FREE,
     OTHER,
-    OWN,
+    REACHED,
     Likeness,
     Region,
     cover_region,
@@ -39,8 +39,8 @@ def enclosed(picture: np.ndarray, inside: np.ndarray, colour: np.ndarray, likene
         _close(known, inside, (likeness.gap + 1) // 2)
     known[known == FREE] = OTHER
     if likeness.gap <= 0:
-        known[shut == OWN] = OTHER
-    known[within] = OWN
+        known[shut == REACHED] = OTHER
+    known[within] = REACHED
     covered, bounds = np.empty((height, width), np.float32), np.zeros(4, np.int64)
     cover_region(planes, colour, known, covered, bounds)
     covered[~inside] = 0
@@ -79,7 +79,7 @@ def _close(known: np.ndarray, inside: np.ndarray, reach: int) -> None:
     _flood_outside(core, inside)
     for y in range(core.shape[0]):
         for x in range(core.shape[1]):
-            core[y, x] = FREE if core[y, x] == OWN else (OWN if core[y, x] == FREE else core[y, x])
+            core[y, x] = FREE if core[y, x] == REACHED else (REACHED if core[y, x] == FREE else core[y, x])
     grow_back(known, core, 2 * reach)
 
 
