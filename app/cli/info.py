@@ -16,7 +16,7 @@ from app.cli.output import grown, opened_painting, salvage_option
 if TYPE_CHECKING:
     from engine.archive.imports import Opened
     from engine.canvas.growth import Plot
-    from engine.canvas.layers import Group, Node
+    from engine.canvas.layers import Node
     from engine.canvas.selecting.selection import Selection
     from engine.canvas.store import Pyramid
     from engine.numeric.address import Rect
@@ -111,7 +111,10 @@ def facts(found: Opened) -> dict[str, Any]:
     from engine.painting.places import write_bookmark
 
     painting, frame = found.painting, found.painting.frame
-    rows = [_row(painting.root, node) for node in layers.walk(painting.root)]
+    nodes = list(layers.walk(painting.root))
+    groups = {child.id: node.name for node in nodes if isinstance(node, layers.Group) for child in node.children}
+    names = {node.id: node.name for node in nodes}
+    rows = [_row(node, groups.get(node.id), names) for node in nodes]
     records = [record for sheet in layers.layers(painting.root) for _, record in sheet.pyramid.all_records()]
     inks = sorted({ink.key for record in records for ink in record.inks}, key=str)
     levels = sorted({level for sheet in layers.layers(painting.root) for level in sheet.pyramid.levels})
@@ -139,7 +142,8 @@ def selection(kept: Selection) -> dict[str, Any]:
     return {"inverse": kept.inverse, "bounds": painted_bounds(kept.pyramid), "bytes": kept.pyramid.nbytes}
 
 
-def _row(root: Group, node: Node) -> dict[str, Any]:
+def _row(node: Node, group: str | None, names: dict[int, str]) -> dict[str, Any]:
+    """Tells a node, which lies in a group; `names`: of all nodes, by their ids."""
     from engine.canvas import layers
     from engine.canvas.placing.placement import Placement
     from engine.painting.layering.placing_members import Placing, write_placing
@@ -147,15 +151,14 @@ def _row(root: Group, node: Node) -> dict[str, Any]:
     row: dict[str, Any] = {
         "name": node.name,
         "kind": type(node).__name__.lower(),
-        "group": layers.place(root, node.name)[0],
+        "group": group,
         "opacity": node.opacity,
         "visible": node.visible,
         "blend": node.blend,
         "locked": node.locked,
     }
     if isinstance(node, Placement):
-        source = None if node.of is None else next(other.name for other in layers.walk(root) if other.id == node.of)
-        row |= {"of": source, **write_placing(Placing.told(node))}
+        row |= {"of": None if node.of is None else names[node.of], **write_placing(Placing.told(node))}
     if isinstance(node, layers.Layer):
         pyramid = node.pyramid
         row |= {
