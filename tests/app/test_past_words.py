@@ -4,9 +4,10 @@ import pytest
 from immutables import Map
 
 from app.desk.past.past_state import runs_of, step_name
+from app.panels.past.film_strip import _ICONS
 from engine.painting import commands as c
 from engine.session.steps import LoggedStep
-from engine.studio.past.step_words import told
+from engine.studio.past.step_words import _SIGNS, told
 
 BOX = {"do": "select", "rect": [0, 1, 1, 9, 9]}
 FILL = {"do": "fill", "like": {"at": [1, 1]}}
@@ -49,3 +50,10 @@ def test_fills_selections_and_moves_of_a_layer_are_shown_together_and_apart_from
     commands = [STROKE, STROKE, FILL, FILL, STROKE, BOX, {"do": "select", "invert": True}, move, move, STROKE]
     runs = runs_of([step(n, command) for n, command in enumerate(commands)])
     assert [len(run.steps) for run in runs] == [2, 2, 1, 2, 2, 1]
+
+
+def test_every_step_that_is_no_stroke_has_an_icon():
+    signs = {step(0, command).sign for command in WORDS.values() if command["do"] != "stroke"}
+    assert signs == {"selection", "fill", "move", "mask", "merge", "layer"}
+    assert signs <= _ICONS.keys()
+    assert set(_SIGNS.values()) <= _ICONS.keys()

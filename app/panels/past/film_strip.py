@@ -7,6 +7,7 @@ from datetime import datetime
 
 from imgui_bundle import ImVec2, imgui
 
+from app import icons
 from app.desk.desk import Desk
 from app.desk.past.past_state import Run, step_name, when
 from app.panels.past import step_card
@@ -14,6 +15,22 @@ from app.panels.past.step_card import Look
 from engine.studio.past.past_records import PastStep
 
 _GO = "Click: the painting is as it was after this; all can be done again.  Right click: only look"
+
+
+_ICONS = {
+    "selection": icons.SELECT_BOX,
+    "fill": icons.FILL,
+    "move": icons.MOVE,
+    "mask": icons.MASK,
+    "merge": icons.MERGE,
+    "copy": icons.COPY,
+    "delete": icons.DELETE,
+    "picture": icons.IMAGE,
+    "placement": icons.LINK,
+    "frame": icons.AREA,
+    "guide": icons.GUIDES,
+    "layer": icons.LAYERS,
+}
 
 
 class FilmStrip:
@@ -71,7 +88,8 @@ class FilmStrip:
     def _run(self, desk: Desk, run: Run, now: bool) -> None:
         past, last, count = desk.past, run.last, len(run.steps)
         name = step_name(last, desk.known.presets)
-        lines = name, when(last.time, datetime.now())
+        sign = _ICONS.get(last.sign)
+        lines = name if sign is None else f"{sign} {name}", when(last.time, datetime.now())
         seen = past.looking is not None and run.steps[0].number <= past.looking <= last.number
         look = Look(now, seen, run.steps[0].number > past.scene.done, count)
         label = f"run {run.steps[0].number}"

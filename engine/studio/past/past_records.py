@@ -56,7 +56,8 @@ PastRequest = ShowPast | LookBack | Jump | StopJump | AskHere
 @dataclass(frozen=True, slots=True)
 class PastStep:
     """A step; `brush` of a stroke or a fill, at `level`; `time`: seconds since 1970, if that is known; `picture`: the
-    name of its picture; `kind`: steps in a row of one are shown together, "" for one that stands for itself."""
+    name of its picture; `kind`: steps in a row of one are shown together, "" for one that stands for itself;
+    `sign`: what it deals with, of those that `step_words` knows."""
 
     index: int
     number: int
@@ -66,6 +67,7 @@ class PastStep:
     level: int = 0
     time: float | None = None
     kind: str = ""
+    sign: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,9 +28,32 @@ def told(step: LoggedStep, serial: int) -> PastStep:
         return PastStep(step.index, step.number, title, picture, command.brush, command.level, when)
     if isinstance(command, c.Fill):
         title = "Fill the mask" if command.onto else "Fill"
-        return PastStep(step.index, step.number, title, picture, command.brush, place_of(command)[0], when)
+        return PastStep(step.index, step.number, title, picture, command.brush, place_of(command)[0], when, sign="fill")
     title = _title(command)
-    return PastStep(step.index, step.number, title, picture, time=when, kind=_kind(command, title))
+    return PastStep(step.index, step.number, title, picture, time=when, kind=_kind(command, title), sign=_sign(command))
+
+
+_SIGNS: dict[type, str] = {
+    c.Select: "selection",
+    c.MergeLayer: "merge",
+    c.FlattenGroup: "merge",
+    c.DuplicateLayer: "copy",
+    c.RemoveLayer: "delete",
+    c.ClearLayer: "delete",
+    c.AddPicture: "picture",
+    c.AddPlacement: "placement",
+    c.BakePlacement: "placement",
+    c.SetFrame: "frame",
+    c.Guide: "guide",
+    c.RemoveGuide: "guide",
+}
+
+
+def _sign(command: c.Command) -> str:
+    """Returns what a step deals with, for which it has a picture of its own."""
+    if isinstance(command, c.SetLayer):
+        return "mask" if command.mask is not None else "layer" if command.placing is None else "move"
+    return _SIGNS.get(type(command), "layer")
 
 
 def _kind(command: c.Command, title: str) -> str:
