@@ -142,7 +142,7 @@ class Layout:
         free, top = desk.view.width - corner[0] - desk.insets[2] - 2 * margin, corner[1] + margin
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(8, 4) * desk.scale)
         for name, bar in bars:
-            high = bar.lines * (imgui.get_frame_height() + gap) - gap + 8 * desk.scale
+            high = bar.lines * (imgui.get_frame_height() + gap) - gap + (6 + 2 * bar.lines) * desk.scale
             wide = min(bar.width * imgui.get_font_size(), free)
             if self._begin(name, (corner[0] + margin, top, wide, high), _SCROLLS_NOT):
                 with self._guard.spare_drawing(f"drawing the {name}"):

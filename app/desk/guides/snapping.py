@@ -17,7 +17,7 @@ from app.desk.guides.present import assistants
 from app.desk.guides.snap_curves import CURVES, Edge, Line, Pair, exact, near
 from engine.painting.guiding.guides import Guide
 
-BEGINNING, BEGINNING_STRAIGHT = 6.0, 12.0  # points of the screen that a stroke goes before its line is chosen
+BEGINNING, BEGINNING_STRAIGHT = 10.0, 12.0  # points of the screen that a stroke goes before its line is chosen
 RULER_REACH = 32.0  # points of the screen from a ruler within which strokes are drawn onto it
 _ACROSS = math.radians(60.0)  # more than so far from a line's direction, a stroke is not on its way
 _EDGE = math.radians(20.0)  # by which a ruler that is near is taken before lines that are everywhere
