@@ -27,7 +27,7 @@ _WHICH = (
     "All that does not reach the line: lines within it, too",
 )
 _ENDS = (("other", "Other colour", "It ends in the other colour"), ("nothing", "Transparent", "It fades to nothing"))
-_WAYS, _SHAPES, _SLIDER = 14.0, 14.0, 8.0  # widths, ems
+_WAYS, _SHAPES, _SLIDER = 12.0, 14.0, 7.0  # widths, ems
 
 
 def draw(desk: Desk) -> None:
@@ -68,12 +68,12 @@ def _region(desk: Desk) -> None:
 def _within(desk: Desk) -> None:
     ways(desk)
     state, em = desk.filling, imgui.get_font_size()
-    line = w.segments("line", "box" if state.boxed else "lasso", _LINES, 4.0 * em)
+    line = w.segments("line", "box" if state.boxed else "lasso", _LINES, 3.6 * em)
     if line is not None:
         state.boxed = line == "box"
     spaced()
     hint = "Which regions within are filled"
-    state.regions = w.choice("which", state.regions, _REGIONS, hint, 6.5 * em, _WHICH) or state.regions
+    state.regions = w.choice("which", state.regions, _REGIONS, hint, 5.6 * em, _WHICH) or state.regions
     spaced()
     likeness(desk)
 
