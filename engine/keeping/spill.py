@@ -82,7 +82,7 @@ class Spill:
             self.held += len(piece)
             spilled = Spilled(self, at, piece)
             place = self._places[at] = _Place(spilled, self._freed.append)
-            place.at, place.size = at, len(piece)
+            place.at, place.size = at, spilled.size
         return spilled
 
     def piece(self, at: int, size: int) -> bytes:

@@ -28,15 +28,16 @@ _OVERHEAD = 300  # bytes of a coded record's own objects, roughly
 class CodedData:
     """The data of a record, less what the record `other` of the same tile predicts (None: nothing).
 
-    `rect`, `inks`: the record's; `dtype`: of its data; `window`: the rows and columns of the data in which anything
-    differs, `packed`: these, low bytes before high ones, deflated; or where on disk that is.
+    `rect`, `inks`: the record's; `dtype`: of its data; `edges`: the rows and columns of the data in which anything
+    differs, as one number (`_told`): there may be millions; `packed`: these, low bytes before high ones, deflated; or
+    where on disk that is.
     """
 
     rect: Rect
     inks: tuple[Instance, ...]
     dtype: np.dtype
     other: Record | None
-    window: tuple[slice, slice]
+    edges: int
     packed: bytes | Spilled
 
     @property
@@ -79,7 +80,7 @@ class CodedData:
         """Adds to what is predicted, in place."""
         packed = self.packed if isinstance(self.packed, bytes) else self.packed.read()
         if packed:
-            part = out[:, *self.window]
+            part = out[:, *_window(self.edges)]
             raw = np.frombuffer(isal_zlib.decompress(packed), np.uint8).reshape(self.dtype.itemsize, part.size)
             part += joined_bytes(raw, self.dtype).reshape(part.shape)
         return out
@@ -225,14 +226,24 @@ def _sheets_over(
     return SparsePlanes(rect, sheets.colours if coloured else None, some).over(rect, inks, dtype.type)
 
 
-def _packed(left: np.ndarray) -> tuple[tuple[slice, slice], bytes]:
-    """Returns the rows and columns in which planes of integers tell anything, and these, packed."""
+def _packed(left: np.ndarray) -> tuple[int, bytes]:
+    """Returns the rows and columns in which planes of integers tell anything, as one number, and these, packed."""
     marked = np.asarray(left.any(axis=0))
     rows, columns = np.flatnonzero(marked.any(axis=1)), np.flatnonzero(marked.any(axis=0))
     if not len(rows):
-        return (slice(0, 0), slice(0, 0)), b""
-    window = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
-    return window, isal_zlib.compress(split_bytes(left[:, *window]).data, 1)
+        return 0, b""
+    edges = _told(int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1)
+    return edges, isal_zlib.compress(split_bytes(left[:, *_window(edges)]).data, 1)
+
+
+def _told(top: int, bottom: int, left: int, right: int) -> int:
+    """Returns the edges of a part of a tile, each of at most a byte, as one number."""
+    return top | bottom << 8 | left << 16 | right << 24
+
+
+def _window(edges: int) -> tuple[slice, slice]:
+    """Returns the rows and columns between such edges."""
+    return slice(edges & 255, edges >> 8 & 255), slice(edges >> 16 & 255, edges >> 24)
 
 
 def split_bytes(values: np.ndarray) -> np.ndarray:

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from stepped import ROCK, contents, records, stroke
 
 from engine.canvas import layers
+from engine.canvas.store import Record
 from engine.canvas.tile_cache import TileCache
 from engine.keeping.spill import Spill
-from engine.numeric.address import Rect
+from engine.numeric.address import TILE, Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
 from engine.session import coded_records
@@ -374,3 +375,14 @@ def test_how_many_bytes_data_take_is_known_however_they_are_held(acts):
             assert (size, itemsize) == (record.data.nbytes, record.data.itemsize)
             kinds.add(type(record.held))
     assert {np.ndarray, SparsePlanes, CodedData, CodedSheets} >= kinds >= {np.ndarray, CodedData}
+
+
+@pytest.mark.parametrize("part", [(0, 128, 0, 128), (127, 128, 127, 128), (3, 90, 100, 128), (0, 0, 0, 0)])
+def test_what_is_coded_of_a_tile_is_the_same_wherever_it_lies(part):
+    top, bottom, left, right = part
+    data = np.zeros((4, TILE, TILE), np.int16)
+    data[:, top:bottom, left:right] = 7
+    record = Record(Rect(0, 0, TILE, TILE), data.copy(), (), 1)
+    assert encode(record, None) > 0
+    assert record.held is not data
+    assert np.array_equal(record.data, data)
