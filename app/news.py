@@ -14,6 +14,7 @@ from app.desk.recovery import recovery_work
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
 from engine.studio import results
+from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.moving.move_requests import Extent
 from engine.studio.results import Result
@@ -68,6 +69,7 @@ HEARS: dict[type, Hear] = {
     results.Picked: _picked,
     Copied: clipboard.give_away,
     results.Looked: flight.fly,
+    Tried: lambda desk, tried, now: setattr(desk.adjusting, "best", tried),
     Extent: lambda desk, extent, now: desk.moving.told(extent),
     results.Whole: lambda desk, whole, now: desk.show(whole),
 }

@@ -90,6 +90,11 @@ def _can_clear(desk: Desk) -> bool:
     return paint_chosen(desk) or (chosen(desk) and desk.masks.on(desk.known.active))
 
 
+def _can_adjust(desk: Desk) -> bool:
+    row = desk.known.active
+    return paint_chosen(desk) and row is not None and not row.locked and not desk.masks.on(row)
+
+
 def _on_another(desk: Desk) -> bool:
     return chosen(desk) and below(desk) is not None
 
@@ -130,6 +135,10 @@ MERGING_ACTIONS: dict[str, A] = {
         "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
     ),
     "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, _can_clear),
+    "adjust": A(
+        "Adjust colours…", "Layer", ("Ctrl+U",), "Brightness, levels, hue, and all else that changes colours",
+        asks("adjust"), _can_adjust,
+    ),
     "clip": A(
         "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
         _clip, _on_another, _is_clipped,

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from app.canvas.glide import Glide
 from app.canvas.view import Place, View, view_of
+from app.desk.adjusting.adjust_state import AdjustState
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.filling.fill_state import FillState
@@ -119,6 +120,7 @@ class Desk:
     filling: FillState = field(default_factory=FillState)
     places: PlaceState = field(default_factory=PlaceState)
     guides: GuideState = field(default_factory=GuideState)
+    adjusting: AdjustState = field(default_factory=AdjustState)
     masks: MaskState = field(default_factory=MaskState)
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)

@@ -72,6 +72,26 @@ def _mixed(c: np.ndarray, matrix: np.ndarray) -> Targets:
     return t, s
 
 
+def _recoloured(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
+    """Turned about the grey axis, more or less of what differs from grey, then part of the way to white or black."""
+    given, light = edit.op.parameters, np.float32(edit.op.parameters["light"])
+    t, s = _mixed(c, tints.recolouring(given["turn"], given["amount"], edit.scene.arithmetic))
+    left = np.float32(1) - abs(light)
+    return t * left + max(light, np.float32(0)), s * left
+
+
+def _levels(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
+    """Each channel from between two tones spread over all of them, and to a power."""
+    black, white, gamma = edit.numbers[:3]
+    steep = np.float32(1) / max(white - black, _STEP)
+    spread = (c - black) * steep
+    inside = np.clip(spread, np.float32(0), np.float32(1))
+    t, s, numbers = np.empty_like(c), np.empty_like(c), np.zeros_like(edit.numbers)
+    numbers[0] = gamma
+    tones.GAMMAS[edit.scene.arithmetic](inside, edit.colour, numbers, t, s)
+    return t, np.where(inside == spread, s * steep, np.float32(0))
+
+
 def _gradient(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
     """Returns a ramp's colours, by the pixel's brightness or along the brush's texture."""
     t, s = np.empty_like(c), np.empty_like(c)
@@ -139,6 +159,8 @@ KERNELS: dict[str, _Kernel] = {name: partial(_channel, loop) for name, loop in t
     "gamma": _gamma,
     "saturate": _saturate,
     "hue": _hue,
+    "recolour": _recoloured,
+    "levels": _levels,
     "gradient": _gradient,
     "smooth": _smooth,
     "sharpen": _sharpen,

@@ -47,6 +47,12 @@ def turning(degrees: float, arithmetic: int = LIBRARY) -> np.ndarray:
     return everywhere
 
 
+@lru_cache(32)
+def recolouring(degrees: float, amount: float, arithmetic: int = LIBRARY) -> np.ndarray:
+    """Returns the matrix (3, 3), not to be written to, that turns colours, then saturates them."""
+    return _times(saturating(amount), turning(degrees, arithmetic))
+
+
 def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Returns the product of two matrices (3, 3), its sums in order: the same bits everywhere."""
     out: np.ndarray = a[:, :1] * b[:1] + a[:, 1:2] * b[1:2] + a[:, 2:] * b[2:]

@@ -109,6 +109,11 @@ def _contrast(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tup
 
 
 @forced
+def _tone(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
+    return _HALF + b * (c - _HALF) + a, b
+
+
+@forced
 def _posterise(c: np.float32, p: np.float32, a: np.float32, b: np.float32) -> tuple[np.float32, np.float32]:
     return np.floor(min(c * a, a - _HALF)) / (a - _ONE), _ZERO
 
@@ -134,7 +139,7 @@ CHANNELS: dict[str, Loop] = {
     function.__name__[1:]: _separable(function)
     for function in (
         _multiply, _screen, _overlay, _dodge, _burn, _add, _subtract, _difference, _invert, _lighten, _darken, _gamma,
-        _contrast, _posterise,
+        _contrast, _posterise, _tone,
     )
 }  # fmt: skip
 

@@ -61,8 +61,9 @@ class Like:
 
 @dataclass(frozen=True, slots=True)
 class Fill:
-    """Fills a region, or (without `like`) what is selected, at `level`, with a brush, on a layer (None: the active
-    one), or `onto` its mask.  `open`: even if the region reaches the border of where it is looked for."""
+    """Fills a region, or (without `like`) what is selected, or the `whole` layer where it has paint, at `level`, with a
+    brush, on a layer (None: the active one), or `onto` its mask.  `open`: even if the region reaches the border of
+    where it is looked for."""
 
     brush: Brush
     like: Like | None = None
@@ -71,6 +72,7 @@ class Fill:
     level: int = 0
     extra: Map[str, Any] = _NOTHING
     onto: str = ONTO_PAINT
+    whole: bool = False
 
 
 def place_of(fill: Fill) -> tuple[int, Rect | None]:
@@ -142,6 +144,9 @@ def write_like(like: Like) -> dict[str, Any]:
 def read_fill(members: Fields) -> Fill:
     """Returns the command that fills."""
     like = None if members.take("like", None) is None else read_like(members, "like")
+    whole = members.flag("whole", False)
+    if whole and like is not None:
+        raise members.fault("whole", "false beside like")
     return Fill(
         settings.from_json(members.take("brush", {}), members.at("brush")),
         like,
@@ -149,6 +154,7 @@ def read_fill(members: Fields) -> Fill:
         None if members.take("layer", None) is None else members.text("layer"),
         members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT) if like is None else 0,
         onto=read_onto(members),
+        whole=whole,
         extra=members.rest(),
     )
 
@@ -164,6 +170,8 @@ def write_fill(fill: Fill) -> dict[str, Any]:
         out["open"] = True
     if fill.layer is not None:
         out["layer"] = fill.layer
+    if fill.whole:
+        out["whole"] = True
     if fill.onto:
         out["onto"] = fill.onto
     return {**out, **thawed(fill.extra)}

@@ -26,7 +26,8 @@ from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import Fill
 from engine.painting.grown import threads
-from engine.painting.value import Painting, Refusal
+from engine.painting.value import Painting, Refusal, layer_for
+from engine.strokes.all_painted import all_painted
 from engine.strokes.bed import Change, lies_in
 from engine.strokes.example_stroke import change_of, check_alpha, grid_of, kind_of
 from engine.strokes.likeness import alike, taken, thinned
@@ -48,6 +49,9 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
     if grows:
         insist_on_paint(layer, "fill")
         check_alpha(layer, "fill")
+    if command.whole and layer.growth:
+        with threads() as pool:
+            layer = flattened(layer, cache, pool)
     region, limit = _region(painting, command, cache)
     pouring = Pouring(painting, layer, brush, cache, limit)
     after = pouring.grown(region) if grows else pouring.painted(region)
@@ -71,6 +75,12 @@ def _region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple
     if command.like is not None:
         region = alike(painting, command.like, command.open, cache)
         return region, Limit.of(painting.selection, region.level, cache)
+    if command.whole:
+        if command.onto:
+            raise Refusal("fill: found the whole of a mask, expected a region of it")
+        _, layer = layer_for(painting, command.layer, "fill")
+        region = all_painted(layer.pyramid, command.level, cache)
+        return region, Limit.of(painting.selection, command.level, cache)
     selection = painting.selection
     if selection is None:
         raise Refusal("fill: found nothing selected and no like, expected one of them")

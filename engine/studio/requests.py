@@ -16,6 +16,7 @@ from engine.brush.copies import NO_COPIES, Copies
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import FINE
 from engine.painting.layering.onto_member import ONTO_PAINT
+from engine.studio.adjusting.trial_records import TryFill
 from engine.studio.copy_records import CopyPicture
 from engine.studio.filing.film_requests import FilmRequest
 from engine.studio.filing.opening_requests import OpeningRequest
@@ -254,6 +255,7 @@ Request = (
     | CopyPicture
     | MoveRequest
     | ShowMask
+    | TryFill
 )
 
 

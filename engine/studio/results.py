@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
 from engine.studio.layer_rows import LayerRow as LayerRow
@@ -301,6 +302,7 @@ Result = (
     | Growing
     | PastResult
     | Extent
+    | Tried
     | Ants
     | Tint
     | Held

@@ -18,6 +18,7 @@ from engine.painting.points import rounded
 from engine.painting.times import members, timed
 from engine.studio import requests as q
 from engine.studio import results
+from engine.studio.adjusting.trials import Trials
 from engine.studio.atlas.atlas import Atlas
 from engine.studio.copying import Copyist
 from engine.studio.easel import Easel
@@ -109,6 +110,7 @@ class Studio(Owned):
             _of(Regions(send)),
             _of(self.lab),
             _of(MaskPictures(easel)),
+            _of(Trials(easel)),
             _of(Moves(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),

@@ -65,7 +65,7 @@ class Operations:
         given: Map[str, Any] = Map() if isinstance(op, str) else op
         changed = given
         for parameter in row.parameters if row else ():
-            changed = self._parameter(desk, changed, parameter)
+            changed = self.parameter(desk, changed, parameter)
         if changed != given:
             desk.hand.change(op=changed.set("name", name))
 
@@ -75,7 +75,7 @@ class Operations:
         imgui.set_next_item_width(-1)
         if not imgui.begin_combo("##op", label, imgui.ComboFlags_.height_largest):
             w.named("operation")
-            w.tooltip(_told(rows[name]) if name in rows else "What a stroke does to the colours that are there")
+            w.tooltip(op_hint(rows[name]) if name in rows else "What a stroke does to the colours that are there")
             return None
         picked = None
         for group, listed in groupby(rows.values(), lambda row: row.group):
@@ -84,7 +84,7 @@ class Operations:
                 if imgui.selectable(f"   {row.label}##{row.name}", row.name == name)[0]:
                     picked = row.name
                 w.named(row.label)
-                w.tooltip(_told(row))
+                w.tooltip(op_hint(row))
         imgui.separator()
         if imgui.selectable("Formula…", name == "formula")[0]:
             picked = "formula"
@@ -93,7 +93,8 @@ class Operations:
         imgui.end_combo()
         return picked
 
-    def _parameter(self, desk: Desk, given: Map[str, Any], row: Parameter) -> Map[str, Any]:
+    def parameter(self, desk: Desk, given: Map[str, Any], row: Parameter) -> Map[str, Any]:
+        """Draws the control of a parameter; returns what is given from now on."""
         value = given.get(row.name, row.default)
         new = CONTROLS[row.kind](self, desk, row, value)
         return given if new == value else given.set(row.name, new)
@@ -213,7 +214,7 @@ def _mistake(formula: str, error: FormulaError) -> None:
     w.tooltip(f"Found {error.found}, expected {error.expected}")
 
 
-def _told(row: Op) -> str:
+def op_hint(row: Op) -> str:
     """Returns a row's hint, with what it does to the other levels."""
     return f"{row.tooltip}\n\n{row.finer}\n{row.coarser}"
 

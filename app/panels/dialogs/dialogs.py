@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app import theme
 from app.actions.actions import ACTIONS, MENUS
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
+from app.panels.dialogs.adjust_dialog import AdjustDialog
 from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
@@ -59,8 +60,7 @@ class Dialogs:
         dialog = self._open
         if dialog is None:
             return
-        middle = ImVec2(desk.view.width / 2, desk.view.height / 2)
-        imgui.set_next_window_pos(middle, imgui.Cond_.always, ImVec2(0.5, 0.5))
+        self._place(desk, dialog)
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
         if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
@@ -75,8 +75,21 @@ class Dialogs:
         else:
             self._open = None
         imgui.pop_style_var()
+        imgui.pop_style_color()
         if self._open is None:
             desk.asked.shown = ""
+            desk.adjusting.leave(desk.post)
+
+    def _place(self, desk: Desk, dialog: Dialog) -> None:
+        """In the middle, over a dimmed picture; in a corner over the picture as it is, where that is to be seen."""
+        aside = getattr(dialog, "aside", False)
+        left, top = desk.free_area()[:2]
+        corner = ImVec2(left + 10 * desk.scale, top + 10 * desk.scale)
+        at = corner if aside else ImVec2(desk.view.width / 2, desk.view.height / 2)
+        imgui.set_next_window_pos(at, imgui.Cond_.always, ImVec2(0, 0) if aside else ImVec2(0.5, 0.5))
+        dim = imgui.get_style().color_(imgui.Col_.modal_window_dim_bg)
+        shade = ImVec4(dim.x, dim.y, dim.z, 0.0 if aside else dim.w)
+        imgui.push_style_color(imgui.Col_.modal_window_dim_bg, shade)
 
 
 class NewPainting:
@@ -274,6 +287,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "frame": lambda desk: FrameDialog(desk.known.frame),
     "paper": lambda desk: PaperDialog(desk.known.paper),
     "merge": lambda desk: MergeDialog(),
+    "adjust": lambda desk: AdjustDialog(),
     "unclosed": Cards,
     "bin": Bin,
     "keys": lambda desk: Keys(),

@@ -14,11 +14,21 @@ def filled_tiles(
 ) -> set[TileKey]:
     """Returns the tiles of a level that are `filled`.  `stored`: where something new comes in at a level; `coarsest`:
     the first at which it does."""
+    found: set[TileKey] = set()
+    for _, tiles in filled_levels(stored, filled, coarsest, level):
+        found = tiles
+    return found
+
+
+def filled_levels(
+    stored: Callable[[int], Iterable[TilePlace]], filled: Callable[[TileKey], bool], coarsest: int, level: int
+) -> Iterator[tuple[int, set[TileKey]]]:
+    """Yields the levels on the way, each with its tiles that are filled."""
     known: set[TilePlace] = set()
     for k in range(coarsest, level + 1):
         near = {*_children(known), *stored(k)}
         known = {place for place in near if filled(TileKey(k, *place))}
-    return {TileKey(level, *place) for place in known}
+        yield k, {TileKey(k, *place) for place in known}
 
 
 def _children(places: Iterable[TilePlace]) -> Iterator[TilePlace]:

@@ -68,6 +68,11 @@ def wash(c):
     return np.stack([np.interp(grey(c)[0], places, column) for column in colours.T])
 
 
+def _recoloured(c):
+    turned = np.einsum("ij,jhw->ihw", turning(20), c)
+    return grey(turned) + 1.2 * (turned - grey(turned))
+
+
 TARGETS = {
     "toward": lambda c: P + 0 * c,
     "multiply": lambda c: c * P,
@@ -86,5 +91,8 @@ TARGETS = {
     "posterise": lambda c: np.floor(np.minimum(c * 4, 3.5)) / 3,
     "saturate": lambda c: grey(c) + 1.5 * (c - grey(c)),
     "hue": lambda c: np.einsum("ij,jhw->ihw", turning(60), c),
+    "tone": lambda c: 0.5 + 1.2 * (c - 0.5) + 0.1,
+    "levels": lambda c: np.clip((c - 0.05) / 0.9, 0, 1) ** 0.9,
+    "recolour": lambda c: 0.9 * np.clip(_recoloured(c), 0, 1) + 0.1,
     "gradient": wash,
 }

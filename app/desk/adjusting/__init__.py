@@ -1,0 +1,1 @@
+"""Adjustments of a layer, as the window knows of them."""
