@@ -8,11 +8,17 @@ from app.desk.desk import Desk
 from app.desk.hand import BLACK, WHITE
 from app.desk.outside import clipboard, copied_parts
 from engine.painting import commands as c
+from engine.studio.requests import Do
 
 
 def _can_undo(desk: Desk) -> bool:
     scene = desk.known.scene
     return ready(desk) and scene is not None and (scene.can_undo or desk.behind())  # a stroke may still be laid
+
+
+def _undo(desk: Desk) -> None:
+    desk.notices.settle("fill")  # what was asked about it is past
+    desk.post(Do(c.Undo()))
 
 
 def _can_redo(desk: Desk) -> bool:
@@ -42,7 +48,7 @@ def _looking_back(desk: Desk) -> bool:
 
 
 EDIT_ACTIONS: dict[str, A] = {
-    "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", posts(c.Undo), _can_undo),
+    "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _undo, _can_undo),
     "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", posts(c.Redo), _can_redo),
     "here": A("What was painted here?", "Edit", ("W",), "The strokes that show at a place", _asks_here, ready),
     "now": A("Back to now", "Edit", (), "See the painting as it is, after looking back", to_now, _looking_back),

@@ -107,3 +107,15 @@ def test_a_name_typed_at_once_is_the_files(program):
         assert time.monotonic() < end
         time.sleep(0.05)
     assert there[0].read_bytes() == b"old"
+
+
+def test_escape_closes_the_colour_of_the_paper_and_then_the_dialog(program):
+    app = program()
+    app.keys("ctrl+n")
+    app.click("paper", "New painting")
+    app.box("paper colour")
+    app.keys("Escape")
+    app.until_gone("paper colour")
+    app.box("Start")
+    app.keys("Escape")
+    app.until_gone("Start")

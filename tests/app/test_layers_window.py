@@ -37,3 +37,15 @@ def test_a_stroke_on_a_hidden_layer_is_told_and_the_layer_shown_at_a_click(progr
     app.click("Show layer", "status")
     app.until_gone("Show layer")
     app.canvas_unlike(empty)
+
+
+def test_another_active_layer_is_brought_into_sight(program):
+    app = program()
+    for count in range(1, 10):
+        app.click("add_layer")
+        app.box(f"Layer {count}")
+    app.until_gone("Layer 1")  # below the end of the list
+    app.keys(*["ctrl+z"] * 8)
+    app.box("Layer 1")
+    app.keys(*["ctrl+shift+z"] * 8)
+    app.box("Layer 9")

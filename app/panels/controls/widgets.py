@@ -381,6 +381,7 @@ def colour_popup(name: str, rgb: tuple[float, float, float]) -> tuple[float, flo
         return None
     imgui.set_next_item_width(imgui.get_font_size() * 13)
     changed, value = imgui.color_picker3(f"##{name}", list(rgb), PICKER_FLAGS)
+    named(name)
     imgui.end_popup()
     return (value[0], value[1], value[2]) if changed else None
 

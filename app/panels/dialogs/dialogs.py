@@ -64,7 +64,8 @@ class Dialogs:
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(18 * desk.scale, 14 * desk.scale))
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
         if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
-            given_up, stays = imgui.is_key_pressed(imgui.Key.escape), dialog.draw(desk)
+            # Escape closes a list or a colour that the dialog has opened first.
+            given_up, stays = imgui.is_key_pressed(imgui.Key.escape) and not _closed_inner(), dialog.draw(desk)
             if given_up:
                 desk.asked.give_up()
                 desk.asked.go_back()
@@ -90,6 +91,16 @@ class Dialogs:
         dim = imgui.get_style().color_(imgui.Col_.modal_window_dim_bg)
         shade = ImVec4(dim.x, dim.y, dim.z, 0.0 if aside else dim.w)
         imgui.push_style_color(imgui.Col_.modal_window_dim_bg, shade)
+
+
+def _closed_inner() -> bool:
+    """Closes what the dialog that is drawn has opened; tells whether there was such a thing."""
+    context = imgui.get_current_context()
+    own = len(context.begin_popup_stack)
+    if len(context.open_popup_stack) <= own:
+        return False
+    imgui.internal.close_popup_to_level(own, True)
+    return True
 
 
 class NewPainting:

@@ -8,9 +8,11 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from engine.studio.requests import Do
 
+_MOST = 60  # levels: beyond, the number would be too long to read
+
 
 class MergeDialog:
-    """Tells to which level the detail stays, and merges if that is wanted."""
+    """Tells how near the detail of textures stays, and merges if that is wanted."""
 
     title = "Merge"
 
@@ -18,8 +20,9 @@ class MergeDialog:
         """Draws it into the present window; False when it is done."""
         em, level = imgui.get_font_size(), desk.asked.merge_level
         imgui.push_text_wrap_pos(em * 25)
-        imgui.text_unformatted(f"Merge at level {level}: textured ink gets no finer than that.")
-        imgui.text_disabled("What you see now stays as it is, at this level and all coarser ones.")
+        near = f"{1 << min(level, _MOST)} times or closer" if level > 0 else "beyond its own pixels"
+        imgui.text_unformatted(f"Textures in this paint end here: magnified {near}, they look soft.")
+        imgui.text_disabled("As you see it now, and from farther away, the picture stays as it is.")
         imgui.pop_text_wrap_pos()
         imgui.spacing()
         if w.default_button("Merge", "Make one layer", width=em * 7):

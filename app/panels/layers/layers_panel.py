@@ -27,6 +27,8 @@ class LayersPanel:
         self._focus = False
         self._folded: set[str] = set()
         self._opacity: tuple[str, float] | None = None
+        self._active: str | None = None
+        self._reveal: str | None = None  # a row that is to be brought into sight
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
@@ -88,16 +90,20 @@ class LayersPanel:
         imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(4 * desk.scale, 3 * desk.scale))
         imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(3 * desk.scale, 3 * desk.scale))
         imgui.begin_child("list", ImVec2(0, height), imgui.ChildFlags_.always_use_window_padding)
+        self._follow(desk, rows)
         unfolded = self._unfolded(rows)
         clipper = imgui.ListClipper()
         clipper.begin(len(unfolded), imgui.get_frame_height_with_spacing())
         for n, row in enumerate(unfolded):
-            if row.name == self._editing:
+            if row.name in (self._editing, self._reveal):
                 clipper.include_item_by_index(n)
         while clipper.step():
             for row in unfolded[clipper.display_start : clipper.display_end]:
                 imgui.push_id(row.name)
                 self._row(desk, row)
+                if row.name == self._reveal:
+                    imgui.internal.scroll_to_item()
+                    self._reveal = None
                 imgui.pop_id()
         if not rows:
             imgui.push_style_color(imgui.Col_.text, theme.vec(theme.QUIET))
@@ -106,6 +112,18 @@ class LayersPanel:
         imgui.end_child()
         imgui.pop_style_var(2)
         imgui.pop_style_color()
+
+    def _follow(self, desk: Desk, rows: tuple[LayerRow, ...]) -> None:
+        """Brings another active layer into sight, and unfolds the groups around it."""
+        active = desk.known.scene.active if desk.known.scene else None
+        if active == self._active:
+            return
+        self._active = self._reveal = active
+        parents = {row.name: row.parent for row in rows}
+        inside = None if active is None else parents.get(active)
+        while inside is not None:
+            self._folded.discard(inside)
+            inside = parents.get(inside)
 
     def _unfolded(self, rows: tuple[LayerRow, ...]) -> list[LayerRow]:
         """Returns the rows that no folded group holds."""
