@@ -55,7 +55,7 @@ def _over_box(desk: Desk) -> int:
 
 def draw_frame(desk: Desk) -> None:
     """Draws the frame's edge, so that it shows under paint that goes beyond it."""
-    r, view = desk.known.frame, desk.view
+    r, view = desk.framing.shown(desk.known), desk.view
     places = ((r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1))
     corners = [view.to_screen(place_of_pixel(0, x, y)) for x, y in places]  # exact at any depth
     painter = imgui.get_background_draw_list()

@@ -38,7 +38,7 @@ from app.news import News
 from app.pace import Pace
 from app.panels.guides.assistant_marks import draw_assistants
 from app.panels.layout import Layout
-from app.panels.moving import box_marks
+from app.panels.moving import box_marks, frame_marks
 from app.router import Router
 from app.trace import trace_rest
 from app.wanted_tiles import Tiles
@@ -194,6 +194,7 @@ class Window:
             cursor.draw_shape(self.desk)
             guide_marks.draw_path(self.desk)
             box_marks.draw(self.desk)
+            frame_marks.draw_frame_marks(self.desk)
         with self._guard.spare_drawing("laying out the panels"):
             self.layout.draw(self.desk, "Pen" if self.desk.pointer.pen else "")
             self.router.hover()

@@ -9,6 +9,7 @@ from app.actions.action import Action as A
 from app.actions.action import active, asks, chosen, paint_chosen, ready
 from app.desk.desk import Desk
 from app.desk.filling.pouring import clear_mask
+from app.desk.framing.frame_state import FRAME_TOOL
 from engine.painting import commands as c
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
@@ -142,6 +143,10 @@ MERGING_ACTIONS: dict[str, A] = {
     "clip": A(
         "Clip to the layer below", "Layer", ("Ctrl+Alt+G",), "Show it only where the layer below has paint",
         _clip, _on_another, _is_clipped,
+    ),
+    "frame_tool": A(
+        "Edit frame", "View", ("C",), "Drag the handles of the frame: crop, or make room; no paint is lost",
+        lambda desk: desk.hand.use(FRAME_TOOL), ready, lambda desk: desk.hand.tool == FRAME_TOOL,
     ),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
     "paper": A("Paper…", "View", (), "The colour of the ground under all layers, or none", asks("paper"), ready),

@@ -17,6 +17,7 @@ from app.desk.adjusting.adjust_state import AdjustState
 from app.desk.asked import Asked, Then
 from app.desk.examples.example_state import Entry, ExampleState
 from app.desk.filling.fill_state import FillState
+from app.desk.framing.frame_state import FrameState
 from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand
 from app.desk.known import Known
@@ -121,6 +122,7 @@ class Desk:
     places: PlaceState = field(default_factory=PlaceState)
     guides: GuideState = field(default_factory=GuideState)
     adjusting: AdjustState = field(default_factory=AdjustState)
+    framing: FrameState = field(default_factory=FrameState)
     masks: MaskState = field(default_factory=MaskState)
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)

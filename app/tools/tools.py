@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from app import icons
+from app.desk.framing.frame_state import FRAME_TOOL
 from app.tools.asking_gestures import pick
 from app.tools.enclosing_gestures import enclose
 from app.tools.filling_gestures import fill
+from app.tools.framing_gestures import drag_frame
 from app.tools.gesture import Tool
 from app.tools.gradient_gestures import gradient
 from app.tools.guide_gestures import move_guide
@@ -49,6 +51,9 @@ TOOLS: dict[str, Tool] = {
     ),
     "guides": Tool(
         "Move guides", icons.GUIDES, move_guide, "Drag the points of guides, or the axis of symmetry; by 15° with Shift"
+    ),
+    FRAME_TOOL: Tool(
+        "Frame", icons.AREA, drag_frame, "Drag the handles of the frame, with Shift at its ratio.  No paint is lost"
     ),
     "fill": Tool("Fill", icons.FILL, fill, "Click a region: it is filled with the chosen brush"),
     "enclose": Tool(

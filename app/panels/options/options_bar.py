@@ -6,7 +6,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.desk.desk import Desk
+from app.desk.framing.frame_state import FRAME_TOOL
 from app.panels.options import fill_options, mask_options
+from app.panels.options.frame_options import FRAME_OPTIONS_WIDTH, draw_frame_options
 from app.tools.tools import TOOLS
 
 
@@ -23,6 +25,7 @@ _OF_TOOLS = {
     "enclose": Options(49.0, fill_options.draw),
     "gradient": Options(49.0, fill_options.draw),
     "wand": Options(33.0, fill_options.draw),
+    FRAME_TOOL: Options(FRAME_OPTIONS_WIDTH, draw_frame_options),
 }
 _MASK = Options(32.0, mask_options.draw_mask)
 

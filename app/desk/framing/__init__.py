@@ -1,0 +1,1 @@
+"""The frame while it is edited."""
