@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from app.actions.action import Action as A
-from app.actions.action import active, asks, chosen, paint_chosen, ready
+from app.actions.action import active, always, asks, chosen, paint_chosen, ready
 from app.desk.desk import Desk
 from app.desk.filling.pouring import clear_mask
 from app.desk.framing.frame_state import FRAME_TOOL
@@ -146,7 +146,7 @@ MERGING_ACTIONS: dict[str, A] = {
     ),
     "frame_tool": A(
         "Edit frame", "View", ("C",), "Drag the handles of the frame: crop, or make room; no paint is lost",
-        lambda desk: desk.hand.use(FRAME_TOOL), ready, lambda desk: desk.hand.tool == FRAME_TOOL,
+        lambda desk: desk.hand.use(FRAME_TOOL), always, lambda desk: desk.hand.tool == FRAME_TOOL,
     ),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
     "paper": A("Paper…", "View", (), "The colour of the ground under all layers, or none", asks("paper"), ready),
