@@ -137,7 +137,7 @@ MERGING_ACTIONS: dict[str, A] = {
     ),
     "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, _can_clear),
     "adjust": A(
-        "Adjust colours…", "Layer", ("Ctrl+U",), "Brightness, levels, hue, and all else that changes colours",
+        "Adjust colours…", "Layer", ("Ctrl+M",), "Brightness, levels, hue, and all else that changes colours",
         asks("adjust"), _can_adjust,
     ),
     "clip": A(
