@@ -16,11 +16,11 @@ from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.flatten import flattened
 from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
-from engine.canvas.placing import loops
 from engine.canvas.placing.bake import Pasted, baked, tiles_of
 from engine.canvas.placing.clip import Clip, clipped
 from engine.canvas.placing.filled import TilePlace, filled_tiles
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.rounds import by_ids
 from engine.canvas.placing.through import UNPLACED, Seen
 from engine.canvas.placing.views import Views
 from engine.canvas.reading import layer_planes
@@ -52,10 +52,10 @@ def paint_of(root: Group, node: Placement, frame: Rect, grid: int) -> Pyramid:
 
 def _one_layer(root: Group, node: Placement) -> tuple[Layer | None, Seen]:
     """Returns the layer that a placement shows, directly or through other placements, and how."""
-    seen, gone = UNPLACED, set[int]()
+    seen, gone, nodes = UNPLACED, set[int](), by_ids(root)
     while node.id not in gone:
         gone.add(node.id)
-        seen, source = seen.of(node), loops.source(root, node)
+        seen, source = seen.of(node), nodes[root.id if node.of is None else node.of]
         if not isinstance(source, Placement):
             return (
                 (source, seen)

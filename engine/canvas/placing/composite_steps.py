@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
-from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, stacks, walk
+from engine.canvas.layers import Alone, Group, Layer, Node, passes_through, stacks
 from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.drawn_copies import Copies, Shown
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.rounds import by_ids, composed, rounds
 from engine.canvas.placing.self_copies import Tiles
+from engine.canvas.placing.through import UNPLACED, Seen, seen_first
 from engine.canvas.selecting.layer_mask import Mask
 from engine.numeric import blend
 
@@ -59,12 +63,21 @@ class Sources:
         self._opened: dict[Shown, tuple[CompositeStep, ...]] = {}
         self._own: dict[Shown, int | None] = {}
         self._tiles: dict[Shown, Tiles[Leaf, Found]] = {}
+        self._ends: dict[int, tuple[Placement, Seen]] = {}
+
+    @functools.cached_property
+    def _nodes(self) -> dict[int, Node]:
+        return by_ids(self._root)
+
+    @functools.cached_property
+    def _rounds(self) -> set[int]:
+        return rounds(self._root, self._nodes)
 
     def steps(self, of: Shown) -> tuple[CompositeStep, ...]:
         """Returns what to composite for a node of an id; None: for all of them."""
         held = self._steps.get(of)
         if held is None:
-            node: Node = self._root if of is None else next(node for node in walk(self._root) if node.id == of)
+            node = self._root if of is None else self._nodes[of]
             plan = steps(node, self) if isinstance(node, Group) else (self.step(node),)
             held = self._steps[of] = masked(plan, node)
         return held
@@ -79,13 +92,15 @@ class Sources:
 
     def _turned(self, step: CompositeStep) -> bool:
         if isinstance(step.source, Placed):
-            placement = step.source.placement
+            placement, _ = self.end(step.source.placement)
             return placement.pose.similarity.quarter is None or self.turns(placement.of)
         return isinstance(step.source, tuple) and any(map(self._turned, step.source))
 
     def loop(self, of: Shown) -> Copies | None:
         """Returns the placements within what shows one another that a node is part of, by the nodes they lie in; None
         if it does not hold itself."""
+        if (self._root.id if of is None else of) not in self._rounds:
+            return None
         if of not in self._loops:
             ahead = self._reached(of, lambda node: [one.placement.of for one in placements_in(self.steps(node))])
             behind: dict[Shown, list[Shown]] = {}
@@ -143,6 +158,21 @@ class Sources:
         if of not in self._tiles:
             self._tiles.update(dict.fromkeys(loop, made(loop)))
         return self._tiles[of]
+
+    def end(self, placement: Placement) -> tuple[Placement, Seen]:
+        """Returns the last of exact placements in one another, from one on, and how that is seen in the first: they are
+        one, however many there are."""
+        chain = [placement]
+        while chain[-1].id not in self._ends:
+            inner = None if chain[-1].of is None or chain[-1].of in self._rounds else self._nodes[chain[-1].of]
+            if not isinstance(inner, Placement) or not composed(chain[-1], inner):
+                self._ends[chain[-1].id] = chain[-1], UNPLACED
+                break
+            chain.append(inner)
+        for outer, inner in reversed(list(itertools.pairwise(chain))):
+            last, seen = self._ends[inner.id]
+            self._ends[outer.id] = last, seen.through(seen_first(outer))
+        return self._ends[placement.id]
 
     def step(self, node: Layer | Placement) -> CompositeStep:
         """Returns the step that lays a layer, or what a placement shows, over nothing."""

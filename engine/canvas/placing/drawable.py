@@ -1,6 +1,7 @@
 """How much a tree comes to once all placements show what they show, and how far they lie in one another: both bounded.
 
 Groups of two placements of the group before double what is drawn each time; nobody could wait for forty of them.
+Exact placements in one another are drawn as one, and count as one; each part that is cut out of another counts.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from engine.canvas.layers import Group, Node
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.rounds import composed, rounds, shown_in
 
 MOST_DRAWN = 1 << 13  # layers and placements, each as often as it is shown
 MOST_NESTED = 128  # groups and placements in one another
@@ -20,11 +22,12 @@ def checked_drawable(root: Group, nodes: Mapping[int, Node]) -> bool:
     `nodes`: all of them, the root too, by their ids.  Each turn of what shows itself counts once."""
     known: dict[int, tuple[int, int]] = {}  # how much there is to draw, and how many lie in one another
     inside: set[int] = set()  # what is being looked at: met again, it shows itself
-    goes_round = False
+    goes_round, round_ = False, rounds(root, nodes)
     todo = [root.id]
     while todo:
         number = todo[-1]
-        shown = _shown(nodes[number], root)
+        node = nodes[number]
+        shown = shown_in(node, root)
         if number not in inside and number not in known:
             inside.add(number)
             goes_round |= any(one in inside for one in shown)
@@ -33,21 +36,17 @@ def checked_drawable(root: Group, nodes: Mapping[int, Node]) -> bool:
             todo.pop()
             if number in inside:
                 inside.discard(number)
-                known[number] = _counted(nodes[number], [known[one] for one in shown if one in known])
+                as_one = isinstance(node, Placement) and shown[0] not in round_ and composed(node, nodes[shown[0]])
+                known[number] = _counted(node, [known[one] for one in shown if one in known], as_one)
     return goes_round
 
 
-def _shown(node: Node, root: Group) -> list[int]:
-    if isinstance(node, Group):
-        return [child.id for child in node.children]
-    return [root.id if node.of is None else node.of] if isinstance(node, Placement) else []
-
-
-def _counted(node: Node, shown: Iterable[tuple[int, int]]) -> tuple[int, int]:
-    """Returns what a node comes to, from what it shows."""
+def _counted(node: Node, shown: Iterable[tuple[int, int]], as_one: bool) -> tuple[int, int]:
+    """Returns what a node comes to, from what it shows; `as_one`: it is drawn as one with the placement it shows."""
     found = list(shown)
-    drawn = sum(count for count, _ in found) + (not isinstance(node, Group))
-    nested = max((deep for _, deep in found), default=0) + isinstance(node, Group | Placement)
+    deeper = isinstance(node, Group) or (isinstance(node, Placement) and (not as_one or node.part is not None))
+    drawn = sum(count for count, _ in found) + (not isinstance(node, Group) and not as_one)
+    nested = max((deep for _, deep in found), default=0) + deeper
     if drawn > MOST_DRAWN:
         told = "layers and placements to draw"
         raise LayerError(f"layer {node.name!r}: found {drawn:,} {told} in it, expected at most {MOST_DRAWN:,}")

@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from engine.canvas import layers
-from engine.canvas.layers import Group, Node
+from engine.canvas.layers import Group
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.drawable import checked_drawable
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.rounds import by_ids
 
 if TYPE_CHECKING:
     import numpy as np
@@ -38,13 +39,6 @@ def showing(root: Group, name: str) -> list[Placement]:
     return [one for one in placements(root) if one.of in within and one.id not in within]
 
 
-def source(root: Group, one: Placement) -> Node:
-    """Returns the node that a placement shows; the root for the whole painting."""
-    if one.of is None:
-        return root
-    return next(node for node in layers.walk(root) if node.id == one.of)
-
-
 def holds_itself(one: Placement, shown_in: Callable[[int | None], Iterable[Placement]]) -> bool:
     """Tells whether a placement is shown in what it shows; `shown_in`: the placements in the source of a number."""
     todo, known = [one.of], {one.of}
@@ -62,7 +56,7 @@ def checked(root: Group) -> Group:
     found = list(placements(root))
     if not found:
         return root
-    nodes: dict[int, Node] = {root.id: root, **{node.id: node for node in layers.walk(root)}}
+    nodes = by_ids(root)
     for one in found:
         if one.of is not None and one.of not in nodes:
             raise LayerError(f"layer {one.name!r}: of: found a node that is not there, expected one that is")

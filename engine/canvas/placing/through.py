@@ -53,6 +53,15 @@ class Seen:
             clips = own, *clips
         return Seen(similarity, clips, self.repeats or placement.repeat, own)
 
+    def through(self, outer: Seen) -> Seen:
+        """Returns how a source that is seen so within another is seen where that is seen as `outer`."""
+        if outer is UNPLACED or self is UNPLACED:
+            return self if outer is UNPLACED else outer
+        similarity = self.similarity.then(outer.similarity).cut(_SURE, _FINEST)
+        own = outer.own if self.own is None else self.own.through(outer.similarity)
+        clips = (*(clip.through(outer.similarity) for clip in self.clips), *outer.clips)
+        return Seen(similarity, clips, self.repeats or outer.repeats, own)
+
     @property
     def unclipped(self) -> Seen:
         """Gives the same where somebody else cuts by the clips."""

@@ -13,12 +13,13 @@ from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.attenuate import placed
 from engine.canvas.layers import Group, Layer, Node
-from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
+from engine.canvas.placing.rounds import by_ids
 from engine.canvas.reading import layer_planes
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.similarity import Similarity
 from engine.painting.value import Painting
 
 FOLLOWED = 4096  # pixels along what reaches far: its bounds are followed to no finer level
@@ -41,19 +42,30 @@ class _Reaches:
     def __init__(self, painting: Painting, cache: TileCache | None) -> None:
         self._painting, self._cache = painting, cache
         self._open: set[int] = set()
+        self._nodes = by_ids(painting.root)
 
     def of(self, node: Node, level: int) -> Reach:
         """Returns what a layer or group reaches; of a placement, what its source does, or the part that it shows."""
         if not isinstance(node, Placement):
             return (yield from self._seen(node, level))
-        if node.part is not None:
-            return node.part
-        source = loops.source(self._painting.root, node)
-        if node.of is None or node.id in self._open:
-            return SourcePart(0, self._painting.frame)
-        self._open.add(node.id)
-        found = yield from self._seen(source, level)
-        self._open.discard(node.id)
+        within: list[
+            Similarity
+        ] = []  # of placements in one another: there may be thousands, too many for calls in calls
+        opened: list[int] = []
+        while node.part is None and node.of is not None and node.id not in self._open:
+            self._open.add(node.id)
+            opened.append(node.id)
+            source = self._nodes[node.of]
+            if not isinstance(source, Placement):
+                found = yield from self._seen(source, level)
+                break
+            within.append(source.pose.similarity)
+            node, level = source, level + source.pose.similarity.like_levels
+        else:
+            found = SourcePart(0, self._painting.frame) if node.part is None else node.part
+        self._open.difference_update(opened)
+        for similarity in reversed(within):
+            found = _shown(found, similarity)
         return found
 
     def _seen(self, node: Node, level: int) -> Reach:
@@ -63,9 +75,7 @@ class _Reaches:
         if isinstance(node, Group):
             return (yield from self._of_all(node, level))
         similarity = node.pose.similarity
-        inner = yield from self.of(node, level + similarity.like_levels)
-        at = inner.level - similarity.like_levels
-        return SourcePart(at, similarity.shown(inner.rect, inner.level, at))
+        return _shown((yield from self.of(node, level + similarity.like_levels)), similarity)
 
     def _of_all(self, group: Group, level: int) -> Reach:
         whole = SourcePart(level, _NOWHERE)
@@ -74,6 +84,12 @@ class _Reaches:
                 found = yield from self._seen(child, level)
                 whole = _both(whole, found)
         return whole
+
+
+def _shown(part: SourcePart, similarity: Similarity) -> SourcePart:
+    """Returns what holds a part of a source where it is shown."""
+    at = part.level - similarity.like_levels
+    return SourcePart(at, similarity.shown(part.rect, part.level, at))
 
 
 def _both(one: SourcePart, other: SourcePart) -> SourcePart:

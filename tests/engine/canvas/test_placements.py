@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, Layer, find
+from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.numeric.pyramid import reduce
-from engine.numeric.similarity import Dyadic
+from engine.numeric.similarity import IDENTITY, Dyadic
 from engine.painting import commands as c
 from engine.session.session import Session
 
@@ -273,3 +274,55 @@ def test_a_picture_that_contains_itself_is_the_same_a_turn_deeper(levels):
 def test_a_layer_alone_stays_as_it_is():
     assert isinstance(node("low"), Layer)
     assert picture(replace(EMPTY, children=(node("low"),)), 0, WINDOW).any()
+
+
+def in_one_another(count, poses, part=None):
+    """So many placements in one another, the last of them seen."""
+    first = placed("low", poses[0], 50, visible=count == 1)
+    more = (
+        Placement(50 + n, f"placed {n}", visible=n == count - 1, of=49 + n, pose=poses[n % len(poses)], part=part)
+        for n in range(1, count)
+    )
+    return only(first, *more)
+
+
+def test_thousands_of_exact_placements_in_one_another_are_drawn_as_one():
+    poses = [Pose(at=(7, -3), levels=-1, turn=1), Pose(at=(-20, 11), levels=1, mirror=True), Pose(at=(3, 1), turn=2)]
+    chain = loops.checked(in_one_another(3000, poses))
+    f = IDENTITY
+    for n in range(3000):
+        f = f.then(poses[n % 3].similarity)
+    window = f.shown(WINDOW, 0, 0)
+    found = picture(chain, 0, window)
+    assert found.any()
+    np.testing.assert_array_equal(found, picture(only(placed("low", Pose.of(f))), 0, window))
+
+
+def test_a_row_of_moves_by_parts_of_pixels_is_one_move():
+    """By ever smaller parts: each would be the mean of finer pixels of the one before."""
+    poses = [Pose(at=(1, 1), level=2 * n) for n in range(1, 8)]
+    one = poses[0].similarity
+    for pose in poses[1:]:
+        one = one.then(pose.similarity)
+    found = picture(in_one_another(7, poses), 0, WINDOW)
+    assert found.any()
+    np.testing.assert_array_equal(found, picture(only(placed("low", Pose.of(one))), 0, WINDOW))
+
+
+def test_parts_cut_out_of_parts_are_what_lies_in_all():
+    poses, part = [Pose(at=(5, 2)), Pose(at=(0, 0), turn=1)], SourcePart(0, Rect(-30, -20, 40, 30))
+    nested = picture(in_one_another(3, poses, part), 0, WINDOW)
+    inner = Group(70, "g", visible=False, children=(placed("low", poses[0]),))
+    outer = Group(71, "h", visible=False, children=(Placement(72, "in", of=70, pose=poses[1], part=part),))
+    by_groups = only(inner, outer, Placement(73, "out", of=71, pose=poses[0], part=part))
+    assert nested.any()
+    np.testing.assert_array_equal(nested, picture(by_groups, 0, WINDOW))
+
+
+def test_a_turned_placement_of_thousands_is_drawn():
+    chain = in_one_another(2000, [Pose(at=(2, 1)), Pose(at=(-2, -1))])
+    turned = replace(chain, children=(*chain.children[:-1], replace(chain.children[-1], pose=TURNED)))
+    near = only(placed("low", Pose(at=(2, 1)), visible=False), Placement(51, "turned", of=50, pose=TURNED))
+    found = picture(loops.checked(turned), 0, WINDOW)
+    assert found.any()
+    np.testing.assert_array_equal(found, picture(near, 0, WINDOW))

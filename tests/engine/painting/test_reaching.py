@@ -1,5 +1,7 @@
 """How far layers, groups and placements reach: to the pixel, wherever and however deep they were painted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,7 +9,8 @@ from hypothesis import strategies as st
 
 from engine.canvas import layers
 from engine.canvas.composite import composite
-from engine.canvas.placing.pose import SourcePart
+from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import layer_planes
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -132,3 +135,18 @@ def test_the_window_is_told():
         Extent("Layer 1", found(painted(stroke(20, 30)))),
         Extent("nobody", None),
     ]
+
+
+def test_thousands_of_placements_in_one_another_are_taken_hold_of_and_baked():
+    session = painted(stroke(10, 20))
+    root, poses = session.painting.root, (Pose(at=(3, 1), mirror=True), Pose(at=(3, -1), mirror=True))
+    source = layers.find(root, "Layer 1")
+    chain = (
+        Placement(100 + n, f"p{n}", visible=False, of=99 + n if n else source.id, pose=poses[n % 2])
+        for n in range(2000)
+    )
+    session = Session(replace(session.painting, root=replace(root, children=(*root.children, *chain))))
+    held, shown = found(session, "p1999"), bounds(session, "p1999", 0, Rect(-99, -99, 99, 99))
+    assert poses[1].similarity.shown(held.rect, 0, 0) == shown
+    session.do(c.parse({"do": "layer", "bake": "p1999"}))
+    assert found(session, "p1999") == SourcePart(0, shown)
