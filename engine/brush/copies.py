@@ -71,6 +71,9 @@ class Torus(NamedTuple):
         widest = float(reach.max()) if len(reach) else 0.0
         if widest > min(self.width, self.height):
             most = min(self.width, self.height) - 1.0 - self.spare
+            if most < 0.5:
+                tile = f"a tile of {self.width:g} x {self.height:g} px at this level"
+                raise BrushError("stroke", tile, "at least 3 px each way: zoom in")
             raise BrushError("brush.radius", f"{widest - 1.0 - self.spare:g} px", f"at most {most:g} px on this tile")
         met = np.ones(len(out), np.bool_)
         for column, first, period, by in ((_X, self.left, self.width, across), (_Y, self.top, self.height, down)):

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+LONGEST = 80  # characters of a place that are told: of a longer one the middle is left out
+
 
 class FieldError(ValueError):
     """A value that its field does not allow.  `str()` is one line; `place` is "" where there is only one."""
 
     def __init__(self, place: str, found: str, expected: str) -> None:
         self.place, self.found, self.expected = place, found, expected
-        lead = f"{place}: " if place else ""
+        lead = f"{_shortened(place)}: " if place else ""
         super().__init__(f"{lead}found {found}, expected {expected}")
 
     def __reduce__(self) -> tuple[type[FieldError], tuple[str, str, str]]:
         return type(self), (self.place, self.found, self.expected)
+
+
+def _shortened(place: str) -> str:
+    half = (LONGEST - 3) // 2
+    return place if len(place) <= LONGEST else f"{place[:half]}...{place[-half:]}"

@@ -47,6 +47,11 @@ def told(error: Exception, doing: str, about: str = "", path: Path | None = None
     return Note(words(error), True, fault, fault or bool(about), offers, about or ("fault" if fault else ""), path)
 
 
+def stated(error: Exception) -> Exception:
+    """Returns an error of what nobody asked for just now, as what plays from a file: there is nobody to answer."""
+    return Refusal(str(error)) if isinstance(error, Leak) else error
+
+
 def is_full(error: BaseException) -> bool:
     """Tells whether an error, or what it was raised from, says that there is no room left on a disk."""
     cause: BaseException | None = error

@@ -132,7 +132,8 @@ def _played(recording: Recording, progress: Progress) -> Document:
         try:
             session.do(command)
         except Exception as error:  # the painting is a value: whatever failed left it as it was
-            notes.append(recording.fault(i, faults.told(error, "while a recording was played").text).message)
+            why = faults.told(faults.stated(error), "while a recording was played").text
+            notes.append(recording.fault(i, why).message)
         if isinstance(command, c.View):
             view = command
     more = len(notes) - MOST_NOTES

@@ -11,8 +11,9 @@ import numpy as np
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.recording import Recording
+from engine.painting.value import Leak
 from engine.strokes.live_stroke import POINTS_CAP
-from engine.studio import results
+from engine.studio import faults, results
 
 LIVE_SECONDS = 70.0  # that the strokes of a recording take at most when it plays live
 SLOWEST = 0.004  # seconds a point: no slower than a hand
@@ -63,10 +64,13 @@ class Playing(Owned):
         now = time.monotonic()
         self._clock = max(self._clock, now - 1.0)  # behind: hurry, but do not make up for a long wait
         end = now + PIECE
-        while self._clock <= now < end:
-            if not self._next(stage):
-                return None
-            now = time.monotonic()
+        try:
+            while self._clock <= now < end:
+                if not self._next(stage):
+                    return None
+                now = time.monotonic()
+        except Leak as error:
+            raise faults.stated(error) from None
         return max(self._clock, now)
 
     @property

@@ -1,5 +1,6 @@
 """The easel: whatever is done and looked at, the window ends up with the picture that the painting is."""
 
+import json
 import time
 from collections import deque
 
@@ -13,9 +14,11 @@ from engine.brush.settings import Brush, Component
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
+from engine.painting.value import Leak, Refusal
 from engine.session.apply import apply
+from engine.studio import faults, results
 from engine.studio import requests as q
-from engine.studio import results
+from engine.studio.filing.documents import opened
 from engine.studio.sight import tile_rect
 from engine.studio.studio import Studio
 from opens import opens
@@ -365,6 +368,24 @@ def test_a_recordings_stroke_is_whole_though_the_artist_does_something_meanwhile
         window.studio.do(q.Finish())
         assert [len(command.points) for command in window.studio.easel.session.log] == [5, 5]
     assert len(_played_out(window)) == 2
+
+
+LEAKING = '{"inkfall": 2, "frame": [0, 0, 90, 90], "seed": 3}\n{"do": "fill", "like": {"at": [5, 5]}, "brush": {}}\n'
+RUNS_OUT = "found a region that reaches the border of 90 x 90 at 0, 0, expected one within, or open"
+
+
+def test_a_fill_of_a_file_that_leaks_is_told_of_and_asks_nobody(tmp_path):
+    """The question is for those who just filled."""
+    path = tmp_path / "leaking.jsonl"
+    path.write_text(LEAKING)
+    assert opened(path).notes == (f"line 2: fill: {RUNS_OUT}",)
+    window = Window()
+    opens(window.studio, window.posted, path, True)
+    with pytest.raises(Refusal, match=RUNS_OUT) as refused:
+        window.studio.play()
+    assert faults.told(refused.value, "").offers == ()
+    with pytest.raises(Leak):
+        window.studio.do(q.Do(c.parse(json.loads(LEAKING.splitlines()[1]))))
 
 
 def test_points_of_a_stroke_that_was_refused_do_not_join_the_recordings(half_played):

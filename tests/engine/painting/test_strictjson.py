@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import re
 
 import pytest
 from hypothesis import given, settings
@@ -114,6 +115,14 @@ def test_fields_name_place_found_and_expected(value, read):
     assert str(caught.value).startswith("top")
     assert ": found " in str(caught.value)
     assert ", expected " in str(caught.value)
+
+
+def test_the_middle_of_a_long_place_is_left_out():
+    place = "layers[3]" + ".children[0]" * 99 + ".kind"
+    told = str(FieldError(place, "1", "2"))
+    assert re.fullmatch(r"layers\[3\]\S+\.\.\.\S+\[0\]\.kind: found 1, expected 2", told)
+    assert len(told) < 120
+    assert FieldError(place, "1", "2").place == place
 
 
 def test_fields_keep_what_nobody_asked_for():

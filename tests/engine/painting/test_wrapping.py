@@ -232,6 +232,10 @@ def test_what_cannot_be_is_refused_and_nothing_is_lost():
         session.do(c.parse(stroke([[0, 0]], level=-4)))
     with pytest.raises(Refusal, match="on this tile"):
         session.do(c.parse(stroke([[0, 0]], radius=300)))
+    tiny = painted(wrap(Rect.at(0, 0, 2, 1)))
+    with pytest.raises(Refusal, match="found a tile of 2 x 1 px at this level, expected at least 3 px each way"):
+        tiny.do(c.parse(stroke([[0, 0]])))
+    tiny.do(c.parse(stroke([[0, 0]], level=2, radius=1)))
     with pytest.raises(Refusal, match="wrap-around off"):
         session.do(c.parse({"do": "layer", "set": "Layer 1", "at": [5, 5]}))
     with pytest.raises(Refusal, match="wrap-around off"):
