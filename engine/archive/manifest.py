@@ -317,10 +317,8 @@ def _object(members: Fields, name: str) -> dict[str, Any]:
 def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
     members = Fields(value, where)
     kind = members.take("kind", expected='"layer", "group" or "placement"')
-    if kind not in ("layer", "group", "placement"):
-        raise members.fault("kind", '"layer", "group" or "placement"')
-    if depth > layers.MAX_DEPTH + 1:
-        raise FieldError(where, f"more than {layers.MAX_DEPTH} groups in one another", "fewer")
+    if kind not in ("layer", "group", "placement") or depth > layers.MAX_DEPTH + 1:
+        raise members.fault("kind", f'"layer", "group" or "placement", at most {layers.MAX_DEPTH} deep')
     common: dict[str, Any] = {
         "id": members.integer("id", lo=1, hi=1 << 62),
         "name": members.text("name"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-LONGEST = 80  # characters of a place that are told: of a longer one the middle is left out
+_LONGEST_PLACE = 80  # characters of a place that are told: of a longer one the middle is left out
 
 
 class FieldError(ValueError):
@@ -18,5 +18,5 @@ class FieldError(ValueError):
 
 
 def _shortened(place: str) -> str:
-    half = (LONGEST - 3) // 2
-    return place if len(place) <= LONGEST else f"{place[:half]}...{place[-half:]}"
+    half = (_LONGEST_PLACE - 3) // 2
+    return place if len(place) <= _LONGEST_PLACE else f"{place[:half]}...{place[-half:]}"

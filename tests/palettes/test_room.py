@@ -1,5 +1,7 @@
 """The room: a floor tiled by wrap-around, light through a window, and on the wall the room itself."""
 
+import io
+import json
 import os
 import shutil
 import subprocess
@@ -12,9 +14,12 @@ from PIL import Image
 
 from engine.archive.export import Picture, export
 from engine.files.images import read_image
+from engine.film.aim import aim_of
+from engine.film.shooting import Film, Shooting
 from engine.numeric.address import Rect
 from engine.painting import commands
-from engine.painting.recording import read
+from engine.painting.grown import settled
+from engine.painting.recording import read, read_from
 from engine.session.replay import replay
 
 GALLERY = Path(__file__).resolve().parents[2] / "palettes" / "gallery"
@@ -42,7 +47,30 @@ def test_its_script_writes_the_same_recording_again(tmp_path):
     assert sum(a != b for a, b in zip(made, bundled, strict=True)) <= 3
 
 
-def test_the_last_frame_of_its_film_is_the_first():
+def ends(painting, size):
+    """The first, the last and the second frame of the film from the room into its picture, before they are packed."""
+    out, into = (painting.bookmarks[name] for name in ("out", "in"))
+    frames = list(Shooting(Film((aim_of(out, size), aim_of(into, size)), size, 4.0, 1.0), settled(painting)).frames(2))
+    return frames[0], frames[-1], frames[1]
+
+
+def assert_closed(painting, size):
+    first, last, second = ends(painting, size)
+    assert np.array_equal(first, last)
+    assert not np.array_equal(first, second)
+
+
+def test_a_film_into_its_picture_ends_with_the_frame_it_began_with():
+    """With but its strokes without ink, which are painted in no time."""
+    told = [json.loads(line) for line in RECORDING.read_text("utf-8").splitlines()]
+    plain = [one for one in told if one.get("do") == "stroke" and "ink" not in one["brush"]]
+    few = [told[0], *plain, *told[-3:]]
+    del few[-3]["to"]
+    lines = "\n".join(map(json.dumps, few)).encode()
+    assert_closed(replay(read_from(io.BytesIO(lines), "few")).painting, (160, 120))
+
+
+def test_the_film_in_the_readme_ends_as_it_began():
     with Image.open(PICTURES / "room.webp") as film:
         first = np.asarray(film.convert("RGB")).astype(int)
         film.seek(film.n_frames - 1)
@@ -58,6 +86,7 @@ def test_on_its_wall_it_is_the_same_and_the_picture_shows_it(tmp_path):
     export(inner, Picture(painting, 2, Rect.at(604 * 4, 150 * 4, 1024, 768)))
     seen = read_image(outer)[0]
     assert np.array_equal(seen, read_image(inner)[0])
+    assert_closed(painting, (480, 360))
     with Image.open(PICTURES / "room.png") as shown:
         size, picture = shown.size, np.asarray(shown.convert("RGB")).astype(float)
     small = Image.fromarray(seen).convert("RGB").resize(size, Image.Resampling.LANCZOS)
