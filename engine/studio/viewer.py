@@ -15,7 +15,7 @@ from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_premul8
-from engine.painting.difference import areas
+from engine.painting.difference import Areas, areas
 from engine.painting.rendering import piece_reader
 from engine.painting.value import Painting
 from engine.session.session import Session
@@ -82,12 +82,14 @@ class Viewer(Owned):
         seen = placed_stroke.areas_of(live, own, [rect])
         self.changed(lambda level: None if whole else seen(level))
 
-    def look_back(self, painting: Painting | None) -> None:
-        """Shows another state of the painting; None: as it is now."""
+    def look_back(self, painting: Painting | None, where: Areas | None = None) -> None:
+        """Shows another state of the painting; None: as it is now.  `where`: in which areas it differs from what was
+        seen, where that is known better than their layers tell."""
         now = self._subject.session.painting
         before, self.looking = self.looking or now, painting
         if before is not (painting or now):
-            self.changed(areas(before, painting or now))
+            known = where is not None and not self._alone.shown
+            self.changed(where if known and where is not None else areas(before, painting or now))
 
     def forget(self) -> None:
         """Another painting is to be seen."""

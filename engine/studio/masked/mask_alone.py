@@ -25,6 +25,11 @@ class MaskAlone(Owned):
         self._changed = changed
         self.handlers: q.Handlers = {ShowMask: self._show}
 
+    @property
+    def shown(self) -> bool:
+        """Tells whether one may be seen in place of the painting."""
+        return self._name is not None
+
     def forget(self) -> None:
         """Shows the painting."""
         self._name = None

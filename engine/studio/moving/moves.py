@@ -16,6 +16,7 @@ from engine.painting.value import Painting
 from engine.session.lifting.moved_part import LiftedPart, lifted_part, part_tried
 from engine.session.moving import tried
 from engine.studio.easel import Easel
+from engine.studio.moving.deviations import Deviation, Deviations
 from engine.studio.moving.move_requests import AskExtent, Extent, Try
 from engine.studio.moving.reaching import Reach, reach_of
 
@@ -26,7 +27,8 @@ class Moves(Owned):
 
     def __init__(self, easel: Easel) -> None:
         self._easel = easel
-        self._asked: tuple[str, bool, Reach] | None = None
+        self._asked: tuple[Painting, str, bool, Reach] | None = None
+        self._deviations = Deviations()
         self._lifted: tuple[Painting, str, str, LiftedPart] | None = None  # the last one, and of what
         self.handlers: dict[type, Callable[[Any], None]] = {Try: self._try, AskExtent: self._ask}
 
@@ -39,10 +41,11 @@ class Moves(Owned):
         """Looks at the next piece of what is asked for; tells it when that was the last."""
         assert self._asked is not None
         asked, self._asked = self._asked, None  # what fails is not tried again
-        name, selected, reach = asked
+        painting, name, selected, reach = asked
         try:
             next(reach)
         except StopIteration as told:
+            self._deviations.reached(painting, name, selected, told.value)
             self._easel.send(Extent(name, None if told.value.rect.empty else told.value, selected))
         except LayerError:  # it is gone meanwhile
             self._easel.send(Extent(name, None, selected))
@@ -51,13 +54,14 @@ class Moves(Owned):
 
     def _ask(self, request: AskExtent) -> None:
         session = self._easel.session
-        painting, name = session.painting, request.name
+        painting = alone = session.painting
+        name = request.name
         try:
             if request.selected:
                 lifted = self._part(painting, name, CUT)
-                alone = replace(lifted.layer, pyramid=lifted.part)
-                painting = replace(painting, root=layers.substitute(painting.root, name, alone))
-            self._asked = name, request.selected, reach_of(painting, name, request.level, session.cache)
+                part = replace(lifted.layer, pyramid=lifted.part)
+                alone = replace(painting, root=layers.substitute(painting.root, name, part))
+            self._asked = painting, name, request.selected, reach_of(alone, name, request.level, session.cache)
         except LayerError:
             self._asked = None
             self._easel.send(Extent(name, None, request.selected))
@@ -69,16 +73,19 @@ class Moves(Owned):
         return self._lifted[3]
 
     def _try(self, request: Try) -> None:
-        painting, placing = self._easel.session.painting, request.placing
+        painting, viewer = self._easel.session.painting, self._easel.viewer
         try:
-            seen = None if placing is None else self._tried(painting, request, placing)
+            new = None if request.placing is None else self._tried(painting, request, request.placing)
         except LayerError:  # it is gone meanwhile
-            seen = None
+            new = None
         if self._easel.live is None:
-            self._easel.viewer.look_back(seen)
+            where = self._deviations.change(viewer.looking, painting, new)
+            viewer.look_back(None if new is None else new.seen, where)
 
-    def _tried(self, painting: Painting, request: Try, placing: Placing) -> Painting:
+    def _tried(self, painting: Painting, request: Try, placing: Placing) -> Deviation:
         if request.selected is None:
-            return tried(painting, request.name, placing, request.copy)
-        lifted = self._part(painting, request.name, request.selected)
-        return part_tried(painting, lifted, placing.posed(UNMOVED))
+            part, seen = None, tried(painting, request.name, placing, request.copy)
+        else:
+            part = self._part(painting, request.name, request.selected)
+            seen = part_tried(painting, part, placing.posed(UNMOVED))
+        return self._deviations.of(painting, request, placing, seen, part)

@@ -109,7 +109,7 @@ def _painted(layer: Layer, level: int, cache: TileCache | None) -> Reach:
     at, whole = min(begins), _NOWHERE
     while True:
         grown = growths.bounds(layer.growth, at) if layer.growth else _NOWHERE
-        whole = whole.union(_stored(layer, at)).union(grown)
+        whole = whole.union(stored(layer, at)).union(grown)
         if max(whole.width, whole.height) > FOLLOWED:
             return SourcePart(at, whole)
         whole = yield from trimmed(whole, _filled(layer, at, cache))
@@ -119,7 +119,7 @@ def _painted(layer: Layer, level: int, cache: TileCache | None) -> Reach:
         at, whole = at + 1, whole if whole.empty else whole.zoomed(1).grown(_SPREAD)
 
 
-def _stored(layer: Layer, level: int) -> Rect:
+def stored(layer: Layer, level: int) -> Rect:
     """Returns what holds all records of a level."""
     whole = _NOWHERE
     for place, record in layer.pyramid.levels.get(level, {}).items():
