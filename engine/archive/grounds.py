@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
 from immutables import Map
 
 from engine.canvas.ground import laid, unchanged
@@ -19,8 +18,8 @@ from engine.files.png_reader import PngReader
 from engine.files.png_writer import write_png
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect, TileKey
-from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
+from engine.texture.raster import Raster, planes_of
 
 LAID = 1 << 26  # pixels of a picture up to which it is laid down at once and kept
 
@@ -35,16 +34,15 @@ class GroundEntry:
     gone: tuple[TileKey, ...] = ()
 
 
-def lay_ground(pixels: np.ndarray, x: int, y: int, png: bytes | None = None) -> Pyramid:
+def lay_ground(pixels: Raster, x: int, y: int, png: bytes | None = None) -> Pyramid:
     """Returns a layer that begins with a picture, uint8 or uint16 RGBA (h, w, 4), at (x, y) of level 0; `png`: the same
     picture as a PNG, where it is at hand."""
     rect = Rect.at(x, y, pixels.shape[1], pixels.shape[0])
-    planes = from_rgba16 if pixels.dtype == np.uint16 else from_rgba8
     if png is None:
         file = io.BytesIO()
         write_png(file, pixels)
         png = file.getvalue()
-    return laid(lambda part: planes(pixels[part.slices(rect)]), rect, png)
+    return laid(lambda part: planes_of(pixels[part.slices(rect)]), rect, png)
 
 
 def whole(layer: Layer, frame: Rect) -> bool:

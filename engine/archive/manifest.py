@@ -109,7 +109,7 @@ class Manifest:
         for name, (kind, parameters, *shas) in self.textures.items():
             if any(sha is not None and sha not in pictures for sha in shas):
                 raise FieldError(f"textures.{name}", "no picture", "one of those in the file")
-            source, mask = (None if sha is None else ImageSource(name, sha, pictures[sha].data) for sha in shas)
+            source, mask = (None if sha is None else replace(pictures[sha], name=name) for sha in shas)
             made[name] = Texture(kind, parameters, source, mask, self.arithmetic)
             plot_files.check_texture(f"textures.{name}", made[name])
             try:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,7 +17,8 @@ from engine.files.fault import FileError
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.grid import Q
 from engine.painting.value import Painting
-from engine.texture.image import ImageSource
+from engine.texture.image import ImageSource, narrowed
+from engine.texture.raster import row_bands
 from engine.texture.record import Instance
 
 
@@ -42,7 +43,7 @@ def sources(painting: Painting) -> dict[str, ImageSource]:
 def _collected(sources: Iterable[Any]) -> dict[str, ImageSource]:
     found: dict[str, ImageSource] = {}
     for source in sources:
-        if isinstance(source, ImageSource) and source.data is not None:
+        if isinstance(source, ImageSource) and source.there:
             held = found.get(source.sha)
             if held is None or source.name < held.name:
                 found[source.sha] = source
@@ -51,24 +52,36 @@ def _collected(sources: Iterable[Any]) -> dict[str, ImageSource]:
 
 def tiles(source: ImageSource) -> list[Tile]:
     """Returns a picture on the grid, cut into tiles of whole numbers; ValueError if it does not lie on the grid."""
-    assert source.data is not None
-    steps = np.rint(source.data / np.float32(Q))
-    if not (np.array_equal(steps * np.float32(Q), source.data) and np.abs(steps).max() <= RESIDUAL_CAP):
-        raise ValueError(f"picture {source.name!r}: values off the grid of 2^-16")
+    for band in row_bands(source.width, source.height):
+        planes = source.planes(band)
+        steps = np.rint(planes / np.float32(Q))
+        if not (np.array_equal(steps * np.float32(Q), planes) and np.abs(steps).max() <= RESIDUAL_CAP):
+            raise ValueError(f"picture {source.name!r}: values off the grid of 2^-16")
     return [
-        (key, Record(Rect(0, 0, place.width, place.height), _cut(steps, place), (), 0))
+        (key, Record(Rect(0, 0, place.width, place.height), _Part(source, place), (), 0))
         for key, place in _places(source.width, source.height)
     ]
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """A part of a picture as the data of a record, made each time they are asked for."""
+
+    source: ImageSource
+    place: Rect
+
+    nbytes: ClassVar[int] = 0
+    itemsize: ClassVar[int] = 4
+
+    def made(self) -> np.ndarray:
+        """Returns int32 (4, h, w) in steps of the grid."""
+        return np.ascontiguousarray(np.rint(self.source.planes(self.place) / np.float32(Q)), np.int32)
 
 
 def _places(width: int, height: int) -> Iterator[tuple[TileKey, Rect]]:
     whole = Rect(0, 0, width, height)
     for key in whole.tiles(0):
         yield key, key.rect.intersect(whole)
-
-
-def _cut(steps: np.ndarray, place: Rect) -> np.ndarray:
-    return np.ascontiguousarray(steps[:, place.y0 : place.y1, place.x0 : place.x1], np.int32)
 
 
 def assembled(name: str, sha: str, size: tuple[int, int], parts: list[Tile], where: str) -> ImageSource:
@@ -84,4 +97,4 @@ def assembled(name: str, sha: str, size: tuple[int, int], parts: list[Tile], whe
     if left:
         raise FileError(where, f"picture {sha[:12]}: {len(left)} tiles are missing")
     # Its members' checksums were compared; the name is kept whatever the pixels hash to.
-    return ImageSource(name, sha, data)
+    return ImageSource(name, sha, narrowed(data))

@@ -118,7 +118,7 @@ def resolve(
     if brush.density is not None:
         found.append(named(brush.density, textures, level, seed, f"{where}.density"))
     for made in found:
-        if isinstance(made, Sparse) and made.source.data is not None and made.period <= WIDEST:
+        if isinstance(made, Sparse) and made.source.there and made.period <= WIDEST:
             coarser = max(made.native - level, 0)
             size = made.impulse(made.native).size if made.native >= level else _own_size(made)
             points = made.noise

@@ -128,7 +128,7 @@ def _laid_out(
     if "period" in tip.parameters or not hasattr(made, "period"):
         return made
     source = getattr(made, "source", None)
-    if isinstance(source, ImageSource) and source.data is not None:
+    if isinstance(source, ImageSource) and source.there:
         return source
     return named(replace(tip, parameters=tip.parameters.set("period", size)), textures, level, seed, where)
 

@@ -15,6 +15,7 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.numeric.kernel import kernel
+from engine.texture.raster import Raster
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 COLOUR_TYPES = {1: 0, 2: 4, 3: 2, 4: 6}  # channels -> colour type: grey, grey + alpha, RGB, RGBA
@@ -151,9 +152,11 @@ def _smaller(sample: np.ndarray) -> Any:
     return isal_zlib.compressobj(LEVEL)
 
 
-def write_png(file: BinaryIO, pixels: np.ndarray) -> None:
-    """Writes a whole image: uint8 or uint16 (height, width, channels)."""
+def write_png(file: BinaryIO, pixels: np.ndarray | Raster) -> None:
+    """Writes a whole image: uint8 or uint16 (height, width, channels), some rows of it at a time."""
     height, width, channels = pixels.shape
     writer = PngWriter(file, width, height, channels, 8 * pixels.dtype.itemsize)
-    writer.rows(pixels)
+    count = max(1, STRIP // width)
+    for top in range(0, height, count):
+        writer.rows(pixels[top : top + count, 0:width])
     writer.close()

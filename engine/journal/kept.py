@@ -20,6 +20,7 @@ from engine.files.strict_json import Fields, dumps, loads
 from engine.journal.heads import FileStamp
 from engine.painting.value import Painting
 from engine.texture.image import ImageSource
+from engine.texture.raster import row_bands
 
 _FOLDER, _PART = "kept", "painting.ora"
 _BLOCK = 1 << 20  # bytes
@@ -31,12 +32,16 @@ _DAMAGED = (OSError, ValueError, FieldError, zlib.error, MemoryError)
 def keep_source(folder: Path, source: ImageSource) -> None:
     """Keeps a picture beside the journal in `folder`, once.  WriteError if it cannot be written."""
     place = _place(folder, source.sha)
-    if source.data is None or place.exists():
+    if not source.there or place.exists():
         return
     with replacing(place) as file:
         head = {"name": source.name, "size": [source.width, source.height]}
         file.write(dumps(head).encode() + b"\n")
-        file.write(isal_zlib.compress(np.ascontiguousarray(source.data, "<f4").tobytes(), 1))
+        packed = isal_zlib.compressobj(1)
+        for plane in range(4):
+            for band in row_bands(source.width, source.height):
+                file.write(packed.compress(np.ascontiguousarray(source.planes(band)[plane], "<f4").data))
+        file.write(packed.flush())
 
 
 def kept_sources(folder: Path, shas: Iterable[str]) -> dict[str, ImageSource]:

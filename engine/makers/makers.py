@@ -19,7 +19,7 @@ from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.makers import heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, USUAL, kind_of
-from engine.painting.capture import PictureSource, captured, read_picture
+from engine.painting.capture import PictureSource, captured, read_straight
 from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around, Texture
 from engine.painting.times import untimed
@@ -51,7 +51,7 @@ def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
     members = Fields(command.arguments, "")
     path, source = members.text("path", cap=4096), _known(command, members, around)
     if source is None:
-        source = _the_same(members, ImageSource.of(command.name, read_picture(path, around.folder)))
+        source = _the_same(members, ImageSource.of_raster(command.name, read_straight(path, around.folder)))
     return Texture("image", command.arguments, source)
 
 

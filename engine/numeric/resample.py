@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 
@@ -12,10 +14,24 @@ def resampled(data: np.ndarray, size: tuple[int, int], rows: np.ndarray, columns
     float32 (C, rows, columns).  Each pixel depends on its own place alone; where a side keeps its size, the picture
     is kept.  An axis that shrinks is filtered as wide as it shrinks.
     """
-    source, weights = _taps(rows, size[0], data.shape[1])
+    return resampled_rows(
+        lambda used: np.ascontiguousarray(data[:, used]), (data.shape[1], data.shape[2]), size, rows, columns
+    )
+
+
+def resampled_rows(
+    read: Callable[[np.ndarray], np.ndarray],
+    old: tuple[int, int],
+    size: tuple[int, int],
+    rows: np.ndarray,
+    columns: np.ndarray,
+) -> np.ndarray:
+    """Returns the same of a picture of the size `old` (h, w), of which `read` gives rows, numbered in rising order:
+    float32 (C, rows, w)."""
+    source, weights = _taps(rows, size[0], old[0])
     used, inverse = np.unique(source, return_inverse=True)
-    part = _summed(np.ascontiguousarray(data[:, used]), inverse.reshape(source.shape), weights, 1)
-    return _summed(part, *_taps(columns, size[1], data.shape[2]), 2)
+    part = _summed(read(used), inverse.reshape(source.shape), weights, 1)
+    return _summed(part, *_taps(columns, size[1], old[1]), 2)
 
 
 def rows_at(data: np.ndarray, places: np.ndarray) -> np.ndarray:

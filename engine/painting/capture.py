@@ -19,12 +19,12 @@ from engine.files.limits import LIMITS
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import LIBRARY
-from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.numeric.grid import snapped
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.grown import settled_alone, settled_root
 from engine.painting.rendering import strips
 from engine.texture.image import ImageSource
+from engine.texture.raster import Raster, planes_of, put_plainly
 
 PIXELS_CAP = 1 << 26  # of a picture: 1 GiB as float32 planes
 DETAIL_CAP = 16  # finer levels that a captured rectangle may hold
@@ -57,18 +57,28 @@ class PictureSource:
         if shape["shape"] != "texture":
             return self.picture(members)
         known = self.pictures.get(members.text("sha", cap=64))
-        if known is None or known.data is None:
+        planes = None if known is None else known.data
+        if planes is None:
             raise members.fault("sha", "that of a texture which the painting has")
-        return known.data
+        return planes
 
 
 def read_picture(path: str, folder: Path | None) -> np.ndarray:
     """Returns the planes of a picture file, float32 (4, h, w) on the grid.  A relative path starts from `folder`."""
+    return planes_of(_read(path, folder))
+
+
+def read_straight(path: str, folder: Path | None) -> Raster:
+    """Returns the pixels of a picture file, in as few bits as tell its planes.  A relative path starts from
+    `folder`."""
+    return put_plainly(_read(path, folder))
+
+
+def _read(path: str, folder: Path | None) -> np.ndarray:
     where = Path(path) if folder is None else folder / path
     if not os.path.isfile(where):  # also so that no pipe or device is opened
         raise FileError(path, f"found no picture there, expected a PNG, JPEG or TIFF ({where})")
-    pixels, _ = read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))
-    return from_rgba16(pixels) if pixels.dtype == np.uint16 else from_rgba8(pixels)
+    return read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))[0]
 
 
 def captured(members: Fields, root: Group) -> np.ndarray:

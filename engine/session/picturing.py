@@ -15,39 +15,38 @@ from engine.canvas.placing.bake import Pasted
 from engine.canvas.store import Pyramid
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.arithmetic import FINE
-from engine.numeric.colour import from_rgba8, from_rgba16, to_rgba8, to_rgba16
 from engine.numeric.grid import snapped_to, step_of
 from engine.painting.commands import AddPicture
 from engine.painting.value import Painting, with_node
+from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
 
 
 def with_picture(painting: Painting, command: AddPicture) -> Painting:
     """Returns a painting with a layer more, that begins with a texture's picture.  LayerError if it has none."""
     texture = painting.textures.get(command.texture)
-    if texture is None or texture.source is None or texture.source.data is None:
+    if texture is None or texture.source is None or not texture.source.there:
         found = "no texture" if texture is None else "a texture without a picture"
         raise LayerError(f"layer {command.name!r}: found {found} {command.texture!r}, expected one that is a picture")
-    paint = laid_picture(texture.source.data, command.level, command.at, painting.grid)
+    paint = laid_picture(texture.source, command.level, command.at, painting.grid)
     return with_node(painting, Layer(layers.next_id(painting.root), command.name, pyramid=paint, role=command.role))
 
 
-def laid_picture(planes: np.ndarray, level: int, at: tuple[int, int], grid: int) -> Pyramid:
-    """Returns the paint of a picture, float32 (4, h, w), with its corner at pixel `at` of a level.
+def laid_picture(source: ImageSource, level: int, at: tuple[int, int], grid: int) -> Pyramid:
+    """Returns the paint of a picture that is there, with its corner at pixel `at` of a level.
 
     On level 0 it is the layer's ground, which a file holds as the picture itself, where 8 or 16 bits tell it.
     """
     x, y = at
-    for told, planes_of in ((to_rgba8, from_rgba8), (to_rgba16, from_rgba16)) if level == 0 and grid == FINE else ():
-        pixels = told(planes)
-        if np.array_equal(planes_of(pixels), planes):
-            return lay_ground(pixels, x, y)
-    rect = Rect.at(x, y, planes.shape[2], planes.shape[1])
+    pixels = source.straight() if level == 0 and grid == FINE else None
+    if pixels is not None:
+        return lay_ground(pixels, x, y)
+    rect = Rect.at(x, y, source.width, source.height)
 
     def values(key: TileKey) -> Planes | None:
         part = key.rect.intersect(rect)
         out = np.zeros((4, TILE, TILE), np.float32)
-        found = planes[:, *part.slices(rect)]
+        found = source.planes(Rect.at(part.x0 - x, part.y0 - y, part.width, part.height))
         out[:, *part.slices(key.rect)] = found if grid == FINE else snapped_to(found, step_of(grid))
         return Planes(out) if out.any() else None
 

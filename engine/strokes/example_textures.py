@@ -25,7 +25,7 @@ from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba16
 from engine.painting import commands as c
-from engine.painting.capture import read_picture
+from engine.painting.capture import read_straight
 from engine.painting.textures import Around, Texture
 from engine.strokes.example_files import kept, read_mask, read_parameters
 from engine.strokes.example_region import STEPS_CAP, followed
@@ -107,7 +107,7 @@ def _picture(name: str, members: Fields, path: Path | None, around: Around) -> I
         return replace(around.pictures[sha], name=name)
     if path is None:
         raise FieldError("path", "nothing", "path, a picture, or bundled, the name of an example")
-    source = ImageSource.of(name, read_picture(str(path), None))
+    source = ImageSource.of_raster(name, read_straight(str(path), None))
     if sha is not None and sha != source.sha:
         raise FileError(path, _CHANGED)
     return source
@@ -138,8 +138,7 @@ def _mask(name: str, members: Fields, path: Path | None, source: ImageSource, ar
         _regular(path)
         inside = read_mask(path)
     else:
-        assert source.data is not None
-        inside = source.data[3] > 0.0
+        inside = source.planes(source.whole)[3] > 0.0
     for i, stroke in enumerate(strokes):
         inside = _with_stroke(inside, stroke, f"mask_strokes[{i}]")
     if steps:
@@ -165,11 +164,10 @@ def _with_stroke(inside: np.ndarray, value: Any, where: str) -> np.ndarray:
 
 
 def _with_steps(inside: np.ndarray, steps: list[Any], source: ImageSource, path: Path | None) -> np.ndarray:
-    assert source.data is not None
-    if inside.shape != source.data.shape[1:]:
-        height, width = source.data.shape[1:]
-        raise FileError(path or source.name, f"found a mask of another size, expected {width} x {height} pixels")
-    return followed(inside, steps, source.data)
+    if inside.shape != (source.height, source.width):
+        size = f"{source.width} x {source.height}"
+        raise FileError(path or source.name, f"found a mask of another size, expected {size} pixels")
+    return followed(inside, steps, source.planes(source.whole))
 
 
 def _regular(path: Path) -> None:
@@ -187,7 +185,7 @@ def exemplar_of(texture: Texture, detail: int = 0) -> Exemplar:
 
     FieldError where there is nothing to learn from.
     """
-    if texture.kind != KIND or texture.source is None or texture.source.data is None:
+    if texture.kind != KIND or texture.source is None or not texture.source.there:
         raise BrushError("brush.example", f"a texture of the kind {texture.kind}", "one of the maker example")
     return _analysed(texture.source, texture.mask, parameters_of(texture), detail, texture.arithmetic)
 
@@ -204,12 +202,13 @@ def key_of(texture: Texture, detail: int = 0) -> str:
 def _analysed(
     source: ImageSource, mask: ImageSource | None, parameters: Parameters, detail: int, arithmetic: int
 ) -> Exemplar:
-    assert source.data is not None
     origin = Origin(source, mask, detail)
     if detail:
         return replace(shrunk(_analysed(source, mask, parameters, 0, arithmetic), detail), origin=origin)
-    _, height, width = source.data.shape
+    height, width = source.height, source.width
     if max(height, width) > EXAMPLE_SIDE:
         raise FieldError("example", f"{width} x {height} pixels", f"at most {EXAMPLE_SIDE} x {EXAMPLE_SIDE}")
-    inside = None if mask is None or mask.data is None else mask.data[3] > _WHITE
-    return replace(kept(to_rgba16(source.data), inside, parameters, arithmetic=arithmetic), origin=origin)
+    inside = None if mask is None or not mask.there else mask.planes(mask.whole)[3] > _WHITE
+    return replace(
+        kept(to_rgba16(source.planes(source.whole)), inside, parameters, arithmetic=arithmetic), origin=origin
+    )

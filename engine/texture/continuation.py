@@ -19,6 +19,7 @@ from functools import lru_cache
 import numpy as np
 
 from engine.numeric import histograms, steerable
+from engine.numeric.address import Rect
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.array_functions import array_functions
 from engine.numeric.colour_axes import ColourAxes, combined
@@ -56,11 +57,11 @@ class Octave:
 @lru_cache(maxsize=16)
 def octave_of(source: ImageSource, arithmetic: int = LIBRARY) -> Octave:
     """Returns what continues a picture."""
-    assert source.data is not None
     count = 3 if sample.coloured(source) else 1
     # What is opaque is looked at without its alpha: another channel would be another sum of float32 numbers.
     channels = [*range(count), *([] if source.opaque else [3])]
-    picture = np.ascontiguousarray(source.data[channels, :LOOKED_AT, :LOOKED_AT])
+    looked_at = source.whole.intersect(Rect(0, 0, LOOKED_AT, LOOKED_AT))
+    picture = np.ascontiguousarray(source.planes(looked_at)[channels])
     pattern = analysed(picture, replace(_SHAPE, arithmetic=arithmetic))
     if not pattern.shape.levels or not pattern.bands:
         return Octave(np.zeros((count + 1, OCTAVE_SIDE, OCTAVE_SIDE), np.float32), _USUAL)

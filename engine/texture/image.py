@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import ClassVar
+from typing import ClassVar, TypeGuard
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -17,24 +17,28 @@ from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce
-from engine.numeric.resample import resampled
+from engine.numeric.resample import resampled_rows
+from engine.texture.raster import AT_ONCE, Raster, planes_of, row_bands, straight_of
 
 _STRIP = 64  # narrower images are repeated to this width before they are laid out
 _KEPT = 8  # pyramids held in memory
 _WHOLE = 16  # a picture enlarged beyond so many times its pixels is made piece by piece
-_HELD: WeakValueDictionary[str, np.ndarray] = WeakValueDictionary()  # the pixels of pictures, by their hash
+_NARROW = 1 << 20  # pixels from which on a picture is held in as few bits as tell it
+_LARGE = 1 << 26  # pixels of a picture beyond which, as a texture, it is refined no further than to so many
+_HELD: WeakValueDictionary[str, np.ndarray | Raster] = WeakValueDictionary()  # the pixels of pictures, by their hash
 
 
 @dataclass(frozen=True, slots=True)
 class ImageSource:
-    """A picture: `data` float32 (4, h, w), premultiplied RGBA in 0..1; None where only its name is known any more.
+    """A picture: `pixels` its planes, float32 (4, h, w), premultiplied RGBA in 0..1, or a raster of 8 or 16 bits that
+    tells the same; None where only its name is known any more.
 
-    Sources are equal when name and `sha` are: `sha` is the SHA-256 of the size and the pixels, in hexadecimal.
+    Sources are equal when name and `sha` are: `sha` is the SHA-256 of the size and the planes, in hexadecimal.
     """
 
     name: str
     sha: str
-    data: np.ndarray | None = field(default=None, compare=False, repr=False)
+    pixels: np.ndarray | Raster | None = field(default=None, compare=False, repr=False)
 
     @classmethod
     def of(cls, name: str, data: np.ndarray) -> ImageSource:
@@ -43,33 +47,94 @@ class ImageSource:
         if data.ndim != 3 or data.shape[0] != 4 or data.dtype != np.float32 or not data.size:
             raise ValueError(f"image: found {data.dtype} {data.shape}, expected float32 (4, h, w)")
         data = np.ascontiguousarray(data)
-        digest = hashlib.sha256(repr(data.shape).encode())
-        digest.update(data.astype("<f4", copy=False).tobytes())
+        return cls(name, "", narrowed(data))._hashed()
+
+    @classmethod
+    def of_raster(cls, name: str, pixels: Raster) -> ImageSource:
+        """Makes the source of straight RGBA, uint8 or uint16 (h, w, 4), as `put_plainly` leaves it."""
+        height, width, _ = pixels.shape
+        if height * width < _NARROW:
+            return cls.of(name, planes_of(pixels[0:height, 0:width]))
+        return cls(name, "", pixels)._hashed()
+
+    def _hashed(self) -> ImageSource:
+        """Returns it with its hash, and the pixels that are held of it already."""
+        digest = hashlib.sha256(repr((4, self.height, self.width)).encode())
+        for plane in range(4):
+            for band in row_bands(self.width, self.height):
+                digest.update(np.ascontiguousarray(self.planes(band)[plane], "<f4").data)
         sha = digest.hexdigest()
         held = _HELD.get(sha)
-        if held is None:
-            held = _HELD[sha] = data
-        return cls(name, sha, held)
+        if held is None and self.pixels is not None:
+            held = _HELD[sha] = self.pixels
+        return ImageSource(self.name, sha, held)
+
+    @property
+    def there(self) -> bool:
+        """Tells whether its pixels are there."""
+        return self.pixels is not None
+
+    @property
+    def data(self) -> np.ndarray | None:
+        """Gives all planes, float32 (4, h, w): made anew of a picture that is held in fewer bits."""
+        return self.pixels if self.pixels is None or _is_planes(self.pixels) else self.planes(self.whole)
+
+    def planes(self, rect: Rect) -> np.ndarray:
+        """Returns the planes of a part of the picture that is there: float32 (4, h, w), not to be written to."""
+        assert self.pixels is not None
+        if _is_planes(self.pixels):
+            return self.pixels[:, rect.y0 : rect.y1, rect.x0 : rect.x1]
+        return planes_of(self.pixels[rect.y0 : rect.y1, rect.x0 : rect.x1])
+
+    def rows(self, places: np.ndarray) -> np.ndarray:
+        """Returns the planes of some rows, in rising order: float32 (4, places, w), contiguous."""
+        assert self.pixels is not None
+        if _is_planes(self.pixels):
+            return np.ascontiguousarray(self.pixels[:, places])
+        runs = np.split(places, np.flatnonzero(np.diff(places) != 1) + 1)
+        parts = [self.planes(Rect(0, int(run[0]), self.width, int(run[-1]) + 1)) for run in runs]
+        return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+
+    def straight(self) -> Raster | None:
+        """Returns the pixels of 8, else of 16 bits that tell all that there is; None where neither does."""
+        if self.pixels is None or not _is_planes(self.pixels):
+            return self.pixels
+        return straight_of(self.pixels + np.float32(0.0))  # which makes -0 to 0
+
+    @property
+    def whole(self) -> Rect:
+        """Gives the rectangle of all its pixels."""
+        return Rect(0, 0, self.width, self.height)
 
     @property
     def opaque(self) -> bool:
         """Tells whether alpha is 1 all over; False where the pixels are not there."""
-        return self.data is not None and _opaque(self)
+        return self.there and _opaque(self)
 
     @property
     def width(self) -> int:
         """Gives the columns; 0 where the pixels are not there."""
-        return 0 if self.data is None else self.data.shape[2]
+        return 0 if self.pixels is None else self.pixels.shape[2 if _is_planes(self.pixels) else 1]
 
     @property
     def height(self) -> int:
         """Gives the rows; 0 where the pixels are not there."""
-        return 0 if self.data is None else self.data.shape[1]
+        return 0 if self.pixels is None else self.pixels.shape[1 if _is_planes(self.pixels) else 0]
+
+
+def _is_planes(pixels: np.ndarray | Raster) -> TypeGuard[np.ndarray]:
+    return pixels.dtype == np.float32
+
+
+def narrowed(data: np.ndarray) -> np.ndarray:
+    """Returns planes, float32 (4, h, w), as the pixels of 8 or 16 bits that tell them, if they are many and some do."""
+    found = straight_of(data) if data[0].size >= _NARROW else None
+    return data if found is None else found
 
 
 @lru_cache(maxsize=64)
 def _opaque(source: ImageSource) -> bool:
-    return source.data is not None and bool((source.data[3] == 1.0).all())
+    return all(bool((source.planes(band)[3] == 1.0).all()) for band in row_bands(source.width, source.height))
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,13 +159,13 @@ class _Picture:
     @property
     def refinements(self) -> int:
         """Tells how many levels finer than its base the picture has pixels for."""
-        return 0 if self.source.data is None else _refinements(self.source, self.period)
+        return 0 if not self.source.there else _refinements(self.source, self.period)
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         """Returns the picture over `rect`, float32; beyond its own pixels it is expanded."""
         if level < self.base:
             raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
-        if self.source.data is None:
+        if not self.source.there:
             return np.zeros((4, rect.height, rect.width), np.float32)[self.shown]
         if level - self.base <= self.refinements:
             return self._own(level, rect, self.shown)
@@ -125,7 +190,7 @@ class _Picture:
     def _own(self, level: int, rect: Rect, planes: slice) -> np.ndarray:
         """Returns the picture at one of the levels for which it has pixels."""
         height, width = _base_size(self.source, self.period)
-        if level > self.base or height * width <= _WHOLE * self.source.height * self.source.width:
+        if level > self.base or height * width <= _most(self.source):
             return tiled(picture_pyramid(self.source, self.period)[level - self.base][planes], rect)
         rows = rect.y0 % height + np.arange(rect.height)
         columns = rect.x0 % width + np.arange(rect.width)
@@ -165,10 +230,16 @@ def _refinements(source: ImageSource, period: int) -> int:
     height, width = _base_size(source, period)
     n = 0
     while (width << n < source.width or height << n < source.height) and (
-        (width << n + 1) * (height << n + 1) <= _WHOLE * source.height * source.width
+        (width << n + 1) * (height << n + 1) <= _most(source)
     ):
         n += 1
     return n
+
+
+def _most(source: ImageSource) -> int:
+    """Returns how many pixels of a picture as a texture are made at once."""
+    own = source.height * source.width
+    return _WHOLE * own if own <= _LARGE else _LARGE
 
 
 @lru_cache(maxsize=_KEPT)
@@ -191,10 +262,14 @@ def picture_pyramid(source: ImageSource, period: int) -> tuple[np.ndarray, ...]:
 
 def stretched(source: ImageSource, size: tuple[int, int], rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
     """Some pixels of a picture resampled to `size` (h, w): premultiplied RGBA that is valid, on the grid."""
-    assert source.data is not None
-    out = resampled(source.data, size, rows, columns)
-    np.clip(out[3], 0.0, 1.0, out=out[3])
-    np.clip(out[:3], 0.0, out[3], out=out[:3])
+    out = np.empty((4, rows.size, columns.size), np.float32)
+    old = source.height, source.width
+    count = rows.size if old[0] * old[1] < _NARROW else max(1, int(AT_ONCE / old[1] / max(1.0, old[0] / size[0])))
+    for top in range(0, rows.size, count):
+        part = out[:, top : top + count]
+        part[:] = resampled_rows(source.rows, old, size, rows[top : top + count], columns)
+        np.clip(part[3], 0.0, 1.0, out=part[3])
+        np.clip(part[:3], 0.0, part[3], out=part[:3])
     return snapped(out)
 
 

@@ -61,7 +61,7 @@ class Matched(Tiled):
     @property
     def cover(self) -> Matched | None:
         """Returns what it hides of another colour that it lies over: its alpha as a texture.  None if it is opaque."""
-        if self.source.data is None or self.source.opaque:
+        if not self.source.there or self.source.opaque:
             return None
         return _COVERS[self.kind](**{field.name: getattr(self, field.name) for field in fields(self)})
 
@@ -82,7 +82,7 @@ class Matched(Tiled):
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
         """Gives what the level adds over a rectangle, as `Instance.bandpass`."""
-        if self.source.opaque or self.source.data is None:
+        if self.source.opaque or not self.source.there:
             return super().bandpass(level, rect)
         if not self._curved(level) or level <= self.base or rect.empty:
             found = super().bandpass(level, rect)
@@ -94,7 +94,7 @@ class Matched(Tiled):
 
     def _curved(self, level: int) -> bool:
         """Tells whether noise added to the alpha may be seen."""
-        return self.source.data is not None and level > self.native and self.roughness >= _LOUD
+        return self.source.there and level > self.native and self.roughness >= _LOUD
 
     def _curve(self, alpha: np.ndarray, level: int) -> np.ndarray:
         """0 up to t, as it is from 2.5 t on; 1 likewise."""
@@ -148,7 +148,7 @@ class Series(Matched):
     @property
     def picture(self) -> ImageSource:
         """Gives the picture of the stage that the pen's pressure chose; the source where its pixels are not there."""
-        lost = self.source.data is None or self.source.height < self.stages
+        lost = not self.source.there or self.source.height < self.stages
         return self.source if lost else stage(self.source, self.stages, self.weight)
 
 
@@ -157,7 +157,7 @@ class _Alpha(Matched):
 
     @property
     def shown(self) -> ImageSource:
-        return self.picture if self.source.data is None else _alpha(self.picture)
+        return self.picture if not self.source.there else _alpha(self.picture)
 
     @property
     def coloured(self) -> bool:
@@ -169,7 +169,7 @@ class _Alpha(Matched):
 
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         seen = super().appearance(level, rect)
-        if self.source.data is None:
+        if not self.source.there:
             return seen
         return self._curve(_unit(seen), level) if self._curved(level) else _unit(seen)
 
@@ -217,11 +217,11 @@ def weights(stages: int) -> tuple[float, ...]:
 @lru_cache(maxsize=64)
 def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
     """Returns one picture of a series: between two stages, their mean by the weight."""
-    assert whole.data is not None
     place = weight * (stages - 1)
     k = min(int(place), max(stages - 2, 0))
     height = whole.height // stages
-    first, second = (whole.data[:, i * height : (i + 1) * height] for i in (k, min(k + 1, stages - 1)))
+    places = (Rect.at(0, i * height, whole.width, height) for i in (k, min(k + 1, stages - 1)))
+    first, second = (whole.planes(place) for place in places)
     part = np.float32(place - k)
     data = first if part == 0.0 else second if part == 1.0 else first + (second - first) * part
     return ImageSource(whole.name, f"{whole.sha}/{stages}/{weight!r}", np.ascontiguousarray(data))
@@ -230,9 +230,8 @@ def stage(whole: ImageSource, stages: int, weight: float) -> ImageSource:
 @lru_cache(maxsize=64)
 def _alpha(picture: ImageSource) -> ImageSource:
     """Returns the alpha of a picture, as an opaque grey one."""
-    assert picture.data is not None
-    data = np.ones_like(picture.data)
-    data[:3] = picture.data[3]
+    data = np.ones((4, picture.height, picture.width), np.float32)
+    data[:3] = picture.planes(picture.whole)[3]
     return ImageSource(picture.name, f"{picture.sha}/alpha", data)
 
 

@@ -19,6 +19,7 @@ from engine.numeric.sparse import Impulse
 from engine.numeric.spectra import frequencies, radial_window
 from engine.texture.image import ImageSource, stretched
 from engine.texture.octaves import Continuation
+from engine.texture.raster import row_bands
 
 LARGEST = 2048  # pixels along a side of an impulse response
 _SLIVER = 16  # a sample is not enlarged beyond so many times its pixels
@@ -28,8 +29,8 @@ _FAINT = 1e-3  # an octave below this part of the strongest one's energy is empt
 @lru_cache(maxsize=64)
 def coloured(source: ImageSource) -> bool:
     """Tells whether the picture's channels differ."""
-    data = source.data
-    return data is not None and not ((data[0] == data[1]).all() and (data[0] == data[2]).all())
+    parts = (source.planes(band) for band in row_bands(source.width, source.height)) if source.there else ()
+    return any(not ((part[0] == part[1]).all() and (part[0] == part[2]).all()) for part in parts)
 
 
 @lru_cache(maxsize=1024)

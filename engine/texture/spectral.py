@@ -75,7 +75,7 @@ class _Spectral:
     def appearance(self, level: int, rect: Rect) -> np.ndarray:
         if level < self.base:
             raise ValueError(f"{self.kind}: level {level} is coarser than the base level {self.base}")
-        if self.shown.data is None:
+        if not self.shown.there:
             return np.zeros((1, rect.height, rect.width), np.float32)
         if level <= self.native:
             out: np.ndarray = self._own(level, rect) + self.centre
@@ -85,7 +85,7 @@ class _Spectral:
         return carried
 
     def bandpass(self, level: int, rect: Rect) -> np.ndarray | None:
-        if level <= self.base or rect.empty or self.shown.data is None:
+        if level <= self.base or rect.empty or not self.shown.there:
             return None
         if level > self.native:
             changes = octave_changes(level - self.native, self.roughness, self.form, self.arithmetic)

@@ -162,4 +162,4 @@ def _is_seen(tile: Coded) -> bool:
     """Tells whether the pictures of all inks of a tile are there."""
     _, record, implied = tile
     sources = (getattr(ink, "source", None) for ink in (*record.inks, *(() if implied is None else implied.inks)))
-    return not any(isinstance(source, ImageSource) and source.data is None for source in sources)
+    return not any(isinstance(source, ImageSource) and not source.there for source in sources)

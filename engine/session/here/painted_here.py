@@ -245,8 +245,8 @@ class PaintedHere:
         if id(command) not in self._pictures:
             texture = self._textures(given.textures).get(command.texture)
             found = None
-            if texture is not None and texture.source is not None and texture.source.data is not None:
-                paint = laid_picture(texture.source.data, command.level, command.at, self._painting.grid)
+            if texture is not None and texture.source is not None and texture.source.there:
+                paint = laid_picture(texture.source, command.level, command.at, self._painting.grid)
                 found = layers.Layer(1, "picture", pyramid=paint)
             self._pictures[id(command)] = command, found
         return self._pictures[id(command)][1]

@@ -54,8 +54,8 @@ def held_by(session: Session) -> tuple[tuple[str, int], ...]:
 
 def _pictures(painting: Painting) -> int:
     """Counts the bytes of the pictures that textures are made of, and of those that layers began with."""
-    sources = {source.sha: source.data for t in painting.textures.values() for source in (t.source, t.mask) if source}
+    sources = {source.sha: source.pixels for t in painting.textures.values() for source in (t.source, t.mask) if source}
     grounds = (layer.pyramid.ground for layer in layers(painting.root))
-    return sum(data.nbytes for data in sources.values() if data is not None) + sum(
+    return sum(pixels.nbytes for pixels in sources.values() if pixels is not None) + sum(
         len(ground.pixels) for ground in grounds if ground is not None
     )

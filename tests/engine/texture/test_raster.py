@@ -1,0 +1,91 @@
+"""Pictures held in as few bits as tell them: the same planes, bit for bit, under the same hash."""
+
+import hashlib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from engine.numeric.address import Rect
+from engine.numeric.colour import to_rgba8, to_rgba16
+from engine.texture import image, raster
+from engine.texture.image import Image, ImageSource, stretched
+from engine.texture.raster import planes_of, put_plainly, straight_of
+
+SEEDS = st.integers(0, 1 << 32)
+KINDS = st.sampled_from((np.uint8, np.uint16))
+
+
+def pixels_of(seed: int, kind: type, height: int = 11, width: int = 9) -> np.ndarray:
+    """Returns pixels among which alpha is nothing, little, much and all, and colours lie under all of them."""
+    rng, top = np.random.default_rng(seed), np.iinfo(kind).max
+    found = rng.integers(0, top, (height, width, 4), kind, endpoint=True)
+    found[..., 3] = rng.choice([0, 1, 2, top // 2, top - 1, top, rng.integers(0, top)], (height, width)).astype(kind)
+    return found
+
+
+def bits(planes: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(planes).view(np.uint32)
+
+
+@settings(deadline=None, max_examples=60)
+@given(SEEDS, KINDS, st.integers(1, 200))
+def test_what_is_put_plainly_has_the_same_planes_and_is_what_tells_them(seed, kind, at_once):
+    pixels = pixels_of(seed, kind)
+    planes, told = planes_of(pixels), (to_rgba8 if kind == np.uint8 else to_rgba16)(planes_of(pixels))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(raster, "AT_ONCE", at_once)
+        plain, found = put_plainly(pixels.copy()), straight_of(planes)
+    assert np.array_equal(bits(planes_of(plain)), bits(planes))
+    assert np.array_equal(plain, told)
+    assert np.array_equal(found, told)
+
+
+def test_16_bits_that_8_tell_are_8():
+    wide = (pixels_of(3, np.uint16) & 1) * np.uint16(65535)
+    plain = put_plainly(wide.copy())
+    assert plain.dtype == np.uint8
+    assert np.array_equal(bits(planes_of(plain)), bits(planes_of(wide)))
+
+
+@pytest.mark.parametrize("value", [-0.0, 0.3, np.nan])
+def test_planes_that_no_bits_tell_stay_as_they_are(value):
+    planes = planes_of(pixels_of(5, np.uint8))
+    planes[1, 4, 2] = np.float32(value)
+    assert straight_of(planes) is None
+
+
+@settings(deadline=None, max_examples=25)
+@given(SEEDS, KINDS, st.integers(1, 40), st.integers(1, 40))
+def test_a_picture_in_fewer_bits_is_the_same_source(seed, kind, height, width):
+    pixels = pixels_of(seed, kind)
+    planes = planes_of(pixels)
+    whole = ImageSource.of("p", planes)
+    size, rows, columns = (height, width), np.arange(-3, height + 4), np.arange(-5, width)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(image, "_NARROW", 1)
+        patch.setattr(image, "AT_ONCE", 17)
+        patch.setattr(raster, "AT_ONCE", 25)
+        patch.setattr(image, "_HELD", {})
+        made = [ImageSource.of("p", planes), ImageSource.of_raster("p", put_plainly(pixels.copy()))]
+        seen = [stretched(source, size, rows, columns) for source in made]
+    digest = hashlib.sha256(repr(planes.shape).encode() + planes.astype("<f4").tobytes()).hexdigest()
+    wanted = stretched(whole, size, rows, columns)
+    for source, part in zip(made, seen, strict=True):
+        assert source.pixels.dtype == kind
+        assert source == whole
+        assert source.sha == digest
+        assert (source.width, source.height, source.opaque) == (9, 11, whole.opaque)
+        assert np.array_equal(bits(source.data), bits(planes))
+        assert np.array_equal(bits(source.planes(Rect(2, 3, 7, 10))), bits(planes[:, 3:10, 2:7]))
+        assert np.array_equal(bits(part), bits(wanted))
+
+
+def test_a_picture_too_large_for_a_texture_is_refined_as_far_as_that_may_be_large(monkeypatch):
+    source = ImageSource.of("p", planes_of(pixels_of(9, np.uint8, 64, 64)))
+    assert Image(0, 8, source).refinements == 3
+    monkeypatch.setattr(image, "_LARGE", 1024)
+    assert Image(0, 8, source).refinements == 2
+    wide = Image(0, 64, source).appearance(0, Rect(0, 0, 64, 64))
+    assert np.array_equal(wide, source.data)
