@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from app.actions.action import Action as A
-from app.actions.action import paint_chosen, posts, ready, to_now
+from app.actions.action import paint_chosen, ready, to_now
 from app.desk.desk import Desk
+from app.desk.guides import symmetry
 from app.desk.hand import BLACK, WHITE
 from app.desk.outside import clipboard, copied_parts
 from engine.painting import commands as c
@@ -18,7 +19,17 @@ def _can_undo(desk: Desk) -> bool:
 
 def _undo(desk: Desk) -> None:
     desk.notices.settle("fill")  # what was asked about it is past
-    desk.post(Do(c.Undo()))
+    _go(desk, c.Undo())
+
+
+def _redo(desk: Desk) -> None:
+    _go(desk, c.Redo())
+
+
+def _go(desk: Desk, command: c.Undo | c.Redo) -> None:
+    """The symmetry is the hand's: it stays as it is."""
+    symmetry.keep(desk)
+    desk.post(Do(command, over_symmetry=True))
 
 
 def _can_redo(desk: Desk) -> bool:
@@ -49,7 +60,7 @@ def _looking_back(desk: Desk) -> bool:
 
 EDIT_ACTIONS: dict[str, A] = {
     "undo": A("Undo", "Edit", ("Ctrl+Z",), "Take back the last step", _undo, _can_undo),
-    "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", posts(c.Redo), _can_redo),
+    "redo": A("Redo", "Edit", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do again what was taken back", _redo, _can_redo),
     "here": A("What was painted here?", "Edit", ("W",), "The strokes that show at a place", _asks_here, ready),
     "now": A("Back to now", "Edit", (), "See the painting as it is, after looking back", to_now, _looking_back),
     "copy_picture": A(

@@ -17,7 +17,6 @@ from app.desk.guides.snap_curves import Exact
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
 from engine.painting.guiding.guides import Guide
-from engine.studio.requests import Do
 
 GRAB = 14.0  # points of the screen from a handle within which a press is on it
 BODY = 8.0  # and from the line of a ruler
@@ -105,7 +104,7 @@ def _move_axis(desk: Desk, first: PenEvent, guide: Guide) -> Gesture:
     finally:
         held = desk.guides.held
         if done and held is not None and held.guide != guide:
-            desk.post(Do(held.guide))
+            symmetry.set_symmetry(desk, held.guide)
         else:
             desk.guides.held = None
 

@@ -86,6 +86,7 @@ def begin_stroke(desk: Desk, first: PenEvent) -> Begun | MaskBegun | None:
     if layer is not None and layer.wrap is not None:
         tell_seams(desk, layer.wrap, level, brush)
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
+    symmetry.restore(desk)
     copies = symmetry.copies_at(desk, level, origin)
     aimed = None if aim is None else aim.begun(level, origin)
     if aimed is None:

@@ -89,10 +89,12 @@ class Export:
 
 @dataclass(frozen=True, slots=True)
 class Do:
-    """A command, carried out in the order of posting; `time`: of posting, seconds since 1970."""
+    """A command, carried out in the order of posting; `time`: of posting, seconds since 1970; `over_symmetry`: undo and
+    redo do not count steps that only set the symmetry."""
 
     command: Command
     time: float | None = None
+    over_symmetry: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from immutables import Map
 
+from app.actions.actions import ACTIONS, perform
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
 from app.desk.guides import symmetry
@@ -16,7 +17,7 @@ from app.desk.guides.guide_state import Held
 from app.input.events import PenEvent
 from app.tools.guide_gestures import move_guide
 from engine.numeric.address import Rect
-from engine.painting.commands import Guide
+from engine.painting.commands import Guide, Redo, Undo
 from engine.studio.requests import Do
 from engine.studio.results import Scene
 
@@ -65,7 +66,7 @@ def test_copies_lie_where_the_screen_shows_them(angle, mirrored, level, count, a
     desk, posted = desk_of(View(Place(DEEP, DEEP, 0), level, 0.3, 800, 600, angle, mirrored))
     symmetry.choose(desk, "kaleidoscope")
     guide = replace(posted[-1].command, count=count)
-    tell(desk, guide)
+    symmetry.set_symmetry(desk, guide)
     shown = desk.view.shown_level
     origin = desk.view.to_canvas(*at).pixel(shown)
     x, y = desk.view.to_canvas(*at).offset(shown, *origin)
@@ -140,3 +141,27 @@ def test_lines_end_at_the_rims_of_the_screen():
     assert clipped(((-50, 40), (-1, 0)), (100, 80), 0.0) is None
     assert clipped(((-50, 40), (-1, 0)), (100, 80)) == ((100, 40), (0, 40))
     assert clipped(((50, 200), (0.0, -1.0)), (100, 80), 0.0) == ((50, 80), (50, 0))
+
+
+def test_steps_taken_back_leave_it_as_it_is_until_a_stroke_makes_it_the_paintings_again():
+    desk, posted = desk_of()
+    symmetry.choose(desk, "radial")
+    made = posted[-1].command
+    tell(desk, made)
+    desk.learn(ready=True, scene=replace(desk.known.scene, can_undo=True, can_redo=True))
+    for name, told in (("undo", Undo()), ("redo", Redo())):
+        perform(desk, ACTIONS[name])
+        assert posted[-1] == Do(told, over_symmetry=True)
+    tell(desk)  # the steps before it was chosen
+    assert symmetry.guide_of(desk) == made
+    assert len(posted) == 3
+    symmetry.restore(desk)
+    assert posted[-1] == Do(made)
+    symmetry.restore(desk)
+    assert len(posted) == 4
+    tell(desk, made)
+    symmetry.toggle(desk)
+    tell(desk, made)  # an older word: what the hand did last counts
+    assert symmetry.way_of(symmetry.guide_of(desk)) == "off"
+    desk.learn(scene=replace(desk.known.scene, serial=1))
+    assert symmetry.guide_of(desk) == made  # another painting has its own

@@ -26,5 +26,12 @@ def test_a_stroke_is_mirrored_while_the_view_is_turned_and_the_axis_with_it(prog
     assert abs(left - right) < 0.05 * left
     app.keys("ctrl+z")
     assert app.comes_to(lined)
+    app.keys("ctrl+z")  # of what only set the symmetry nothing is taken back
+    app.stroke((440, 320), (520, 380))
+    again = app.canvas_unlike(lined)
+    columns = np.flatnonzero((np.abs(again - lined).max(axis=2) > 40).any(axis=0))
+    assert columns[0] < line - 50 < line + 50 < columns[-1]
+    app.keys("ctrl+z")
+    assert app.comes_to(lined)
     app.keys("y")
     assert app.comes_to(empty)

@@ -16,12 +16,23 @@ class Held(NamedTuple):
     serial: int
 
 
+class Own(NamedTuple):
+    """The symmetry as the hand has it, in the painting of a serial number; `kept`: while its steps were taken back or
+    done again."""
+
+    guide: Guide
+    serial: int
+    kept: bool = False
+
+
 @dataclass(slots=True)
 class GuideState:
     """`held`: the guide in hand; `path`: the shape in hand, on the screen; `bar`: the handles of its last knot; `last`:
     where the last stroke ended; `seams`: the textures that were said not to fit a tile; `shown`: whether guides are
-    drawn; `snaps`: whether strokes are drawn onto them; `chosen`: the name of the one whose numbers are shown."""
+    drawn; `snaps`: whether strokes are drawn onto them; `chosen`: the name of the one whose numbers are shown; `own`:
+    the symmetry as the hand has it, which undo and redo leave as it is, whatever the painting's is by then."""
 
+    own: Own | None = None
     held: Held | None = None
     path: tuple[tuple[float, float], ...] = ()
     bar: tuple[tuple[float, float], ...] = ()

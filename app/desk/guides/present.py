@@ -11,19 +11,25 @@ from engine.painting.guiding.guides import Guide
 
 
 def present_guides(desk: Desk) -> tuple[Guide, ...]:
-    """Returns the painting's guides, with the one in hand as it is by now."""
-    held, scene = desk.guides.held, desk.known.scene
+    """Returns the painting's guides, with the symmetry as the hand has it, and the one in hand as it is by now."""
+    held, own, scene = desk.guides.held, desk.guides.own, desk.known.scene
     guides = scene.guides if scene is not None else ()
-    if held is not None and (scene is None or held.serial != scene.serial or _told(held.guide, guides)):
+    if own is not None and scene is not None and not own.kept and is_told(own.guide, guides):
+        desk.guides.own = own = None
+    if own is not None and (scene is None or own.serial == scene.serial):
+        guides = _with(own.guide, guides)
+    if held is not None and (scene is None or held.serial != scene.serial or is_told(held.guide, guides)):
         desk.guides.held = held = None
-    if held is None:
-        return guides
-    if all(guide.name != held.guide.name for guide in guides):
-        return (*guides, held.guide)
-    return tuple(held.guide if guide.name == held.guide.name else guide for guide in guides)
+    return guides if held is None else _with(held.guide, guides)
 
 
-def _told(guide: Guide, guides: tuple[Guide, ...]) -> bool:
+def _with(one: Guide, guides: tuple[Guide, ...]) -> tuple[Guide, ...]:
+    if all(guide.name != one.name for guide in guides):
+        return (*guides, one)
+    return tuple(one if guide.name == one.name else guide for guide in guides)
+
+
+def is_told(guide: Guide, guides: tuple[Guide, ...]) -> bool:
     """Tells whether a guide is among others, whatever members they have besides, such as when they were made."""
     plain = replace(guide, extra=Map())
     return any(replace(other, extra=Map()) == plain for other in guides if other.name == guide.name)

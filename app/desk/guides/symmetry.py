@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 from app.canvas.view import Place, View, place_of_pixel
 from app.desk.desk import Desk
-from app.desk.guides.present import present_guides
+from app.desk.guides.guide_state import Own
+from app.desk.guides.present import is_told, present_guides
 from engine.brush.copies import NO_COPIES, Copies, symmetric
 from engine.painting.guiding.guides import Guide
 from engine.painting.stroke_copies import FURTHEST, fits
@@ -60,23 +61,49 @@ def way_of(guide: Guide | None) -> str:
     return "level" if abs(x1 - x0) > abs(y1 - y0) else "mirror"
 
 
+def set_symmetry(desk: Desk, guide: Guide) -> None:
+    """Makes a guide the symmetry: a step of the painting, which counts as none where the hand takes steps back."""
+    desk.guides.own = Own(guide, _serial(desk))
+    desk.post(Do(guide))
+
+
+def keep(desk: Desk) -> None:
+    """Keeps the symmetry as it is, while steps are taken back or done again."""
+    guide = guide_of(desk)
+    if guide is not None:
+        desk.guides.own = Own(guide, _serial(desk), kept=True)
+
+
+def restore(desk: Desk) -> None:
+    """Makes the symmetry that was kept the painting's again, where that has another by now: before a stroke."""
+    own, scene = desk.guides.own, desk.known.scene
+    if own is None or not own.kept or scene is None or own.serial != scene.serial:
+        return
+    if not is_told(own.guide, scene.guides):
+        set_symmetry(desk, own.guide)
+
+
+def _serial(desk: Desk) -> int:
+    return desk.known.scene.serial if desk.known.scene is not None else 0
+
+
 def choose(desk: Desk, name: str) -> None:
     """Paints with another symmetry from now on: about the centre that there is, else about the middle."""
     guide, way = guide_of(desk), WAYS[name]
     if name == "off":
         if guide is not None and not guide.off:
-            desk.post(Do(replace(guide, off=True)))
+            set_symmetry(desk, replace(guide, off=True))
         return
     same = guide is not None and way_of(replace(guide, off=False)) == name
     if guide is not None and same:
-        desk.post(Do(replace(guide, off=False)))
+        set_symmetry(desk, replace(guide, off=False))
         return
     found = guide or lying(desk.view, first_centre(desk), (0.0, 0.0))
     count = guide.count if guide is not None and way.counts and guide.count > 2 else way.count
     x, y = found.points[0]
     length = math.dist(*found.points)
     end = (x + length, y) if way.across else (x, y - length)
-    desk.post(Do(replace(found, points=((x, y), end), count=count, mirror=way.mirror, off=False)))
+    set_symmetry(desk, replace(found, points=((x, y), end), count=count, mirror=way.mirror, off=False))
 
 
 def toggle(desk: Desk) -> None:
@@ -85,14 +112,14 @@ def toggle(desk: Desk) -> None:
     if guide is None:
         choose(desk, "mirror")
     else:
-        desk.post(Do(replace(guide, off=not guide.off)))
+        set_symmetry(desk, replace(guide, off=not guide.off))
 
 
 def set_count(desk: Desk, count: int) -> None:
     """Turns strokes by other parts of a full turn."""
     guide = guide_of(desk)
     if guide is not None and guide.count != count:
-        desk.post(Do(replace(guide, count=max(2, min(MOST_PARTS, count)))))
+        set_symmetry(desk, replace(guide, count=max(2, min(MOST_PARTS, count))))
 
 
 def bring_here(desk: Desk) -> None:
@@ -100,7 +127,7 @@ def bring_here(desk: Desk) -> None:
     guide = guide_of(desk)
     if guide is not None:
         here = lying(desk.view, desk.view.to_canvas(*desk.middle()), direction(guide))
-        desk.post(Do(replace(guide, level=here.level, at=here.at, points=here.points)))
+        set_symmetry(desk, replace(guide, level=here.level, at=here.at, points=here.points))
 
 
 def first_centre(desk: Desk) -> Place:

@@ -9,6 +9,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app import icons
 from app.desk.desk import Desk
+from app.desk.guides import symmetry
 from app.desk.past.past_state import Run, step_name, when
 from app.panels.past import step_card
 from app.panels.past.step_card import Look
@@ -110,6 +111,7 @@ class FilmStrip:
         if press == "right":
             desk.past.look(desk.post, number)
         elif press:
+            symmetry.keep(desk)
             desk.past.jump(desk.post, number)
 
     def _picture(self, desk: Desk, step: PastStep) -> object | None:

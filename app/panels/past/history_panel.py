@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from app import icons, theme
 from app.actions.actions import ACTIONS, perform
 from app.desk.desk import Desk
+from app.desk.guides import symmetry
 from app.panels.controls import widgets as w
 from app.panels.panel import Panel
 from app.panels.past.film_strip import FilmStrip
@@ -77,6 +78,7 @@ class HistoryPanel(Panel):
             perform(desk, ACTIONS["now"])
         imgui.same_line()
         if w.text_button("Go on from here", "Undo what came after; it can be done again", width=wide):
+            symmetry.keep(desk)
             desk.past.jump(desk.post, looking)
 
     def draw(self, desk: Desk) -> None:

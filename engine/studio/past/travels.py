@@ -7,7 +7,7 @@ is recorded as the steps that it undoes, or does again.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from engine.checks.owned import Owned
 from engine.painting import commands as c
@@ -15,6 +15,7 @@ from engine.painting.difference import areas
 from engine.painting.value import Painting
 from engine.studio.past import past_records as p
 from engine.studio.past.rebuilding import PLAYED_AT_ONCE, Rebuilding
+from engine.studio.past.symmetry_steps import steps_over_symmetry
 from engine.studio.past.trail import Trail
 from engine.studio.requests import Handlers
 
@@ -57,9 +58,14 @@ class Travels(Owned):
         """Counts the pieces of open work."""
         return int(self._way is not None)
 
-    def carry_out(self, command: c.Command) -> None:
-        """Does a command; undo and redo beyond what the history holds are a jump."""
+    def carry_out(self, command: c.Command, over_symmetry: bool = False) -> None:
+        """Does a command; undo and redo beyond what the history holds are a jump.  `over_symmetry`: they do not count
+        steps that only set the symmetry."""
         session = self._easel.session
+        if over_symmetry and isinstance(command, c.Undo | c.Redo):
+            if self._easel.live is not None:
+                self._easel.finish()
+            command = replace(command, count=steps_over_symmetry(session, isinstance(command, c.Undo)))
         if isinstance(command, c.Undo | c.Redo) and session.leapt and self._easel.live is None:
             self._trail.follow()
             by = -command.count if isinstance(command, c.Undo) else command.count
