@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import loops
-from engine.canvas.placing.bake import baked
+from engine.canvas.placing.bake import TooFine, baked
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, Pose
+from engine.numeric.similarity import Similarity
 from engine.painting.layering.placing_members import Placing, Same
 from engine.painting.value import Painting
 from engine.session.lifting.moved_group import group_moved, layer_moved, moves_exactly
@@ -20,8 +22,8 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
     """Returns the painting with a layer or group elsewhere, as a placement would show it.
 
     A layer that is moved by quarter turns and powers of two stays one, with its paint in other places, and so does a
-    group of such, unless it shows what holds it or is shown elsewhere.  Any other node stays where it is, hidden, as
-    "NAME (source)", and a placement shows it under its name.
+    group of such, unless it shows what holds it or is shown elsewhere, or that took too many tiles.  Any other node
+    stays where it is, hidden, as "NAME (source)", and a placement shows it under its name.
     """
     given = placing.fields() or placing.of is not Same.SAME
     if given:
@@ -29,14 +31,20 @@ def elsewhere(painting: Painting, node: Layer | Group, placing: Placing) -> Pain
     pose = placing.posed(UNMOVED)
     if isinstance(node, Layer) and node.wrap is not None:
         raise LayerError(f"layer {node.name!r}: found it wrapped around, expected wrap-around off before it is moved")
-    if isinstance(node, Layer) and pose.similarity.quarter is not None:
-        mask = None if node.mask is None else replace(node.mask, pyramid=baked(node.mask.pyramid, pose.similarity))
-        here: Node = layer_moved(replace(node, mask=mask), pose.similarity)
-        return replace(painting, root=layers.substitute(painting.root, node.name, here))
-    if isinstance(node, Group) and pose.similarity.quarter is not None and moves_exactly(painting.root, node):
-        here = group_moved(node, pose.similarity)
-        return replace(painting, root=layers.substitute(painting.root, node.name, here))
+    if pose.similarity.quarter is not None:
+        with suppress(TooFine):
+            here = _moved(painting.root, node, pose.similarity)
+            if here is not None:
+                return replace(painting, root=layers.substitute(painting.root, node.name, here))
     return replace(painting, root=shown_from_beside(painting.root, node, pose))
+
+
+def _moved(root: Group, node: Layer | Group, by: Similarity) -> Layer | Group | None:
+    """Returns a node with its paint elsewhere, None for a group that cannot be moved so."""
+    if isinstance(node, Group):
+        return group_moved(node, by) if moves_exactly(root, node) else None
+    mask = None if node.mask is None else replace(node.mask, pyramid=baked(node.mask.pyramid, by))
+    return layer_moved(replace(node, mask=mask), by)
 
 
 def tried(painting: Painting, name: str, placing: Placing, copy: bool = False) -> Painting:

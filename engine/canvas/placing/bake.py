@@ -18,7 +18,8 @@ from engine.canvas.attenuate import placed as placed_rect
 from engine.canvas.commit import commit
 from engine.canvas.compact import compact
 from engine.canvas.evaluate import evaluate_sparse
-from engine.canvas.placing.filled import filled_tiles
+from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.filled import filled_levels
 from engine.canvas.store import Level, Pyramid, Record
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
@@ -28,7 +29,13 @@ from engine.texture.planes import COLOURS, Planes, merged, plane_map, sort_key
 from engine.texture.record import Instance
 
 _CACHE = 256 << 20  # bytes
+MOST_ENLARGED = 1 << 14  # tiles of a level that is finer than all that is stored, as foretold
+_SOME = 64  # tiles from which on each level has four times as many
 _NOTHING = np.zeros((TILE, TILE), np.float32)
+
+
+class TooFine(LayerError):
+    """What is moved by so small parts of its pixels that nobody could wait for all the tiles."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +68,8 @@ def tiles_of(keys: Iterable[TileKey]) -> Rect:
 
 def baked(pyramid: Pyramid, similarity: Similarity) -> Pyramid:
     """Returns a pyramid as it is shown by a similarity of quarter turns: at every level at which its move is by whole
-    pixels, its values are those of the source there; coarser levels follow from them."""
+    pixels, its values are those of the source there; coarser levels follow from them.  TooFine where that is far
+    finer than all that is stored."""
     assert similarity.quarter is not None
     source = fold(pyramid)
     levels, aligned = similarity.quarter[0], similarity.aligned_from
@@ -151,7 +159,14 @@ class _Turned:
             found = evaluate_sparse(source, key.level, key.rect, cache)
             return found is not None and bool(found.data.any())
 
-        found: set[TileKey] = set()
-        for key in filled_tiles(lambda k: source.levels.get(k, ()), filled, source.coarsest, at):
+        found, tiles = set[TileKey](), set[TileKey]()
+        finest = max(source.levels)
+        for level, tiles in filled_levels(lambda k: source.levels.get(k, ()), filled, source.coarsest, at):
+            if at > finest <= level and len(tiles) > _SOME and len(tiles) << 2 * (at - level) > MOST_ENLARGED:
+                raise TooFine(
+                    f"layer: found a move by parts of a pixel, {at - finest} levels finer than all that is painted,"
+                    " expected one of fewer: move it at a coarser level"
+                )
+        for key in tiles:
             found.update(self._similarity.shown(key.rect, at, self.base).tiles(self.base))
         return found

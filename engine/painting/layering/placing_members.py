@@ -85,7 +85,10 @@ def _complex(members: Fields, name: str) -> tuple[float, float]:
     value = members.take(name)
     if not (isinstance(value, list) and len(value) == 2 and all(map(is_number, value))):
         raise members.fault(name, "[re, im], two numbers")
-    return float(value[0]), float(value[1])
+    try:
+        return float(value[0]), float(value[1])
+    except OverflowError:
+        raise members.fault(name, "numbers near 1") from None
 
 
 def read_part(members: Fields, name: str) -> SourcePart | None:

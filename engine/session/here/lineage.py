@@ -148,7 +148,8 @@ def _set(change: Change, command: c.SetLayer) -> Pasts:
         return pasts
     if command.selected is not None and isinstance(node, Layer):
         return _part_moved(change, pasts, node, command)
-    return _placed(pasts, node, command.placing)
+    stays = isinstance(layers.find(change.after.root, command.name), Layer)
+    return _placed(pasts, node, command.placing) if stays else pasts
 
 
 def _part_moved(change: Change, pasts: Pasts, node: Layer, command: c.SetLayer) -> Pasts:

@@ -13,6 +13,7 @@ from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose
 from engine.canvas.reading import layer_planes
+from engine.checks.field_error import FieldError
 from engine.numeric.address import Rect
 from engine.numeric.similarity import Dyadic, Similarity
 from engine.painting import commands as c
@@ -70,6 +71,28 @@ def test_what_cannot_be_exact_stays_as_a_source(name):
     assert picture(session.painting).any()
     session.do(c.parse({"do": "layer", "set": name, "c": [1.0, 0.0], "at": [0, 0]}))
     np.testing.assert_allclose(picture(session.painting), picture(before), atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["Layer 1", "Group"])
+def test_what_is_moved_by_tiny_parts_of_its_pixels_stays_as_a_source(name):
+    """As paint of its own it had so many tiles that nobody could wait for them."""
+    session = painted(
+        {"do": "layer", "add": "Group", "kind": "group"},
+        {"do": "layer", "move": "Layer 1", "to": 0, "group": "Group"},
+    )
+    before = picture(session.painting, 1, WINDOW)
+    session.do(c.parse({"do": "layer", "set": name, "at": [1 << 30, 3], "level": 29}))
+    shown = layers.find(session.painting.root, name)
+    assert isinstance(shown, Placement)
+    assert picture(session.painting, 1, WINDOW).any()
+    session.do(c.parse({"do": "layer", "set": name, "at": [0, 0], "level": 29}))
+    np.testing.assert_array_equal(picture(session.painting, 1, WINDOW), before)
+
+
+@pytest.mark.parametrize("number", [10**400, -(10**400)], ids=["more", "less"])
+def test_a_scale_beyond_all_numbers_is_refused_in_a_line(number):
+    with pytest.raises(FieldError, match="c: found"):
+        c.parse({"do": "layer", "set": "Layer 1", "c": [number, 0.5]})
 
 
 def test_a_group_keeps_all_that_it_shows():
