@@ -105,15 +105,15 @@ class Window:
         return [hears[kind] for hears in (self.tiles.hears, self.engine.hears, _ANTS) if kind in hears]
 
     def _dropped(self, path: Path) -> bool:
-        """Takes a file that was dropped on the window: it is a panel's, or a picture to
-        bring in, or it is opened.  False while it cannot be."""
+        """Takes a file that was dropped on the window: it is a panel's, or a picture or
+        layers to bring in, or it is opened.  False while it cannot be."""
         desk = self.desk
         if not desk.known.ready:
             self._not_yet(None)
             return False
         with self._guard.spare("on a drop"):
             if not self.layout.strip.dropped(desk, path, *self.pointers.at()):
-                if bringing.is_picture(path):
+                if bringing.is_picture(path) or bringing.is_layered(path):
                     bringing.offer(desk, path, desk.view.to_canvas(*self.pointers.at()))
                 else:
                     desk.guard(lambda: desk.open(path))

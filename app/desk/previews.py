@@ -16,7 +16,7 @@ from engine.studio.results import Picture
 _MOST = 100_000_000  # pixels of a picture that is made small
 MOST_BYTES = 4 << 20  # of the small picture in a painting
 PAPER, FIELD = (244, 244, 244, 255), (29, 29, 29, 255)  # sRGB: below pictures with holes, and around them
-PAINTING, PICTURES = ".ora", (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+PAINTING, PHOTOSHOP, PICTURES = ".ora", (".psd", ".psb"), (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
 
 class FileRow(NamedTuple):
@@ -48,7 +48,7 @@ class Previews:
     def ask(self, folder: Path, rows: Iterable[FileRow], side: int) -> None:
         """Has pictures of files in a folder made, at most `side` pixels wide and high; in place of those asked for
         before that are not begun."""
-        files = [row for row in rows if row.name.lower().endswith((PAINTING, *PICTURES))]
+        files = [row for row in rows if row.name.lower().endswith((PAINTING, *PHOTOSHOP, *PICTURES))]
         wanted = [(ident(folder, row), folder / row.name, side) for row in files]
         self._wanted = deque(one for one in wanted if one[0] not in self._begun)
         if self._wanted and (self._thread is None or not self._thread.is_alive()):

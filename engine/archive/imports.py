@@ -22,6 +22,8 @@ from engine.canvas.node_checks import MAX_NAME, LayerError
 from engine.canvas.store import Pyramid
 from engine.files.fault import FileError, TooMuch, shown
 from engine.files.images import read_image
+from engine.files.layered.ora_layers import STACK as STACK
+from engine.files.layered.ora_layers import known_blend
 from engine.files.limits import LIMITS, Limits, memory_cap
 from engine.files.png_reader import PngReader
 from engine.files.png_writer import SIGNATURE
@@ -29,7 +31,6 @@ from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, parse_sta
 from engine.files.zip_reader import ZipArchive
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.arithmetic import NEWEST
-from engine.numeric.blend import BLENDS
 from engine.numeric.colour import from_rgba8, from_rgba16
 from engine.painting.recording import Recording
 from engine.painting.rendering import Progress, Stop, check_cancelled
@@ -37,13 +38,10 @@ from engine.painting.value import Painting
 from engine.texture.image import ImageSource
 from engine.texture.planes import Planes
 
-STACK = "stack.xml"
 _NO_PAINT = Pyramid()
 NOTES = 20
 PIXELS = 1 << 24  # of a band of rows that is laid down at once
 _LAID_ROWS = 512  # rows of a picture that are laid down at once, at most
-# Names that programs give to modes of ours.
-ALIASES = {"svg:add": "plus", "krita:pass": "src-over"}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -305,8 +303,8 @@ class _Import:
         return pyramid
 
     def _blend(self, entry: StackEntry | LayerEntry) -> str:
-        name = ALIASES.get(entry.op, entry.op.removeprefix("svg:"))
-        if name in BLENDS:
+        name = known_blend(entry.op)
+        if name is not None:
             return name
         self._notes.append(f"layer {shown(entry.name, 30)}: mode {shown(entry.op)} is not known; shown as normal")
         return "src-over"

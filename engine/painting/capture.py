@@ -15,6 +15,7 @@ from engine.brush.checks import thawed
 from engine.canvas.layers import Group
 from engine.files.fault import FileError
 from engine.files.images import read_image
+from engine.files.layered.reading_layers import has_layers, read_sheet
 from engine.files.limits import LIMITS
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
@@ -64,7 +65,8 @@ class PictureSource:
 
 
 def read_picture(path: str, folder: Path | None) -> np.ndarray:
-    """Returns the planes of a picture file, float32 (4, h, w) on the grid.  A relative path starts from `folder`."""
+    """Returns the planes of a picture file, float32 (4, h, w) on the grid; of a file of layers, those side by side.  A
+    relative path starts from `folder`."""
     return planes_of(_read(path, folder))
 
 
@@ -78,6 +80,8 @@ def _read(path: str, folder: Path | None) -> np.ndarray:
     where = Path(path) if folder is None else folder / path
     if not os.path.isfile(where):  # also so that no pipe or device is opened
         raise FileError(path, f"found no picture there, expected a PNG, JPEG or TIFF ({where})")
+    if has_layers(where):
+        return read_sheet(where, path)
     return read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))[0]
 
 

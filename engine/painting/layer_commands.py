@@ -13,6 +13,8 @@ from engine.canvas.placing.pose import SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.painting.layering.mask_member import MaskValue, read_mask, write_mask
+from engine.painting.layering.pictures_member import AddPictures as AddPictures
+from engine.painting.layering.pictures_member import PicturePart, read_children, read_part_of, write_children
 from engine.painting.layering.placing_members import (
     PLACED,
     Members,
@@ -46,8 +48,8 @@ class AddLayer:
 
 @dataclass(frozen=True, slots=True)
 class AddPicture:
-    """A new layer that begins with the picture of a texture, whose corner lies at pixel `at` of `level`, a pixel on a
-    pixel; in the tree as an `AddLayer` has it."""
+    """A new layer that begins with the picture of a texture, or a `part` of it, whose corner lies at pixel `at` of
+    `level`, a pixel on a pixel; in the tree as an `AddLayer` has it."""
 
     name: str
     texture: str
@@ -57,6 +59,7 @@ class AddPicture:
     group: str | Same | None = Same.SAME
     to: int | None = None
     extra: Extra = NO_EXTRA
+    part: PicturePart | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,10 +231,14 @@ def _new_place(members: Fields) -> Members:
 
 
 def _picture(members: Fields) -> Members:
+    role = _role(members, "role") if "role" in members else ""
+    return {**_pictured(members), "role": role, "part": read_part_of(members, None)}
+
+
+def _pictured(members: Fields) -> Members:
     level = members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
     x, y = members.integers("at", 2, (0, 0), limit=PLACE_LIMIT)
-    role = _role(members, "role") if "role" in members else ""
-    return {"texture": members.text("texture"), "level": level, "at": (x, y), "role": role}
+    return {"texture": members.text("texture"), "level": level, "at": (x, y)}
 
 
 def _role(members: Fields, name: str) -> str:
@@ -297,10 +304,12 @@ _KINDS: dict[str, Callable[[Fields], tuple[type, Members]]] = {
     "group": lambda members: (AddLayer, {"kind": "group"}),
     "placement": lambda members: (AddPlacement, {"placing": read_placing(members)}),
     "picture": lambda members: (AddPicture, _picture(members)),
+    "pictures": lambda members: (AddPictures, {**_pictured(members), "children": read_children(members)}),
 }
 LayerCommand = (
     AddLayer
     | AddPicture
+    | AddPictures
     | AddPlacement
     | BakePlacement
     | MergeLayer
@@ -314,8 +323,9 @@ LayerCommand = (
     | SetLayer
 )
 _OF_ALL = ("flatten", "clear")  # the verbs whose name may be null: the whole painting
-_OF_VERSION_2 = AddPicture | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer
-_KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPlacement: "placement"}  # of those that are no `AddLayer`
+_OF_VERSION_2 = AddPicture | AddPictures | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer
+# Of those that are no `AddLayer`.
+_KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPictures: "pictures", AddPlacement: "placement"}
 RECORDS: tuple[type, ...] = (*_KIND_NAMES, *(form.record for form in LAYER_FORMS.values()))
 _VERBS: dict[type, str] = {
     **dict.fromkeys(_KIND_NAMES, "add"),
@@ -352,6 +362,8 @@ def write_layer(command: LayerCommand) -> Members:
             out.update(write_placing(value))
         elif isinstance(value, SourcePart):
             out[f.name] = write_part(value)
+        elif f.name == "children":
+            out[f.name] = write_children(value)
         elif f.name not in ("name", "extra") and value != f.default:
             out[f.name] = None if value == "" else list(value) if isinstance(value, tuple) else value
     if isinstance(command, SetLayer) and command.mask is not None:

@@ -28,7 +28,7 @@ from engine.session.lifting.moved_part import part_moved
 from engine.session.masking import mask_for, with_mask_applied
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
 from engine.session.moving import elsewhere
-from engine.session.picturing import with_picture
+from engine.session.picturing import with_picture, with_pictures
 from engine.session.selecting import selected
 from engine.strokes.example_stroke import kind_of, swapped
 from engine.strokes.filling import filled
@@ -86,6 +86,10 @@ def _add(painting: Painting, command: c.AddLayer, around: Around) -> Painting:
 
 def _add_picture(painting: Painting, command: c.AddPicture, around: Around) -> Painting:
     return with_picture(painting, command)
+
+
+def _add_pictures(painting: Painting, command: c.AddPictures, around: Around) -> Painting:
+    return with_pictures(painting, command)
 
 
 def _add_placement(painting: Painting, command: c.AddPlacement, around: Around) -> Painting:
@@ -237,6 +241,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.Fill: _fill,
     c.AddLayer: _add,
     c.AddPicture: _add_picture,
+    c.AddPictures: _add_pictures,
     c.AddPlacement: _add_placement,
     c.BakePlacement: _bake,
     c.MergeLayer: lambda painting, command, around: merged_down(painting, command.name),

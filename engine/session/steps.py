@@ -20,6 +20,7 @@ from engine.session.apply import STEPS, apply
 from engine.session.here.chosen import Definitions, choosing
 from engine.session.here.lineage import Change, Laid, Pasts, bare, given, mask_painted, moved_along, pasts_after
 from engine.session.here.lineage import LoggedStep as LoggedStep
+from engine.session.picturing import without_pictures
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -119,6 +120,8 @@ class Steps(Owned):
         elif isinstance(command, c.AddPicture):  # its picture is not here
             painting = _applied(now.painting, c.AddLayer(command.name, group=command.group, to=command.to))
             painting = _applied(painting, c.SetLayer(command.name, role=command.role))
+        elif isinstance(command, c.AddPictures):
+            painting = _grouped(now.painting, command)
         else:
             painting = _applied(now.painting, command)
         change = Change(now.painting, painting, now.pasts, step)
@@ -149,6 +152,13 @@ class Steps(Owned):
         first = self._now.active if redone else found.active
         kept = active if active is not None and layers.has(found.root, active) else first
         self._now = replace(self._now, painting=replace(found, active=kept))
+
+
+def _grouped(painting: Painting, command: c.AddPictures) -> Painting:
+    try:
+        return without_pictures(painting, command)
+    except (Refusal, LayerError):  # the log is of another painting
+        return painting
 
 
 def _applied(painting: Painting, command: c.Command) -> Painting:

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from engine.brush.settings import Brush
     from engine.painting.commands import Command, DefineTexture
     from engine.painting.places import Bookmark
+    from engine.texture.image import ImageSource
 
 Handlers = dict[type, Callable[[Any], None]]  # of requests, by their types
 SCREEN_TILE = 256  # pixels along a side of a screen tile
@@ -90,11 +91,13 @@ class Export:
 @dataclass(frozen=True, slots=True)
 class Do:
     """A command, carried out in the order of posting; `time`: of posting, seconds since 1970; `over_symmetry`: undo and
-    redo do not count steps that only set the symmetry."""
+    redo do not count steps that only set the symmetry; `lent`: the picture that a definition names by its sha, where it
+    was read already."""
 
     command: Command
     time: float | None = None
     over_symmetry: bool = False
+    lent: ImageSource | None = None
 
 
 @dataclass(frozen=True, slots=True)

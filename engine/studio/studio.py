@@ -122,7 +122,7 @@ class Studio(Owned):
             Work(lambda: easel.session.room.pending, lambda: easel.session.room.step()),
         )
         self._handlers: q.Handlers = {
-            q.Do: lambda r: travels.carry_out(timed(r.command, r.time), r.over_symmetry),
+            q.Do: lambda r: travels.carry_out(timed(r.command, r.time), r.over_symmetry, r.lent),
             q.Begin: self._begin,
             q.Points: lambda r: easel.extend(rounded(r.points)),
             q.Finish: lambda r: easel.finish(),

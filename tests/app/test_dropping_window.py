@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from dragging import Drag
 from PIL import Image
+from psd_tools import PSDImage
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
 
@@ -107,6 +108,32 @@ def test_a_picture_can_be_brought_in_as_a_reference_that_no_export_shows(program
     app.save_as(app.folder / "ours.ora")
     with zipfile.ZipFile(app.folder / "ours.ora") as file, Image.open(file.open("mergedimage.png")) as merged:
         assert not np.asarray(merged)[..., 3].any()
+
+
+def test_a_photoshop_file_comes_in_as_a_group_in_one_step(program, tmp_path):
+    blue, orange = (20, 60, 220), (240, 130, 10)
+    image = PSDImage.new("RGB", (300, 200))
+    image.create_pixel_layer(Image.new("RGBA", (300, 200), (*blue, 255)), name="Wall")
+    group = image.create_group(name="Pictures")
+    group.create_pixel_layer(Image.new("RGBA", (100, 80), (*orange, 255)), name="Frame", top=60, left=100)
+    image.save(tmp_path / "room.psd")
+    app = program()
+    app.settled()
+    app.do("mousemove", 500, 400)
+    Drag(app.display, window_of(app), tmp_path / "room.psd").drop(500, 400)
+    app.click("Group")
+
+    def is_at(x, y, colour):
+        return np.abs(app.screen()[y, x, :3].astype(int) - colour).max() < 4
+
+    until(lambda: is_at(480, 390, orange) and is_at(420, 350, blue))
+    for name in ("room", "Wall", "Pictures", "Frame"):
+        app.box(name)
+    app.do("mousemove", 500, 400, "mousedown", 1, "mousemove", 560, 430, "mousemove", 600, 460, "mouseup", 1)
+    until(lambda: is_at(580, 450, orange) and is_at(520, 410, blue))
+    app.keys("ctrl+z", "ctrl+z")
+    until(lambda: not is_at(580, 450, orange) and not is_at(420, 350, blue))
+    app.until_gone("Frame")
 
 
 def longest(app, act):

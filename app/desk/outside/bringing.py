@@ -10,7 +10,7 @@ from immutables import Map
 from app.canvas.view import Place
 from app.desk.desk import Desk, FileWork
 from app.desk.outside.pictured import free_layer_name, free_texture_name
-from app.desk.previews import PICTURES
+from app.desk.previews import PAINTING, PHOTOSHOP, PICTURES
 from engine.checks.roles import REFERENCE
 from engine.painting.commands import AddPicture, DefineTexture
 from engine.studio.requests import Do
@@ -23,8 +23,13 @@ def is_picture(path: Path) -> bool:
     return path.suffix.lower() in PICTURES
 
 
+def is_layered(path: Path) -> bool:
+    """Tells whether a file holds layers that may come in as a group, by its name."""
+    return path.suffix.lower() in (PAINTING, *PHOTOSHOP)
+
+
 def offer(desk: Desk, path: Path, place: Place | None = None) -> None:
-    """Asks what is to become of a picture; as a layer it is laid around `place`, else in the middle of the view."""
+    """Asks what is to become of a picture, or of layers; laid around `place`, else in the middle of the view."""
     desk.asked.bringing = path, desk.view.to_canvas(*desk.middle()) if place is None else place
     desk.asked.show("bring in")
 
@@ -44,14 +49,14 @@ class _Lay(FileWork):
         lay(desk, self.path, self.path.stem, found, self.place, self.role)
 
 
-def _level(seen: int) -> int:
+def picture_level(seen: int) -> int:
     """Returns the level at which a picture has its own pixels: where the whole frame is seen, that of the frame's."""
     return 0 if _FAR < seen < 0 else seen
 
 
 def lay(desk: Desk, path: Path, stem: str, size: tuple[int, int], place: Place, role: str = "") -> None:
     """Lays a picture of `size` (width, height) on a layer of its own, with its middle at a place."""
-    level = _level(desk.view.shown_level)
+    level = picture_level(desk.view.shown_level)
     x, y = place.pixel(level)
     texture, at = free_texture_name(desk, stem), (x - size[0] // 2, y - size[1] // 2)
     desk.post(Do(DefineTexture(texture, "image", Map({"path": str(path.absolute())}))))

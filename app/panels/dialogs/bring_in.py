@@ -8,8 +8,8 @@ from app import icons, theme
 from app.desk import previews
 from app.desk.desk import Desk
 from app.desk.examples import example_work
-from app.desk.outside import bringing, pictured
-from app.desk.previews import FileRow
+from app.desk.outside import bringing, bringing_layers, pictured
+from app.desk.previews import PAINTING, FileRow
 from app.panels.controls import widgets as w
 from app.tools.filling_gestures import drop_texture
 from engine.brush.parts import Component
@@ -33,7 +33,7 @@ class BringIn:
         imgui.begin_group()
         imgui.text_unformatted(self._path.name if len(self._path.name) < 40 else f"{self._path.name[:38]}…")
         imgui.spacing()
-        done = self._ways(desk)
+        done = self._of_layers(desk) if bringing.is_layered(self._path) else self._ways(desk)
         imgui.end_group()
         return not done
 
@@ -58,6 +58,21 @@ class BringIn:
             example_work.add(desk, self._path)
             return True
         if w.text_button("Open", "Leave this painting, and open the picture by itself", width=wide):
+            path = self._path
+            desk.guard(lambda: desk.open(path))
+            return True
+        return w.text_button("Cancel", "Leave the painting as it is", width=wide)
+
+    def _of_layers(self, desk: Desk) -> bool:
+        wide, ours = imgui.get_font_size() * 15, self._path.suffix.lower() == PAINTING
+        imgui.text_disabled(
+            "Paint comes in as pictures, in the frame's own detail" if ours else "Text and shapes come in as pictures"
+        )
+        imgui.spacing()
+        if w.default_button("Group", "Bring its layers in as a group, where it was dropped; then move it", width=wide):
+            bringing_layers.as_group(desk, self._path, self._place)
+            return True
+        if ours and w.text_button("Open", "Leave this painting, and open the other one", width=wide):
             path = self._path
             desk.guard(lambda: desk.open(path))
             return True

@@ -25,6 +25,7 @@ from engine.studio.requests import Export, Save
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+_BROUGHT = (*_PICTURES, ".ora", ".psd", ".psb")
 SAVES = (".ora",)
 FILMS = (".mp4", ".webm", ".webp", ".avif", ".gif", ".png")
 EXPORTS = (".png", ".tif")
@@ -243,5 +244,5 @@ def choosing_texture(desk: Desk) -> SystemDialog | Browser:
 
 
 def choosing_to_bring(desk: Desk) -> SystemDialog | Browser:
-    """Asks for a picture to bring into the painting, in the middle of what is seen."""
-    return _chooser("Bring in a picture", _folder(desk), _PICTURES, False, bringing.offer)
+    """Asks for a picture, or a file of layers, to bring into the painting, in the middle of what is seen."""
+    return _chooser("Bring in a picture", _folder(desk), _BROUGHT, False, bringing.offer)

@@ -22,6 +22,7 @@ from engine.painting.layering.mask_member import MASK_APPLY, MaskOp
 from engine.painting.value import Painting
 from engine.session.here.chosen import NO_DEFINITIONS, ByCommand, Definitions
 from engine.session.merging import PLAIN_BLEND
+from engine.session.picturing import picture_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -229,6 +230,13 @@ def _with_picture(change: Change, command: c.AddPicture) -> Pasts:
     return change.pasts.set(number, Given(None, command, change.step.textures))
 
 
+def _with_pictures(change: Change, command: c.AddPictures) -> Pasts:
+    pasts, held = change.pasts, {node.name: node.id for node in layers.walk(change.after.root)}
+    for one in command.pictures():
+        pasts = pasts.set(held[one.name], Given(None, picture_of(command, one), change.step.textures))
+    return pasts
+
+
 _ROWS: dict[type, Callable[..., Pasts]] = {
     c.DuplicateLayer: _duplicated,
     c.SetLayer: _set,
@@ -237,6 +245,7 @@ _ROWS: dict[type, Callable[..., Pasts]] = {
     c.BakePlacement: _baked,
     c.ClearLayer: _cleared,
     c.AddPicture: _with_picture,
+    c.AddPictures: _with_pictures,
     c.RemoveLayer: lambda change, command: change.pasts,
 }
 

@@ -32,7 +32,7 @@ from engine.session.here.lineage import Given
 from engine.session.here.plies import BeginPly, CoverPly, EndPly, Part, Ply, ShadePly, Turn
 from engine.session.here.poured_here import Poured
 from engine.session.here.unfolded import Bounds, Candidate, Entry, Unfolding
-from engine.session.picturing import laid_picture
+from engine.session.picturing import picture_paint
 from engine.session.steps import LoggedStep, Steps
 from engine.strokes.coverage_at import Covering, Seeds, hides, lays, plain_over, plainly
 from engine.texture.table import GRADIENT, KINDS
@@ -246,7 +246,7 @@ class PaintedHere:
             texture = self._textures(given.textures).get(command.texture)
             found = None
             if texture is not None and texture.source is not None and texture.source.there:
-                paint = laid_picture(texture.source, command.level, command.at, self._painting.grid)
+                paint = picture_paint(texture.source, command, self._painting.grid)
                 found = layers.Layer(1, "picture", pyramid=paint)
             self._pictures[id(command)] = command, found
         return self._pictures[id(command)][1]

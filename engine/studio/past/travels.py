@@ -18,6 +18,7 @@ from engine.studio.past.rebuilding import PLAYED_AT_ONCE, Rebuilding
 from engine.studio.past.symmetry_steps import steps_over_symmetry
 from engine.studio.past.trail import Trail
 from engine.studio.requests import Handlers
+from engine.texture.image import ImageSource
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,9 +59,9 @@ class Travels(Owned):
         """Counts the pieces of open work."""
         return int(self._way is not None)
 
-    def carry_out(self, command: c.Command, over_symmetry: bool = False) -> None:
-        """Does a command; undo and redo beyond what the history holds are a jump.  `over_symmetry`: they do not count
-        steps that only set the symmetry."""
+    def carry_out(self, command: c.Command, over_symmetry: bool = False, lent: ImageSource | None = None) -> None:
+        """Does a command, as the easel does; undo and redo beyond what the history holds are a jump.  `over_symmetry`:
+        they do not count steps that only set the symmetry."""
         session = self._easel.session
         if over_symmetry and isinstance(command, c.Undo | c.Redo):
             if self._easel.live is not None:
@@ -73,7 +74,7 @@ class Travels(Owned):
             if to != self._trail.count and self._trail.held(to) is None:
                 self._jump(to)
                 return
-        self._easel.carry_out(command)
+        self._easel.carry_out(command, lent)
 
     def step(self) -> None:
         """Plays a piece of the way."""

@@ -56,6 +56,18 @@ RIGHT: dict[str, dict[str, Any]] = {
     "role": layer("set", "B", role="reference"),
     "copy": layer("duplicate", "A", to="C", selected="copy", aside=True),
     "picture": layer("add", "C", kind="picture", texture="ramp", level=1, at=[2, 3], role="reference"),
+    "pictures": layer(
+        "add",
+        "C",
+        kind="pictures",
+        texture="ramp",
+        level=1,
+        at=[2, 3],
+        children=[
+            {"name": "D", "part": [0, 0, 1, 1], "at": [3, 4], "opacity": 0.5, "visible": False, "clip": True},
+            {"name": "E", "children": [{"name": "F", "part": [0, 0, 1, 1]}], "blend": "multiply", "isolated": False},
+        ],
+    ),
     "frame": {"do": "frame", "rect": [1, 2, 30, 40]},
     "paper": {"do": "paper", "colour": "#f0e0d0"},
     "guide": {

@@ -19,6 +19,7 @@ from engine.journal.volume import End
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import places, select_commands
+from engine.painting.layering.pictures_member import BroughtGroup, BroughtPicture
 from engine.studio import requests as q
 from engine.studio.filing.recovering import recovered
 
@@ -39,6 +40,14 @@ SAMPLES = {
     ),
     c.AddLayer: c.AddLayer("cloud", group=None, to=0, extra=MORE),
     c.AddPicture: c.AddPicture("photo", "grit", 1, (5, -6)),
+    c.AddPictures: c.AddPictures(
+        "scans",
+        "grit",
+        (BroughtPicture("a", (0, 1, 8, 9), (-3, 4), 0.5, False, "multiply", True), BroughtGroup("b", (), 0.25)),
+        -1,
+        (1 << 70, 2),
+        extra=MORE,
+    ),
     c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),
     c.BakePlacement: c.BakePlacement("sky again"),
     c.MergeLayer: c.MergeLayer("sky again"),
@@ -61,10 +70,10 @@ SAMPLES = {
     places.Bookmark: places.Bookmark("shore", 3.5, (1.5, 2), (800, 600), 12.0),
     places.RenameBookmark: places.RenameBookmark("shore", "coast"),
     places.RemoveBookmark: places.RemoveBookmark("coast"),
-    c.Guide: c.Guide("axis", "symmetry", 3, (1 << 80, -4), ((0.5, 1.25), (30.0, -4.0)), 5, True, True, MORE),
+    c.Guide: c.Guide("axis", "symmetry", 3, (1 << 80, -4), ((0.5, 1.25), (30.0, -4.0)), 5, True, True, extra=MORE),
     c.RemoveGuide: c.RemoveGuide("axis"),
 }
-UNDOABLE = (c.Swap, c.RenameLayer, c.AddPicture)  # which need more than a layer "sky" there
+UNDOABLE = (c.Swap, c.RenameLayer, c.AddPicture, c.AddPictures)  # which need more than a layer "sky" there
 
 
 def test_no_command_is_missing():
