@@ -14,8 +14,8 @@ from engine.files.limits import memory_cap
 from engine.numeric.address import Rect
 
 _UNPLACED = Rect(0, 0, 0, 0)
-SHEET = 1 << 26  # pixels of a sheet: 1 GiB once it is in a painting
-_BYTES = 24  # of memory that a pixel of a sheet takes while it is read: as it is in the file, and as planes
+SHEET = 1 << 27  # pixels of a sheet: half a GiB of 8 bits
+_BYTES = 16  # of memory that a pixel of a sheet takes, with the layers made of it
 
 
 @dataclass(frozen=True, slots=True)
