@@ -24,7 +24,7 @@ from app.decoration import Decoration
 from app.desk.desk import Desk, Hear
 from app.desk.examples.thumbnails import Shelf
 from app.desk.files import Files
-from app.desk.moving import held_box
+from app.desk.moving import floating, held_box
 from app.desk.outside import bringing
 from app.desk.places import going
 from app.desk.previews import Previews
@@ -159,7 +159,7 @@ class Window:
         with spare("asking for what is to be seen"):
             if desk.known.ready:
                 self.tiles.wants(desk)
-                desk.selecting.wants(desk.post, desk.view)
+                floating.want_rim(desk)
                 held_box.wants(desk)
                 self.layout.wants(desk, now)
         if desk.painting and self.news.take_from((self.engine.paint,), now):  # what came of this frame's points

@@ -6,10 +6,13 @@ import pytest
 from app.actions.actions import ACTIONS, perform
 from app.canvas.view import Place, View
 from app.desk.desk import Desk
+from app.desk.moving.floating import want_rim
+from app.desk.moving.move_state import Floating
+from engine.canvas.placing.pose import Pose
 from engine.numeric.address import Rect
 from engine.painting.commands import SetFrame
 from engine.painting.select_commands import Box, Select, Whole
-from engine.studio.selecting.ants_records import Ants
+from engine.studio.selecting.ants_records import Ants, AskAnts
 
 BOUNDS = Rect(5, 7, 205, 150)
 
@@ -49,3 +52,21 @@ def test_a_key_right_after_a_drag_counts_before_the_engine_tells_of_it(desk, pos
     desk.selecting.hear(told(None))  # of what was asked for before
     assert not perform(desk, ACTIONS["select_invert"])
     assert [request.command.source for request in posted] == [Box(0, BOUNDS), Whole("invert"), Whole("none")]
+
+
+@pytest.mark.parametrize("pose", [None, Pose((900, -700)), Pose(turned=(0.8, 0.6)), Pose((9, 4), levels=2, turn=1)])
+def test_the_rim_of_what_floats_is_asked_for_wherever_it_comes_into_sight(desk, posted, pose):
+    desk.moving.floating = None if pose is None else Floating("Paint", pose, "cut", 1)
+    want_rim(desk)
+    want_rim(desk)
+    (asked,) = posted
+    assert isinstance(asked, AskAnts)
+    assert asked.area.area < 4 * 1792 * 1280
+    shown = asked.area if pose is None else pose.similarity.shown(asked.area, asked.level, 0)
+    visible = desk.view.visible(0)
+    assert shown.union(visible) == shown
+    if pose is not None:
+        desk.moving.floating = None
+        want_rim(desk)
+        assert posted[-1].level == 0
+        assert posted[-1].area.union(visible) == posted[-1].area

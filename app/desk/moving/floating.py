@@ -62,8 +62,13 @@ def set_part_down(desk: Desk) -> None:
 
 def rim_similarity(desk: Desk) -> Similarity | None:
     """Returns by what the rim of what is selected is seen elsewhere; None: where it is."""
+    return desk.selecting.carried if desk.moving.floating is None else desk.moving.floating.pose.similarity
+
+
+def want_rim(desk: Desk) -> None:
+    """Asks for what is to be seen of the rim: that of what floats may have been out of sight before."""
     floating = desk.moving.floating
-    return desk.selecting.carried if floating is None else floating.pose.similarity
+    desk.selecting.wants(desk.post, desk.view, None if floating is None else floating.pose.similarity)
 
 
 def watch(desk: Desk) -> None:

@@ -15,7 +15,7 @@ from engine.studio.requests import Do, Request
 from engine.studio.selecting.ants_records import Ants, AskAnts
 from engine.studio.selecting.tint_records import AskTint, Tint
 
-_GRAIN = 256  # px: the rectangle that is asked for begins and ends at multiples of these, so that it seldom changes
+_GRAIN = 8  # the rectangle that is asked for begins and ends at multiples of 2^8 px, so that it seldom changes
 
 
 class CopiedHere(NamedTuple):
@@ -73,16 +73,23 @@ class SelectState:
         if self._awaited == ants.selected:
             self._awaited = None
 
-    def wants(self, post: Callable[[Request], None], view: View) -> None:
-        """Asks for the rim in sight, and for the mask, when they are elsewhere than what was asked for."""
+    def wants(self, post: Callable[[Request], None], view: View, by: Similarity | None = None) -> None:
+        """Asks for the rim in sight, and for the mask, when they are elsewhere than what was asked for.  `by`: through
+        which the rim is seen while what is selected floats: what comes into sight so may lie outside it."""
         level = view.shown_level
-        x0, y0, x1, y1 = view.visible(level)
-        area = Rect(x0 // _GRAIN * _GRAIN, y0 // _GRAIN * _GRAIN, -(-x1 // _GRAIN) * _GRAIN, -(-y1 // _GRAIN) * _GRAIN)
-        if self._asked != (level, area):
-            self._asked = level, area
-            post(AskAnts(level, area))
+        area = _grained(view.visible(level))
+        at = level if by is None else level + by.like_levels
+        sought = at, area if by is None else _grained(by.box(area, level, at, 1))
+        if self._asked != sought:
+            self._asked = sought
+            post(AskAnts(*sought))
         masked = (level, area) if self.masking else None
         if self._tinted != masked:
             self._tinted = masked
             post(AskTint(level, area if self.masking else None))
             self.tint = self.tint if self.masking else None
+
+
+def _grained(rect: Rect) -> Rect:
+    """Returns a rectangle that holds one and seldom changes with it."""
+    return rect.zoomed(-_GRAIN).zoomed(_GRAIN)

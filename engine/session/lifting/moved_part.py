@@ -72,9 +72,20 @@ def _with_part_above(painting: Painting, lifted: LiftedPart, pose: Pose) -> Pain
     """Returns the painting with what was taken out of a layer on one above it, which a placement shows."""
     root, name = painting.root, layers.free_name(painting.root, f"{lifted.layer.name} part")
     made = replace(lifted.layer, id=layers.next_id(root), name=name, pyramid=lifted.part)
-    group, position = layers.place(root, lifted.layer.name)
-    root = layers.insert(layers.substitute(root, lifted.layer.name, lifted.layer), made, group, position + 1)
+    group, position = _place_above(root, lifted.layer)
+    root = layers.insert(layers.substitute(root, lifted.layer.name, lifted.layer), made, group, position)
     return replace(painting, root=shown_from_beside(root, made, pose), active=name)
+
+
+def _place_above(root: Group, layer: Layer) -> tuple[str | None, int]:
+    """Returns the group and the position right above a layer, and above what is clipped to it: that stays so."""
+    group, position = layers.place(root, layer.name)
+    holder = root if group is None else layers.find(root, group)
+    assert isinstance(holder, Group)
+    position += 1
+    while not layer.clip and position < len(holder.children) and holder.children[position].clip:
+        position += 1
+    return group, position
 
 
 def part_tried(painting: Painting, lifted: LiftedPart, pose: Pose) -> Painting:

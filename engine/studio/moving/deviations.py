@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from engine.canvas import layers
-from engine.canvas.layers import Group, Node
+from engine.canvas.layers import Node
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, SourcePart
 from engine.checks.owned import Owned
@@ -52,7 +52,7 @@ class Deviations(Owned):
         pose = placing.posed(here)
         above = part is not None and pose.similarity.quarter is None  # it lies on a layer of its own
         way = request.name, request.selected, request.copy, above
-        if paint is None or (above and _clips(painting.root, node)):
+        if paint is None:
             return Deviation(seen, painting, way, anywhere, anywhere)
         own = place_of(paint, node, here) if part is None else _taken(painting, part)
         return Deviation(seen, painting, way, own, place_of(paint, node, pose))
@@ -86,11 +86,3 @@ def _taken(painting: Painting, part: LiftedPart) -> Areas:
     """Returns where a painting from which a part was lifted is another one."""
     left = layers.substitute(painting.root, part.layer.name, part.layer)
     return areas(painting, replace(painting, root=left))
-
-
-def _clips(root: Group, node: Node) -> bool:
-    """Tells whether something is clipped to a node: it is clipped to what is laid between."""
-    group, position = layers.place(root, node.name)
-    holder = root if group is None else layers.find(root, group)
-    assert isinstance(holder, Group)
-    return any(one.clip for one in holder.children[position + 1 : position + 2])

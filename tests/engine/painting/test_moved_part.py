@@ -153,6 +153,23 @@ def test_a_copy_leaves_what_is_there():
     np.testing.assert_allclose(moved, before * chosen, atol=2**-14)
 
 
+CLIPPED = (
+    {"do": "layer", "add": "Shade"},
+    {"do": "stroke", "points": [[0, 60], [150, 60]], "brush": {"radius": 30, "colour": "#102030"}},
+    {"do": "layer", "set": "Shade", "clip": True},
+    {"do": "layer", "add": "Top"},
+)
+
+
+def test_what_is_clipped_to_a_layer_stays_so_when_a_part_is_laid_above():
+    far = {**TURNED, "at": [4000, 0]}  # nothing of it is seen in the window
+    session = told(Session(GROUND), *CLIPPED, BOX, far)
+    alone = told(Session(GROUND), *CLIPPED, BOX, {"do": "layer", "clear": "Paint"})
+    assert (seen(session.painting, 1) == seen(alone.painting, 1)).all()
+    names = [node.name for node in session.painting.root.children]
+    assert names[names.index("Paint") :] == ["Paint", "Shade", "Paint part (source)", "Paint part", "Top"]
+
+
 def test_what_has_too_many_tiles_is_merged_level_by_level(monkeypatch):
     few = told(Session(GROUND), BOX, to(12, 9)).painting
     monkeypatch.setattr(laid, "_MOST_LAID", 1)
