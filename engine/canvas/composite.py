@@ -8,7 +8,8 @@ block is read from the top layer down, and reading stops at a layer that hides a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import nullcontext
 from functools import partial
 from typing import Protocol, cast
 
@@ -21,6 +22,7 @@ from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.composite_steps import CompositeStep, Found, Leaf, Placed, Planned, Sources, steps_of
 from engine.canvas.placing.drawn_copies import ABOVE_ALL, Above, Asking, Copies, Drawing
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.portions import Portions, Work, finished
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
@@ -114,6 +116,10 @@ def _tiles_of(sources: Sources, layers: Read, loop: Copies) -> Tiles[Leaf, Found
         return source.placement if isinstance(source, Placed) and source.of in loop else None
 
     def read(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
+        with nullcontext() if sources.portions is None else sources.portions.all_of_it():  # it is kept
+            return found(source, level, rect, seen)
+
+    def found(source: Leaf, level: int, rect: Rect, seen: Seen) -> np.ndarray | None:
         paint = source.sheet if isinstance(source, Mask) else source
         if not isinstance(paint, Layer) or (paint, level, rect, seen) not in unpainted:
             return _pixels(source, level, rect, layers, seen)
@@ -186,16 +192,26 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
         middle: Found = [] if inner is None else [(own, blend.flat(inner))]
         return _drawn([*under, *middle, *over], shown, False)
 
-    plainly = all(step.over for step in above)
+    plainly, portions = all(step.over for step in above), source.sources.portions
+    about = source.placement, outer.unclipped, level, part
     if own.opacity != 1 or not plainly:
-        pixels = unrolled.all_turns(turns, level, part, both, own.opacity if plainly else np.float32(1))
+        share, first = own.opacity if plainly else np.float32(1), 0 if portions is None else portions.turns
+        pixels = _by_now(portions, about, lambda: unrolled.all_turns(turns, level, part, both, share, first))
     else:
-        pixels = unrolled.lying_below(turns, level, part, lambda turn, shown, _: drawn(below, turn, shown))
+
+        def of(plan: tuple[CompositeStep, ...]) -> unrolled.Draw:
+            return lambda turn, shown, _: drawn(plan, turn, shown)
+
+        pixels = _by_now(portions, ("below", *about), lambda: unrolled.lying_below(turns, level, part, of(below)))
         if above:
             layers = unrolled.only_layers(step.source for step in above)
-            front = unrolled.lying_above(turns, layers, level, part, lambda turn, shown, _: drawn(above, turn, shown))
-            pixels = unrolled.laid_over(front, pixels)
+            work = partial(unrolled.lying_above, turns, layers, level, part, of(above))
+            pixels = unrolled.laid_over(_by_now(portions, ("above", *about), work), pixels)
     return None if pixels is None else outer.clipped(pixels, level, part, rect)
+
+
+def _by_now(portions: Portions | None, key: Hashable, begun: Callable[[], Work]) -> np.ndarray | None:
+    return finished(begun()) if portions is None else portions.shown(key, begun)
 
 
 def _picture(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:

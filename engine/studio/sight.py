@@ -23,12 +23,14 @@ class Sight(Owned):
         self.revision = 0
         self.open: deque[Key] = deque()  # tiles to look at
         self._wanted: dict[Key, int] = {}  # tile: revision that the window holds, -1 for none; in order of urgency
+        self._begun: set[Key] = set()  # tiles of which a first picture was sent
         self._changes: deque[tuple[int, SeenAreas]] = deque(maxlen=STEPS_KEPT)
 
     def look(self, request: q.Look) -> None:
         """Takes over what is wanted on the screen."""
         self._wanted = {(level, x, y): held for level, x, y, held in request.tiles}
         self.open = deque(self._wanted)
+        self._begun.clear()
 
     def changed(self, where: SeenAreas) -> None:
         """The picture changed in the areas that `where` gives for a level: all tiles are looked at again."""
@@ -40,11 +42,13 @@ class Sight(Owned):
         if more:
             self._changes.pop()
         self.revision += 1
+        self._begun.clear()
         self._changes.append((self.revision, where))
 
     def forget(self) -> None:
         """Another painting is to be seen: no change of the old one matters."""
         self._changes.clear()
+        self._begun.clear()
 
     def meeting(self, where: SeenAreas) -> list[Key]:
         """Returns the tiles that the window holds and that meet areas of their levels."""
@@ -76,6 +80,15 @@ class Sight(Owned):
     def sent(self, key: Key) -> None:
         """The window's copy of a tile is good now."""
         self._wanted[key] = self.revision
+
+    def unfinished(self, key: Key) -> int | None:
+        """A tile is looked at again: its picture is not all made.  Returns what the window's copy is as good as if it
+        is given what there is; None if it has been.  All are begun first, then finished one by one."""
+        begun = key in self._begun
+        if key not in self.open:
+            (self.open.appendleft if begun else self.open.append)(key)
+        self._begun.add(key)
+        return None if begun else self._wanted[key]
 
     def _old_parts(self, level: int, whole: Rect, held: int) -> list[Rect]:
         """Returns the parts of a rectangle that changed after revision `held`."""

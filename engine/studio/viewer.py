@@ -11,6 +11,7 @@ from engine.canvas.composite import composite
 from engine.canvas.layers import Layer
 from engine.canvas.placing.cells import SeenAreas
 from engine.canvas.placing.composite_steps import Planned
+from engine.canvas.placing.portions import Portions
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
@@ -27,6 +28,7 @@ from engine.studio.masked.mask_alone import MaskAlone
 from engine.studio.moving import placed_stroke
 from engine.studio.sight import Key, Sight, grown_parts, tile_rect
 
+TURNS = 24  # of a picture that contains itself, made at a time
 Above = Callable[[int, Rect, np.ndarray], np.ndarray]
 
 
@@ -49,6 +51,7 @@ class Viewer(Owned):
         self._level = 0
         self._where: SeenAreas = lambda level: []  # what is fresh is seen
         self._planned: Planned | None = None
+        self._of: Live | None = None  # the stroke in progress that is seen as it is planned
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self._alone = MaskAlone(self.changed)
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick, **self._alone.handlers}
@@ -65,6 +68,7 @@ class Viewer(Owned):
 
     def grew(self, level: int, parts: list[Rect]) -> None:
         """The stroke in progress laid paint on parts of its level, one for itself and for each of its copies."""
+        self._unplan()
         more = self.fresh  # one change for all points between two pictures
         self._level, self._fresh = level, grown_parts(self._fresh, parts)
         self._where = placed_stroke.areas_of(self._subject.live, level, self._fresh)
@@ -72,8 +76,13 @@ class Viewer(Owned):
 
     def changed(self, where: SeenAreas) -> None:
         """The picture changed in the areas that `where` gives for a level; whatever was fresh is among them."""
+        self._unplan()
         self._fresh = []
         self.sight.changed(where)
+
+    def _unplan(self) -> None:
+        if self._of is not None:  # of the same layers other pixels are read
+            self._planned = None
 
     def unsee(self, live: Live) -> None:
         """The preview of a stroke that came to nothing goes from the screen."""
@@ -112,14 +121,20 @@ class Viewer(Owned):
         part = self.sight.old_part(key)
         if part is None:
             return
-        revision = self.sight.revision
+        revision: int | None = self.sight.revision
         if part.empty:
             self.sight.sent(key)
-            self._subject.send(results.Same((key,), revision))
+            self._subject.send(results.Same((key,), self.sight.revision))
             return
         tile = tile_rect(key)
-        pixels = results.frozen(to_premul8(self.picture(key[0], part)))
-        self.sight.sent(key)
+        picture, whole = self._plan().picture(lambda: self.picture(key[0], part))
+        if whole:
+            self.sight.sent(key)
+        else:
+            revision = self.sight.unfinished(key)
+        if revision is None:
+            return
+        pixels = results.frozen(to_premul8(picture))
         inner = Rect(part.x0 - tile.x0, part.y0 - tile.y0, part.x1 - tile.x0, part.y1 - tile.y0)
         self._subject.send(results.Patch(key, inner, pixels, revision))
 
@@ -131,10 +146,22 @@ class Viewer(Owned):
         if alone is not None:
             return alone
         read = piece_reader(level, whole, self._read, self._read_placed)
-        if live is not None:  # it changes what is read
-            return self.above(level, whole, composite(root, level, whole, read))
-        self._planned = Planned.of(root, self._planned)
+        self._plan()
+        assert self._planned is not None
         return self.above(level, whole, composite(self._planned, level, whole, read))
+
+    def _plan(self) -> Portions:
+        """Plans what is seen, if it is not; returns what makes pictures of many turns by and by."""
+        live = self._subject.live
+        if live is None:
+            root = (self.looking or self._subject.session.painting).root
+            held = self._planned if self._of is None else None
+            self._planned = Planned.of(root, held, TURNS)
+        elif self._planned is None or self._of is not live:  # it changes what is read
+            self._planned = Planned.of(live.root, None, TURNS)
+        self._of = live
+        assert self._planned.portions is not None
+        return self._planned.portions
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live

@@ -15,6 +15,7 @@ from engine.canvas.merging.paper import Paper
 from engine.canvas.placing import unrolled
 from engine.canvas.placing.drawn_copies import Copies, Shown
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.portions import Portions
 from engine.canvas.placing.rounds import by_ids, composed, rounds
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.through import UNPLACED, Seen, seen_first
@@ -53,9 +54,12 @@ Found = list[tuple[CompositeStep, "np.ndarray | Found | None"]]
 
 
 class Sources:
-    """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal."""
+    """What placements of a tree show: the steps of each node, as if it were visible, opaque and normal.
 
-    def __init__(self, root: Group) -> None:
+    `portions`: where turns are gone on with; None: all are made at once."""
+
+    def __init__(self, root: Group, portions: Portions | None = None) -> None:
+        self.portions = portions
         self._root = root.tree if isinstance(root, Alone) and root.tree is not None else root
         self._steps: dict[Shown, tuple[CompositeStep, ...]] = {}
         self._turns: dict[Shown, bool] = {}
@@ -222,18 +226,23 @@ class Planned:
 
     root: Group
     steps: tuple[CompositeStep, ...]
+    portions: Portions | None = None
 
     @classmethod
-    def of(cls, root: Group, held: Planned | None = None) -> Planned:
-        """Returns a root planned; what is `held` if that is of the same."""
-        return held if held is not None and held.root is root else cls(root, steps_of(root))
+    def of(cls, root: Group, held: Planned | None = None, turns: int | None = None) -> Planned:
+        """Returns a root planned; what is `held` if that is of the same.  `turns`: of pictures that contain themselves
+        so many are made at a time, where its `portions` are asked for them; None: all."""
+        if held is not None and held.root is root:
+            return held
+        portions = None if turns is None else Portions(turns)
+        return cls(root, steps_of(root, portions), portions)
 
 
-def steps_of(root: Group | Planned) -> tuple[CompositeStep, ...]:
+def steps_of(root: Group | Planned, portions: Portions | None = None) -> tuple[CompositeStep, ...]:
     """Returns the steps of a root, over its paper."""
     if isinstance(root, Planned):
         return root.steps
-    plan = steps(root)
+    plan = steps(root, Sources(root, portions))
     if root.paper is None:
         return plan
     return (CompositeStep(blend.BLENDS["src-over"], np.float32(1), Paper(root.paper), True), *plan)

@@ -8,6 +8,7 @@ import numpy as np
 
 from engine.canvas.layers import Layer
 from engine.canvas.placing.clip import clipped
+from engine.canvas.placing.portions import Work
 from engine.canvas.placing.self_turns import Turns
 from engine.canvas.placing.through import set_in
 from engine.numeric.address import Rect
@@ -20,23 +21,28 @@ HIDING = np.float32(1 - 2.0**-12)  # alpha in front of a pixel from which on not
 Draw = Callable[[int, Rect, "np.ndarray | None"], "np.ndarray | None"]
 
 
-def all_turns(turns: Turns, level: int, rect: Rect, draw: Draw, share: np.float32) -> np.ndarray | None:
-    """Returns the picture in a rectangle, from the innermost turn outwards that counts: float32 (4, h, w), None where
-    empty.  `share`: how much of a turn shows in the one around it, at most."""
+def all_turns(turns: Turns, level: int, rect: Rect, draw: Draw, share: np.float32, first: int = 0) -> Work:
+    """Makes the picture in a rectangle, from the innermost turn outwards that counts: float32 (4, h, w), None where
+    empty.  `share`: how much of a turn shows in the one around it, at most.  `first`: where there are more turns, the
+    picture of so many, the outermost, is there to show meanwhile."""
     shown: list[Rect] = []
     part, left = turns.within(0, level, rect), np.float32(1)
     while not part.empty and left >= 1 - HIDING:
         left *= share
         shown.append(part)
         part = turns.within(len(shown), level, part)
-    pixels: np.ndarray | None = None
-    for turn in reversed(range(len(shown))):
-        inner = None if pixels is None else set_in(pixels, shown[turn + 1], shown[turn])
-        pixels = _cut(turns, turn, level, shown[turn], draw(turn, shown[turn], inner))
-    return None if pixels is None else set_in(pixels, shown[0], rect)
+    meanwhile: np.ndarray | None = None
+    for count in (first, len(shown)) if 0 < first < len(shown) else (len(shown),):
+        pixels: np.ndarray | None = None
+        for turn in reversed(range(count)):
+            inner = None if pixels is None else set_in(pixels, shown[turn + 1], shown[turn])
+            pixels = _cut(turns, turn, level, shown[turn], draw(turn, shown[turn], inner))
+            yield meanwhile
+        meanwhile = None if pixels is None else set_in(pixels, shown[0], rect)
+    return meanwhile
 
 
-def lying_below(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+def lying_below(turns: Turns, level: int, rect: Rect, draw: Draw) -> Work:
     """As `all_turns`, of what lies below the placement: one turn is laid behind those within it, from the innermost on
     that holds the rectangle, until all is hidden."""
     first = turns.holding(level, rect)
@@ -50,6 +56,7 @@ def lying_below(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray 
         part = shown[n]
         pixels = None if pixels is None else set_in(pixels, shown[n + 1], part)
         pixels = _behind(pixels, turns, first + n, level, part, draw)
+        yield None if pixels is None else set_in(pixels, part, rect)
     if not shown:
         return None
     pixels = None if pixels is None else set_in(pixels, shown[0], rect)
@@ -57,6 +64,7 @@ def lying_below(turns: Turns, level: int, rect: Rect, draw: Draw) -> np.ndarray 
         if pixels is not None and hides(pixels):
             break
         pixels = _behind(pixels, turns, turn, level, rect, draw)
+        yield pixels
     return pixels
 
 
@@ -74,7 +82,7 @@ def _behind(
     return _cut(turns, turn, level, rect, pixels)
 
 
-def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> np.ndarray | None:
+def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: Rect, draw: Draw) -> Work:
     """As `all_turns`, of what lies above the placement, which lays all over nothing: from the outermost turn inwards,
     until all is hidden.  `layers`: all that is drawn, if there are no placements among it."""
     first = 0 if layers is None else turns.empty(layers, level, rect)
@@ -86,6 +94,7 @@ def lying_above(turns: Turns, layers: Sequence[Layer] | None, level: int, rect: 
             front = np.zeros((4, rect.height, rect.width), np.float32) if front is None else front
             if lay_behind(front[:, *part.slices(rect)], np.ascontiguousarray(drawn)):
                 break
+        yield front
         turn += 1
         part = turns.within(turn, level, part)
     return front

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from engine.canvas.composite import composite
 from engine.canvas.layers import EMPTY, Group, layers
 from engine.canvas.placing import self_copies
+from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import kept_planes, layer_planes
@@ -312,3 +313,47 @@ def test_a_turned_copy_is_nothing_far_beside_its_frame():
     corner = Rect.at(around.x0, around.y0, 40, 40)
     alone = replace(EMPTY, children=root.children[-1:])
     np.testing.assert_array_equal(picture(root, 300, corner), picture(alone, 300, corner))
+
+
+@pytest.mark.parametrize(
+    ("more", "parts", "within"),
+    [
+        ({"above": 0.03}, 4, False),
+        ({"below": 0.05}, 4, True),
+        ({"opacity": 0.95}, 4, False),
+        ({"below": 0.05, "above": 0.03}, 8, True),
+    ],
+)
+def test_turns_that_are_gone_on_with_come_to_the_same_to_the_bit(more, parts, within):
+    """Also those of a picture shown in another; what there is at first is near to it."""
+    pose, level = POSES["half"], 150
+    x, y = fixed(pose, level)
+    over = {} if "above" not in more else {"above": 1.0}
+    root = itself(pose, **{**more, **over})
+    if over:  # paint over the place that all turns share
+        session = Session()
+        session.do(c.parse({"do": "layer", "add": "c"}))
+        at = [coordinate * 2.0**-level for coordinate in (x, y)]
+        thin = {"radius": 40, "opacity": more["above"], "colour": "#e0a020", "hardness": 1}
+        session.do(c.parse({"do": "stroke", "layer": "c", "points": [at, [at[0] + 1, at[1]]], "brush": thin}))
+        glaze = replace(next(layers(session.painting.root)), id=95, name="c")
+        root = replace(root, children=(*root.children[:-1], glaze))
+    if within:
+        inner = Group(
+            80,
+            "g",
+            visible=False,
+            children=tuple(replace(one, of=80) if isinstance(one, Placement) else one for one in root.children),
+        )
+        root = replace(EMPTY, children=(inner, Placement(81, "shown", of=80)))
+    rect = Rect.at(x - 20, y - 12, 40, 24)
+    complete, planned = picture(root, level, rect), Planned.of(root, None, 10)
+    made = []
+    while not made or not made[-1][1]:
+        made.append(planned.portions.picture(lambda: composite(planned, level, rect, layer_planes)))
+    assert len(made) >= parts
+    assert complete.any()
+    np.testing.assert_array_equal(made[-1][0], complete)
+    first = np.abs(made[0][0] - complete).mean()
+    assert 0 < first < 0.7 * np.abs(complete).mean() + 0.1
+    np.testing.assert_array_equal(picture(planned, level, rect), complete)  # all at once, as exports
