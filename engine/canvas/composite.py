@@ -22,7 +22,7 @@ from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.composite_steps import CompositeStep, Found, Leaf, Placed, Planned, Sources, steps_of
 from engine.canvas.placing.drawn_copies import ABOVE_ALL, Above, Asking, Copies, Drawing
 from engine.canvas.placing.placement import Placement
-from engine.canvas.placing.portions import Portions, Work, finished
+from engine.canvas.placing.portions import Portions, Work, run_through
 from engine.canvas.placing.self_copies import Tiles
 from engine.canvas.placing.self_turns import turns_of
 from engine.canvas.placing.through import UNPLACED, Seen, looked_coarser, looked_through
@@ -211,7 +211,7 @@ def _turns(source: Placed, level: int, rect: Rect, read: Read, outer: Seen) -> n
 
 
 def _by_now(portions: Portions | None, key: Hashable, begun: Callable[[], Work]) -> np.ndarray | None:
-    return finished(begun()) if portions is None else portions.shown(key, begun)
+    return run_through(begun()) if portions is None else portions.shown(key, begun)
 
 
 def _picture(plan: tuple[CompositeStep, ...], level: int, rect: Rect, read: Read, seen: Seen) -> np.ndarray | None:

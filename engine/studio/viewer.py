@@ -10,8 +10,6 @@ import numpy as np
 from engine.canvas.composite import composite
 from engine.canvas.layers import Layer
 from engine.canvas.placing.cells import SeenAreas
-from engine.canvas.placing.composite_steps import Planned
-from engine.canvas.placing.portions import Portions
 from engine.canvas.reading import covered, kept_planes, layer_planes
 from engine.checks.owned import Owned
 from engine.numeric.address import Rect
@@ -26,9 +24,9 @@ from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.masked.mask_alone import MaskAlone
 from engine.studio.moving import placed_stroke
+from engine.studio.seen_plan import SeenPlan
 from engine.studio.sight import Key, Sight, grown_parts, tile_rect
 
-TURNS = 24  # of a picture that contains itself, made at a time
 Above = Callable[[int, Rect, np.ndarray], np.ndarray]
 
 
@@ -50,8 +48,7 @@ class Viewer(Owned):
         self._fresh: list[Rect] = []  # pixels of the live stroke's level not sent yet
         self._level = 0
         self._where: SeenAreas = lambda level: []  # what is fresh is seen
-        self._planned: Planned | None = None
-        self._of: Live | None = None  # the stroke in progress that is seen as it is planned
+        self._plan = SeenPlan()
         self.looking: Painting | None = None  # an earlier state, seen in place of the painting
         self._alone = MaskAlone(self.changed)
         self.handlers: dict[type, Callable[[Any], None]] = {q.Pick: self._pick, **self._alone.handlers}
@@ -68,7 +65,7 @@ class Viewer(Owned):
 
     def grew(self, level: int, parts: list[Rect]) -> None:
         """The stroke in progress laid paint on parts of its level, one for itself and for each of its copies."""
-        self._unplan()
+        self._plan.changed()
         more = self.fresh  # one change for all points between two pictures
         self._level, self._fresh = level, grown_parts(self._fresh, parts)
         self._where = placed_stroke.areas_of(self._subject.live, level, self._fresh)
@@ -76,13 +73,9 @@ class Viewer(Owned):
 
     def changed(self, where: SeenAreas) -> None:
         """The picture changed in the areas that `where` gives for a level; whatever was fresh is among them."""
-        self._unplan()
+        self._plan.changed()
         self._fresh = []
         self.sight.changed(where)
-
-    def _unplan(self) -> None:
-        if self._of is not None:  # of the same layers other pixels are read
-            self._planned = None
 
     def unsee(self, live: Live) -> None:
         """The preview of a stroke that came to nothing goes from the screen."""
@@ -102,7 +95,8 @@ class Viewer(Owned):
 
     def forget(self) -> None:
         """Another painting is to be seen."""
-        self._fresh, self.looking, self._planned = [], None, None
+        self._fresh, self.looking = [], None
+        self._plan.forget()
         self._alone.forget()
         self.sight.forget()
 
@@ -127,7 +121,7 @@ class Viewer(Owned):
             self._subject.send(results.Same((key,), self.sight.revision))
             return
         tile = tile_rect(key)
-        picture, whole = self._plan().picture(lambda: self.picture(key[0], part))
+        picture, whole = self._plan.portions.picture(lambda: self.picture(key[0], part))
         if whole:
             self.sight.sent(key)
         else:
@@ -146,22 +140,7 @@ class Viewer(Owned):
         if alone is not None:
             return alone
         read = piece_reader(level, whole, self._read, self._read_placed)
-        self._plan()
-        assert self._planned is not None
-        return self.above(level, whole, composite(self._planned, level, whole, read))
-
-    def _plan(self) -> Portions:
-        """Plans what is seen, if it is not; returns what makes pictures of many turns by and by."""
-        live = self._subject.live
-        if live is None:
-            root = (self.looking or self._subject.session.painting).root
-            held = self._planned if self._of is None else None
-            self._planned = Planned.of(root, held, TURNS)
-        elif self._planned is None or self._of is not live:  # it changes what is read
-            self._planned = Planned.of(live.root, None, TURNS)
-        self._of = live
-        assert self._planned.portions is not None
-        return self._planned.portions
+        return self.above(level, whole, composite(self._plan.of(root, live), level, whole, read))
 
     def _read(self, layer: Layer, level: int, rect: Rect) -> np.ndarray | None:
         live = self._subject.live

@@ -226,16 +226,12 @@ class Planned:
 
     root: Group
     steps: tuple[CompositeStep, ...]
-    portions: Portions | None = None
 
     @classmethod
-    def of(cls, root: Group, held: Planned | None = None, turns: int | None = None) -> Planned:
-        """Returns a root planned; what is `held` if that is of the same.  `turns`: of pictures that contain themselves
-        so many are made at a time, where its `portions` are asked for them; None: all."""
-        if held is not None and held.root is root:
-            return held
-        portions = None if turns is None else Portions(turns)
-        return cls(root, steps_of(root, portions), portions)
+    def of(cls, root: Group, held: Planned | None = None, portions: Portions | None = None) -> Planned:
+        """Returns a root planned; what is `held` if that is of the same.  `portions`: in which pictures that contain
+        themselves are gone on with, where it is asked for them."""
+        return held if held is not None and held.root is root else cls(root, steps_of(root, portions))
 
 
 def steps_of(root: Group | Planned, portions: Portions | None = None) -> tuple[CompositeStep, ...]:

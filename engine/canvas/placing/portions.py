@@ -19,8 +19,7 @@ _KeptT = TypeVar("_KeptT")
 
 
 class Portions:
-    """Pictures of which so many `turns` are made at a time.  It belongs to one thread; whoever reads other pixels than
-    before takes a new one."""
+    """Pictures of which so many `turns` are made at a time.  It belongs to one thread."""
 
     def __init__(self, turns: int) -> None:
         self.turns = turns
@@ -45,7 +44,7 @@ class Portions:
         """Returns what there is of a part by now, a new array.  Within another one, and outside `picture`, all of
         it."""
         if self._whole:
-            return finished(begun())
+            return run_through(begun())
         self._used.add(key)
         if key not in self._done:
             work = self._begun.pop(key, None) or begun()
@@ -58,6 +57,10 @@ class Portions:
             _keep(self._done, key, by_now)
         found = self._done[key]
         return None if found is None else found.copy()
+
+    def forget(self) -> None:
+        """Other pixels are read from now on."""
+        self._begun, self._done = {}, {}
 
     @contextmanager
     def all_of_it(self) -> Iterator[None]:
@@ -80,7 +83,7 @@ def _keep(held: dict[Hashable, _KeptT], key: Hashable, one: _KeptT) -> None:
     held[key] = one
 
 
-def finished(work: Work) -> np.ndarray | None:
+def run_through(work: Work) -> np.ndarray | None:
     """Returns what work comes to."""
     while True:
         by_now, done = _advanced(work, 1 << 30)

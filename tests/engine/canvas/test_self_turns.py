@@ -15,6 +15,7 @@ from engine.canvas.layers import EMPTY, Group, layers
 from engine.canvas.placing import self_copies
 from engine.canvas.placing.composite_steps import Planned
 from engine.canvas.placing.placement import Placement
+from engine.canvas.placing.portions import Portions
 from engine.canvas.placing.pose import Pose, SourcePart
 from engine.canvas.reading import kept_planes, layer_planes
 from engine.canvas.tile_cache import TileCache
@@ -347,10 +348,11 @@ def test_turns_that_are_gone_on_with_come_to_the_same_to_the_bit(more, parts, wi
         )
         root = replace(EMPTY, children=(inner, Placement(81, "shown", of=80)))
     rect = Rect.at(x - 20, y - 12, 40, 24)
-    complete, planned = picture(root, level, rect), Planned.of(root, None, 10)
+    complete, portions = picture(root, level, rect), Portions(10)
+    planned = Planned.of(root, None, portions)
     made = []
     while not made or not made[-1][1]:
-        made.append(planned.portions.picture(lambda: composite(planned, level, rect, layer_planes)))
+        made.append(portions.picture(lambda: composite(planned, level, rect, layer_planes)))
     assert len(made) >= parts
     assert complete.any()
     np.testing.assert_array_equal(made[-1][0], complete)

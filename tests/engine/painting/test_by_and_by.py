@@ -8,8 +8,8 @@ from engine.brush.settings import Brush
 from engine.numeric.colour import to_premul8
 from engine.painting import commands as c
 from engine.studio import requests as q
+from engine.studio.seen_plan import TURNS
 from engine.studio.sight import tile_rect
-from engine.studio.viewer import TURNS
 
 LEVEL, AT = 80, (60, 96)  # where all turns are: halved, and moved by (30, 48), it stays
 TILES = [(LEVEL, (AT[0] << LEVEL - 8) - n, (AT[1] << LEVEL - 8) - n) for n in (0, 1)]
