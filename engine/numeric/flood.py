@@ -151,7 +151,7 @@ def narrowed(known: np.ndarray, reach: int) -> np.ndarray:
 def _flood_closed(known: np.ndarray, y: int, x: int, reach: int) -> None:
     """As `flood_from`, with gaps of up to twice `reach` closed."""
     core = narrowed(known, reach)
-    start = _nearest(known, core, y, x)
+    start = nearest_core(known, core, y, x)
     if start < 0:
         flood_from(known, y, x)
         return
@@ -161,7 +161,7 @@ def _flood_closed(known: np.ndarray, y: int, x: int, reach: int) -> None:
 
 
 @inner
-def _nearest(known: np.ndarray, core: np.ndarray, y: Int, x: Int) -> Int:
+def nearest_core(known: np.ndarray, core: np.ndarray, y: Int, x: Int) -> Int:
     """Returns the place of the pixel of the core that is fewest steps away; -1 if none can be reached."""
     width = known.shape[1]
     start: Int = y * width + x

@@ -14,7 +14,7 @@ from engine.brush.mask import Coverage
 from engine.brush.settings import Brush
 from engine.brush.stamp import Edit
 from engine.brush.thinning import Thinning
-from engine.canvas import commit, evaluate, layers
+from engine.canvas import commit, layers
 from engine.canvas import growth as growths
 from engine.canvas.flatten import flattened
 from engine.canvas.growth import Growth
@@ -25,15 +25,17 @@ from engine.canvas.selecting.occupied import alpha_at
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
 from engine.painting.commands import Fill
+from engine.painting.fill_command import LOOKED_AT_CAP
 from engine.painting.grown import threads
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.strokes.all_painted import all_painted
 from engine.strokes.bed import Change, lies_in
 from engine.strokes.example_stroke import change_of, check_alpha, grid_of, kind_of
-from engine.strokes.likeness import alike, taken, thinned
+from engine.strokes.likeness import alike, alike_around, taken, thinned
 from engine.strokes.mask_painting import edit_of, greys_of, insist_on_paint, sheet_for
 from engine.strokes.paint_stroke import LiveStroke
 from engine.strokes.scenery import reader
+from engine.strokes.wrapping import around, cell_at, onto_torus
 from engine.texture.planes import Planes
 
 
@@ -52,7 +54,7 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
     if command.whole and layer.growth:
         with threads() as pool:
             layer = flattened(layer, cache, pool)
-    region, limit = _region(painting, command, cache)
+    region, limit = _region(painting, layer, command, cache)
     pouring = Pouring(painting, layer, brush, cache, limit)
     after = pouring.grown(region) if grows else pouring.painted(region)
     root = base.root
@@ -65,13 +67,32 @@ def filled(painting: Painting, command: Fill, cache: TileCache | None = None) ->
 
 def covered_by(painting: Painting, command: Fill, cache: TileCache | None = None) -> Coverage:
     """Returns how much of each pixel of its level a fill covers, at most."""
-    region, limit = _region(painting, command, cache)
+    _, layer = sheet_for(painting, command.layer, command.onto, "fill")
+    region, limit = _region(painting, layer, command, cache)
     left = region if limit is None else limit.over(region)
     return left if kind_of(command.brush) is not LiveStroke else thinned(left, opacity_of(command.brush))
 
 
-def _region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple[Coverage, Limit | None]:
+def _region(painting: Painting, layer: Layer, command: Fill, cache: TileCache | None) -> tuple[Coverage, Limit | None]:
     """Returns what is to be covered, and what the selection leaves of that: all, where it is the selection itself."""
+    level = command.level if command.like is None else command.like.level
+    cell = None if command.whole else cell_at(layer, level, "fill")
+    if cell is None:
+        return _plain_region(painting, command, cache)
+    if cell.area > LOOKED_AT_CAP:
+        raise Refusal(
+            f"fill: found a tile of {cell.width} x {cell.height} pixels at level {level}, expected at most"
+            f" {LOOKED_AT_CAP} of them: zoom out"
+        )
+    if command.like is not None and command.like.within is None:
+        region, limit = alike_around(painting, command.like, cell, cache), Limit.of(painting.selection, level, cache)
+    else:
+        region, limit = _plain_region(painting, command, cache)
+    return onto_torus(region if limit is None else limit.over(region), layer, cell), None
+
+
+def _plain_region(painting: Painting, command: Fill, cache: TileCache | None) -> tuple[Coverage, Limit | None]:
+    """As `_region`, of a layer that does not wrap around."""
     if command.like is not None:
         region = alike(painting, command.like, command.open, cache)
         return region, Limit.of(painting.selection, region.level, cache)
@@ -133,7 +154,7 @@ class Pouring:
         scene = self._scene(made.looks(brush, ink), coverage)
 
         def read(rect: Rect) -> Planes:
-            return greys_of(evaluate.evaluate(layer.pyramid, level, rect, self._cache), layer)
+            return greys_of(around(layer, level, rect, self._cache), layer)
 
         return edit_of(edits.edit(brush, coverage, ink, layer.alpha_locked, read, thins, scene), layer)
 

@@ -14,9 +14,11 @@ from engine.canvas.reading import layer_planes
 from engine.canvas.selecting.enclosures import enclosed, enclosed_all
 from engine.canvas.selecting.occupied import raster
 from engine.canvas.selecting.outlines import outlined
+from engine.canvas.selecting.rims import tiled
 from engine.canvas.tile_cache import TileCache
 from engine.numeric import flood
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.torus_flood import region_around
 from engine.painting.fill_command import LOOKED_AT_CAP, Like
 from engine.painting.grown import settled_alone, settled_root
 from engine.painting.layering.placing_members import Same
@@ -43,6 +45,16 @@ def alike(painting: Painting, like: Like, open_too: bool, cache: TileCache | Non
     if found.open and not open_too:
         raise Leak(f"{what}: found a region that reaches the border of {_told(rect)}, expected one within, or open")
     return _coverage(like.level, rect, found)
+
+
+def alike_around(painting: Painting, like: Like, cell: Rect, cache: TileCache | None) -> Coverage:
+    """As `alike`, on a picture of a cell that repeats without end: a region that leaves the cell goes on at its other
+    side, and nothing bounds it."""
+    (x, y), (width, height) = like.at, (cell.width, cell.height)
+    place = Rect.at(x - (x - cell.x0) % width, y - (y - cell.y0) % height, width, height)
+    picture = _picture(painting, like, place, cache)
+    likeness = flood.Likeness(like.tolerance, like.gap, like.contiguous)
+    return tiled(like.level, place, region_around(picture, x - place.x0, y - place.y0, likeness))
 
 
 def _enclosed(like: Like, rect: Rect, picture: np.ndarray, what: str) -> flood.Region:

@@ -5,11 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from engine.brush.copies import Copies, Torus
+from engine.brush.mask import Coverage
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import Layer
-from engine.canvas.placing.cells import repeated, whole_from
+from engine.canvas.placing.cells import parts_by_cell, repeated, whole_from
+from engine.canvas.placing.pose import SourcePart
+from engine.canvas.selecting.rims import tiled
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect
+from engine.numeric.torus_flood import with_repeats
 from engine.painting.value import Refusal
 from engine.texture.planes import Planes
 
@@ -24,22 +28,49 @@ def wrapped(
 
     Refusal at levels at which the cell has no whole pixels.
     """
-    cell = layer.wrap
-    if cell is None:
+    cell, rect = layer.wrap, cell_at(layer, level, "stroke")
+    if cell is None or rect is None:
         return copies, origin
-    coarsest = whole_from(cell)
-    if level < coarsest:
-        raise Refusal(
-            f"stroke: found level {level} on {layer.name!r}, which wraps around, expected {coarsest} or finer, where"
-            " its tile has whole pixels: zoom in"
-        )
-    rect = cell.rect.zoomed(level - cell.level)
     x, y = rect.x0 + (origin[0] - rect.x0) % rect.width, rect.y0 + (origin[1] - rect.y0) % rect.height
     if max(rect.width, rect.height) > _FURTHEST:
         return copies, (x, y)
-    spare = max(1, min(_SPARE << max(0, level - cell.level), rect.width // 2, rect.height // 2))
+    spare = _spare(cell, level)
     corner = float(rect.x0 - x), float(rect.y0 - y)
     return Torus(copies, *corner, float(rect.width), float(rect.height), float(spare)), (x, y)
+
+
+def cell_at(layer: Layer, level: int, what: str) -> Rect | None:
+    """Returns the cell of a layer that wraps around, in pixels of a level; None of one that does not.  Refusal at
+    levels at which it has no whole pixels."""
+    cell = layer.wrap
+    if cell is None:
+        return None
+    coarsest = whole_from(cell)
+    if level < coarsest:
+        raise Refusal(
+            f"{what}: found level {level} on {layer.name!r}, which wraps around, expected {coarsest} or finer, where"
+            " its tile has whole pixels: zoom in"
+        )
+    return cell.rect.zoomed(level - cell.level)
+
+
+def _spare(cell: SourcePart, level: int) -> int:
+    rect = cell.rect.zoomed(level - cell.level)
+    return max(1, min(_SPARE << max(0, level - cell.level), rect.width // 2, rect.height // 2))
+
+
+def onto_torus(coverage: Coverage, layer: Layer, cell: Rect) -> Coverage:
+    """Returns a coverage as it lies on a layer that wraps around: what is covered in any cell is covered in this one,
+    and again where that is read beyond its rim."""
+    assert layer.wrap is not None
+    found = np.zeros((cell.height, cell.width), np.float32)
+    for key, tile in coverage.tiles.items():
+        for part, source in parts_by_cell(cell, key.rect.intersect(coverage.rect)):
+            inside = tile[part.slices(key.rect)] if isinstance(tile, np.ndarray) else np.float32(tile)
+            own = found[source.slices(cell)]
+            np.maximum(own, inside, out=own)
+    spare = _spare(layer.wrap, coverage.level)
+    return tiled(coverage.level, cell.grown(spare), with_repeats(found, spare))
 
 
 def around(layer: Layer, level: int, rect: Rect, cache: TileCache | None) -> Planes:

@@ -8,9 +8,10 @@ from app.desk import palette
 from app.desk.desk import Desk
 from app.desk.examples import example_use
 from app.desk.filling.fill_state import all_in
+from app.desk.guides.tile_seams import tell_seams
 from engine.brush.settings import Brush
 from engine.painting.commands import SetLayer
-from engine.painting.fill_command import Fill, Like
+from engine.painting.fill_command import Fill, Like, place_of
 from engine.painting.layering.mask_member import MASK_EMPTY, MaskOp
 from engine.studio.requests import Do
 
@@ -51,7 +52,10 @@ def _bounded(desk: Desk) -> bool:
 
 def post_fill(desk: Desk, fill: Fill) -> None:
     """Asks for a fill, which is remembered: it may be asked for again, wherever its region ends."""
-    fill = replace(fill, onto=desk.masks.onto(desk.known.active))
+    row = desk.known.active
+    fill = replace(fill, onto=desk.masks.onto(row))
+    if row is not None and row.wrap is not None:
+        tell_seams(desk, row.wrap, place_of(fill)[0], fill.brush)
     desk.filling.last = fill
     desk.notices.settle("fill")
     desk.post(Do(fill))

@@ -24,13 +24,18 @@ def seams(desk: Desk, cell: SourcePart, level: int, brush: Brush) -> tuple[str, 
     """Returns the names of the textures of a brush, in pixels of a level, whose period does not divide the tile."""
     parts: list[tuple[Component | Surface | None, int]] = [(part, level) for part in (*brush.ink, brush.density)]
     parts.append((brush.grain, level if brush.grain is None else brush.grain.level))
-    found = (part.texture for part, at in parts if part is not None and not _fits(desk, cell, at, part))
+    found = [part.texture for part, at in parts if part is not None and not _fits(desk, cell, at, part)]
+    if brush.row.grows and brush.example is not None:  # it is grown as if there were nothing beyond the rim
+        found.append(brush.example)
     return tuple(dict.fromkeys(found))
 
 
 def _fits(desk: Desk, cell: SourcePart, level: int, part: Component | Surface) -> bool:
     scene = desk.known.scene
     kinds = dict(scene.texture_kinds) if scene is not None else {}
+    laid = desk.filling.gradient
+    if laid is not None and laid.name == part.texture:  # the painting may not tell of it yet
+        kinds[laid.name] = laid.maker
     kind = kinds.get(part.texture, part.texture)
     if kind in _EVERYWHERE:
         return True

@@ -80,7 +80,7 @@ def _laid(picture: Picture, level: int, cell: Rect, rect: Rect) -> np.ndarray | 
         spread: np.ndarray = whole[:, (rows % cell.height)[:, None], columns % cell.width]
         return spread
     out: np.ndarray | None = None
-    for part, source in _parts(cell, rect):
+    for part, source in parts_by_cell(cell, rect):
         found = picture(level, source)
         if found is not None:
             out = np.zeros((4, rect.height, rect.width), np.float32) if out is None else out
@@ -88,7 +88,7 @@ def _laid(picture: Picture, level: int, cell: Rect, rect: Rect) -> np.ndarray | 
     return out
 
 
-def _parts(cell: Rect, rect: Rect) -> Iterator[tuple[Rect, Rect]]:
+def parts_by_cell(cell: Rect, rect: Rect) -> Iterator[tuple[Rect, Rect]]:
     """Yields the parts of a rectangle by the cells that they lie in, each with its place in the first cell."""
     for row in range((rect.y0 - cell.y0) // cell.height, (rect.y1 - 1 - cell.y0) // cell.height + 1):
         for column in range((rect.x0 - cell.x0) // cell.width, (rect.x1 - 1 - cell.x0) // cell.width + 1):

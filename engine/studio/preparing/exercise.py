@@ -18,10 +18,12 @@ import numpy as np
 from engine.archive.imports import open_image
 from engine.archive.opening import open_painting
 from engine.brush.checks import BrushError
+from engine.brush.copies import NO_COPIES, Copy
 from engine.brush.settings import Brush
 from engine.brush.settings import from_json as brush_from_json
 from engine.brush.stamp import Edit, Stamp
 from engine.canvas.commit import commit
+from engine.canvas.placing.pose import SourcePart
 from engine.canvas.store import Pyramid
 from engine.makers import definitions
 from engine.numeric.address import TILE, Rect, TileKey
@@ -38,6 +40,7 @@ from engine.texture.planes import Planes
 _LEVELS = (0, -1, 1, -3, 2)  # that are looked at: the stroke's first
 _WIDEST = 24.0  # px: radius of the brush
 _PAINTED = Rect(8, 8, 60, 60)
+_MIRRORED = (Copy(1.0, 0.0, 0.0, 0.0, True),)
 _STEP = 14.0  # px from one point of the pen to the next
 
 
@@ -66,9 +69,11 @@ def draw_once(brush: Brush, textures: Sequence[c.DefineTexture] = ()) -> None:
         for definition in textures:
             studio.do(q.Do(definition))
         tiles = tuple((level, x, y, -1) for level in _LEVELS for x in (-1, 0) for y in (-1, 0))
-        for one in (replace(brush, radius=min(brush.radius, _WIDEST)), Brush(radius=_WIDEST / 2)):
+        own, tipped = replace(brush, radius=min(brush.radius, _WIDEST)), brush.tip is not None
+        strokes = [(own, NO_COPIES), *([(own, _MIRRORED)] if tipped else []), (Brush(radius=_WIDEST / 2), NO_COPIES)]
+        for one, copies in strokes:  # tips that are mirrored are laid by a kernel of their own
             studio.look(q.Look(tiles))
-            studio.do(q.Begin(0, (0, 0), one))
+            studio.do(q.Begin(0, (0, 0), one, copies=copies))
             for k in range(6):
                 points = np.zeros((2, 6))
                 points[:, 0], points[:, 1], points[:, 2] = (k * _STEP, (k + 0.5) * _STEP), 30.0 + k, 0.8
@@ -103,9 +108,12 @@ def filed() -> None:
             studio.do(q.Begin(0, (0, 0), Brush(radius=_WIDEST)))
             studio.do(q.Points(np.array([[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [90.0, 70.0, 1.0, 0.0, 0.0, 0.1]])))
             studio.do(q.Finish())
-            for gap in (0, 2):
-                like = c.Like((10, 10), 0, _PAINTED, gap=gap, of=None)
-                studio.do(q.Do(c.Fill(Brush(), like, open=True)))
+            for wrap in (None, SourcePart(0, Rect(0, 0, 64, 64))):
+                studio.do(q.Do(c.SetLayer(studio.easel.session.painting.active or "", wrap=wrap)))
+                for gap in (0, 2):
+                    like = c.Like((10, 10), 0, _PAINTED, gap=gap, of=None)
+                    studio.do(q.Do(c.Fill(Brush(), like, open=True)))
+            studio.do(q.Do(c.Undo(3)))
             session = studio.easel.session
             documents.save(ora, session.painting, session.recording())  # as no save of the artist's: it bounds nothing
             studio.do(q.Export(png))
