@@ -18,7 +18,9 @@ def _place_in_itself(desk: Desk) -> None:
     middle = frame.x0 + frame.width // 4, frame.y0 + frame.height // 4
     at = middle[0] - frame.x0 // 2, middle[1] - frame.y0 // 2
     placing = c.Placing(of=None, at=at, level=0, levels=-1, part=SourcePart(0, frame))
-    desk.post(Do(c.AddPlacement(next_layer_name(desk, "In itself"), placing)))
+    name = next_layer_name(desk, "In itself")
+    desk.post(Do(c.AddPlacement(name, placing)))
+    desk.post(Do(c.SelectLayer(name)))  # what is moved next, and zoomed into
 
 
 def _has_scene(desk: Desk) -> bool:
@@ -26,17 +28,25 @@ def _has_scene(desk: Desk) -> bool:
 
 
 def _itself(desk: Desk) -> LayerRow | None:
-    """Returns the row of the chosen placement if it shows the painting, or a group, that it lies in."""
-    row, scene = desk.known.active, desk.known.scene
-    if row is None or scene is None or row.shows is None or row.shows.part is None:
+    """Returns the row of the chosen placement if it shows the painting, or a group, that it lies in; else that of the
+    topmost that does."""
+    scene = desk.known.scene
+    if scene is None:
         return None
-    rows: dict[str, LayerRow] = {one.name: one for one in scene.layers}
+    rows = {one.name: one for one in scene.layers}
+    chosen = [] if desk.known.active is None else [desk.known.active]
+    return next((row for row in (*chosen, *scene.layers) if _shows_itself(row, rows)), None)
+
+
+def _shows_itself(row: LayerRow, rows: dict[str, LayerRow]) -> bool:
+    if row.shows is None or row.shows.part is None:
+        return False
     within: set[str | None] = {None}
     parent = row.parent
     while parent is not None:
         within.add(parent)
         parent = rows[parent].parent
-    return row if row.shows.name in within else None
+    return row.shows.name in within
 
 
 def _can_zoom(desk: Desk) -> bool:

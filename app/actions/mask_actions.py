@@ -24,8 +24,15 @@ def _mask(desk: Desk) -> None:
     desk.post(Do(c.SetLayer(active(desk), mask=True)))
 
 
-def _add_mask(desk: Desk) -> None:
-    desk.post(Do(c.SetLayer(active(desk), mask=True if desk.selecting.selected else MaskOp(MASK_FULL))))
+def _add(op: str) -> Callable[[Desk], None]:
+    """Adds a mask, of what is selected where it would be full, and paints on it from then on."""
+
+    def add(desk: Desk) -> None:
+        name = active(desk)
+        desk.masks.coming = name
+        desk.post(Do(c.SetLayer(name, mask=True if op == MASK_FULL and desk.selecting.selected else MaskOp(op))))
+
+    return add
 
 
 def _unmask(desk: Desk) -> None:
@@ -99,14 +106,14 @@ MASK_ACTIONS: dict[str, A] = {
         _can_mask_selected,
     ),
     "mask_full": A(
-        "Add mask", "Layer", (), "Show what is selected alone, or all: paint black on it to hide", _add_mask, _can_add
+        "Add mask", "Layer", (), "Show what is selected alone, or all: paint black on it to hide", _add(MASK_FULL), _can_add
     ),
     "mask_empty": A(
         "Add mask, hiding all",
         "Layer",
         (),
         "A mask that hides all: paint white on it to show",
-        _does(MASK_EMPTY),
+        _add(MASK_EMPTY),
         _can_add,
     ),
     "mask_paint": A(

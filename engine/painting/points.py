@@ -74,4 +74,4 @@ def points_json(points: np.ndarray) -> list[list[float]]:
 
 def plain(value: float) -> float:
     """Gives a whole number as an int, so that JSON writes it without a point."""
-    return int(value) if value.is_integer() and abs(value) < 1e15 else value
+    return int(value) if float(value).is_integer() and abs(value) < 1e15 else value

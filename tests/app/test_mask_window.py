@@ -12,8 +12,7 @@ def test_a_mask_is_painted_by_the_brush_and_seen_alone(program):
     empty = app.canvas()
     app.stroke(*((380 + 12 * i, 400) for i in range(24)))
     painted = app.canvas_unlike(empty)
-    app.click("mask_full")
-    app.click("mask of Layer 1")
+    app.click("mask_full")  # it is painted on from then on
     app.box("mask bar")
     app.stroke(*((500, 340 + 6 * i) for i in range(20)))
     hidden = app.canvas_unlike(painted)

@@ -14,10 +14,11 @@ from engine.studio.results import LayerRow
 @dataclass(slots=True)
 class MaskState:
     """`layer`: the name of the layer or group whose mask is painted on while that is active, None for none; `alone`:
-    it is seen in place of the painting."""
+    it is seen in place of the painting; `coming`: the name of the one whose mask is painted on once it is there."""
 
     layer: str | None = None
     alone: bool = False
+    coming: str | None = None
 
     def on(self, row: LayerRow | None) -> bool:
         """Tells whether the mask of the active layer is painted on."""
@@ -44,6 +45,10 @@ class MaskState:
         self.alone = alone
 
     def follow(self, post: Callable[[Request], None], row: LayerRow | None) -> None:
-        """Ends where another layer is active, or the mask is gone."""
+        """Begins where a mask came that was waited for; ends where another layer is active, or the mask is gone."""
+        if self.coming is not None and (row is None or row.name != self.coming or row.masked):
+            found, self.coming = self.coming, None
+            if row is not None and row.name == found:
+                self.begin(post, found)
         if self.layer is not None and not self.on(row):
             self.end(post)
