@@ -106,7 +106,12 @@ MASK_ACTIONS: dict[str, A] = {
         _can_mask_selected,
     ),
     "mask_full": A(
-        "Add mask", "Layer", (), "Show what is selected alone, or all: paint black on it to hide", _add(MASK_FULL), _can_add
+        "Add mask",
+        "Layer",
+        (),
+        "Show what is selected alone, or all: paint black on it to hide",
+        _add(MASK_FULL),
+        _can_add,
     ),
     "mask_empty": A(
         "Add mask, hiding all",
