@@ -11,6 +11,7 @@ from app.desk.desk import Desk
 from app.desk.filling.pouring import clear_mask
 from app.desk.framing.frame_state import FRAME_TOOL
 from engine.painting import commands as c
+from engine.studio.moving.move_requests import FitFrame
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
 
@@ -147,6 +148,10 @@ MERGING_ACTIONS: dict[str, A] = {
     "frame_tool": A(
         "Edit frame", "View", ("C",), "Drag the handles of the frame: crop, or make room; no paint is lost",
         lambda desk: desk.hand.use(FRAME_TOOL), always, lambda desk: desk.hand.tool == FRAME_TOOL,
+    ),
+    "crop_to_paint": A(
+        "Crop to paint", "View", (), "The frame just holds what is painted and seen; no paint is lost",
+        lambda desk: desk.post(FitFrame()), _any,
     ),
     "frame": A("Frame…", "View", (), "Where the picture begins and ends; no paint is lost", asks("frame"), ready),
     "paper": A("Paper…", "View", (), "The colour of the ground under all layers, or none", asks("paper"), ready),

@@ -31,6 +31,7 @@ from engine.studio.journalled.answers import Answers
 from engine.studio.journalled.posts import Posts
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.masked.mask_pictures import MaskPictures
+from engine.studio.moving.frame_fitting import FrameFitter
 from engine.studio.moving.moves import Moves
 from engine.studio.past.here import HereFinder
 from engine.studio.past.past_list import PastList
@@ -111,7 +112,7 @@ class Studio(Owned):
             _of(self.lab),
             _of(MaskPictures(easel)),
             _of(Trials(easel)),
-            _of(Moves(easel)),
+            *_each(Moves(easel), FrameFitter(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
             _of(travels),

@@ -47,5 +47,10 @@ def test_the_frame_is_dragged_in_the_window_and_no_paint_is_lost(program):
     app.stroke(left, ((left[0] + 300), left[1]))
     app.until(lambda screen: abs(app.at("frame left")[0] - left[0] - 300) < 8)
     assert app.at("frame right") == right
+    app.keys("ctrl+z")
+    app.click("To paint")
+    app.until(lambda screen: app.at("frame top left")[0] > left[0] + 50)
+    assert 340 < app.at("frame top left")[0] < 380
+    assert 656 < app.at("frame bottom right")[0] < 696
     app.keys("ctrl+z", "b")
     assert app.comes_to(painted)

@@ -12,7 +12,7 @@ from engine.painting import commands as c
 from engine.painting.layering.frame_command import LONGEST_SIDE
 from engine.studio.requests import Do
 
-FRAME_OPTIONS_WIDTH = 50.0  # of the bar, ems
+FRAME_OPTIONS_WIDTH = 56.0  # of the bar, ems
 _FARTHEST = 1 << 30  # that a field of imgui holds
 _FIELDS = (
     ("x", "Where the frame begins, pixels of level 0"),
@@ -20,7 +20,7 @@ _FIELDS = (
     ("w", "How wide the frame is"),
     ("h", "How tall the frame is"),
 )
-_BUTTONS = (("crop", "To selection"), ("clear_outside", "Delete outside"))
+_BUTTONS = (("crop", "To selection"), ("crop_to_paint", "To paint"), ("clear_outside", "Delete outside"))
 
 
 def draw_frame_options(desk: Desk) -> None:

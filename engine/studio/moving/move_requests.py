@@ -38,4 +38,9 @@ class Extent:
     selected: bool = False
 
 
-MoveRequest = Try | AskExtent
+@dataclass(frozen=True, slots=True)
+class FitFrame:
+    """Gives the painting a frame that just holds what is seen of its paint, in one step."""
+
+
+MoveRequest = Try | AskExtent | FitFrame

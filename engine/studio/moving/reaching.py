@@ -6,6 +6,7 @@ Bounds of coarse paint are far too wide: they are followed from level to level, 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+from dataclasses import replace
 
 import numpy as np
 
@@ -34,6 +35,12 @@ def reach_of(painting: Painting, name: str, level: int, cache: TileCache | None 
     """Returns how far a node reaches, a placement in the places of its source, in pixels of a level, or of a coarser
     one where it is large; it pauses on the way."""
     return _Reaches(painting, cache).of(layers.find(painting.root, name), level)
+
+
+def picture_reach(painting: Painting, cache: TileCache | None = None) -> Reach:
+    """Returns how far all reaches that is seen of a painting, but for references; likewise, at level 0."""
+    picture = replace(painting, root=layers.pictured(painting.root))
+    return _Reaches(picture, cache).of(picture.root, 0)
 
 
 class _Reaches:
