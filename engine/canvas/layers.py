@@ -19,7 +19,9 @@ from engine.canvas.node_checks import (
     check_flags,
     check_name,
     check_role,
+    find_wrong,
     insist,
+    nesting,
 )
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
@@ -130,18 +132,17 @@ def isolation(group: Group) -> str:
 # --- looking ---------------------------------------------------------------------------------------------------------
 
 
-def _trails(root: Group) -> Iterator[tuple[Trail, Node]]:
-    stack: list[tuple[Trail, Node]] = [((i,), child) for i, child in reversed(list(enumerate(root.children)))]
-    while stack:
-        trail, node = stack.pop()
-        yield trail, node
-        if isinstance(node, Group):
-            stack.extend(((*trail, i), child) for i, child in reversed(list(enumerate(node.children))))
-
-
 def walk(root: Group) -> Iterator[Node]:
     """Yields every layer and group but the root, bottom first, a group before what it holds."""
-    return (node for _, node in _trails(root))
+    stack = [iter(root.children)]
+    while stack:
+        for node in stack[-1]:
+            yield node
+            if isinstance(node, Group):
+                stack.append(iter(node.children))
+                break
+        else:
+            stack.pop()
 
 
 def layers(root: Group) -> Iterator[Layer]:
@@ -150,9 +151,14 @@ def layers(root: Group) -> Iterator[Layer]:
 
 
 def _locate(root: Group, name: str) -> tuple[Trail, Node]:
-    for trail, node in _trails(root):
-        if node.name == name:
-            return trail, node
+    todo: list[tuple[Trail, Group]] = [((), root)]
+    while todo:
+        trail, group = todo.pop()
+        for i, child in enumerate(group.children):
+            if child.name == name:
+                return (*trail, i), child
+            if isinstance(child, Group):
+                todo.append(((*trail, i), child))
     known = [repr(node.name) for node in walk(root)]
     listed = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "")
     raise LayerError(
@@ -380,15 +386,8 @@ def _branched(mask: Selection | None) -> Selection | None:
 
 def checked(root: Group) -> Group:
     """Returns the root itself, if names and ids are unique and groups not nested too deeply; else LayerError."""
-    names: set[str] = set()
-    ids: set[int] = set()
-    for trail, node in _trails(root):
-        if node.name in names:
-            raise LayerError(f"layer name: found {node.name!r} twice, expected a name not in use")
-        insist(node.name, "id", node.id, node.id not in ids and node.id > 0, "a positive number not in use")
-        insist(
-            node.name, "nesting", len(trail), len(trail) <= MAX_DEPTH + 1, f"at most {MAX_DEPTH} groups in one another"
-        )
-        names.add(node.name)
-        ids.add(node.id)
+    nodes = list(walk(root))
+    names, ids = {node.name for node in nodes}, {node.id for node in nodes}
+    if len(names) < len(nodes) or len(ids) < len(nodes) or min(ids, default=1) < 1 or nesting(root) > MAX_DEPTH + 1:
+        find_wrong(root, MAX_DEPTH)
     return root

@@ -78,3 +78,46 @@ def check_flags(node: Common, names: Sequence[str]) -> None:
     for name in names:
         value = getattr(node, name)
         insist(node.name, name, value, isinstance(value, bool), "true or false")
+
+
+class Numbered(Protocol):
+    """A node of a tree, which may have `children`."""
+
+    @property
+    def id(self) -> int:
+        """Gives its number, unique in the tree."""
+        ...
+
+    @property
+    def name(self) -> str:
+        """Gives its name, unique in the tree."""
+        ...
+
+
+def _children_of(node: Numbered) -> tuple[Numbered, ...]:
+    found: tuple[Numbered, ...] = getattr(node, "children", ())
+    return found
+
+
+def nesting(root: Numbered) -> int:
+    """Returns how many nodes lie in one another at most, the root not counted."""
+    deep, nodes = 0, _children_of(root)
+    while nodes:
+        nodes = tuple(inner for node in nodes for inner in _children_of(node))
+        deep += 1
+    return deep
+
+
+def find_wrong(root: Numbered, most: int) -> None:
+    """Raises LayerError for a node whose name or id is in use, or that lies in more than `most` groups."""
+    names, ids = set[str](), set[int]()
+    todo = [(1, node) for node in reversed(_children_of(root))]
+    while todo:
+        deep, node = todo.pop()
+        if node.name in names:
+            raise LayerError(f"layer name: found {node.name!r} twice, expected a name not in use")
+        insist(node.name, "id", node.id, node.id not in ids and node.id > 0, "a positive number not in use")
+        insist(node.name, "nesting", deep, deep <= most + 1, f"at most {most} groups in one another")
+        names.add(node.name)
+        ids.add(node.id)
+        todo += [(deep + 1, inner) for inner in reversed(_children_of(node))]

@@ -29,7 +29,7 @@ from engine.texture.planes import COLOURS, Planes, merged, plane_map, sort_key
 from engine.texture.record import Instance
 
 _CACHE = 256 << 20  # bytes
-MOST_ENLARGED = 1 << 14  # tiles of a level that is finer than all that is stored, as foretold
+MOST_ENLARGED = 1 << 15  # tiles of a level that is finer than all that is stored, as foretold
 _SOME = 64  # tiles from which on each level has four times as many
 _NOTHING = np.zeros((TILE, TILE), np.float32)
 

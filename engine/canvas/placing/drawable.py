@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from engine.canvas.layers import Group, Node
+from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.rounds import composed, rounds, shown_in
@@ -20,9 +20,9 @@ MOST_NESTED = 128  # groups and placements in one another
 def checked_drawable(root: Group, nodes: Mapping[int, Node]) -> bool:
     """Tells whether something in the tree shows itself; LayerError if there is too much to draw, or too deep.
     `nodes`: all of them, the root too, by their ids.  Each turn of what shows itself counts once."""
-    known: dict[int, tuple[int, int]] = {}  # how much there is to draw, and how many lie in one another
+    known = _of_paint(nodes)
     inside: set[int] = set()  # what is being looked at: met again, it shows itself
-    goes_round, round_ = False, rounds(root, nodes)
+    goes_round, round_ = False, rounds(root, {number: node for number, node in nodes.items() if number not in known})
     todo = [root.id]
     while todo:
         number = todo[-1]
@@ -39,6 +39,13 @@ def checked_drawable(root: Group, nodes: Mapping[int, Node]) -> bool:
                 as_one = isinstance(node, Placement) and shown[0] not in round_ and composed(node, nodes[shown[0]])
                 known[number] = _counted(node, [known[one] for one in shown if one in known], as_one)
     return goes_round
+
+
+def _of_paint(nodes: Mapping[int, Node]) -> dict[int, tuple[int, int]]:
+    """Returns of layers, and of placements of such, how much there is to draw, and how many lie in one another."""
+    paint = {number for number, node in nodes.items() if isinstance(node, Layer)}
+    shown = (number for number, node in nodes.items() if isinstance(node, Placement) and node.of in paint)
+    return {**dict.fromkeys(paint, (1, 0)), **dict.fromkeys(shown, (2, 1))}
 
 
 def _counted(node: Node, shown: Iterable[tuple[int, int]], as_one: bool) -> tuple[int, int]:

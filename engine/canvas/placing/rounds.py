@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from engine.canvas.layers import Group, Node, walk
 from engine.canvas.placing.placement import Placement
@@ -22,19 +22,18 @@ def shown_in(node: Node, root: Group) -> list[int]:
 
 def rounds(root: Group, nodes: Mapping[int, Node]) -> set[int]:
     """Returns the nodes that show themselves, and those that lie between two such.  `nodes`: all of them, the root too,
-    by their ids."""
-    ways = {number: shown_in(node, root) for number, node in nodes.items()}
+    by their ids; those that show none of the others may be left out."""
+    ways = {number: [one for one in shown_in(node, root) if one in nodes] for number, node in nodes.items()}
     back: dict[int, list[int]] = {number: [] for number in nodes}
     for number, shown in ways.items():
         for one in shown:
-            if one in back:
-                back[one].append(number)
+            back[one].append(number)
     return set(nodes) - _ending(ways, back) - _ending(back, ways)
 
 
-def _ending(ways: Mapping[int, Iterable[int]], back: Mapping[int, Iterable[int]]) -> set[int]:
+def _ending(ways: Mapping[int, Sequence[int]], back: Mapping[int, Iterable[int]]) -> set[int]:
     """Returns the nodes from which all ways come to an end."""
-    left = {number: sum(one in ways for one in shown) for number, shown in ways.items()}
+    left = {number: len(shown) for number, shown in ways.items()}
     ended = [number for number, count in left.items() if not count]
     for number in ended:  # it grows
         for one in back[number]:
