@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from immutables import Map
 
@@ -16,7 +17,9 @@ from engine.files.layered.layer_sheet import FoundGroup, FoundLayers, FoundPictu
 from engine.painting.commands import AddPictures, DefineTexture
 from engine.painting.layering.pictures_member import Brought, BroughtGroup, BroughtPicture
 from engine.studio.requests import Do
-from engine.texture.image import ImageSource
+
+if TYPE_CHECKING:
+    from engine.texture.image import ImageSource
 
 _NOTES = 20  # lines that are told
 
@@ -35,6 +38,7 @@ class _LayLayers(FileWork):
     def carry_out(self) -> _Read:
         from engine.files.layered.reading_layers import read_layers  # here: it takes its time to load
         from engine.painting.capture import read_straight
+        from engine.texture.image import ImageSource
 
         found = read_layers(self.path)
         return _Read(found, ImageSource.of_raster(self.path.stem, read_straight(str(self.path), None)))
