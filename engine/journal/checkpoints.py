@@ -16,6 +16,9 @@ from isal import isal_zlib
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.archive.saving_turn import SAVING
+from engine.canvas import layers
+from engine.canvas.layers import Layer
+from engine.checks.roles import COPIED
 from engine.files.fault import FileError
 from engine.journal.records import Members
 from engine.journal.story import Checkpoint
@@ -34,14 +37,18 @@ def checkpoint_file(folder: Path, generation: int) -> Path:
 def write_checkpoint(
     folder: Path, generation: int, painting: Painting, cancelled: Callable[[], bool] | None = None
 ) -> Members:
-    """Writes a painting, grown to its end, without its recording; returns what the journal is to tell of the file
-    besides the number of commands.  WriteError or Cancelled if it was not written, as where a painting is being written
-    elsewhere."""
+    """Writes a painting, grown to its end, without its recording, but with what was copied last, as a hidden layer;
+    returns what the journal is to tell of the file besides the number of commands.  WriteError or Cancelled if it was
+    not written, as where a painting is being written elsewhere."""
     place = checkpoint_file(folder, generation)
+    root, held = painting.root, painting.copied
+    if held is not None:
+        held = replace(held, id=layers.next_id(root), name=layers.unique_name(root), visible=False, role=COPIED)
+        root = layers.insert(root, held, None, 0)
     with SAVING.taken_if_free():  # it must not wait: who has the turn may wait for the thread that writes this
-        save(place, Snapshot(replace(painting, frame=_NO_FRAME)), cancelled=cancelled)
+        save(place, Snapshot(replace(painting, root=root, frame=_NO_FRAME)), cancelled=cancelled)
     size, crc = _sums(place)
-    return {"generation": generation, "size": size, "crc": crc}
+    return {"generation": generation, "size": size, "crc": crc, **({} if held is None else {"copied": held.name})}
 
 
 def read_checkpoint(
@@ -54,8 +61,18 @@ def read_checkpoint(
         if _sums(place) == (found.size, found.crc):
             opened = open_painting(place, progress)
             if opened.native:
-                return replace(opened.painting, frame=frame)
+                return _lifted(replace(opened.painting, frame=frame), found.copied)
     return None
+
+
+def _lifted(painting: Painting, name: str | None) -> Painting:
+    """Returns a painting that holds what was copied last, no longer in a layer of that name."""
+    if name is None or not layers.has(painting.root, name):
+        return painting
+    held = layers.find(painting.root, name)
+    assert isinstance(held, Layer)
+    root = layers.remove(painting.root, name)
+    return replace(painting, root=root, copied=replace(held, visible=True, role=""))
 
 
 def _sums(path: Path) -> tuple[int, int]:

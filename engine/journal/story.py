@@ -35,12 +35,13 @@ _NO_POINTS = np.empty((0, 6))
 
 class Checkpoint(NamedTuple):
     """The painting after `commands` commands lies in `checkpoint-{0,1}.ora`, by the parity of `generation`; `size` and
-    `crc` (CRC-32) are its file's."""
+    `crc` (CRC-32) are its file's.  `copied`: the layer in it that holds what was copied last, None for none."""
 
     generation: int
     commands: int
     size: int
     crc: int
+    copied: str | None = None
 
 
 @dataclass(eq=False, slots=True)
@@ -155,8 +156,9 @@ class _Reader:
     def _checkpoint(self, payload: bytes) -> None:
         members = Fields(records.read_object(payload), "checkpoint")
         names = ("generation", "commands", "size", "crc")
-        found = (members.integer(name, lo=0, hi=1 << 60) for name in names)
-        self.story.checkpoints.append(Checkpoint(*found))
+        generation, commands, size, crc = (members.integer(name, lo=0, hi=1 << 60) for name in names)
+        copied = members.text("copied", None)
+        self.story.checkpoints.append(Checkpoint(generation, commands, size, crc, copied))
 
     def _saved(self, payload: bytes) -> None:
         self.story.saved = records.read_object(payload)

@@ -45,6 +45,9 @@ from engine.painting.layering.frame_command import read_frame, write_frame
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.layering.paper_command import SetPaper as SetPaper
 from engine.painting.layering.paper_command import read_set_paper, write_set_paper
+from engine.painting.layering.paste_commands import CopyPaint as CopyPaint
+from engine.painting.layering.paste_commands import CutPaint as CutPaint
+from engine.painting.layering.paste_commands import PastePaint as PastePaint
 from engine.painting.layering.placing_members import Placing as Placing
 from engine.painting.layering.placing_members import Same as Same
 from engine.painting.places import LEVEL_LIMIT as LEVEL_LIMIT

@@ -13,6 +13,7 @@ from engine.canvas.placing.pose import SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.painting.layering.mask_member import MaskValue, read_mask, write_mask
+from engine.painting.layering.paste_commands import CopyPaint, CutPaint, PastePaint
 from engine.painting.layering.pictures_member import AddPictures as AddPictures
 from engine.painting.layering.pictures_member import PicturePart, read_children, read_part_of, write_children
 from engine.painting.layering.placing_members import (
@@ -298,6 +299,9 @@ LAYER_FORMS: dict[str, LayerForm] = {
     "duplicate": LayerForm(DuplicateLayer, _copy),
     "move": LayerForm(MoveLayer, _position),
     "set": LayerForm(SetLayer, _settings),
+    "copy": LayerForm(CopyPaint, _no_more),
+    "cut": LayerForm(CutPaint, _no_more),
+    "paste": LayerForm(PastePaint, _no_more),
 }
 _KINDS: dict[str, Callable[[Fields], tuple[type, Members]]] = {
     "layer": lambda members: (AddLayer, {}),
@@ -321,9 +325,23 @@ LayerCommand = (
     | DuplicateLayer
     | MoveLayer
     | SetLayer
+    | CopyPaint
+    | CutPaint
+    | PastePaint
 )
 _OF_ALL = ("flatten", "clear")  # the verbs whose name may be null: the whole painting
-_OF_VERSION_2 = AddPicture | AddPictures | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer
+_OF_VERSION_2 = (
+    AddPicture
+    | AddPictures
+    | AddPlacement
+    | BakePlacement
+    | MergeLayer
+    | FlattenGroup
+    | ClearLayer
+    | CopyPaint
+    | CutPaint
+    | PastePaint
+)
 # Of those that are no `AddLayer`.
 _KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPictures: "pictures", AddPlacement: "placement"}
 RECORDS: tuple[type, ...] = (*_KIND_NAMES, *(form.record for form in LAYER_FORMS.values()))

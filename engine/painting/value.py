@@ -41,7 +41,8 @@ class Painting:
     `active`: name of the layer that strokes go to; `textures`: those defined by name; `bookmarks`: places by name;
     `arithmetic`: in which its pixels are worked out, that of its recording; `grid`: on which the values of its layers
     lie, by its bits, for as long as it lives; `selection`: what strokes are limited to, None for nothing in particular;
-    `selections`: those kept by name; `guides`: what one draws by, by name."""
+    `selections`: those kept by name; `guides`: what one draws by, by name; `copied`: what was copied last, to be
+    pasted, which is in no file."""
 
     frame: Rect = DEFAULT_FRAME
     seed: int = 0
@@ -55,6 +56,7 @@ class Painting:
     selections: Saved = field(default_factory=lambda: NONE_SAVED)
     guides: Guides = field(default_factory=lambda: NO_GUIDES)
     begun: Beginning | None = None
+    copied: Layer | None = None
 
     def framed(self, frame: Rect) -> Painting:
         """Returns the same paint in another frame."""

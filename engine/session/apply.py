@@ -23,7 +23,7 @@ from engine.painting.guiding.guides import GuideCommand, guides_after
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
-from engine.session.copied_part import lifted, pasted
+from engine.session.copied_part import copied, cut, lifted, pasted
 from engine.session.lifting.moved_part import part_moved
 from engine.session.masking import mask_for, with_mask_applied
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
@@ -168,21 +168,21 @@ def _rename(painting: Painting, command: c.RenameLayer, around: Around) -> Paint
 
 
 def _duplicate(painting: Painting, command: c.DuplicateLayer, around: Around) -> Painting:
-    made = _copied(painting, command)
+    made = _duplicated(painting, command)
     if command.placing is not None:
         return _set(replace(made, active=command.to), c.SetLayer(command.to, placing=command.placing), around)
     return made
 
 
-def _copied(painting: Painting, command: c.DuplicateLayer) -> Painting:
+def _duplicated(painting: Painting, command: c.DuplicateLayer) -> Painting:
     node = layers.find(painting.root, command.name)
     if command.selected is not None:
         return lifted(painting, command)
     if isinstance(node, Layer) and node.role == COPIED:
         return pasted(painting, node, command.to)
     root = layers.duplicate(painting.root, command.name, command.to)
-    copied = isinstance(layers.find(root, command.to), Layer)
-    return replace(painting, root=root, active=command.to if copied else painting.active)
+    paint = isinstance(layers.find(root, command.to), Layer)
+    return replace(painting, root=root, active=command.to if paint else painting.active)
 
 
 def _move(painting: Painting, command: c.MoveLayer, around: Around) -> Painting:
@@ -255,11 +255,15 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.DuplicateLayer: _duplicate,
     c.MoveLayer: _move,
     c.SetLayer: _set,
+    c.CopyPaint: lambda painting, command, around: copied(painting, command.name),
+    c.CutPaint: lambda painting, command, around: cut(painting, command.name),
+    c.PastePaint: lambda painting, command, around: pasted(painting, painting.copied, command.name),
     c.DefineTexture: _texture,
     c.Swap: _swap,
     c.Select: _choose,
     **dict.fromkeys(_BOOKMARKS, _bookmark),
     **dict.fromkeys(c.COMMANDS["guide"].records, _guide),
 }
-# The commands that undo takes back.  Selecting is no step, nor is defining a texture: strokes keep the one they had.
-STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.DefineTexture, *_BOOKMARKS}
+# The commands that undo takes back.  Choosing a layer is no step, nor is copying from one; nor is defining a texture:
+# strokes keep the one they had.
+STEPS = frozenset(_CHANGES) - {c.SelectLayer, c.CopyPaint, c.DefineTexture, *_BOOKMARKS}

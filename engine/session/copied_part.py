@@ -1,4 +1,4 @@
-"""What is selected of a layer, copied or cut to one of its own; and what was set aside, pasted."""
+"""What is selected of a layer, copied or cut, held by the painting or on a layer of its own; and pasted."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from engine.canvas.store import Pyramid
 from engine.checks.roles import COPIED
 from engine.painting.commands import DuplicateLayer
 from engine.painting.layer_commands import CUT
-from engine.painting.value import Painting, with_node
+from engine.painting.value import Painting, Refusal, with_node
 from engine.session.merging import cleared
 
 
@@ -23,9 +23,7 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
 
     What a cut leaves and what it takes add up to what was there, at the selection's level and coarser ones.
     """
-    node = layers.find(painting.root, command.name)
-    if not isinstance(node, Layer):
-        raise LayerError(f"layer {command.name!r}: found no layer of paint, expected one to copy from")
+    node = _paint(painting, command.name)
     part = selected_paint(painting, node)
     number, role = layers.next_id(painting.root), COPIED if command.aside else ""
     made = replace(
@@ -41,6 +39,25 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
     return replace(painting, root=root, active=command.to)
 
 
+def copied(painting: Painting, name: str) -> Painting:
+    """Returns the painting with what is selected of a layer, all of it where nothing is, held to be pasted."""
+    node = _paint(painting, name)
+    part = selected_paint(painting, node).branched()
+    return replace(painting, copied=replace(node, locked=False, role="", clip=False, pyramid=part, growth=()))
+
+
+def cut(painting: Painting, name: str) -> Painting:
+    """Returns the painting with that held, and taken off the layer: the two add up to what was there."""
+    return cleared(copied(painting, name), name)
+
+
+def _paint(painting: Painting, name: str) -> Layer:
+    node = layers.find(painting.root, name)
+    if not isinstance(node, Layer):
+        raise LayerError(f"layer {name!r}: found no layer of paint, expected one to copy from")
+    return node
+
+
 def selected_paint(painting: Painting, node: Layer) -> Pyramid:
     """Returns what is selected of a layer's paint, all of it where nothing is.  LayerError if there is none."""
     paint = (flattened(node) if node.growth else node).pyramid
@@ -50,8 +67,10 @@ def selected_paint(painting: Painting, node: Layer) -> Pyramid:
     return part
 
 
-def pasted(painting: Painting, node: Layer, to: str) -> Painting:
-    """Returns the painting with what was set aside seen on a layer above the active one."""
+def pasted(painting: Painting, node: Layer | None, to: str) -> Painting:
+    """Returns the painting with what was copied or set aside seen on a layer above the active one."""
+    if node is None:
+        raise Refusal(f"layer {to!r}: found nothing that was copied, expected something to paste")
     number = layers.next_id(painting.root)
     made = replace(node, id=number, name=to, visible=True, role="", pyramid=node.pyramid.branched())
     return with_node(painting, made)

@@ -182,12 +182,13 @@ class Session(Owned):
         return self._arrive(found, c.Undo(-by) if by < 0 else c.Redo(by))
 
     def _arrive(self, found: Painting, command: c.Undo | c.Redo) -> Painting:
-        """What is no step stays as it is: the textures defined, bookmarks, and the active layer if it is still
-        there."""
+        """What is no step stays as it is: the textures defined, bookmarks, what was copied, and the active layer if it
+        is still there."""
         kept = self.painting
         stays = kept.active is not None and layers.has(found.root, kept.active)
         active = kept.active if stays else found.active
-        self.painting = replace(found, textures=kept.textures, bookmarks=kept.bookmarks, active=active)
+        found = replace(found, textures=kept.textures, bookmarks=kept.bookmarks, copied=kept.copied)
+        self.painting = replace(found, active=active)
         self.state = object()
         self.log.append(command)
         self.heard(command, None)

@@ -11,14 +11,27 @@ from dataclasses import dataclass, replace
 from immutables import Map
 
 from engine.canvas import layers
-from engine.canvas.layers import Group
+from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.value import Painting, Refusal, layer_for
 from engine.session.apply import STEPS, apply
 from engine.session.here.chosen import Definitions, choosing
-from engine.session.here.lineage import Change, Laid, Pasts, bare, given, mask_painted, moved_along, pasts_after
+from engine.session.here.lineage import (
+    Change,
+    Copied,
+    Given,
+    Laid,
+    Pasts,
+    bare,
+    given,
+    mask_painted,
+    moved_along,
+    past_copied,
+    pasts_after,
+    unpainted,
+)
 from engine.session.here.lineage import LoggedStep as LoggedStep
 from engine.session.picturing import without_pictures
 
@@ -27,13 +40,15 @@ from engine.session.picturing import without_pictures
 class _State:
     """The layers without their paint, the last step that led here, and what each layer came to, by its id.
 
-    `active`: the active layer right after that step; the painting has the one that was chosen since.
+    `active`: the active layer right after that step; the painting has the one that was chosen since.  `copied`: what
+    was copied last by then.
     """
 
     painting: Painting
     step: LoggedStep | None
     pasts: Pasts
     active: str | None = None
+    copied: Copied | None = None
 
 
 class Steps(Owned):
@@ -43,7 +58,10 @@ class Steps(Owned):
     """
 
     def __init__(self, base: Painting, log: Sequence[c.Command] = ()) -> None:
-        self._now = _State(replace(base, root=bare(base.root), textures=Map()), None, given(base.root))
+        held = base.copied
+        copied, paint = (None, None) if held is None else (Copied(Given(held), 0, None), unpainted(held))
+        painting = replace(base, root=bare(base.root), textures=Map(), copied=paint)
+        self._now = _State(painting, None, given(base.root), copied=copied)
         self._done: list[_State] = []  # before each step that is done
         self._undone: list[_State] = []  # after each that is undone
         self._textures: Definitions = Map()
@@ -108,7 +126,8 @@ class Steps(Owned):
             self._done.append(before)
             self._undone.clear()
         else:
-            self._now = replace(self._now, painting=_applied(self._now.painting, command))
+            now, painting = self._now, _applied(self._now.painting, command)
+            self._now = replace(now, painting=painting, copied=self._copied(painting, command))
 
     def _after(self, step: LoggedStep) -> _State:
         """Returns the state after a step on the present one."""
@@ -125,9 +144,33 @@ class Steps(Owned):
         else:
             painting = _applied(now.painting, command)
         change = Change(now.painting, painting, now.pasts, step)
+        if isinstance(command, c.PastePaint):
+            change = self._pasted(change, command)
+            painting = change.after
         if painting is not now.painting:
             painting = moved_along(change)
-        return _State(painting, step, pasts_after(change), painting.active)
+        return _State(painting, step, pasts_after(change), painting.active, self._copied(painting, command))
+
+    def _copied(self, after: Painting, command: c.Command) -> Copied | None:
+        """Returns what is copied after a command on the present state."""
+        now = self._now
+        if not isinstance(command, c.CopyPaint | c.CutPaint) or after is now.painting:
+            return now.copied
+        return Copied(past_copied(now.painting, now.pasts, command.name), len(self._done), now.step)
+
+    def _pasted(self, change: Change, command: c.PastePaint) -> Change:
+        """Returns the change with what is pasted: where it was copied from steps that are not done any more, it is
+        known by the step that pastes it alone."""
+        copied = self._now.copied
+        if copied is None or change.after is change.before:
+            return change
+        states = [*self._done[copied.count : copied.count + 1], self._now]
+        if copied.count <= len(self._done) and states[0].step is copied.step:
+            return change._replace(pasted=copied.past)
+        layer = layers.find(change.after.root, command.name)
+        assert isinstance(layer, Layer)
+        after = mask_painted(change.after, layer, change.step)
+        return change._replace(after=after, pasted=Given(pasted=change.step))
 
     def _after_stroke(self, step: LoggedStep, stroke: c.Stroke | c.Fill) -> _State:
         now = self._now
@@ -136,22 +179,23 @@ class Steps(Owned):
         except (Refusal, LayerError):  # the log is of another painting
             return replace(now, step=step)
         if stroke.onto:  # no paint: it is nothing that shows
-            return _State(mask_painted(painting, layer, step), step, now.pasts, painting.active)
+            return replace(now, painting=mask_painted(painting, layer, step), step=step, active=painting.active)
         step = replace(step, locked=layer.alpha_locked)
         laid = Laid(step, now.pasts.get(layer.id), now.painting.selection, layer.wrap, now.painting.frame)
-        return _State(painting, step, now.pasts.set(layer.id, laid), painting.active)
+        return replace(now, painting=painting, step=step, pasts=now.pasts.set(layer.id, laid), active=painting.active)
 
     def _travel(self, count: int, back: list[_State], forth: list[_State], redone: bool) -> None:
         """As `Session` does it: what is no step stays as it is.  Where the active layer is gone, it is the one before
         the step that is undone, or right after the one that is done again."""
-        active = self._now.painting.active
+        was, active = self._now, self._now.painting.active
         for _ in range(min(count, len(back))):
             forth.append(self._now)
             self._now = back.pop()
         found = self._now.painting
         first = self._now.active if redone else found.active
         kept = active if active is not None and layers.has(found.root, active) else first
-        self._now = replace(self._now, painting=replace(found, active=kept))
+        painting = replace(found, active=kept, copied=was.painting.copied)
+        self._now = replace(self._now, painting=painting, copied=was.copied)
 
 
 def _grouped(painting: Painting, command: c.AddPictures) -> Painting:

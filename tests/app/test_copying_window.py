@@ -26,3 +26,9 @@ def test_what_is_cut_is_pasted_where_it_was(program):
     assert 0 < unlike(cut, empty) < unlike(painted, empty)
     app.keys("ctrl+v")
     assert app.comes_to(painted)
+    app.keys("ctrl+c")
+    app.wait_for("Copied “Pasted 1”")
+    app.keys("ctrl+z")  # takes back what was pasted: copying is no step
+    assert app.comes_to(cut)
+    app.keys("ctrl+v")
+    assert app.comes_to(painted)

@@ -34,6 +34,8 @@ WORDS = {
     "Move a part of “A”": {"do": "layer", "set": "A", "at": [1, 1], "selected": "cut"},
     "Order of “A”": {"do": "layer", "move": "A", "to": 1},
     "Merge “A” down": {"do": "layer", "merge": "A"},
+    "Cut “A”": {"do": "layer", "cut": "A"},
+    "Paste “A”": {"do": "layer", "paste": "A"},
     "Merge visible": {"do": "layer", "flatten": None},
     "Apply mask of “A”": {"do": "layer", "set": "A", "mask": {"op": "apply"}},
     "Unlock “A”": {"do": "layer", "set": "A", "locked": False},
@@ -54,6 +56,6 @@ def test_fills_selections_and_moves_of_a_layer_are_shown_together_and_apart_from
 
 def test_every_step_that_is_no_stroke_has_an_icon():
     signs = {step(0, command).sign for command in WORDS.values() if command["do"] != "stroke"}
-    assert signs == {"selection", "fill", "move", "mask", "merge", "layer"}
+    assert signs == {"selection", "fill", "move", "mask", "merge", "layer", "copy"}
     assert signs <= _ICONS.keys()
     assert set(_SIGNS.values()) <= _ICONS.keys()

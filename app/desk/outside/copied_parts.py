@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from app.desk.desk import Desk, FileWork
 from app.desk.naming import free_name
 from app.desk.selecting.select_state import CopiedHere
-from engine.painting.layer_commands import COPY, CUT, DuplicateLayer
+from engine.painting.layering.paste_commands import CopyPaint, CutPaint, PastePaint
 from engine.studio.requests import Do
 
 
@@ -35,26 +35,26 @@ def _names(desk: Desk) -> set[str]:
     return {row.name for row in desk.known.scene.layers} if desk.known.scene else set()
 
 
-def _set_aside(desk: Desk, way: str) -> None:
+def _hold(desk: Desk, way: type[CopyPaint | CutPaint]) -> None:
     row, scene = desk.known.active, desk.known.scene
     if row is None or scene is None:
         return
-    copied = CopiedHere(free_name("Copied", _names(desk)), scene.serial, f"Inkfall {secrets.token_hex(6)}")
-    desk.post(Do(DuplicateLayer(row.name, copied.name, selected=way, aside=True)))
+    copied = CopiedHere(scene.serial, f"Inkfall {secrets.token_hex(6)}")
+    desk.post(Do(way(row.name)))
     desk.selecting.copied = copied
     desk.work(_Mark(copied.mark))
     what = "what is selected of " if desk.selecting.selected else ""
-    desk.say(f"{'Cut' if way == CUT else 'Copied'} {what}“{row.name}”")
+    desk.say(f"{'Cut' if way is CutPaint else 'Copied'} {what}“{row.name}”")
 
 
 def copy_part(desk: Desk) -> None:
-    """Copies what is selected of the layer that is chosen, all of it where nothing is."""
-    _set_aside(desk, COPY)
+    """Copies what is selected of the layer that is chosen, all of it where nothing is: no step."""
+    _hold(desk, CopyPaint)
 
 
 def cut_part(desk: Desk) -> None:
     """Copies it likewise and takes it off the layer, as one step."""
-    _set_aside(desk, CUT)
+    _hold(desk, CutPaint)
 
 
 def paste_part(desk: Desk) -> None:
@@ -63,4 +63,4 @@ def paste_part(desk: Desk) -> None:
     if copied is None or scene is None or copied.serial != scene.serial:
         desk.say("What was copied lies in another painting", bad=True)
         return
-    desk.post(Do(DuplicateLayer(copied.name, free_name("Pasted", _names(desk)))))
+    desk.post(Do(PastePaint(free_name("Pasted", _names(desk)))))

@@ -19,10 +19,9 @@ _GRAIN = 8  # the rectangle that is asked for begins and ends at multiples of 2^
 
 
 class CopiedHere(NamedTuple):
-    """What was copied last: `name`: of the layer that holds it, in the painting of the number `serial`; `mark`: the
-    line on the system's clipboard that stands for it."""
+    """What was copied last, which the painting of the number `serial` holds; `mark`: the line on the system's clipboard
+    that stands for it."""
 
-    name: str
     serial: int
     mark: str
 

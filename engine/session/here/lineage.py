@@ -77,15 +77,26 @@ class Joined:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Given:
-    """Paint that no stroke laid: the layer as the painting began with it, or the command that brought a picture."""
+    """Paint that no stroke laid, or none that is done: the layer as the painting began with it, the command that
+    brought a picture, or the step that pasted it."""
 
     layer: Layer | None = None
     picture: c.AddPicture | None = None
     textures: Definitions = NO_DEFINITIONS
+    pasted: LoggedStep | None = None
 
 
 Past = Laid | Left | Moved | Joined | Given | None
 Pasts = Map[int, Past]  # by the layer's id
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Copied:
+    """What the paint came to that was copied last, after so many steps, of which `step` was the last."""
+
+    past: Past
+    count: int
+    step: LoggedStep | None
 
 
 class Change(NamedTuple):
@@ -95,6 +106,7 @@ class Change(NamedTuple):
     after: Painting
     pasts: Pasts
     step: LoggedStep
+    pasted: Past = None
 
 
 def given(root: Group) -> Pasts:
@@ -130,6 +142,12 @@ def _duplicated(change: Change, command: c.DuplicateLayer) -> Pasts:
     if command.placing is not None:
         pasts = _placed(pasts, copies[0], command.placing)
     return pasts
+
+
+def past_copied(painting: Painting, pasts: Pasts, name: str) -> Past:
+    """Returns what the paint comes to that is copied from a layer."""
+    past = pasts.get(layers.find(painting.root, name).id)
+    return past if painting.selection is None else _left(painting.selection, False, past)
 
 
 def _copies(root: Group, original: Node, to: str) -> list[Node]:
@@ -225,6 +243,16 @@ def _left(part: Selection | Outside, outside: bool, before: Past) -> Past:
     return None if before is None else Left(part, outside, before)
 
 
+def _cut(change: Change, command: c.CutPaint) -> Pasts:
+    layer = layers.find(change.before.root, command.name)
+    assert isinstance(layer, Layer)
+    return _emptied(change, change.pasts, layer, change.before.selection)
+
+
+def _pasted(change: Change, command: c.PastePaint) -> Pasts:
+    return change.pasts.set(layers.find(change.after.root, command.name).id, change.pasted)
+
+
 def _with_picture(change: Change, command: c.AddPicture) -> Pasts:
     number = layers.find(change.after.root, command.name).id
     return change.pasts.set(number, Given(None, command, change.step.textures))
@@ -246,6 +274,8 @@ _ROWS: dict[type, Callable[..., Pasts]] = {
     c.ClearLayer: _cleared,
     c.AddPicture: _with_picture,
     c.AddPictures: _with_pictures,
+    c.CutPaint: _cut,
+    c.PastePaint: _pasted,
     c.RemoveLayer: lambda change, command: change.pasts,
 }
 
@@ -288,4 +318,9 @@ def bare(group: Group) -> Group:
 def _without_paint(node: Node) -> Node:
     if isinstance(node, Group):
         return bare(node)
-    return replace(node, pyramid=Pyramid(), growth=()) if isinstance(node, Layer) else node
+    return unpainted(node) if isinstance(node, Layer) else node
+
+
+def unpainted(layer: Layer) -> Layer:
+    """Returns the same layer without any paint."""
+    return replace(layer, pyramid=Pyramid(), growth=())

@@ -102,7 +102,7 @@ class PaintedHere:
     """
 
     def __init__(self, cache: TileCache | None = None, held: Held = lambda number: None) -> None:
-        self._cache = cache
+        self._cache, self._held = cache, held
         self._made: dict[int, tuple[Definitions, dict[str, Texture]]] = {}  # by the definitions' identity
         self._choices = Choices(held, self._textures, cache)
         self._poured = Poured(held, self._choices, cache)
@@ -232,11 +232,21 @@ class PaintedHere:
 
     def _given(self, turn: CoverPly, ply: Ply) -> np.ndarray | None:
         """Returns the alpha of paint that is no stroke."""
-        layer = turn.given.layer if turn.given.picture is None else self._pictured(turn.given)
-        planes = None
+        layer, planes = turn.given.layer, None
+        if turn.given.picture is not None:
+            layer = self._pictured(turn.given)
+        elif turn.given.pasted is not None:
+            layer = self._as_pasted(turn.given.pasted)
         if layer is not None:
             planes = layer_planes(layer, ply.gaze.level, ply.gaze.rect, self._cache)
         return None if planes is None else planes[_ALPHA]
+
+    def _as_pasted(self, step: LoggedStep) -> layers.Layer | None:
+        """Returns the layer that a step pasted, as it was then; None where that painting is not at hand."""
+        there = self._held(step.number)
+        assert isinstance(step.command, c.PastePaint)
+        found = None if there is None else layers.find(there.root, step.command.name)
+        return found if isinstance(found, layers.Layer) else None
 
     def _pictured(self, given: Given) -> layers.Layer | None:
         """Returns the layer that a picture was brought in as, if the painting still has that."""

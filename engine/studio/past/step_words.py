@@ -38,6 +38,8 @@ _SIGNS: dict[type, str] = {
     c.MergeLayer: "merge",
     c.FlattenGroup: "merge",
     c.DuplicateLayer: "copy",
+    c.CutPaint: "copy",
+    c.PastePaint: "copy",
     c.RemoveLayer: "delete",
     c.ClearLayer: "delete",
     c.AddPicture: "picture",
@@ -90,6 +92,8 @@ def _title(command: c.Command) -> str:
         case c.DuplicateLayer(name=name, selected=selected, aside=aside):
             words = {"copy": "Copy", "cut": "Cut"} if aside else {"copy": "Copy from", "cut": "Cut from"}
             return f"{words.get(selected or '', 'Duplicate')} “{name}”"
+        case c.CutPaint(name=name) | c.PastePaint(name=name):
+            return f"{'Cut' if isinstance(command, c.CutPaint) else 'Paste'} “{name}”"
         case c.MoveLayer(name=name):
             return f"Order of “{name}”"
         case c.SetLayer():

@@ -55,6 +55,8 @@ RIGHT: dict[str, dict[str, Any]] = {
     "wrap": layer("set", "A", wrap=[0, 0, 0, 32, 32]),
     "role": layer("set", "B", role="reference"),
     "copy": layer("duplicate", "A", to="C", selected="copy", aside=True),
+    "copy of a part": layer("copy", "A"),
+    "cut": layer("cut", "A"),
     "picture": layer("add", "C", kind="picture", texture="ramp", level=1, at=[2, 3], role="reference"),
     "pictures": layer(
         "add",

@@ -200,6 +200,11 @@ SELECTING: dict[str, Commands] = {
         layer("duplicate", "A", to="C", selected="cut"),
     ],
     "pasted before it is copied": [*GROUND, layer("duplicate", "C", to="D")],
+    "pasted with nothing copied": [*GROUND, layer("paste", "C")],
+    "pasted under a name that is taken": [*GROUND, layer("copy", "A"), layer("paste", "B")],
+    "pasted as 1": [*GROUND, layer("copy", "A"), layer("paste", 1)],
+    "copied of a group": [*GROUND, layer("add", "G", kind="group"), layer("copy", "G")],
+    "cut of a locked layer": [*GROUND, layer("set", "A", locked=True), layer("cut", "A")],
 }
 
 PAINTING: dict[str, Commands] = {

@@ -1,6 +1,7 @@
 """Checkpoints: a recovery begins at the newest that is whole, and gives the same pixels as the whole journal does."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from test_answers import draw, idle
 from test_killed import pixels
 from test_recovering import left, painter
 
+from engine.canvas import layers
 from engine.journal import entries
 from engine.journal.checkpoints import checkpoint_file
 from engine.journal.story import read_story
@@ -129,3 +131,37 @@ def test_an_undo_behind_the_newest_begins_before_it(tmp_path):
     found = recovered(entries.listed(tmp_path / "other")[0].folder)
     assert np.array_equal(pixels(found.session.painting), pixels(whole(found.session)))
     assert pixels(found.session.painting).any()
+
+
+@pytest.mark.usefixtures("often")
+def test_what_was_copied_is_pasted_though_all_went_down_in_between(tmp_path, monkeypatch):
+    aside = c.parse({"do": "layer", "duplicate": "Layer 1", "to": "Copied", "selected": "copy", "aside": True})
+    worker = painter(tmp_path)
+    draw(worker, 30, 0)
+    worker.post(q.Do(aside))  # as older recordings have it, which stays a layer
+    worker.post(q.Do(c.CopyPaint("Layer 1")))
+    worker.post(q.Do(c.ClearLayer("Layer 1")))
+    idle(worker)
+    end_of_checkpoint(worker)
+    left(worker)
+    worker = painter(tmp_path)
+    idle(worker)
+    recovers_in(worker, entries.listed(tmp_path)[0].folder)
+    worker.post(q.Do(c.PastePaint("New")))
+    idle(worker)
+    left(worker)
+    begun, done = [], Session.do
+    monkeypatch.setattr(Session, "do", lambda *told: begun.append(type(told[1])) or done(*told))
+    found = recovered(entries.listed(tmp_path)[0].folder)
+    assert (begun, found.missing) == ([c.PastePaint][len(begun) == 0 :], [])
+    painting = found.session.painting
+    assert [node.name for node in painting.root.children] == ["Copied", "Layer 1", "New"]
+    found.session.do(c.parse({"do": "layer", "duplicate": "Copied", "to": "Other"}))
+    found.session.do(c.PastePaint("Again"))
+    planes = [
+        pixels(replace(painting, root=replace(painting.root, children=(node,))))
+        for node in (layers.find(found.session.painting.root, name) for name in ("New", "Other", "Again"))
+    ]
+    assert planes[0].any()
+    assert all(np.array_equal(planes[0], one) for one in planes[1:])
+    assert np.array_equal(pixels(found.session.painting), pixels(whole(found.session)))

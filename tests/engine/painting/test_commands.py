@@ -87,7 +87,7 @@ COMMANDS = st.one_of(
     st.builds(c.ClearLayer, st.none() | names, st.booleans(), later),
     st.builds(c.SetPaper, st.sampled_from([None, "#102030"]), later),
     st.builds(c.SetFrame, st.builds(Rect.at, whole, whole, st.integers(1, 1 << 40), st.integers(1, 1 << 40)), later),
-    st.builds(c.SelectLayer, names, later),
+    *(st.builds(kind, names, later) for kind in (c.SelectLayer, c.CopyPaint, c.CutPaint, c.PastePaint)),
     st.builds(c.RemoveLayer, names, later),
     st.builds(c.RenameLayer, names, names, later),
     st.builds(

@@ -210,7 +210,11 @@ VERBS = (
     "remove",
     "rename",
     "duplicate",
+    "lift",
+    "copy",
     "cut",
+    "paste",
+    "paste",
     "move",
     "set",
     "set",
@@ -229,7 +233,7 @@ SETTINGS = [
 @st.composite
 def layerings(draw):
     verb = draw(st.sampled_from(VERBS))
-    name = draw(NEW_NAMES if verb == "add" else NAMES)
+    name = draw(NEW_NAMES if verb in ("add", "paste") else NAMES)
     if verb in ("flatten", "clear") and draw(st.booleans()):
         name = None
     if verb == "add":
@@ -237,7 +241,7 @@ def layerings(draw):
         texture = draw(st.sampled_from(["fade", "rock", "spots", "bit"]))
         picture = {"texture": texture, "level": draw(st.integers(-2, 3)), "at": [5, -7]}
         return {"do": "layer", verb: name, "kind": kind, **(picture if kind == "picture" else {})}
-    if verb == "cut":
+    if verb == "lift":
         how = {"selected": draw(st.sampled_from(["copy", "cut"])), "aside": draw(st.booleans())}
         return {"do": "layer", "duplicate": name, "to": draw(NEW_NAMES), **how}
     if verb == "move":
@@ -306,6 +310,7 @@ BEGUN = [
 # ---- what has to hold ----
 
 _KINDS = {"bake": Placement, "flatten": Group, "group": Group, "clear": Layer, "layer": Layer, "stroke": Layer}
+_KINDS |= {"copy": Layer, "cut": Layer}
 
 
 def named(painting, told):

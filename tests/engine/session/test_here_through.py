@@ -226,6 +226,17 @@ SCENES = {
         {"do": "layer", "duplicate": "A", "to": "Part", "selected": "copy"},
         {"do": "layer", "set": "A", "visible": False},
     ],
+    "copied, pasted after a change": [
+        *LAYERED,
+        BOX,
+        {"do": "layer", "copy": "A"},
+        NONE,
+        {"do": "layer", "clear": "A"},
+        stroke((2, 2), (30, 2), layer="A", colour=WHITE, radius=4),
+        {"do": "layer", "paste": "Part"},
+        {"do": "layer", "set": "B", "opacity": 0.5},
+    ],
+    "cut and pasted": [*LAYERED, BOX, {"do": "layer", "cut": "B"}, {"do": "layer", "paste": "Part"}],
     "cut and moved": [
         *LAYERED,
         BOX,
@@ -337,3 +348,31 @@ def test_strokes_of_merged_layers_lie_as_they_lay():
     assert told(session, 24, 10) == [(6, 0.5)]
     session.do(c.Undo(2))
     assert told(session, 20, 10) == [(3, 1.0)]
+
+
+def test_what_was_copied_of_strokes_that_are_undone_hides_what_lies_below():
+    """It is no stroke of the steps that are done; while those are, or are again, it is."""
+    small = {"radius": 6, "hardness": 1}
+    session = Session()
+    for one in (
+        {"do": "layer", "add": "A"},
+        wash(RED),
+        BOX,
+        stroke((20, 20), (30, 20), colour=GREEN, **small),
+        {"do": "layer", "set": "A", "mask": True},
+        {"do": "layer", "copy": "A"},
+    ):
+        session.do(c.parse(one))
+    held = lambda number: held_by(session)(number) or session.painting  # noqa: E731  # the last is that of the present
+    paste = c.parse({"do": "layer", "paste": "B"})
+    session.do(paste)
+    assert [one.step.index for one in shown(session, 0, 22, 20, held)] == [3]
+    session.do(c.Undo(4))
+    session.do(c.Redo(3))
+    session.do(paste)
+    assert [one.step.index for one in shown(session, 0, 22, 20, held)] == [3]
+    session.do(c.Undo(4))
+    session.do(c.parse(NONE))
+    session.do(paste)
+    assert shown(session, 0, 22, 20, held) == ()
+    assert [one.step.index for one in shown(session, 0, 60, 40, held)] == [1]  # beside it
