@@ -23,7 +23,7 @@ from engine.painting.guiding.guides import GuideCommand, guides_after
 from engine.painting.places import BookmarkCommand, bookmarks_after
 from engine.painting.textures import Around
 from engine.painting.value import Painting, Refusal, new_layer, with_node
-from engine.session.copied_part import copied, cut, lifted, pasted
+from engine.session.copied_part import lifted, pasted, with_copy, with_cut
 from engine.session.lifting.moved_part import part_moved
 from engine.session.masking import mask_for, with_mask_applied
 from engine.session.merging import cleared, flattened_group, flattened_whole, merged_down
@@ -255,8 +255,8 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.DuplicateLayer: _duplicate,
     c.MoveLayer: _move,
     c.SetLayer: _set,
-    c.CopyPaint: lambda painting, command, around: copied(painting, command.name),
-    c.CutPaint: lambda painting, command, around: cut(painting, command.name),
+    c.CopyPaint: lambda painting, command, around: with_copy(painting, command.name),
+    c.CutPaint: lambda painting, command, around: with_cut(painting, command.name),
     c.PastePaint: lambda painting, command, around: pasted(painting, painting.copied, command.name),
     c.DefineTexture: _texture,
     c.Swap: _swap,

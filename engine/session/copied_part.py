@@ -39,16 +39,16 @@ def lifted(painting: Painting, command: DuplicateLayer) -> Painting:
     return replace(painting, root=root, active=command.to)
 
 
-def copied(painting: Painting, name: str) -> Painting:
+def with_copy(painting: Painting, name: str) -> Painting:
     """Returns the painting with what is selected of a layer, all of it where nothing is, held to be pasted."""
     node = _paint(painting, name)
     part = selected_paint(painting, node).branched()
     return replace(painting, copied=replace(node, locked=False, role="", clip=False, pyramid=part, growth=()))
 
 
-def cut(painting: Painting, name: str) -> Painting:
+def with_cut(painting: Painting, name: str) -> Painting:
     """Returns the painting with that held, and taken off the layer: the two add up to what was there."""
-    return cleared(copied(painting, name), name)
+    return cleared(with_copy(painting, name), name)
 
 
 def _paint(painting: Painting, name: str) -> Layer:

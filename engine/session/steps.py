@@ -20,7 +20,7 @@ from engine.session.apply import STEPS, apply
 from engine.session.here.chosen import Definitions, choosing
 from engine.session.here.lineage import (
     Change,
-    Copied,
+    CopiedPast,
     Given,
     Laid,
     Pasts,
@@ -48,7 +48,7 @@ class _State:
     step: LoggedStep | None
     pasts: Pasts
     active: str | None = None
-    copied: Copied | None = None
+    copied: CopiedPast | None = None
 
 
 class Steps(Owned):
@@ -59,7 +59,7 @@ class Steps(Owned):
 
     def __init__(self, base: Painting, log: Sequence[c.Command] = ()) -> None:
         held = base.copied
-        copied, paint = (None, None) if held is None else (Copied(Given(held), 0, None), unpainted(held))
+        copied, paint = (None, None) if held is None else (CopiedPast(Given(held), 0, None), unpainted(held))
         painting = replace(base, root=bare(base.root), textures=Map(), copied=paint)
         self._now = _State(painting, None, given(base.root), copied=copied)
         self._done: list[_State] = []  # before each step that is done
@@ -151,12 +151,12 @@ class Steps(Owned):
             painting = moved_along(change)
         return _State(painting, step, pasts_after(change), painting.active, self._copied(painting, command))
 
-    def _copied(self, after: Painting, command: c.Command) -> Copied | None:
+    def _copied(self, after: Painting, command: c.Command) -> CopiedPast | None:
         """Returns what is copied after a command on the present state."""
         now = self._now
         if not isinstance(command, c.CopyPaint | c.CutPaint) or after is now.painting:
             return now.copied
-        return Copied(past_copied(now.painting, now.pasts, command.name), len(self._done), now.step)
+        return CopiedPast(past_copied(now.painting, now.pasts, command.name), len(self._done), now.step)
 
     def _pasted(self, change: Change, command: c.PastePaint) -> Change:
         """Returns the change with what is pasted: where it was copied from steps that are not done any more, it is

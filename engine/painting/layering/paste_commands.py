@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from immutables import Map
 
@@ -14,7 +13,7 @@ class CopyPaint:
     no undo takes back."""
 
     name: str
-    extra: Map[str, Any] = Map()  # noqa: RUF009  # it never changes
+    extra: Map[str, object] = Map()  # noqa: RUF009  # it never changes
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +21,7 @@ class CutPaint:
     """Holds it likewise and takes it off the layer; undo brings it back there, and it stays held."""
 
     name: str
-    extra: Map[str, Any] = Map()  # noqa: RUF009  # it never changes
+    extra: Map[str, object] = Map()  # noqa: RUF009  # it never changes
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,4 +29,4 @@ class PastePaint:
     """Lays what is held on a new layer of this name, above the active one."""
 
     name: str
-    extra: Map[str, Any] = Map()  # noqa: RUF009  # it never changes
+    extra: Map[str, object] = Map()  # noqa: RUF009  # it never changes

@@ -91,7 +91,7 @@ Pasts = Map[int, Past]  # by the layer's id
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Copied:
+class CopiedPast:
     """What the paint came to that was copied last, after so many steps, of which `step` was the last."""
 
     past: Past
