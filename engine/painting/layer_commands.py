@@ -330,17 +330,9 @@ LayerCommand = (
     | PastePaint
 )
 _OF_ALL = ("flatten", "clear")  # the verbs whose name may be null: the whole painting
+_COPYING = CopyPaint | CutPaint | PastePaint
 _OF_VERSION_2 = (
-    AddPicture
-    | AddPictures
-    | AddPlacement
-    | BakePlacement
-    | MergeLayer
-    | FlattenGroup
-    | ClearLayer
-    | CopyPaint
-    | CutPaint
-    | PastePaint
+    AddPicture | AddPictures | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer | _COPYING
 )
 # Of those that are no `AddLayer`.
 _KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPictures: "pictures", AddPlacement: "placement"}
