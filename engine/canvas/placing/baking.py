@@ -39,10 +39,11 @@ def paint_of(root: Group, node: Placement, frame: Rect, grid: int) -> Pyramid:
     """Returns what a placement of a tree shows as paint; the tree's examples are grown to the end.
 
     One layer by quarter turns and powers of two is baked exactly, ink included; anything else at the finest level that
-    its source has, as pixels.  What is repeated ends at the `frame`.  LayerError if it has no end otherwise.
+    its source has, as pixels.  What is repeated, in a placement or in a layer that wraps around, ends at the `frame`.
+    LayerError if it has no end otherwise.
     """
     layer, seen = _one_layer(root, node)
-    if layer is None or seen.similarity.quarter is None or seen.repeats:
+    if layer is None or layer.wrap is not None or seen.similarity.quarter is None or seen.repeats:
         return _at_one_level(root, node, frame, grid)
     made = baked(flattened(layer).pyramid if layer.growth else layer.pyramid, seen.similarity)
     for clip in seen.clips:
@@ -118,7 +119,7 @@ def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int) -> Pyram
     def filled(key: TileKey) -> bool:
         return bool(picture(key).any())
 
-    if any(seen.repeats for _, seen in ways):
+    if any(seen.repeats or layer.wrap is not None for layer, seen in ways):
         tiles = {key for key in _few(node, frame.zoomed(level).tiles(level)) if filled(key)}
     else:
         first = min(min(layer.pyramid.levels) - seen.levels for layer, seen in ways)
