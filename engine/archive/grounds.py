@@ -11,15 +11,17 @@ from immutables import Map
 
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.layers import Layer
-from engine.canvas.store import Level, Pyramid, Record
+from engine.canvas.store import Level, PutAway, Pyramid, Record
 from engine.checks.field_error import FieldError
-from engine.files.limits import Limits
+from engine.files.limits import STREAMED, Limits
 from engine.files.png_reader import PngReader
-from engine.files.png_writer import write_png
+from engine.files.png_writer import STRIP, PngWriter
 from engine.files.strict_json import Fields
+from engine.keeping.disk_raster import DiskBytes, room
 from engine.numeric.address import Rect, TileKey
+from engine.numeric.parted import Raster
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
-from engine.texture.raster import Raster, planes_of
+from engine.texture.raster import planes_of
 
 LAID = 1 << 26  # pixels of a picture up to which it is laid down at once and kept
 
@@ -34,15 +36,23 @@ class GroundEntry:
     gone: tuple[TileKey, ...] = ()
 
 
-def lay_ground(pixels: Raster, x: int, y: int, png: bytes | None = None) -> Pyramid:
+def lay_ground(pixels: Raster, x: int, y: int, png: bytes | PutAway | None = None) -> Pyramid:
     """Returns a layer that begins with a picture, uint8 or uint16 RGBA (h, w, 4), at (x, y) of level 0; `png`: the same
     picture as a PNG, where it is at hand."""
     rect = Rect.at(x, y, pixels.shape[1], pixels.shape[0])
-    if png is None:
-        file = io.BytesIO()
-        write_png(file, pixels)
-        png = file.getvalue()
-    return laid(lambda part: planes_of(pixels[part.slices(rect)]), rect, png)
+    return laid(lambda part: planes_of(pixels[part.slices(rect)]), rect, _png_of(pixels) if png is None else png, room)
+
+
+def _png_of(pixels: Raster) -> bytes | PutAway:
+    """Returns a picture as a PNG; a large one is put away on disk."""
+    height, width, channels = pixels.shape
+    file = DiskBytes() if height * width > LAID else io.BytesIO()
+    writer = PngWriter(file, width, height, channels, 8 * pixels.dtype.itemsize)  # type: ignore[arg-type]
+    rows = max(1, STRIP // (width * channels * pixels.dtype.itemsize))
+    for top in range(0, height, rows):
+        writer.rows(pixels[top : min(top + rows, height), 0:width])
+    writer.close()
+    return file.getvalue() if isinstance(file, io.BytesIO) else file
 
 
 def whole(layer: Layer, frame: Rect) -> bool:
@@ -75,7 +85,9 @@ def entry(pyramid: Pyramid, member: str) -> GroundEntry | None:
 
 def restored(found: GroundEntry, png: bytes, where: str, limits: Limits) -> Pyramid:
     """The ground laid down again from its PNG, without the tiles that are gone.  FileError if that is none."""
-    pixels = PngReader(io.BytesIO(png), where, limits).read()
+    reader = PngReader(io.BytesIO(png), where, replace(limits, pixels=max(limits.pixels, STREAMED)))
+    pixels = room((reader.header.height, reader.header.width, 4), reader.header.dtype)
+    reader.read_into(pixels)
     pyramid = lay_ground(pixels, *found.at, png)
     levels = pyramid.levels
     for key in found.gone:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import IO
 
 from engine.archive.implied import Tile, without
 from engine.archive.manifest import Pack
@@ -16,10 +17,10 @@ from engine.painting.cascade import Cascade
 
 @dataclass(frozen=True)
 class Job:
-    """One member: its name, and what makes its bytes; `deflate`: text."""
+    """One member: its name, and what makes its bytes, or a file of them; `deflate`: text."""
 
     name: str
-    make: Callable[[], bytes]
+    make: Callable[[], bytes | IO[bytes]]
     deflate: bool = False
 
 

@@ -36,9 +36,10 @@ from engine.canvas import layers
 from engine.canvas.layers import Layer
 from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
+from engine.canvas.store import PutAway
 from engine.files.atomic import replacing
 from engine.files.fault import FileError, WriteError
-from engine.files.limits import LIMITS
+from engine.files.limits import LIMITS, STREAMED
 from engine.files.png_reader import PngReader
 from engine.files.stack_xml import ImageEntry, stack_text
 from engine.files.strict_json import dumps
@@ -179,7 +180,7 @@ def _verify(part: Path, path: str | os.PathLike[str], plan: SavePlan, ready: Cal
                 raise WriteError(path, "the file written lacks members")
             for name in plan.names:
                 if name.endswith(".png"):
-                    PngReader(archive.open(name), name)  # type: ignore[arg-type]
+                    PngReader(archive.open(name), name, replace(LIMITS, pixels=STREAMED))  # type: ignore[arg-type]
     except FileError as error:
         raise WriteError(path, f"the file written cannot be read back ({error.message})") from error
     if ready is not None:
@@ -273,7 +274,7 @@ class SavePlan:
         shown: list[tuple[Job, IO[bytes]]] = []
         for layer in layers.layers(self._painting.root):
             if self._is_ground(layer) and layer.pyramid.ground is not None:
-                shown.append((Job(png_name(layer), bytes), io.BytesIO(layer.pyramid.ground.pixels)))
+                shown.append((Job(png_name(layer), bytes), _file_of(layer.pyramid.ground.pixels)))
         return shown
 
     def _thumbnail(self) -> SpooledPng:
@@ -303,7 +304,8 @@ class SavePlan:
         assert found is not None
         self._grounds[layer.id] = found
         if not shared:
-            yield Job(name, lambda: ground.pixels)
+            png = ground.pixels
+            yield Job(name, (lambda: png) if isinstance(png, bytes) else png.opened)
 
     def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
         tiles = ordered(grounds.painted_since(layer.pyramid))
@@ -351,6 +353,10 @@ class SavePlan:
         held = self._packs, self._grounds, self._plots, self._pictures
         told = manifest_json(self._painting, *held, members, self._selections)
         return dumps(told).encode()
+
+
+def _file_of(png: bytes | PutAway) -> IO[bytes]:
+    return io.BytesIO(png) if isinstance(png, bytes) else png.opened()
 
 
 def shown_level(frame: Rect) -> int:

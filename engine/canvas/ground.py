@@ -17,28 +17,32 @@ import numpy as np
 from engine.canvas import kernels
 from engine.canvas.compact import blank_found, compact
 from engine.canvas.rising import counting
-from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, Pyramid, Record
+from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, PutAway, Pyramid, Record
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import FINE_STEP
+from engine.numeric.parted import Raster, Room
 
 Tile = Callable[[Rect], np.ndarray]
 _COLOURS = np.arange(4)
 _WHOLE = Rect(0, 0, TILE, TILE)
+_DENSE = 1 << 22  # pixels of a level that are held in memory
+_AT_ONCE = 1 << 18  # pixels of a larger one that are made at a time
 _PIXELS = 1 << 16  # reduced at a time, so that all planes of them stay in the cache of the processor
 _ALL = np.ones((TILE, TILE), np.uint8), np.full((TILE, 2), (0, TILE), np.int32)
 _BYTES = 4 * TILE * TILE * 2  # of a whole tile's data, as a rule
 
 
-def laid(tile: Tile, rect: Rect, pixels: bytes | None = None) -> Pyramid:
+def laid(tile: Tile, rect: Rect, pixels: bytes | PutAway | None = None, room: Room = np.empty) -> Pyramid:
     """Returns the pyramid of a picture that covers `rect` of level 0.
 
     `tile` gives its values over any part of `rect`: float32 (4, h, w), premultiplied, on the grid; always the same
     ones, as long as the pyramid is there.  `pixels`: the picture as a PNG, kept so that files can hold it in place of
-    the residuals.
+    the residuals.  `room`: makes an array, or what takes its place, for the values of a level that has many.
     """
     levels: dict[int, Level] = {}
     picture = _Picture(tile, rect)
     half = _Reduced(picture)
+    values: dict[int, Tile] = {0: picture.read, -1: half.read}
     below: _Picture = picture
     above: _Picture = half
     for level in itertools.count(0, -1):
@@ -47,14 +51,16 @@ def laid(tile: Tile, rect: Rect, pixels: bytes | None = None) -> Pyramid:
             levels[level] = immutables.Map(records)
         if isinstance(above, _Dense) and not above.values.any():
             break
-        below, above = above, above.reduced(above.rect.evened().zoomed(-1))
+        below, above = above, _next(above, room)
+        if isinstance(below, _Spread):
+            values[level - 1] = below.read
     if not levels:
         return Pyramid()
     stored = immutables.Map(levels)
     change = Change(max(levels), rect, None)
     if pixels is None:
         return Pyramid(stored, change)
-    return Pyramid(stored, change, ground=Ground(rect, stored, pixels, {0: picture.read, -1: half.read}))
+    return Pyramid(stored, change, ground=Ground(rect, stored, pixels, values))
 
 
 class _Picture:
@@ -98,6 +104,25 @@ class _Dense(_Picture):
     def __init__(self, values: np.ndarray, rect: Rect) -> None:
         super().__init__(lambda part: values[:, *part.slices(rect)], rect)
         self.values = values
+
+
+class _Spread(_Picture):
+    """A level put away, (h, w, 4), where there is room for it."""
+
+    def __init__(self, held: Raster, rect: Rect) -> None:
+        super().__init__(lambda part: np.ascontiguousarray(held[part.slices(rect)].transpose(2, 0, 1)), rect)
+
+
+def _next(finer: _Picture, room: Room) -> _Picture:
+    """Returns the level above, held: in memory, or, if it is large, in `room`."""
+    rect = finer.rect.evened().zoomed(-1)
+    if rect.area <= _DENSE:
+        return finer.reduced(rect)
+    held, rows = room((rect.height, rect.width, 4), np.float32), max(_AT_ONCE // rect.width, 1)
+    for y in range(rect.y0, rect.y1, rows):
+        part = Rect(rect.x0, y, rect.x1, min(y + rows, rect.y1))
+        held[y - rect.y0 : part.y1 - rect.y0] = finer.reduced(part).values.transpose(1, 2, 0)
+    return _Spread(held, rect)
 
 
 def _records(below: _Picture, above: _Picture, level: int) -> dict[tuple[int, int], Record]:
@@ -171,6 +196,14 @@ class _Later(Record):
         assert record.rect == self.rect
         self.exchange(record.data)  # two threads may do so at a time: it is the same
         return record.data
+
+    @property
+    def there(self) -> bool:
+        try:
+            object.__getattribute__(self, "held")
+        except AttributeError:
+            return False
+        return True
 
     @property
     def nbytes(self) -> int:

@@ -14,7 +14,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import IO, Protocol
 
 import immutables
 import numpy as np
@@ -32,6 +32,18 @@ RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
 _NOWHERE = Rect(0, 0, 0, 0)
 _FEW = 256  # tiles of a level: so many are gone through one by one
 _serials = itertools.count(1)
+
+
+class PutAway(Protocol):
+    """Bytes that are not in memory."""
+
+    def __len__(self) -> int:
+        """Counts them."""
+        ...
+
+    def opened(self) -> IO[bytes]:
+        """Returns them as a file."""
+        ...
 
 
 class Coded(Protocol):
@@ -71,6 +83,11 @@ class Record:
         """Gives int16 or int32 (4 + 3n, h, w) in steps of the grid, read-only."""
         held = self.held
         return held if isinstance(held, np.ndarray) else held.made()
+
+    @property
+    def there(self) -> bool:
+        """Tells whether anything is held: the data of some are only made when they are asked for."""
+        return True
 
     @property
     def sheets(self) -> SparsePlanes | None:
@@ -150,7 +167,7 @@ class Ground:
 
     rect: Rect
     levels: immutables.Map[int, Level]
-    pixels: bytes
+    pixels: bytes | PutAway
     values: Mapping[int, Callable[[Rect], np.ndarray]]
 
 

@@ -17,6 +17,7 @@ from engine.files.limits import LIMITS, Limits
 from engine.files.png_reader import FOREIGN_PROFILE, PngReader
 from engine.files.png_writer import SIGNATURE
 from engine.files.tiff_reader import read_layout, read_tiff
+from engine.numeric.parted import Raster, Room
 
 # EXIF 2.3, tag 0x0112: how an array (height, width, ...) is turned upright.
 UPRIGHT: dict[int, Callable[[np.ndarray], np.ndarray]] = {
@@ -99,6 +100,21 @@ def read_image(
             return _read(watched, name or path, limits)
     except (OSError, ValueError) as error:
         raise FileError(name or path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
+
+
+def read_png(path: str | os.PathLike[str], name: str, limits: Limits, room: Room) -> Raster | None:
+    """Returns a PNG, as `read_image` does, read strip by strip to where there is room; None for other files."""
+    try:
+        with open(path, "rb") as file:
+            if file.read(len(SIGNATURE)) != SIGNATURE:
+                return None
+            file.seek(0)
+            reader = PngReader(file, name, limits)
+            pixels = room((reader.header.height, reader.header.width, 4), reader.header.dtype)
+            reader.read_into(pixels)
+            return pixels
+    except (OSError, MemoryError) as error:
+        raise FileError(name, f"cannot be read: {getattr(error, 'strerror', None) or 'not enough memory'}") from error
 
 
 def picture_size(path: str | os.PathLike[str]) -> tuple[int, int]:

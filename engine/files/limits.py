@@ -35,6 +35,7 @@ class Limits:
 
 
 LIMITS = Limits()
+STREAMED = 1 << 30  # pixels of one image whose rows are put away on disk as they are read
 
 
 def memory_cap() -> int:

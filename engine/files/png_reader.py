@@ -19,6 +19,7 @@ from engine.files.limits import LIMITS, Limits
 from engine.files.png_chunks import Chunks
 from engine.files.png_writer import SIGNATURE
 from engine.numeric.kernel import inner, kernel
+from engine.numeric.parted import Raster
 
 CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
@@ -122,7 +123,7 @@ class PngReader:
         width, height, depth, colour, method, filtering, interlace = struct.unpack(
             ">IIBBBBB", self._chunks.body(kind, 13)
         )
-        self._check_size(width, height)
+        self._check_size(width, height, interlace != 0)
         if colour not in DEPTHS or depth not in DEPTHS[colour]:
             raise self._chunks.fail(f"chunk IHDR: colour type {colour} with {depth} bits does not exist")
         if method or filtering or interlace > 1:
@@ -137,12 +138,14 @@ class PngReader:
         notes = () if b"sRGB" in title else (FOREIGN_PROFILE,)
         return Header(width, height, depth, colour, interlace == 1, palette, transparency, notes)
 
-    def _check_size(self, width: int, height: int) -> None:
+    def _check_size(self, width: int, height: int, whole: bool) -> None:
+        """`whole`: it can only be decoded in one piece."""
         limits = self._limits
+        most = min(limits.pixels, LIMITS.pixels) if whole else limits.pixels
         if not (0 < width <= limits.side and 0 < height <= limits.side):
             raise self._chunks.fail(f"chunk IHDR: {width} x {height} pixels; expected 1 to {limits.side} each way")
-        if width * height > limits.pixels:
-            raise self._chunks.fail(f"chunk IHDR: {width} x {height} pixels; expected at most {limits.pixels} in all")
+        if width * height > most:
+            raise self._chunks.fail(f"chunk IHDR: {width} x {height} pixels; expected at most {most} in all")
 
     def _before_data(self, colour: int) -> dict[bytes, bytes]:
         kept: dict[bytes, bytes] = {}
@@ -233,13 +236,17 @@ class PngReader:
     def read(self, progress: Callable[[float], None] | None = None) -> np.ndarray:
         """Returns the whole image: uint8 or uint16 RGBA (height, width, 4), alpha not premultiplied."""
         image = np.empty((self.header.height, self.header.width, 4), self.header.dtype)
+        self.read_into(image, progress)
+        return image
+
+    def read_into(self, image: Raster, progress: Callable[[float], None] | None = None) -> None:
+        """Puts the whole image, strip by strip, where there is room for it, of its shape and type."""
         row = 0
         for strip in self.strips():
             image[row : row + len(strip)] = strip
             row += len(strip)
             if progress:
-                progress(row / len(image))
-        return image
+                progress(row / self.header.height)
 
 
 def unpacked(rows: np.ndarray, width: int, header: Header) -> np.ndarray:

@@ -15,7 +15,6 @@ import numpy as np
 from isal import isal_zlib
 
 from engine.numeric.kernel import kernel
-from engine.texture.raster import Raster
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 COLOUR_TYPES = {1: 0, 2: 4, 3: 2, 4: 6}  # channels -> colour type: grey, grey + alpha, RGB, RGBA
@@ -152,11 +151,9 @@ def _smaller(sample: np.ndarray) -> Any:
     return isal_zlib.compressobj(LEVEL)
 
 
-def write_png(file: BinaryIO, pixels: np.ndarray | Raster) -> None:
-    """Writes a whole image: uint8 or uint16 (height, width, channels), some rows of it at a time."""
+def write_png(file: BinaryIO, pixels: np.ndarray) -> None:
+    """Writes a whole image: uint8 or uint16 (height, width, channels)."""
     height, width, channels = pixels.shape
     writer = PngWriter(file, width, height, channels, 8 * pixels.dtype.itemsize)
-    count = max(1, STRIP // width)
-    for top in range(0, height, count):
-        writer.rows(pixels[top : top + count, 0:width])
+    writer.rows(pixels)
     writer.close()

@@ -108,7 +108,7 @@ class Spill:
 
     def _opened(self) -> IO[bytes]:
         if self._file is None:
-            folder = state_folder(_FOLDER) if self._folder is None else self._folder
+            folder = spill_folder() if self._folder is None else self._folder
             self._file = tempfile.TemporaryFile(dir=folder, buffering=0)  # noqa: SIM115
         elif self._file.closed:
             raise OSError("what was put away on disk: the file is closed")
@@ -119,6 +119,11 @@ def _rounded(size: int) -> int:
     """Returns a size a little larger, such that many pieces have the same."""
     step = max(_LEAST, 1 << max(size.bit_length() - 3, 0))
     return -(-size // step) * step
+
+
+def spill_folder() -> Path:
+    """Returns the folder of what is put away on disk.  OSError if it cannot be made."""
+    return state_folder(_FOLDER)
 
 
 @cache

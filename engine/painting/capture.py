@@ -14,18 +14,20 @@ from immutables import Map
 from engine.brush.checks import thawed
 from engine.canvas.layers import Group
 from engine.files.fault import FileError
-from engine.files.images import read_image
+from engine.files.images import read_image, read_png
 from engine.files.layered.reading_layers import has_layers, read_sheet
-from engine.files.limits import LIMITS
+from engine.files.limits import LIMITS, STREAMED
 from engine.files.strict_json import Fields
+from engine.keeping.disk_raster import room
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.grid import snapped
+from engine.numeric.parted import Raster
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.grown import settled_alone, settled_root
 from engine.painting.rendering import strips
 from engine.texture.image import ImageSource
-from engine.texture.raster import Raster, planes_of, put_plainly
+from engine.texture.raster import planes_of, put_plainly
 
 PIXELS_CAP = 1 << 26  # of a picture: 1 GiB as float32 planes
 DETAIL_CAP = 16  # finer levels that a captured rectangle may hold
@@ -71,15 +73,21 @@ def read_picture(path: str, folder: Path | None) -> np.ndarray:
 
 
 def read_straight(path: str, folder: Path | None) -> Raster:
-    """Returns the pixels of a picture file, in as few bits as tell its planes.  A relative path starts from
-    `folder`."""
-    return put_plainly(_read(path, folder))
+    """Returns the pixels of a picture file, in as few bits as tell its planes; those of a large PNG are put away on
+    disk.  A relative path starts from `folder`."""
+    pixels = read_png(_found(path, folder), path, replace(LIMITS, pixels=STREAMED), room)
+    return put_plainly(_read(path, folder) if pixels is None else pixels, room)
 
 
-def _read(path: str, folder: Path | None) -> np.ndarray:
+def _found(path: str, folder: Path | None) -> Path:
     where = Path(path) if folder is None else folder / path
     if not os.path.isfile(where):  # also so that no pipe or device is opened
         raise FileError(path, f"found no picture there, expected a PNG, JPEG or TIFF ({where})")
+    return where
+
+
+def _read(path: str, folder: Path | None) -> np.ndarray:
+    where = _found(path, folder)
     if has_layers(where):
         return read_sheet(where, path)
     return read_image(where, path, replace(LIMITS, pixels=PIXELS_CAP))[0]

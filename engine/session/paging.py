@@ -62,7 +62,7 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
 
 
 def _records(pyramid: Pyramid, level: int | None) -> Iterator[Record]:
-    """Yields all records, those of the levels farthest from one first."""
+    """Yields all records that hold something, those of the levels farthest from one first."""
     seen = 0 if level is None else level
     for k in sorted(pyramid.levels, key=lambda k: -abs(k - seen)):
-        yield from pyramid.levels[k].values()
+        yield from (record for record in pyramid.levels[k].values() if record.there)

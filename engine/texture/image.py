@@ -16,9 +16,10 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.detail import cut, parents, subtract_expanded
 from engine.numeric.grid import snapped
+from engine.numeric.parted import Raster
 from engine.numeric.pyramid import reduce
 from engine.numeric.resample import resampled_rows
-from engine.texture.raster import AT_ONCE, Raster, planes_of, row_bands, straight_of
+from engine.texture.raster import AT_ONCE, planes_of, row_bands, straight_of
 
 _STRIP = 64  # narrower images are repeated to this width before they are laid out
 _KEPT = 8  # pyramids held in memory

@@ -6,42 +6,15 @@ A picture of 8 bits takes a quarter of what its planes take.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Protocol
 
 import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.colour import from_rgba8, from_rgba16, to_rgba8, to_rgba16
+from engine.numeric.parted import Raster, Room
 
 AT_ONCE = 1 << 20  # pixels that are converted at a time
 _WAYS = ((np.uint8, to_rgba8, from_rgba8), (np.uint16, to_rgba16, from_rgba16))
-
-
-class Raster(Protocol):
-    """Pixels uint8 or uint16 (h, w, 4), alpha not premultiplied: an array, or what reads and writes parts of one."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Gives (h, w, 4)."""
-        ...
-
-    @property
-    def dtype(self) -> np.dtype:
-        """Gives uint8 or uint16."""
-        ...
-
-    @property
-    def nbytes(self) -> int:
-        """Counts its bytes."""
-        ...
-
-    def __getitem__(self, part: tuple[slice, slice]) -> np.ndarray:
-        """Returns the pixels of some rows and columns."""
-        ...
-
-    def __setitem__(self, rows: slice, pixels: np.ndarray) -> None:
-        """Puts whole rows in their place."""
-        ...
 
 
 def planes_of(pixels: np.ndarray) -> np.ndarray:
@@ -80,16 +53,14 @@ def _fits_8_bits(pixels: Raster) -> bool:
     return True
 
 
-def put_plainly(pixels: Raster, into: Raster | None = None) -> Raster:
-    """Puts what `straight_of` gives of a picture's planes in the place of its pixels, or into another raster; returns
-    that.
-
-    Where 8 bits tell all that 16 say, it is a new array of 8.
-    """
+def put_plainly(pixels: Raster, room: Room = np.empty) -> Raster:
+    """Puts what `straight_of` gives of a picture's planes in the place of its pixels, or into `room` of its shape and
+    type: where 8 bits tell all that 16 say, and where an array is too large for that."""
     height, width, _ = pixels.shape
     kind, to_pixels, _ = _WAYS[0 if pixels.dtype == np.uint8 or _fits_8_bits(pixels) else 1]
-    if into is None or into.dtype != kind:
-        into = pixels if pixels.dtype == kind else np.empty((height, width, 4), kind)
+    into = room(pixels.shape, kind)
+    if pixels.dtype == kind and type(into) is type(pixels):
+        into = pixels
     for band in row_bands(width, height):
         into[band.y0 : band.y1] = to_pixels(planes_of(pixels[band.y0 : band.y1, 0:width]))
     return into
