@@ -17,6 +17,7 @@ from engine.canvas.layers import Group
 from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.strict_json import Fields
+from engine.keeping.disk_raster import room
 from engine.makers import heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, USUAL, kind_of
 from engine.painting.capture import PictureSource, captured, read_straight
@@ -51,7 +52,7 @@ def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
     members = Fields(command.arguments, "")
     path, source = members.text("path", cap=4096), _known(command, members, around)
     if source is None:
-        source = _the_same(members, ImageSource.of_raster(command.name, read_straight(path, around.folder)))
+        source = _the_same(members, ImageSource.of_raster(command.name, read_straight(path, around.folder, room)))
     return Texture("image", command.arguments, source)
 
 

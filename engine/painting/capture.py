@@ -18,11 +18,10 @@ from engine.files.images import read_image, read_png
 from engine.files.layered.reading_layers import has_layers, read_sheet
 from engine.files.limits import LIMITS, STREAMED
 from engine.files.strict_json import Fields
-from engine.keeping.disk_raster import room
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import LIBRARY
 from engine.numeric.grid import snapped
-from engine.numeric.parted import Raster
+from engine.numeric.parted import Raster, Room
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.grown import settled_alone, settled_root
 from engine.painting.rendering import strips
@@ -72,9 +71,11 @@ def read_picture(path: str, folder: Path | None) -> np.ndarray:
     return planes_of(_read(path, folder))
 
 
-def read_straight(path: str, folder: Path | None) -> Raster:
-    """Returns the pixels of a picture file, in as few bits as tell its planes; those of a large PNG are put away on
-    disk.  A relative path starts from `folder`."""
+def read_straight(path: str, folder: Path | None, room: Room | None = None) -> Raster:
+    """Returns the pixels of a picture file, in as few bits as tell its planes.  A relative path starts from `folder`;
+    `room`: where they are put, of a PNG as they are read, which may be larger then."""
+    if room is None:
+        return put_plainly(_read(path, folder))
     pixels = read_png(_found(path, folder), path, replace(LIMITS, pixels=STREAMED), room)
     return put_plainly(_read(path, folder) if pixels is None else pixels, room)
 
