@@ -9,6 +9,7 @@ from app.desk import flight
 from app.desk.desk import Desk, Hear
 from app.desk.files import Done
 from app.desk.known import Known, known_after
+from app.desk.moving import independence
 from app.desk.outside import clipboard
 from app.desk.recovery import recovery_work
 from app.faults.fault_guard import FaultGuard
@@ -16,7 +17,7 @@ from app.trace import trace
 from engine.studio import results
 from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
-from engine.studio.moving.move_requests import Extent
+from engine.studio.moving.move_requests import BakeTold, Extent
 from engine.studio.results import Result
 
 Hearers = Callable[[type], Sequence[Hear]]  # those who hear results of a type
@@ -71,6 +72,7 @@ HEARS: dict[type, Hear] = {
     results.Looked: flight.fly,
     Tried: lambda desk, tried, now: setattr(desk.adjusting, "best", tried),
     Extent: lambda desk, extent, now: desk.moving.told(extent),
+    BakeTold: independence.ask,
     results.Whole: lambda desk, whole, now: desk.show(whole),
 }
 

@@ -11,7 +11,8 @@ from app.desk.moving import held_box
 from app.desk.moving.box import spot
 from app.desk.moving.poses import mirrored
 from app.desk.moving.setting_down import set_down
-from engine.painting.layer_commands import BakePlacement, SelectLayer
+from engine.painting.layer_commands import SelectLayer
+from engine.studio.moving.move_requests import AskBake
 from engine.studio.requests import Do
 from engine.studio.results import Shows
 
@@ -45,7 +46,7 @@ def _go_to_source(desk: Desk) -> None:
 def _make_independent(desk: Desk) -> None:
     row = desk.known.active
     if row is not None:
-        desk.post(Do(BakePlacement(row.name)))
+        desk.post(AskBake(row.name))
 
 
 def _mirrors(across: bool) -> Callable[[Desk], None]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from app.canvas.view import Place
 from app.desk.known import Known
 from engine.painting.commands import Command
+from engine.painting.layer_commands import BakePlacement
 from engine.painting.places import Bookmark
 from engine.studio.filing.film_requests import FilmWish
 from engine.studio.results import Overtaken
@@ -43,8 +44,9 @@ class Asked:
     `after_save`: goes on once the painting is saved, `after_film` once the film is made; `overtaken`: the save that is
     asked about; `quit`: the window is to go; `export_level`: how deep the exported picture goes; `texture`: a name
     under which one is being made, which joins the ink when the painting has it; `merge`: what merges layers once
-    that is told, ink going no finer than `merge_level`; `film`: what is chosen of the film
-    that is asked for; `bringing`: a picture that was given to the painting, and to which place of the canvas."""
+    that is told, ink going no finer than `merge_level`; `bake`: what makes paint of a placement and loses detail;
+    `film`: what is chosen of the film that is asked for; `bringing`: a picture that was given to the painting, and
+    to which place of the canvas."""
 
     dialog: str = ""
     shown: str = ""
@@ -59,6 +61,7 @@ class Asked:
     texture: str = ""
     merge: Command | None = None
     merge_level: int = 0
+    bake: BakePlacement | None = None
     film: FilmState = field(default_factory=FilmState)
     bringing: tuple[Path, Place] | None = None
 

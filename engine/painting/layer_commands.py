@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from immutables import Map
 
 from engine.brush.checks import thawed
-from engine.canvas.placing.pose import SourcePart
+from engine.canvas.placing.pose import FINEST, SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.painting.layering.mask_member import MaskValue, read_mask, write_mask
@@ -65,9 +65,11 @@ class AddPicture:
 
 @dataclass(frozen=True, slots=True)
 class BakePlacement:
-    """Makes paint of its own of what a placement shows; it becomes a layer in its place."""
+    """Makes paint of its own of what a placement shows; it becomes a layer in its place.  `level`: of the pixels, where
+    it cannot be exact; None: the finest of its source."""
 
     name: str
+    level: int | None = None
     extra: Extra = NO_EXTRA
 
 
@@ -192,6 +194,10 @@ def _no_more(members: Fields) -> Members:
     return {}
 
 
+def _level(members: Fields) -> Members:
+    return {"level": members.integer("level", None, lo=-FINEST, hi=FINEST)}
+
+
 def _outside(members: Fields) -> Members:
     return {"outside": members.flag("outside", False)}
 
@@ -289,7 +295,7 @@ class LayerForm(NamedTuple):
 
 LAYER_FORMS: dict[str, LayerForm] = {
     "add": LayerForm(AddLayer, _new_place),
-    "bake": LayerForm(BakePlacement, _no_more),
+    "bake": LayerForm(BakePlacement, _level),
     "merge": LayerForm(MergeLayer, _no_more),
     "flatten": LayerForm(FlattenGroup, _no_more),
     "clear": LayerForm(ClearLayer, _outside),

@@ -105,7 +105,7 @@ def _bake(painting: Painting, command: c.BakePlacement, around: Around) -> Paint
     if layers.is_locked(painting.root, command.name):
         raise LayerError(f"layer {command.name!r}: found it locked, expected one that is not")
     settled = settled_root(painting.root)
-    paint = baking.paint_of(settled, node, painting.frame, painting.grid)
+    paint = baking.paint_of(settled, node, painting.frame, painting.grid, command.level)
     kept = node.opacity, node.visible, node.blend
     layer = Layer(node.id, node.name, *kept, pyramid=paint, role=node.role, clip=node.clip)
     return _shown(replace(painting, root=layers.substitute(painting.root, node.name, layer)))

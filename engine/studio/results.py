@@ -18,7 +18,7 @@ from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
 from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
-from engine.studio.moving.move_requests import Extent
+from engine.studio.moving.move_requests import BakeTold, Extent
 from engine.studio.past.past_records import PastResult
 from engine.studio.selecting.ants_records import Ants
 from engine.studio.selecting.tint_records import Tint
@@ -302,6 +302,7 @@ Result = (
     | Growing
     | PastResult
     | Extent
+    | BakeTold
     | Tried
     | Ants
     | Tint

@@ -13,6 +13,7 @@ from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_browser
 from app.panels.dialogs.adjust_dialog import AdjustDialog
+from app.panels.dialogs.bake_dialog import BakeDialog
 from app.panels.dialogs.bring_in import BringIn
 from app.panels.dialogs.earlier_versions import EarlierVersions
 from app.panels.dialogs.film_dialog import FilmBeingMade, FilmDialog
@@ -298,6 +299,7 @@ DIALOGS: dict[str, Callable[[Desk], Dialog]] = {
     "frame": lambda desk: FrameDialog(desk.known.frame),
     "paper": lambda desk: PaperDialog(desk.known.paper),
     "merge": lambda desk: MergeDialog(),
+    "bake": lambda desk: BakeDialog(),
     "adjust": lambda desk: AdjustDialog(),
     "unclosed": Cards,
     "bin": Bin,

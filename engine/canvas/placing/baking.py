@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from engine.canvas.layers import Group, Layer
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.bake import Pasted, baked, tiles_of
 from engine.canvas.placing.clip import Clip, clipped
-from engine.canvas.placing.filled import TilePlace, filled_tiles
+from engine.canvas.placing.filled import TilePlace, filled_levels, filled_tiles
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.rounds import by_ids
 from engine.canvas.placing.through import UNPLACED, Seen
@@ -32,19 +33,30 @@ from engine.texture.planes import COLOURS, Planes
 
 _CACHE = 256 << 20  # bytes
 _MOST = 1 << 16  # tiles that may become paint: a repeated part has no end
+_MOST_CHOSEN = (1 << 24) // TILE**2  # tiles that become paint where nobody says at which level
+_SLACK = 16  # by which paint of several layers may be told too much from afar
+_WEAK = 1 / 64  # alpha that may be but rounded
 _NOTHING = np.zeros((COLOURS, TILE, TILE), np.float32)
 
 
-def paint_of(root: Group, node: Placement, frame: Rect, grid: int) -> Pyramid:
+@dataclass(frozen=True)
+class BakeLevels:
+    """The level at which a placement should become pixels, and the finest that its source has."""
+
+    level: int
+    finest: int
+
+
+def paint_of(root: Group, node: Placement, frame: Rect, grid: int, level: int | None = None) -> Pyramid:
     """Returns what a placement of a tree shows as paint; the tree's examples are grown to the end.
 
-    One layer by quarter turns and powers of two is baked exactly, ink included; anything else at the finest level that
-    its source has, as pixels.  What is repeated, in a placement or in a layer that wraps around, ends at the `frame`.
-    LayerError if it has no end otherwise.
+    One layer by quarter turns and powers of two is baked exactly, ink included; anything else as pixels of `level`, or
+    of the finest level that its source has, if it is coarser or None is given.  What is repeated, in a placement or in
+    a layer that wraps around, ends at the `frame`.  LayerError if that would be too many tiles.
     """
     layer, seen = _one_layer(root, node)
     if layer is None or layer.wrap is not None or seen.similarity.quarter is None or seen.repeats:
-        return _at_one_level(root, node, frame, grid)
+        return _at_one_level(root, node, frame, grid, level)
     made = baked(flattened(layer).pyramid if layer.growth else layer.pyramid, seen.similarity)
     for clip in seen.clips:
         made = _cut(made, clip)
@@ -106,37 +118,101 @@ def _by_row(key: TileKey) -> tuple[int, int]:
     return key.y, key.x
 
 
-def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int) -> Pyramid:
-    shown, empty, cache = layers.alone(node, root), Pyramid(grid=grid), TileCache(_CACHE)
-    ways = [(layer, seen) for layer, seen in ways_of(root, node) if layer.pyramid.levels]
-    if not ways:
+def bake_levels(root: Group, node: Placement, frame: Rect) -> BakeLevels | None:
+    """Returns at which level a placement should become pixels: the finest of which no more of them hold paint than one
+    can wait for.  None if it is baked exactly, or shows nothing."""
+    layer, seen = _one_layer(root, node)
+    showing = _Showing(root, node, frame)
+    exact = layer is not None and layer.wrap is None and seen.similarity.quarter is not None and not seen.repeats
+    if not showing.ways or exact:
+        return None
+    return BakeLevels(showing.fitting(), showing.finest)
+
+
+def _at_one_level(root: Group, node: Placement, frame: Rect, grid: int, level: int | None) -> Pyramid:
+    showing, empty = _Showing(root, node, frame), Pyramid(grid=grid)
+    if not showing.ways:
         return empty
-    level = max(_finest(layer) - seen.levels for layer, seen in ways)
-
-    def picture(key: TileKey) -> np.ndarray:
-        return composite(shown, key.level, key.rect, lambda layer, at, rect: layer_planes(layer, at, rect, cache))
-
-    def filled(key: TileKey) -> bool:
-        return bool(picture(key).any())
-
-    if any(seen.repeats or layer.wrap is not None for layer, seen in ways):
-        tiles = {key for key in _few(node, frame.zoomed(level).tiles(level)) if filled(key)}
-    else:
-        first = min(min(layer.pyramid.levels) - seen.levels for layer, seen in ways)
-        tiles = filled_tiles(stored_tiles(ways), filled, first, level)
+    at = showing.finest if level is None else min(level, showing.finest)
+    tiles = showing.tiles(at)
 
     def values(key: TileKey) -> Planes:
-        return Planes(snapped(picture(key)))
+        return Planes(snapped(showing.picture(key)))
 
-    return commit(empty, Pasted(level, sorted(_few(node, tiles), key=_by_row), values)) if tiles else empty
+    return commit(empty, Pasted(at, sorted(tiles, key=_by_row), values)) if tiles else empty
 
 
-def _few(node: Placement, tiles: Iterable[TileKey]) -> list[TileKey]:
-    out: list[TileKey] = []
-    for key in tiles:
-        out.append(key)
-        if len(out) > _MOST:
-            raise LayerError(f"layer {node.name!r}: found more than {_MOST} tiles to paint, expected a smaller part")
+class _Showing:
+    """What a placement shows by itself, tile by tile."""
+
+    def __init__(self, root: Group, node: Placement, frame: Rect) -> None:
+        self.ways = [(layer, seen) for layer, seen in ways_of(root, node) if layer.pyramid.levels]
+        self.finest = max((_finest(layer) - seen.levels for layer, seen in self.ways), default=0)
+        self._first = min((min(layer.pyramid.levels) - seen.levels for layer, seen in self.ways), default=0)
+        self._node, self._frame = node, frame
+        self._shown, self._cache = layers.alone(node, root), TileCache(_CACHE)
+        self._repeats = any(seen.repeats or layer.wrap is not None for layer, seen in self.ways)
+
+    def picture(self, key: TileKey) -> np.ndarray:
+        """Returns what is seen in a tile."""
+        cache = self._cache
+        return composite(self._shown, key.level, key.rect, lambda layer, at, rect: layer_planes(layer, at, rect, cache))
+
+    def tiles(self, level: int) -> list[TileKey]:
+        """Returns the tiles of a level that hold paint.  LayerError if they are too many."""
+        if self._repeats:
+            near = _few(self._node, level, self._frame.zoomed(level).tiles(level))
+            return [key for key in near if self.picture(key).any()]
+        found = set[TileKey]()
+        for k, found, full in self._levels(level):
+            if len(found) > _MOST or full > _SLACK * _MOST * 0.25 ** (level - k):
+                raise _too_many(self._node, level)
+        return list(found)
+
+    def fitting(self) -> int:
+        """Returns the finest level of which few enough tiles hold paint."""
+        if self._repeats:
+            level = self.finest
+            while level > self._first and _count(self._frame.zoomed(level)) > _MOST_CHOSEN:
+                level -= 1
+            return level
+        fits = self._first
+        for k, tiles, _ in self._levels(self.finest):
+            if len(tiles) > _MOST_CHOSEN:
+                break
+            fits = k
+        return fits
+
+    def _levels(self, level: int) -> Iterator[tuple[int, set[TileKey], float]]:
+        """Yields the levels on the way to one, each with its tiles that hold paint, and how many full ones that paint
+        would make: a coarse pixel is the mean of finer ones, so that it is four times as many at the next level."""
+        alpha = [0.0]
+
+        def filled(key: TileKey) -> bool:
+            picture = self.picture(key)
+            alpha[0] += float(picture[3][picture[3] > _WEAK].sum())
+            return bool(picture.any())
+
+        for k, tiles in filled_levels(stored_tiles(self.ways), filled, self._first, level):
+            yield k, tiles, alpha[0] / TILE**2
+            alpha[0] = 0.0
+
+
+def _count(rect: Rect) -> int:
+    return rect.area // TILE**2
+
+
+def _too_many(node: Placement, level: int) -> LayerError:
+    return LayerError(
+        f"layer {node.name!r}: found more than {_MOST:,} tiles to paint at level {level}, expected a coarser level"
+        " or a smaller part"
+    )
+
+
+def _few(node: Placement, level: int, tiles: Iterable[TileKey]) -> list[TileKey]:
+    out = list(islice(tiles, _MOST + 1))
+    if len(out) > _MOST:
+        raise _too_many(node, level)
     return out
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from engine.canvas.placing.pose import SourcePart
+from engine.painting.layer_commands import BakePlacement
 from engine.painting.layering.placing_members import Placing
 
 
@@ -43,4 +44,19 @@ class FitFrame:
     """Gives the painting a frame that just holds what is seen of its paint, in one step."""
 
 
-MoveRequest = Try | AskExtent | FitFrame
+@dataclass(frozen=True, slots=True)
+class AskBake:
+    """Asks at which level a placement would become pixels."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class BakeTold:
+    """The command that makes paint of a placement; `loses`: detail finer than its level."""
+
+    command: BakePlacement
+    loses: bool
+
+
+MoveRequest = Try | AskExtent | FitFrame | AskBake

@@ -8,17 +8,21 @@ from typing import Any
 
 from engine.canvas import layers
 from engine.canvas.node_checks import LayerError
+from engine.canvas.placing.baking import bake_levels
+from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED
 from engine.checks.owned import Owned
-from engine.painting.layer_commands import CUT
+from engine.painting.grown import settled_root
+from engine.painting.layer_commands import CUT, BakePlacement
 from engine.painting.layering.placing_members import Placing
 from engine.painting.value import Painting
 from engine.session.lifting.moved_part import LiftedPart, lifted_part, part_tried
 from engine.session.moving import tried
 from engine.studio.easel import Easel
 from engine.studio.moving.deviations import Deviation, Deviations
-from engine.studio.moving.move_requests import AskExtent, Extent, Try
+from engine.studio.moving.move_requests import AskBake, AskExtent, BakeTold, Extent, Try
 from engine.studio.moving.reaching import Reach, reach_of
+from engine.studio.results import Note
 
 
 class Moves(Owned):
@@ -30,7 +34,11 @@ class Moves(Owned):
         self._asked: tuple[Painting, str, bool, Reach] | None = None
         self._deviations = Deviations()
         self._lifted: tuple[Painting, str, str, LiftedPart] | None = None  # the last one, and of what
-        self.handlers: dict[type, Callable[[Any], None]] = {Try: self._try, AskExtent: self._ask}
+        self.handlers: dict[type, Callable[[Any], None]] = {
+            Try: self._try,
+            AskExtent: self._ask,
+            AskBake: self._ask_bake,
+        }
 
     @property
     def pending(self) -> int:
@@ -65,6 +73,20 @@ class Moves(Owned):
         except LayerError:
             self._asked = None
             self._easel.send(Extent(name, None, request.selected))
+
+    def _ask_bake(self, request: AskBake) -> None:
+        painting = self._easel.session.painting
+        try:
+            node = layers.find(painting.root, request.name)
+            if not isinstance(node, Placement):
+                return
+            found = bake_levels(settled_root(painting.root), node, painting.frame)
+        except LayerError as error:
+            self._easel.send(Note(str(error), bad=True))
+            return
+        level = None if found is None else found.level
+        loses = found is not None and found.level < found.finest
+        self._easel.send(BakeTold(BakePlacement(request.name, level), loses))
 
     def _part(self, painting: Painting, name: str, way: str) -> LiftedPart:
         """Returns what is selected of a layer, taken out of it: it is asked for again with each move of the hand."""

@@ -81,7 +81,7 @@ COMMANDS = st.one_of(
     strokes(),
     st.builds(c.AddLayer, names, st.sampled_from(["layer", "group"]), groups, st.none() | positions, later),
     st.builds(c.AddPlacement, names, placings, groups, st.none() | positions, later),
-    st.builds(c.BakePlacement, names, later),
+    st.builds(c.BakePlacement, names, st.none() | far, later),
     st.builds(c.MergeLayer, names, later),
     st.builds(c.FlattenGroup, st.none() | names, later),
     st.builds(c.ClearLayer, st.none() | names, st.booleans(), later),

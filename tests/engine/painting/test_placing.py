@@ -16,6 +16,8 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.composite import composite
+from engine.canvas.placing import baking
+from engine.canvas.placing.baking import bake_levels
 from engine.canvas.placing.placement import Placement
 from engine.canvas.reading import layer_planes
 from engine.checks.field_error import FieldError
@@ -266,6 +268,35 @@ def test_anything_else_is_baked_at_one_level(members):
     session.do(c.parse({"do": "layer", "bake": "Copy"}))
     assert before.any()
     np.testing.assert_allclose(picture(session.painting, 0, window), before, atol=3e-5)
+
+
+FINE = {**stroke(0, level=19), "origin": [30 << 19, 34 << 19]}
+DEEP = stroke(1), FINE, placement(at=[10, 0], c=[0.9, 0.3])
+
+
+def test_paint_that_is_far_finer_than_most_is_baked_at_a_level_that_one_can_wait_for(monkeypatch):
+    monkeypatch.setattr(baking, "_MOST_CHOSEN", 16)
+    session = done(*DEEP)
+    node = layers.find(session.painting.root, "Copy")
+    found = bake_levels(session.painting.root, node, session.painting.frame)
+    assert found.finest == 19
+    assert 0 < found.level < 19
+    with pytest.raises(Refusal, match="expected a coarser level"):
+        session.do(c.parse({"do": "layer", "bake": "Copy", "level": 19}))
+    with pytest.raises(Refusal, match="expected a coarser level"):
+        session.do(c.parse({"do": "layer", "bake": "Copy"}))
+    session.do(c.parse({"do": "layer", "set": "Tree", "visible": False}))
+    before = picture(session.painting, 1)
+    session.do(c.parse({"do": "layer", "bake": "Copy", "level": 1}))
+    assert layers.find(session.painting.root, "Copy").pyramid.finest == 1
+    assert before.any()
+    np.testing.assert_allclose(picture(session.painting, 1), before, atol=3e-5)
+
+
+def test_a_level_finer_than_all_paint_bakes_no_finer():
+    session = done(stroke(1), placement(at=[10, 0], c=[0.9, 0.3]))
+    session.do(c.parse({"do": "layer", "bake": "Copy", "level": 7}))
+    assert layers.find(session.painting.root, "Copy").pyramid.finest == 0
 
 
 def replace_frame(session):

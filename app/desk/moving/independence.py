@@ -1,0 +1,16 @@
+"""What is shown becomes paint of its own; where that loses detail, the artist is asked before."""
+
+from __future__ import annotations
+
+from app.desk.desk import Desk
+from engine.studio.moving.move_requests import BakeTold
+from engine.studio.requests import Do
+
+
+def ask(desk: Desk, told: BakeTold, _now: float) -> None:
+    """Makes paint of a placement, or asks whether it may lose detail."""
+    if told.loses:
+        desk.asked.bake = told.command
+        desk.asked.show("bake")
+    else:
+        desk.post(Do(told.command))
