@@ -35,4 +35,4 @@ class SeenPlan:
     def forget(self) -> None:
         """Another painting is to be seen."""
         self.portions.forget()
-        self._planned = None
+        self._planned = self._live = None

@@ -25,7 +25,7 @@ def drawn(monkeypatch):
         imgui.dummy(ImVec2(10, imgui.get_frame_height()))
 
     monkeypatch.setattr(LayersPanel, "_row", row)
-    desk = SimpleNamespace(scale=1.0)
+    desk = SimpleNamespace(scale=1.0, known=SimpleNamespace(scene=None))
 
     def draw(panel, rows):
         for _ in range(3):

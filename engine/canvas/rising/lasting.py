@@ -14,7 +14,7 @@ class Lasting:
     """A of one tile of a commit, float32 (h, w), over the `rect` of its level outside which it is 1.  A value; other
     threads may read it while it is packed."""
 
-    __slots__ = ("_held", "rect")
+    __slots__ = ("__weakref__", "_held", "rect")
 
     def __init__(self, rect: Rect, data: np.ndarray) -> None:
         self.rect = rect

@@ -11,6 +11,7 @@ from immutables import Map
 from engine.canvas import layers
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.cleared import Outside, framing
+from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import UNMOVED, SourcePart
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
@@ -139,7 +140,7 @@ def _duplicated(change: Change, command: c.DuplicateLayer) -> Pasts:
             pasts = pasts.set(copies[0].id, _left(selection, False, pasts.get(copies[0].id)))
         if command.selected == CUT:
             pasts = _emptied(change, pasts, original, selection)
-    if command.placing is not None:
+    if command.placing is not None and layers.find(change.after.root, command.to).id == copies[0].id:
         pasts = _placed(pasts, copies[0], command.placing)
     return pasts
 
@@ -167,7 +168,7 @@ def _set(change: Change, command: c.SetLayer) -> Pasts:
         return pasts
     if command.selected is not None and isinstance(node, Layer):
         return _part_moved(change, pasts, node, command)
-    stays = isinstance(layers.find(change.after.root, command.name), Layer)
+    stays = isinstance(layers.find(change.after.root, command.name), Layer | Group)
     return _placed(pasts, node, command.placing) if stays else pasts
 
 
@@ -190,8 +191,11 @@ def _part_moved(change: Change, pasts: Pasts, node: Layer, command: c.SetLayer) 
 
 def _placed(pasts: Pasts, node: Node, placing: c.Placing) -> Pasts:
     by = placing.posed(UNMOVED).similarity
-    if isinstance(node, Layer) and by.quarter is not None and pasts.get(node.id) is not None:
-        return pasts.set(node.id, Moved(by, pasts[node.id]))
+    if by.quarter is None:
+        return pasts
+    for one in _within(node):
+        if isinstance(one, Layer) and pasts.get(one.id) is not None:
+            pasts = pasts.set(one.id, Moved(by, pasts[one.id]))
     return pasts
 
 
@@ -281,8 +285,8 @@ _ROWS: dict[type, Callable[..., Pasts]] = {
 
 
 def moved_along(change: Change) -> Painting:
-    """Returns the painting after a step, in which the mask of a layer that was moved, or the selection that was moved
-    with a part of it, is known as moved."""
+    """Returns the painting after a step, in which the masks of what was moved, or the selection that was moved with a
+    part of a layer, are known as moved."""
     command, after = change.step.command, change.after
     if not isinstance(command, c.SetLayer | c.DuplicateLayer) or command.placing is None:
         return after
@@ -292,10 +296,14 @@ def moved_along(change: Change) -> Painting:
         return replace(after, selection=chosen.moved(by)) if isinstance(chosen, ByCommand) else after
     name = command.name if isinstance(command, c.SetLayer) else command.to
     before, node = layers.find(change.before.root, command.name), layers.find(after.root, name)
-    mask = before.mask if isinstance(before, Layer) and isinstance(node, Layer) else None
-    if by.quarter is None or not isinstance(mask, ByCommand):
+    if by.quarter is None or type(before) is not type(node):
         return after
-    return replace(after, root=layers.set_fields(after.root, name, mask=mask.moved(by)))
+    root = after.root
+    for one, moved in zip(_within(before), _within(node), strict=True):
+        mask = None if isinstance(one, Placement) else one.mask
+        if isinstance(mask, ByCommand):
+            root = layers.set_fields(root, moved.name, mask=mask.moved(by))
+    return replace(after, root=root)
 
 
 def mask_painted(painting: Painting, layer: Layer, step: LoggedStep) -> Painting:

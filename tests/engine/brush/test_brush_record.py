@@ -196,7 +196,7 @@ def test_what_is_wrong_is_named_on_one_line(data, place):
     assert "expected" in line
     assert "\n" not in line
     assert line.isascii()
-    assert len(line) < 250
+    assert len(line) < 300
     assert str(pickle.loads(pickle.dumps(caught.value))) == line
 
 

@@ -113,9 +113,10 @@ def test_what_a_stroke_leaves_of_fine_detail_far_below(seed, corner):
         rects.append(rects[-1].parents().evened())
     plain = np.ones((rects[-1].height, rects[-1].width), np.float32)
     for key in rects[-1].tiles(2):
-        if (key.x, key.y) in waits.keep:
-            part = key.rect.intersect(rects[-1])
-            plain[part.slices(rects[-1])] = waits.keep[key.x, key.y][part.slices(key.rect)]
+        kept = waits.keep.get((key.x, key.y))
+        if kept is not None and kept.rect.meets(rects[-1]):
+            part = kept.rect.intersect(rects[-1])
+            plain[part.slices(rects[-1])] = kept.data[part.slices(kept.rect)]
     for outer, inner in zip(reversed(rects), reversed(rects[:-1]), strict=False):
         plain = expand(plain[None, *inner.parents().slices(outer)])[0]
     plain = plain[rect.slices(rects[0])]
