@@ -39,6 +39,18 @@ def program(display, tmp_path, fork_server):
         one.close()
 
 
+@pytest.fixture
+def with_stroke(program):
+    """The window with a stroke, one pixel of level 0 on one of the screen."""
+    app = program()
+    app.settled(60.0)
+    app.keys("1")
+    empty = app.canvas()
+    app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))
+    app.canvas_unlike(empty)
+    return app
+
+
 @pytest.fixture(scope="module")
 def context():
     """OpenGL without a display."""

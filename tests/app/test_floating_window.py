@@ -15,15 +15,8 @@ CANVAS = (270, 60)  # where the canvas that is looked at begins on the screen
 
 
 @pytest.fixture
-def app(program):
-    """The window with a stroke, one pixel of level 0 on one of the screen, and a part of it selected."""
-    app = program()
-    app.settled(60.0)
-    app.keys("1")
-    empty = app.canvas()
-    app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))
-    app.canvas_unlike(empty)
-    return app
+def app(with_stroke):
+    return with_stroke
 
 
 def select(app):

@@ -11,20 +11,12 @@ from engine.canvas.placing.placement import Placement
 from engine.studio.filing.documents import opened
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
-STROKE = tuple((440 + 8 * i, 320 + 5 * i) for i in range(16))
 CORNERS = "top left", "top right", "bottom right", "bottom left"
 
 
 @pytest.fixture
-def app(program):
-    """The window with a stroke, one pixel of level 0 on one of the screen."""
-    app = program()
-    app.settled(60.0)
-    app.keys("1")
-    empty = app.canvas()
-    app.stroke(*STROKE)
-    app.canvas_unlike(empty)
-    return app
+def app(with_stroke):
+    return with_stroke
 
 
 def handles(app):

@@ -10,15 +10,8 @@ INNER = slice(150, 560), slice(150, 560)  # of the canvas, far from its rims
 
 
 @pytest.fixture
-def app(program):
-    """The window with a stroke, one pixel of level 0 on one of the screen."""
-    app = program()
-    app.settled(60.0)
-    app.keys("1")
-    empty = app.canvas()
-    app.stroke(*((440 + 8 * i, 320 + 5 * i) for i in range(16)))
-    app.canvas_unlike(empty)
-    return app
+def app(with_stroke):
+    return with_stroke
 
 
 def test_a_layer_is_dragged_and_nudged_and_nothing_of_it_is_lost(app):
