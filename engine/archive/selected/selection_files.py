@@ -100,7 +100,7 @@ def read_selections(value: object, packs: Callable[[Fields], Sequence[object]]) 
         members = Fields(one, f"selections[{i}]")
         name = members.take("name", None)
         masks = None if name is not None or "masks" not in members else members.integer("masks", lo=1, hi=1 << 62)
-        if (name, masks) in names or not (name is None or is_name(name)):
+        if not (name is None or is_name(name)) or (name, masks) in names:
             raise members.fault("name", "a text that no other has")
         names.add((name, masks))
         commits = members.integer("commits", lo=0, hi=1 << 62)

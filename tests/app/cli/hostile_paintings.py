@@ -95,6 +95,7 @@ def lying(members: dict[str, bytes]) -> dict[str, dict[str, bytes]]:
         "two of one another": {**_with(members, "P", source=ids["R"])},
         "a placement of nobody": _with(members, "P", source=1 << 40),
         "a mask of a placement": _selected(members, masks=ids["P"]),
+        "a selection of no name": _selected(members, name=[1]),
         "a mask of nobody": _selected(members, masks=1 << 40),
         "a mask of the painting": _selected(members, masks=0),
         "a selection of a layer's tiles": _selected(members, packs=json.loads(members[MANIFEST])["layers"][0]["packs"]),

@@ -97,7 +97,7 @@ def test_paintings_are_opened_or_refused_in_one_line(folder, members, capsys, ea
     assert 0 < sum(done) < len(done)
 
 
-@pytest.mark.parametrize("name", ["a placement of itself", "a selection twice"])
+@pytest.mark.parametrize("name", ["a placement of itself", "a selection twice", "a selection of no name"])
 def test_what_cannot_be_is_refused(folder, members, capsys, name):
     assert not opened(folder, capsys, members, hostile_paintings.lying(members)[name])
 
