@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from immutables._protocols import MapMutation
 
 Keeps = dict[tuple[int, int], Lasting]
-_AT_ONCE = 96 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
+_AT_ONCE = 224 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
 _FEW = 1 << 18  # pixels of bounds whose inks are not counted: smaller pieces would not be fewer bytes
 _SLAB_LEVELS = 3  # larger edits: squares of 1024 pixels, each three levels up by itself, then all together; where much
 # ink lies smaller ones, one level up at least
