@@ -153,6 +153,15 @@ class Program:
             time.sleep(0.02)
         self.do("mouseup", 1)
 
+    def drag(self, start: tuple[int, int], end: tuple[int, int], steps: int = 6) -> None:
+        """The left button held from one point of the screen to another, as slowly as by hand."""
+        self.do("mousemove", *start)
+        time.sleep(0.1)
+        self.do("mousedown", 1)
+        for i in range(1, steps + 1):
+            self.do("mousemove", *(round(a + (b - a) * i / steps) for a, b in zip(start, end, strict=True)))
+            time.sleep(0.03)
+
     def wheel(self, notches: int) -> None:
         self.do("click", "--repeat", abs(notches), "--delay", 15, 4 if notches > 0 else 5)
 

@@ -1,7 +1,5 @@
 """What is selected of a layer, lifted, moved and set down by hand in the real window."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -27,15 +25,6 @@ def select(app):
     app.box("turn handle")
 
 
-def drag(app, start, end, steps=5):
-    app.do("mousemove", *start)
-    time.sleep(0.1)
-    app.do("mousedown", 1)
-    for i in range(1, steps + 1):
-        app.do("mousemove", *(round(a + (b - a) * i / steps) for a, b in zip(start, end, strict=True)))
-        time.sleep(0.03)
-
-
 def moved(painted, across, down):
     """A picture of the canvas after the pixels that are selected were moved."""
     (x0, y0), (x1, y1) = ((x - CANVAS[0], y - CANVAS[1]) for x, y in BOX)
@@ -54,10 +43,10 @@ def names(app, path):
 def test_what_is_selected_floats_until_it_is_set_down_as_one_step(app, tmp_path):
     painted = app.canvas()
     select(app)
-    drag(app, (515, 375), (555, 445))
+    app.drag((515, 375), (555, 445))
     app.box("exactly +40, +70 px")
     app.do("mouseup", 1)
-    drag(app, (555, 445), (615, 415))
+    app.drag((555, 445), (615, 415))
     app.do("mouseup", 1)
     app.keys("Left", "Up", "Return")
     app.keys("ctrl+shift+a", "b")
@@ -72,14 +61,14 @@ def test_what_is_selected_floats_until_it_is_set_down_as_one_step(app, tmp_path)
 def test_escape_takes_it_back_and_another_tool_sets_it_down(app):
     painted = app.canvas()
     select(app)
-    drag(app, (515, 375), (575, 445))
+    app.drag((515, 375), (575, 445))
     app.do("mouseup", 1)
     app.keys("Escape")
     app.keys("ctrl+shift+a", "b")
     assert app.comes_to(painted)
     select(app)
     app.do("keydown", "alt")
-    drag(app, (515, 375), (575, 475))
+    app.drag((515, 375), (575, 475))
     app.do("mouseup", 1)
     app.do("keyup", "alt")
     app.keys("b", "ctrl+shift+a")
@@ -93,7 +82,7 @@ def test_what_is_turned_by_parts_lies_above_and_can_be_baked(app, tmp_path):
     painted = app.canvas()
     select(app)
     x, y = app.at("turn handle")
-    drag(app, (x, y), (x + 60, y + 20))
+    app.drag((x, y), (x + 60, y + 20))
     app.do("mouseup", 1)
     app.keys("Return")
     app.box("Layer 1 part")

@@ -1,7 +1,6 @@
 """What is moved, scaled and turned by the handles of its box, in the real window."""
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -26,16 +25,6 @@ def handles(app):
     return [app.at(f"{name} handle") for name in CORNERS]
 
 
-def drag(app, start, end, steps=6):
-    """The left button held from one point to another, as slowly as by hand."""
-    app.do("mousemove", *start)
-    time.sleep(0.1)
-    app.do("mousedown", 1)
-    for i in range(1, steps + 1):
-        app.do("mousemove", *(round(a + (b - a) * i / steps) for a, b in zip(start, end, strict=True)))
-        time.sleep(0.03)
-
-
 def nodes(app, folder):
     app.save_as(folder / "moved.ora")
     return {node.name: node for node in layers.walk(opened(folder / "moved.ora").painting.root)}
@@ -45,7 +34,7 @@ def test_a_corner_scales_by_powers_of_two_exactly_and_escape_gives_it_up(app, tm
     painted = app.canvas()
     app.keys("v")
     (x0, y0), _, (x1, y1), _ = handles(app)
-    drag(app, (x1, y1), ((x0 + x1) // 2, (y0 + y1) // 2))
+    app.drag((x1, y1), ((x0 + x1) // 2, (y0 + y1) // 2))
     app.box("exactly 50 %")
     app.do("key", "Escape")
     app.until_gone("exactly 50 %")
@@ -54,7 +43,7 @@ def test_a_corner_scales_by_powers_of_two_exactly_and_escape_gives_it_up(app, tm
     assert app.comes_to(painted)
     app.keys("v")
     handles(app)
-    drag(app, (x1, y1), ((x0 + x1) // 2, (y0 + y1) // 2))
+    app.drag((x1, y1), ((x0 + x1) // 2, (y0 + y1) // 2))
     app.do("mouseup", 1)
     app.keys("b")
     app.canvas_unlike(painted)
@@ -70,7 +59,7 @@ def test_the_handle_above_turns_as_one_step_and_back_to_nothing_lost(app, tmp_pa
     a, b, c, d = handles(app)
     middle = (a[0] + c[0]) // 2, (a[1] + c[1]) // 2
     up = app.at("turn handle")
-    drag(app, up, (middle[0] + 60, middle[1] - 50))
+    app.drag(up, (middle[0] + 60, middle[1] - 50))
     app.do("mouseup", 1)
     turned = handles(app)
     assert math.dist(turned[1], b) > 20
@@ -78,7 +67,7 @@ def test_the_handle_above_turns_as_one_step_and_back_to_nothing_lost(app, tmp_pa
     once = app.canvas_unlike(painted)
     app.keys("v")
     handles(app)
-    drag(app, app.at("turn handle"), (middle[0], middle[1] - 70))
+    app.drag(app.at("turn handle"), (middle[0], middle[1] - 70))
     app.box("exactly 0°")
     app.do("mouseup", 1)
     np.testing.assert_allclose(handles(app), [a, b, c, d], atol=1)
@@ -98,7 +87,7 @@ def test_alt_drags_a_copy_in_one_step(app, tmp_path):
     app.keys("v")
     handles(app)
     app.do("keydown", "alt")
-    drag(app, (500, 357), (580, 437))
+    app.drag((500, 357), (580, 437))
     app.box("exactly copy  +80, +80 px")
     app.do("mouseup", 1)
     app.do("keyup", "alt")
@@ -121,7 +110,7 @@ def test_a_stroke_on_what_is_shown_again_paints_its_source_too(app):
     app.click("Layer 1 again")
     app.settled()
     app.keys("v")
-    drag(app, (500, 300), (500, 480))
+    app.drag((500, 300), (500, 480))
     app.do("mouseup", 1)
     app.keys("b")
     apart = app.canvas()
@@ -138,7 +127,7 @@ def test_painting_on_what_is_turned_offers_what_can_be_done(app):
     app.keys("v")
     handles(app)
     x, y = app.at("turn handle")
-    drag(app, (x, y), (x + 60, y + 20))
+    app.drag((x, y), (x + 60, y + 20))
     app.do("mouseup", 1)
     app.keys("b")
     turned = app.canvas()
