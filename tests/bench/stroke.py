@@ -34,6 +34,7 @@ _INKS = {
         Component("squares", 0.2, "#a0c0e0"),
     ),
 }
+_EMPTY, _OVER, _OVER_INKS = "empty layer", "over paint", "over three inks"  # what strokes go onto
 _MOVES: dict[str, dict[str, object]] = {
     "smooth": {"mode": "smooth"},
     "smear": {"mode": "raster", "op": {"name": "displace", "distance": 8.0}},
@@ -43,13 +44,13 @@ _MOVES: dict[str, dict[str, object]] = {
 
 
 class Case(NamedTuple):
-    """A row: its name, radius and brush, whether it goes over paint, how many times libmypaint's speed it ought to
-    have, and how much of the paint libmypaint takes along."""
+    """A row: its name, radius and brush, what it goes onto, how many times libmypaint's speed it ought to have, and how
+    much of the paint libmypaint takes along."""
 
     name: str
     radius: float
     brush: Brush
-    over: bool
+    ground: str
     goal: float
     smudge: float = 0.0
 
@@ -57,15 +58,16 @@ class Case(NamedTuple):
 def _cases() -> Iterator[Case]:
     for radius, goals in ((4.0, (1.3, 1.0, 1.0, 0.7)), (32.0, (3.0, 2.0, 1.5, 1.0)), (128.0, (4.0, 3.0, 2.0, 1.5))):
         brush = Brush(radius=radius, hardness=HARDNESS, spacing=SPACING, colour="#204060")
-        yield Case("one colour", radius, brush, False, goals[0])
-        yield Case("one colour", radius, brush, True, goals[1])
+        yield Case("one colour", radius, brush, _EMPTY, goals[0])
+        yield Case("one colour", radius, brush, _OVER, goals[1])
+        yield Case("one colour", radius, brush, _OVER_INKS, goals[3])
         for (name, ink), goal in zip(_INKS.items(), goals[2:], strict=True):
             inked = Brush(radius=radius, hardness=HARDNESS, spacing=SPACING, colour="#204060", ink=ink)
-            yield Case(name, radius, inked, False, goal)
+            yield Case(name, radius, inked, _EMPTY, goal)
     for radius, goal in ((4.0, 1.0), (32.0, 1.5)):
         for name, members in _MOVES.items():
             moving = from_json({"radius": radius, "hardness": HARDNESS, "spacing": SPACING, **members})
-            yield Case(name, radius, moving, True, goal, 0.0 if name == "erase" else SMUDGE)
+            yield Case(name, radius, moving, _OVER, goal, 0.0 if name == "erase" else SMUDGE)
 
 
 def measure(small: bool = False) -> Iterator[Figure]:
@@ -76,11 +78,11 @@ def measure(small: bool = False) -> Iterator[Figure]:
 
 
 def _figure(case: Case, points: np.ndarray, repeats: int, slow: float) -> Figure:
-    session, told = painted(points) if case.over else Session(), [(float(x), float(y), float(p)) for x, y, p in points]
+    session, told = _ground(case.ground, points), [(float(x), float(y), float(p)) for x, y, p in points]
     there = libmypaint.library() is not None
     times = []
     for i in range(repeats + 1):  # the first compiles, and touches the memory
-        session = session if case.over else Session()
+        session = Session() if case.ground == _EMPTY else session
         own = processor(lambda: stroke(session, case.brush, points + np.array([1.25 * i, 0.75 * i, 0.0])))  # noqa: B023
         theirs = libmypaint.stroke(told, case.radius, HARDNESS, SPACING, case.smudge) if there else 0.0
         times.append((own, theirs))
@@ -89,7 +91,7 @@ def _figure(case: Case, points: np.ndarray, repeats: int, slow: float) -> Figure
     if not there:
         theirs = len(points) / _PUBLISHED[case.radius, case.smudge > 0.0] * slow
         note = f"its figure of another run, as copying takes {slow:.2f} x as long"
-    name = f"{case.name}, radius {case.radius:.0f}, {'over paint' if case.over else 'empty layer'}"
+    name = f"{case.name}, radius {case.radius:.0f}, {case.ground}"
     bound = f"libmypaint's {len(points) / theirs:,.0f}"
     return Figure(name, len(points) / taken, "points/s", bound, theirs / taken, case.goal, True, note)
 
@@ -101,13 +103,20 @@ def curve(count: int) -> np.ndarray:
     return np.column_stack([x, y, 0.3 + 0.7 * t])
 
 
-def painted(points: np.ndarray) -> Session:
-    """A session with paint of several colours wherever the points lead, and seen."""
+def _ground(name: str, points: np.ndarray) -> Session:
+    if name == _EMPTY:
+        return Session()
+    return painted(points, _INKS["three inks"] if name == _OVER_INKS else ())
+
+
+def painted(points: np.ndarray, ink: tuple[Component, ...] = ()) -> Session:
+    """A session with paint of several colours, with some inks, wherever the points lead, and seen."""
     session = Session()
     top, bottom = (int(y) for y in (points[:, 1].min() - 160, points[:, 1].max() + 160))
     left, right = points[:, 0].min() - 160, points[:, 0].max() + 160
     for i, y in enumerate(range(top, bottom, 100)):
-        brush = Brush(radius=90.0, hardness=0.3, colour=f"#{(40 + 53 * i) % 256:02x}{(90 + 31 * i) % 256:02x}70")
+        colour = f"#{(40 + 53 * i) % 256:02x}{(90 + 31 * i) % 256:02x}70"
+        brush = Brush(radius=90.0, hardness=0.3, colour=colour, ink=ink)
         stroke(session, brush, np.array([[left, y, 1.0], [(left + right) / 2, y + 60.0, 0.8], [right, y, 1.0]]))
     layer = next(iter(layers(session.painting.root)))
     evaluate(layer.pyramid, 0, Rect(int(left), top, int(right), bottom), session.cache)
