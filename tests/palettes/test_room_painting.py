@@ -41,6 +41,7 @@ def test_its_floor_is_a_tile_laid_in_rows_and_it_hangs_on_its_own_wall():
 def test_its_script_writes_the_same_recording_again(tmp_path):
     """But for last bits of sines, which differ from machine to machine, where a place is rounded."""
     shutil.copy(GALLERY / "make_room.py", tmp_path)
+    shutil.copytree(GALLERY / "interior", tmp_path / "interior")
     subprocess.run([sys.executable, tmp_path / "make_room.py"], env=os.environ, check=True)
     made, bundled = (file.read_text("utf-8").splitlines() for file in (tmp_path / RECORDING.name, RECORDING))
     assert len(made) == len(bundled)

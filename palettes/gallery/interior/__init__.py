@@ -1,0 +1,1 @@
+"""The room that hangs on its own wall, part by part."""
