@@ -21,6 +21,7 @@ from engine.files.strict_json import Fields, dumps, loads
 from engine.painting.commands import LEVEL_LIMIT, PLACE_LIMIT, Command, Stroke, parse, to_json
 from engine.painting.layering.onto_member import ONTO_PAINT, read_onto
 from engine.painting.points import POINT_COLUMNS
+from engine.painting.select_commands import JOIN_OPS
 from engine.painting.stroke_copies import read_copies, write_copies
 
 LENGTH = struct.Struct("<I")
@@ -52,7 +53,8 @@ class Kind(IntEnum):
 @dataclass(frozen=True, slots=True)
 class Touch:
     """How a stroke begins: where, with what brush, and when, where the window tells (seconds since 1970); `layer`: None
-    for the active one; `onto`: its paint or its mask."""
+    for the active one; `onto`: its paint or its mask; `selects`: what it does to what is selected in place of either,
+    an op of `select`, "" for nothing."""
 
     level: int
     origin: tuple[int, int]
@@ -61,6 +63,7 @@ class Touch:
     copies: Copies = NO_COPIES
     layer: str | None = None
     onto: str = ONTO_PAINT
+    selects: str = ""
 
 
 def told_object(value: Mapping[str, object]) -> bytes:
@@ -127,6 +130,8 @@ def told_touch(touch: Touch, brush: str) -> bytes:
         about["layer"] = touch.layer
     if touch.onto:
         about["onto"] = touch.onto
+    if touch.selects:
+        about["selects"] = touch.selects
     text = told_object(about)
     return LENGTH.pack(len(text)) + text + brush.encode()
 
@@ -143,5 +148,8 @@ def read_touch(payload: bytes, brushes: dict[bytes, Brush]) -> Touch:
     level = members.integer("level", lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
     origin = members.integers("origin", 2, limit=PLACE_LIMIT)
     layer = None if members.take("layer", None) is None else members.text("layer")
-    copies, onto = read_copies(members), read_onto(members)
-    return Touch(level, (origin[0], origin[1]), brushes[text], members.take("time", None), copies, layer, onto)
+    selects = members.text("selects", "")
+    if selects not in ("", *JOIN_OPS):
+        raise members.fault("selects", ", ".join(f'"{known}"' for known in JOIN_OPS))
+    about = brushes[text], members.take("time", None), read_copies(members), layer, read_onto(members), selects
+    return Touch(level, (origin[0], origin[1]), *about)

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
+
 from engine.archive.manifest import RECORDING
 from engine.archive.members import PIECE
 from engine.checks.field_error import FieldError
@@ -20,12 +22,13 @@ from engine.journal.checkpoints import read_checkpoint
 from engine.journal.entries import lock_entry
 from engine.journal.heads import header_of, renamed_head
 from engine.journal.kept import kept_file, kept_sources, stamp_of
-from engine.journal.records import NUMBER, Kind, told_command
+from engine.journal.records import NUMBER, Kind, Touch, told_command
 from engine.journal.story import COMMAND, Story, Unanswered, read_story
 from engine.journal.volume import continued_entry
 from engine.keeping import memory
 from engine.painting import commands as c
 from engine.painting.recording import Header, Recording, read_from, undo_reach
+from engine.painting.select_commands import Line
 from engine.painting.times import members
 from engine.painting.value import Painting, Refusal, first_painting
 from engine.session import replay
@@ -142,16 +145,22 @@ def _shas(command: c.DefineTexture) -> Iterator[str]:
                 yield sha
 
 
+def _drawn(touch: Touch, points: np.ndarray) -> c.Command:
+    """Returns the command that a stroke comes to which began so."""
+    if touch.selects:
+        return c.Select(Line(touch.level, touch.origin, points, touch.brush), touch.selects, touch.level)
+    about = touch.level, touch.origin, points, touch.brush, touch.layer
+    return c.Stroke(*about, extra=members(touch.time), copies=touch.copies, onto=touch.onto)
+
+
 def _answer(found: Recovered, folder: Path, asked: Unanswered) -> None:
     """Carries out what had no answer, and keeps what came of it for the journal."""
     number, command = NUMBER.pack(asked.number), asked.command
     if asked.touch is not None:
         points = asked.fitted()[asked.taken :]
-        touch, extra = asked.touch, members(asked.touch.time)
         if len(points):
             points.flags.writeable = False
-            about = touch.level, touch.origin, points, touch.brush, touch.layer
-            command = c.Stroke(*about, extra=extra, copies=touch.copies)
+            command = _drawn(asked.touch, points)
         if not asked.finished:
             found.missing.append(f"the end of the last stroke: {len(points)} of its points are there")
     before = len(found.session.log)

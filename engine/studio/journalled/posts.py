@@ -13,6 +13,7 @@ from engine.painting.times import timed
 from engine.studio import requests as q
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.results import Note, Result
+from engine.studio.selecting.tint_records import MaskBegin, MaskEnd, MaskPoints
 
 _LOGGER = logging.getLogger("inkfall")
 
@@ -36,9 +37,9 @@ class Posts:
     def tell(self, request: q.Request) -> None:
         """Tells the journal of a request, if it is a stroke's or a command."""
         match request:
-            case q.Points():
+            case q.Points() | MaskPoints():
                 self.journal.points(self._stroke, request.points)
-            case q.Begin() | q.Do():
+            case q.Begin() | q.Do() | MaskBegin():
                 try:
                     self._number(request)
                 except (ValueError, TypeError) as error:  # it will be told when it is done, if it can be
@@ -46,6 +47,8 @@ class Posts:
                     _LOGGER.error("a fault, while the journal was told", exc_info=error)
             case q.Finish() | q.Abandon():
                 self.journal.end(self._stroke, isinstance(request, q.Finish))
+            case MaskEnd():  # a command tells the journal, if it was not dropped
+                self.journal.end(self._stroke, False)
 
     def hear(self, send: Callable[[Result], None], post: Callable[[q.Request], None]) -> None:
         """Has the window told when the journal cannot be written, and when it can again; the engine, when there is
@@ -67,17 +70,24 @@ class Posts:
         """Closes the journal; the painting `stays` to be recovered, or was closed as it is."""
         self.journal.close(End.STAYS if stays else End.BIN if self.is_modified() else End.DELETED)
 
-    def _number(self, request: q.Begin | q.Do) -> None:
+    def _number(self, request: q.Begin | q.Do | MaskBegin) -> None:
+        if isinstance(request, MaskBegin):  # nothing of it is carried out before its end
+            selects = "subtract" if request.takes else "add"
+            self._begin(Touch(request.level, request.origin, request.brush, selects=selects))
+            return
         if isinstance(request, q.Do):
             number = self.journal.ask(told_command(timed(request.command, request.time)))
         else:
-            if self._brush[0] is not request.brush:
-                self._brush = request.brush, told_brush(request.brush)
             about = request.level, request.origin, request.brush, request.time
-            touch = Touch(*about, request.copies, request.layer, request.onto)
-            number = self._stroke = self.journal.begin(told_touch(touch, self._brush[1]))
+            number = self._begin(Touch(*about, request.copies, request.layer, request.onto))
         with self._lock:
             self._open[number] = request
+
+    def _begin(self, touch: Touch) -> int:
+        if self._brush[0] is not touch.brush:
+            self._brush = touch.brush, told_brush(touch.brush)
+        self._stroke = self.journal.begin(told_touch(touch, self._brush[1]))
+        return self._stroke
 
 
 def _note(why: str | None) -> Note:

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from headless import pen
-from test_answers import draw, idle
+from test_answers import draw, idle, points
 from test_killed import pixels
 
 from app.__main__ import main
@@ -24,6 +24,8 @@ from engine.journal.records import Touch, told_brush, told_touch
 from engine.journal.story import read_story
 from engine.journal.volume import End, Volume
 from engine.painting import commands as c
+from engine.painting.layering.mask_member import MASK_FULL, MaskOp
+from engine.painting.layering.onto_member import ONTO_MASK
 from engine.studio import requests as q
 from engine.studio import results
 from engine.studio.filing import recovering
@@ -31,6 +33,7 @@ from engine.studio.filing.opening_requests import CancelOpening, Show
 from engine.studio.filing.recovering import recovered
 from engine.studio.journalled import opened
 from engine.studio.journalled.posts import Posts
+from engine.studio.selecting.tint_records import MaskBegin, MaskEnd, MaskPoints
 from engine.studio.worker import Worker
 from opens import opens_in, recovers_in
 
@@ -72,6 +75,29 @@ def test_the_copies_of_a_stroke_are_recovered_of_one_in_hand_too(tmp_path):
     left(one)
     (entry,) = entries.listed(folder)
     assert [command.copies for command in recovered(entry.folder).session.log] == [copies, copies]
+
+
+def test_strokes_in_hand_on_a_mask_and_on_the_quick_mask_are_recovered_as_such(tmp_path):
+    posts = Posts(Journal(head_of_new(), tmp_path / "p"))  # no engine answers, as where one was killed at once
+    for command in (c.AddLayer("sky"), c.SetLayer("sky", mask=MaskOp(MASK_FULL))):
+        posts.tell(q.Do(command))
+    brush, line = Brush(radius=8.0), points(20)
+    posts.tell(q.Begin(0, (3, 4), brush, onto=ONTO_MASK))
+    posts.tell(q.Points(line))
+    posts.tell(q.Finish())
+    for takes, dropped in ((False, True), (False, False)):
+        posts.tell(MaskBegin(1, (5, 6), brush, takes))
+        posts.tell(MaskPoints(line))
+        if dropped:
+            posts.tell(MaskEnd())
+    posts.close(stays=True)
+    (entry,) = entries.listed(tmp_path / "p")
+    found = recovered(entry.folder)
+    _, _, stroke, select = found.session.log
+    assert stroke.onto == ONTO_MASK
+    assert (select.op, select.level, select.source.origin, len(select.source.points)) == ("add", 1, (5, 6), 20)
+    assert found.session.painting.selection is not None
+    assert len(found.missing) == 1
 
 
 def test_a_recovered_painting_goes_on_and_is_recovered_again(tmp_path):
