@@ -1,5 +1,6 @@
 """The budget of memory: what it is when who says so, and free pages that go back to the system."""
 
+import mmap
 import os
 import subprocess
 import sys
@@ -70,9 +71,10 @@ def test_each_process_is_told_its_own_memory():
     reader, writer = os.pipe()
     if os.fork() == 0:
         begun = memory.resident()  # less than before: pages of files are not its own yet
-        taken = np.ones(200 << 20, np.uint8)
+        taken = mmap.mmap(-1, 200 << 20)  # pages of its own, not free ones of the heap, which count already
+        taken.write(bytes(200 << 20))
         os.write(writer, str(memory.resident() - begun).encode())
-        os._exit(int(taken[0]) - 1)
+        os._exit(taken[0])
     assert os.wait()[1] == 0
     assert int(os.read(reader, 100)) > 150 << 20
     for end in (reader, writer):
