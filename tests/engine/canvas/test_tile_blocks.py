@@ -1,6 +1,7 @@
 """Where tiles lie, by blocks: found as by going through all of them."""
 
 import itertools
+import sys
 
 import immutables
 import numpy as np
@@ -34,6 +35,11 @@ def test_tiles_within_a_rectangle_are_those_that_lie_there(one, other, corner):
     assert set(found) == wanted
     assert len(found) == len(wanted)
     assert blocks.any_within(Rect.at(x, y, width, height)) == bool(wanted)
+
+
+def test_a_full_block_takes_few_bytes_in_each_state_of_the_history():
+    full = Blocks.of(immutables.Map(dict.fromkeys(itertools.product(range(-32, 0), range(32)))))
+    assert [sys.getsizeof(held) < 200 for held in full.blocks.values()] == [True]
 
 
 def painted():
