@@ -8,7 +8,9 @@ import numpy as np
 
 from app.desk import palette
 from app.desk.desk import Desk
+from app.desk.guides import symmetry
 from app.input.events import PenEvent
+from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.painting.points import REACH, rounded
 from engine.painting.select_commands import Line, Select
@@ -18,12 +20,13 @@ from engine.studio.selecting.tint_records import MaskBegin, MaskEnd, MaskPoints
 @dataclass(slots=True)
 class MaskBegun:
     """A stroke on the mask that was begun: at a level, from an origin, with a brush; `takes`: what it covers is no
-    longer selected."""
+    longer selected; so with its `copies`."""
 
     level: int
     origin: tuple[int, int]
     brush: Brush
     takes: bool
+    copies: Copies = NO_COPIES
     _points: list[np.ndarray] = field(default_factory=list)
 
     def post(self, desk: Desk, points: np.ndarray) -> None:
@@ -39,7 +42,7 @@ class MaskBegun:
         if done and self._points:
             table = rounded(np.concatenate(self._points))
             table.flags.writeable = False
-            line = Line(self.level, self.origin, table, self.brush)
+            line = Line(self.level, self.origin, table, self.brush, self.copies)
             desk.selecting.choose(desk.post, Select(line, "subtract" if self.takes else "add", self.level))
         desk.post(MaskEnd())
 
@@ -54,5 +57,7 @@ def begin_on_mask(desk: Desk, first: PenEvent) -> MaskBegun | None:
         return None
     origin = desk.view.to_canvas(first.x, first.y).pixel(level)
     plain = replace(brush, mode="paint", ink=(), op="toward", example=None, extent=False)
-    desk.post(MaskBegin(level, origin, plain, takes))
-    return MaskBegun(level, origin, plain, takes)
+    symmetry.restore(desk)
+    copies = symmetry.copies_at(desk, level, origin)
+    desk.post(MaskBegin(level, origin, plain, takes, copies))
+    return MaskBegun(level, origin, plain, takes, copies)

@@ -11,6 +11,7 @@ from immutables import Map
 
 from engine.brush import settings
 from engine.brush.checks import thawed
+from engine.brush.copies import NO_COPIES, Copies
 from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
@@ -20,6 +21,7 @@ from engine.painting.layer_commands import Extra
 from engine.painting.layering.placing_members import Members
 from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 from engine.painting.points import plain, points_array, points_json
+from engine.painting.stroke_copies import read_copies, write_copies
 
 JOIN_OPS = ("replace", "add", "subtract", "intersect")
 WIDEST_RIM = 4096.0  # px of feather, and of growing and shrinking
@@ -39,22 +41,28 @@ class Box:
 class Line:
     """A line of float64 points (n, 6), read-only, columns as POINT_COLUMNS, in pixels of `level` from `origin`.
 
-    `brush`: of the stroke along it that covers what is selected; None: the line is the outline of it, closed.
+    `brush`: of the stroke along it that covers what is selected, as do its `copies`; None: the line is the outline of
+    it, closed.
     """
 
     level: int
     origin: tuple[int, int]
     points: np.ndarray
     brush: Brush | None = None
+    copies: Copies = NO_COPIES
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Line):
             return NotImplemented
-        same = (self.level, self.origin, self.brush) == (other.level, other.origin, other.brush)
+        same = self._about == other._about
         return same and np.array_equal(self.points, other.points)
 
     def __hash__(self) -> int:
         return hash((self.level, self.origin, self.points.tobytes()))
+
+    @property
+    def _about(self) -> tuple[object, ...]:
+        return self.level, self.origin, self.brush, self.copies
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,9 +131,12 @@ def _read_stroke(members: Fields, name: str) -> Line:
     inner = Fields(members.take(name), members.at(name))
     points = points_array(inner.take("points", expected="a list of points"), inner.at("points"))
     brush = settings.from_json(inner.take("brush", {}), inner.at("brush"))
-    line = Line(_level(inner), inner.integers("origin", 2, (0, 0), limit=PLACE_LIMIT), points, brush)
+    line = Line(
+        _level(inner), inner.integers("origin", 2, (0, 0), limit=PLACE_LIMIT), points, brush, read_copies(inner)
+    )
     if inner.rest():
-        raise FieldError(inner.place, ", ".join(inner.rest()), "level, origin, points and brush")
+        expected = "level, origin, points, brush, and copies or symmetry"
+        raise FieldError(inner.place, ", ".join(inner.rest()), expected)
     return line
 
 
@@ -134,7 +145,7 @@ def _write_line(line: Line) -> Members:
     if line.brush is None:
         return {**place, "outline": points_json(line.points)}
     told = {**place, "brush": settings.to_json(line.brush), "points": points_json(line.points)}
-    return {"stroke": told}
+    return {"stroke": told | ({"copies": write_copies(line.copies)} if line.copies else {})}
 
 
 def _read_whole(members: Fields, name: str) -> Whole:

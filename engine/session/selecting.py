@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from engine.brush import relief, tip
+from engine.brush import copies, relief, tip
 from engine.brush.dabs import Stroker
 from engine.brush.mask import Coverage, StrokeMask
 from engine.canvas import layers
@@ -102,8 +102,10 @@ def _lined(painting: Painting, line: Line) -> Coverage:
     if brush is None:
         return outlines.outlined(level, line.origin, line.points[:, :2], "select.outline")
     textures = painting.known_textures
-    mask = StrokeMask(level, line.origin, tip=tip.resolve(brush, textures, level, painting.seed))
-    mask.paint(Stroker(brush).walk(line.points))
+    pattern = tip.for_copies(tip.resolve(brush, textures, level, painting.seed), line.copies)
+    mask = StrokeMask(level, line.origin, tip=pattern, each=copies.each(line.copies))
+    for dabs in copies.copied(Stroker(brush).walk(line.points), line.copies):
+        mask.paint(dabs)
     thinning = relief.resolve(brush, textures, level, (painting.seed, painting.seed), "select.stroke.brush")
     return thinning.over(mask.coverage())
 

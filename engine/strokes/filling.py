@@ -85,7 +85,10 @@ def _region(painting: Painting, layer: Layer, command: Fill, cache: TileCache | 
             f" {LOOKED_AT_CAP} of them: zoom out"
         )
     if command.like is not None and command.like.within is None:
-        region, limit = alike_around(painting, command.like, cell, cache), Limit.of(painting.selection, level, cache)
+        region, limit = (
+            alike_around(painting, command.like, cell, cache),
+            Limit.of(painting.selection, level, cache, layer.wrap),
+        )
     else:
         region, limit = _plain_region(painting, command, cache)
     return onto_torus(region if limit is None else limit.over(region), layer, cell), None

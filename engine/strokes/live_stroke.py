@@ -59,7 +59,7 @@ class Drawn:
         self._told, self._copies = origin, copies
         self.copies, self.origin = wrapped(self.layer, level, origin, copies)
         self.own = painting.seed if seed is None else seed
-        self.limit = Limit.of(painting.selection, level, cache)
+        self.limit = Limit.of(painting.selection, level, cache, self.layer.wrap)
         self.dropped = 0
         self.areas: list[Rect] = []
         self.extra: Map[str, Any] = Map()

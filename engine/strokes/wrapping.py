@@ -8,7 +8,7 @@ from engine.brush.copies import Copies, Torus
 from engine.brush.mask import Coverage
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import Layer
-from engine.canvas.placing.cells import parts_by_cell, repeated, whole_from
+from engine.canvas.placing.cells import parts_by_cell, repeated
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.selecting.rims import tiled
 from engine.canvas.tile_cache import TileCache
@@ -45,7 +45,7 @@ def cell_at(layer: Layer, level: int, what: str) -> Rect | None:
     cell = layer.wrap
     if cell is None:
         return None
-    coarsest = whole_from(cell)
+    coarsest = cell.whole_from
     if level < coarsest:
         raise Refusal(
             f"{what}: found level {level} on {layer.name!r}, which wraps around, expected {coarsest} or finer, where"
@@ -77,7 +77,7 @@ def around(layer: Layer, level: int, rect: Rect, cache: TileCache | None) -> Pla
     """Returns a layer's own paint in a rectangle of a level; of one that wraps around, what lies beyond the rim of its
     cell is what lies within it at the other side, without its ink."""
     cell = layer.wrap
-    if cell is None or level < whole_from(cell):
+    if cell is None or level < cell.whole_from:
         return evaluate(layer.pyramid, level, rect, cache)
     whole = cell.rect.zoomed(level - cell.level)
     if whole.union(rect) == whole:

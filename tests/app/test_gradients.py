@@ -15,20 +15,26 @@ from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.canvas.placing.pose import SourcePart
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.session.session import Session
+from engine.studio.layer_rows import LayerRow
 from engine.studio.results import Scene
 from engine.studio.selecting.ants_records import Ants
 
 FRAME = Rect(0, 0, 200, 100)
 
 
-def dragged(level=0, place=None, ants=None, **settings):
+CELL = SourcePart(1, Rect.at(64, 64, 128, 64))
+
+
+def dragged(level=0, place=None, ants=None, wrap=None, **settings):
     """The commands that a drag by 80 pixels to the right asks for, and the line of the message."""
     requests = []
     desk = Desk(View(place or Place(100, 50, 0), level, 0.0, 200, 100), requests.append)
-    desk.learn(ready=True, scene=Scene(FRAME, (), None, False, False, False, None))
+    row = LayerRow("Sky", False, 0, None, 0, 1.0, True, "src-over", False, False, wrap=wrap)
+    desk.learn(ready=True, scene=Scene(FRAME, (row,), "Sky", False, False, False, None))
     desk.hand.colour, desk.hand.other_colour, desk.selecting.ants = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), ants
     for name, value in settings.items():
         setattr(desk.filling, name, value)
@@ -122,3 +128,11 @@ def test_none_is_laid_where_it_would_be_elsewhere():
     commands, desk = dragged(level=60, place=Place(100 << 60, 50 << 60, 60))
     assert not commands
     assert "too deep" in desk.message.text
+
+
+def test_on_a_layer_that_wraps_around_it_lies_in_the_cell_whatever_tile_it_is_dragged_in():
+    ends = [
+        dragged(place=Place(100 + x, 50 + y, 0), wrap=CELL)[0][0].arguments for x, y in ((0, 0), (-448, 192), (64, 32))
+    ]
+    assert ends[0]["from"] == (60.0, 50.0)
+    assert ends[0] == ends[1] == ends[2]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from immutables import Map
@@ -37,6 +38,7 @@ def lay(desk: Desk, at: Place, level: int, start: Corner, end: Corner) -> None:
     if max(map(abs, (*start, *end))) > _DEEPEST_PLACE:
         desk.say("This is too deep for a gradient", bad=True)
         return
+    start, end = _in_cell(desk, level, start, end)
     name = _defined(desk, level, start, end)
     colour = to_hex(desk.hand.colour)
     if desk.filling.fades:
@@ -49,6 +51,18 @@ def lay(desk: Desk, at: Place, level: int, start: Corner, end: Corner) -> None:
     else:
         post_fill(desk, Fill(brush, _ground(desk, at), open=True))
     desk.hand.remember()
+
+
+def _in_cell(desk: Desk, level: int, start: Corner, end: Corner) -> tuple[Corner, Corner]:
+    """Returns the ends by whole periods of a layer that wraps around in its cell, where its paint lies."""
+    row = desk.known.active
+    cell = None if row is None or row.wrap is None or level < row.wrap.whole_from else row.wrap
+    if cell is None:
+        return start, end
+    rect = cell.rect.zoomed(level - cell.level)
+    x = (math.floor(start[0]) - rect.x0) // rect.width * rect.width
+    y = (math.floor(start[1]) - rect.y0) // rect.height * rect.height
+    return (start[0] - x, start[1] - y), (end[0] - x, end[1] - y)
 
 
 def _defined(desk: Desk, level: int, start: Corner, end: Corner) -> str:

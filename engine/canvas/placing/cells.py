@@ -52,7 +52,7 @@ def repeated(picture: Picture, part: SourcePart | None) -> Picture:
         return picture
 
     def cells(level: int, rect: Rect) -> np.ndarray | None:
-        by = max(0, whole_from(part) - level)
+        by = max(0, part.whole_from - level)
         if by > _FINER:
             return _mean(picture, part, rect)
         found = _laid(picture, level + by, part.rect.zoomed(level + by - part.level), rect.zoomed(by))
@@ -61,12 +61,6 @@ def repeated(picture: Picture, part: SourcePart | None) -> Picture:
         return found
 
     return cells
-
-
-def whole_from(part: SourcePart) -> int:
-    """Returns the coarsest level at which a part is a rectangle of whole pixels."""
-    sides = part.rect.x0 | part.rect.y0 | part.rect.x1 | part.rect.y1
-    return part.level - ((sides & -sides).bit_length() - 1)
 
 
 def _laid(picture: Picture, level: int, cell: Rect, rect: Rect) -> np.ndarray | None:

@@ -80,6 +80,12 @@ class SourcePart:
     level: int
     rect: Rect
 
+    @property
+    def whole_from(self) -> int:
+        """Gives the coarsest level at which it is a rectangle of whole pixels."""
+        sides = self.rect.x0 | self.rect.y0 | self.rect.x1 | self.rect.y1
+        return self.level - ((sides & -sides).bit_length() - 1)
+
 
 def _double(value: int, down: int) -> float:
     """Returns value 2^-down, which is a double."""

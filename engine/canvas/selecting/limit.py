@@ -10,6 +10,8 @@ import numpy as np
 
 from engine.brush.mask import Coverage
 from engine.brush.thinning import LazyTiles, Plane, Thinning
+from engine.canvas.placing.pose import SourcePart
+from engine.canvas.selecting.folded import Folded
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import Rect, TileKey
@@ -21,7 +23,7 @@ Value = TypeVar("Value")
 class Limit:
     """A selection as strokes of one level meet it, after `relief`; `cache` keeps its tiles."""
 
-    selection: Selection
+    selection: Selection | Folded
     level: int
     cache: TileCache | None = None
     relief: Thinning | None = None
@@ -29,9 +31,14 @@ class Limit:
     _made: dict[TileKey, tuple[Plane, Plane]] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, selection: Selection | None, level: int, cache: TileCache | None) -> Limit | None:
-        """Returns the limit that a selection sets; None where there is none, or all is selected."""
-        return None if selection is None or selection.everything else cls(selection, level, cache)
+    def of(
+        cls, selection: Selection | None, level: int, cache: TileCache | None, wrap: SourcePart | None = None
+    ) -> Limit | None:
+        """Returns the limit that a selection sets; None where there is none, or all is selected.  `wrap`: the cell of a
+        layer that is repeated, on which what is selected in any of its cells is selected in all."""
+        if selection is None or selection.everything:
+            return None
+        return cls(selection if wrap is None else Folded(selection, wrap), level, cache)
 
     def after(self, relief: Thinning) -> Limit:
         """Returns the same, taking hold after something else."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.canvas.layers import Group, Layer, Node, stacks, walk
-from engine.canvas.placing.cells import repeated, whole_from
+from engine.canvas.placing.cells import repeated
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.placing.sampling import weights_at
@@ -68,8 +68,8 @@ class Gaze:
 
     def within(self, part: SourcePart) -> list[Gaze]:
         """Returns where a cell that is repeated is looked at."""
-        here = self.finer(min(max(0, whole_from(part) - self.level), _FINER))
-        if here.level < whole_from(part):  # pixels larger than the cell
+        here = self.finer(min(max(0, part.whole_from - self.level), _FINER))
+        if here.level < part.whole_from:  # pixels larger than the cell
             whole = part
             level, cell = whole.level, whole.rect
             while max(cell.width, cell.height) > _MEAN:

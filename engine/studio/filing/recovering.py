@@ -148,7 +148,7 @@ def _shas(command: c.DefineTexture) -> Iterator[str]:
 def _drawn(touch: Touch, points: np.ndarray) -> c.Command:
     """Returns the command that a stroke comes to which began so."""
     if touch.selects:
-        return c.Select(Line(touch.level, touch.origin, points, touch.brush), touch.selects, touch.level)
+        return c.Select(Line(touch.level, touch.origin, points, touch.brush, touch.copies), touch.selects, touch.level)
     about = touch.level, touch.origin, points, touch.brush, touch.layer
     return c.Stroke(*about, extra=members(touch.time), copies=touch.copies, onto=touch.onto)
 

@@ -73,7 +73,7 @@ class Posts:
     def _number(self, request: q.Begin | q.Do | MaskBegin) -> None:
         if isinstance(request, MaskBegin):  # nothing of it is carried out before its end
             selects = "subtract" if request.takes else "add"
-            self._begin(Touch(request.level, request.origin, request.brush, selects=selects))
+            self._begin(Touch(request.level, request.origin, request.brush, None, request.copies, selects=selects))
             return
         if isinstance(request, q.Do):
             number = self.journal.ask(told_command(timed(request.command, request.time)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.brush import relief, tip
+from engine.brush import copies, relief, tip
 from engine.brush.checks import BrushError
 from engine.brush.dabs import Stroker
 from engine.brush.mask import Coverage, StrokeMask
@@ -28,15 +28,17 @@ class MaskStroke:
         brush, level, seed = begin.brush, begin.level, painting.seed
         textures = painting.known_textures
         self.on, self.takes, self.level = painting.selection, begin.takes, level
-        self._mask = StrokeMask(level, begin.origin, tip=tip.resolve(brush, textures, level, seed))
-        self._stroker = Stroker(brush)
+        pattern = tip.for_copies(tip.resolve(brush, textures, level, seed), begin.copies)
+        self._mask = StrokeMask(level, begin.origin, tip=pattern, each=copies.each(begin.copies))
+        self._copies, self._stroker = begin.copies, Stroker(brush)
         self._thinning = relief.resolve(brush, textures, level, (seed, seed))
 
     def add(self, points: np.ndarray) -> Rect:
         """Lays more points; returns the pixels that may have changed."""
         out = EMPTY
-        for key in self._mask.paint(self._stroker.add(rounded(points))):
-            out = out.union(key.rect)
+        for dabs in copies.copied(self._stroker.add(rounded(points)), self._copies):
+            for key in self._mask.paint(dabs):
+                out = out.union(key.rect)
         return out
 
     def coverage(self) -> Coverage:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from engine.brush.copies import NO_COPIES, Copies
 from engine.numeric.address import Rect
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ class MaskBegin:
     origin: tuple[int, int]
     brush: Brush
     takes: bool
+    copies: Copies = NO_COPIES
 
 
 @dataclass(frozen=True, slots=True)

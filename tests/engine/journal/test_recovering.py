@@ -14,7 +14,7 @@ from test_killed import pixels
 
 from app.__main__ import main
 from engine.archive.opening import open_painting
-from engine.brush.copies import symmetric
+from engine.brush.copies import Copy, symmetric
 from engine.brush.settings import Brush
 from engine.journal import entries
 from engine.journal.heads import FileStamp, head_of_new
@@ -81,12 +81,12 @@ def test_strokes_in_hand_on_a_mask_and_on_the_quick_mask_are_recovered_as_such(t
     posts = Posts(Journal(head_of_new(), tmp_path / "p"))  # no engine answers, as where one was killed at once
     for command in (c.AddLayer("sky"), c.SetLayer("sky", mask=MaskOp(MASK_FULL))):
         posts.tell(q.Do(command))
-    brush, line = Brush(radius=8.0), points(20)
+    brush, line, copies = Brush(radius=8.0), points(20), (Copy(1.0, 0.0, 5.0, 0.0, True),)
     posts.tell(q.Begin(0, (3, 4), brush, onto=ONTO_MASK))
     posts.tell(q.Points(line))
     posts.tell(q.Finish())
     for takes, dropped in ((False, True), (False, False)):
-        posts.tell(MaskBegin(1, (5, 6), brush, takes))
+        posts.tell(MaskBegin(1, (5, 6), brush, takes, copies))
         posts.tell(MaskPoints(line))
         if dropped:
             posts.tell(MaskEnd())
@@ -96,6 +96,7 @@ def test_strokes_in_hand_on_a_mask_and_on_the_quick_mask_are_recovered_as_such(t
     _, _, stroke, select = found.session.log
     assert stroke.onto == ONTO_MASK
     assert (select.op, select.level, select.source.origin, len(select.source.points)) == ("add", 1, (5, 6), 20)
+    assert select.source.copies == copies
     assert found.session.painting.selection is not None
     assert len(found.missing) == 1
 

@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.brush.copies import symmetric
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect
 from engine.painting import commands as c
@@ -46,23 +47,24 @@ class Seen:
     radius=st.integers(2, 50),
     hardness=st.sampled_from([0.1, 1.0]),
     takes=st.booleans(),
+    copies=st.sampled_from([(), symmetric((40.0, 30.0), 3, (1.0, 2.0))]),
     inverse=st.booleans(),
 )
 @settings(max_examples=8, deadline=None)
-def test_what_is_seen_of_a_stroke_is_what_it_selects(points, radius, hardness, takes, inverse):
+def test_what_is_seen_of_a_stroke_is_what_it_selects(points, radius, hardness, takes, copies, inverse):
     seen = Seen(OVAL, *([{"do": "select", "invert": True}] if inverse else []))
     seen.ask(AskTint(0, AREA))
     before = seen.alpha.copy()
     brush = Brush(radius=float(radius), hardness=hardness)
     table = rounded(np.array([[x, y, 1.0, 0.0, 0.0, 0.1 * n] for n, (x, y) in enumerate(points)]))
     table.flags.writeable = False
-    seen.ask(MaskBegin(0, (10, -20), brush, takes))
+    seen.ask(MaskBegin(0, (10, -20), brush, takes, copies))
     for row in table:
         seen.ask(MaskPoints(row[None]))
     painted = seen.alpha.astype(int)
     assert ((painted >= before) if takes else (painted <= before)).all()
     assert all(part.area < AREA.area for part in seen.parts[1:])  # while it is painted, no more than it changes
-    seen.easel.carry_out(c.Select(Line(0, (10, -20), table, brush), "subtract" if takes else "add"))
+    seen.easel.carry_out(c.Select(Line(0, (10, -20), table, brush, copies), "subtract" if takes else "add"))
     seen.ask(MaskEnd())
     assert np.abs(seen.alpha - painted).max() <= 1
     chosen = seen.easel.session.painting.selection.part(0, AREA.grown(0), None)

@@ -289,7 +289,7 @@ def test_files_and_recordings_without_selections_say_nothing_of_them(tmp_path):
         ({"outline": [[0, 0], [5, 5], [9, 9]]}, "nothing would be selected"),
         ({"outline": [[0, 0], [1e7, 1e7], [1e7, 0]]}, "take a coarser level"),
         ({"stroke": {"brush": {}}}, "stroke.points"),
-        ({"stroke": {"points": [[0, 0]], "seed": 4}}, "level, origin, points and brush"),
+        ({"stroke": {"points": [[0, 0]], "seed": 4}}, "brush, and copies or symmetry"),
         ({"layer": "none of these"}, "expected one of"),
         ({"saved": "none of these"}, "none was kept"),
         ({"op": "xor", "all": True}, '"intersect"'),
@@ -309,6 +309,22 @@ def test_what_cannot_be_selected_is_refused_in_one_line(members, message):
         told(session, {"do": "select", **members})
     assert "\n" not in str(caught.value)
     assert session.painting is before
+
+
+@FEW
+@given(
+    st.integers(2, 5),
+    st.sampled_from((False, True, [3, 5])),
+    st.sampled_from(({}, {"tip": {"texture": "squares", "angle": 20}}, {"grain": {"texture": "rock", "amount": 0.8}})),
+)
+def test_a_stroke_and_its_copies_select_what_they_cover(count, mirror, look):
+    line = {"points": [[10, 20], [50, 30], [40, 70]], "brush": {"radius": 9, "hardness": 0.5, **look}}
+    line["symmetry"] = {"centre": [70, 60], "count": count, "mirror": mirror}
+    session = told(Session(), {"do": "stroke", **line}, {"do": "select", "stroke": line})
+    command = session.log[-1]
+    assert c.parse(c.to_json(command)) == command
+    assert command.source != replace(command.source, copies=())
+    np.testing.assert_array_equal(selected(session.painting, 0), seen(session.painting, 0)[3])
 
 
 @pytest.mark.parametrize("level", [-4096, 4096])

@@ -244,3 +244,35 @@ def test_what_cannot_be_is_refused_and_nothing_is_lost():
     for wrong in ([0, 0, 0, 0, 5], [0, 1, 2, 3], 7, [5000, 0, 0, 1, 1]):
         with pytest.raises(FieldError):
             c.parse({"do": "layer", "set": "Layer 1", "wrap": wrong})
+
+
+@settings(deadline=None, max_examples=6)
+@given(
+    st.integers(-3, 3), st.integers(-3, 3), st.booleans(), st.sampled_from(({}, {"mode": "erase"})), st.integers(0, 1)
+)
+def test_what_is_selected_in_any_tile_limits_strokes_in_all(across, down, inverse, look, level):
+    """The oracle: the stroke without a selection, where the shape, brought into the cell, is selected; else nothing."""
+    oval = {
+        "do": "select",
+        "ellipse": [0, CELL.x0 + 30 + across * CELL.width, CELL.y0 - 20 + down * CELL.height, 90, 70],
+    }
+    ground, line = stroke([[60, 90]], radius=90), stroke([[20, 30], [180, 150]], level=level, radius=40, **look)
+    free, chosen = painted(wrap(), ground, line), painted(wrap(), ground, oval)
+    at = CELL.zoomed(level)
+    before = own(chosen, at, level)
+    wide = Rect.at(at.x0 - 4 * at.width, at.y0 - 4 * at.height, 9 * at.width, 9 * at.height)
+    part = np.broadcast_to(chosen.painting.selection.part(level, wide), (wide.height, wide.width))
+    folded = part.reshape(9, at.height, 9, at.width).max(axis=(0, 2))
+    for command in ([{"do": "select", "invert": True}] if inverse else []) + [line]:
+        chosen.do(c.parse(command))
+    left = 1 - folded if inverse else folded
+    after, without = own(chosen, at, level), own(free, at, level)
+    np.testing.assert_array_equal(after[:, left == 0], before[:, left == 0])
+    np.testing.assert_array_equal(after[:, left == 1], without[:, left == 1])
+    assert (after != before).any()
+
+
+def test_a_selection_over_too_many_tiles_is_refused_in_a_line():
+    session = painted(wrap(Rect.at(0, 0, 16, 16)), {"do": "select", "rect": [0, 0, 0, 900, 900]})
+    with pytest.raises(Refusal, match="found one over 3249 tiles of the layer, expected at most 1024"):
+        session.do(c.parse(stroke([[5, 5]], radius=2)))
