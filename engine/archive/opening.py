@@ -10,6 +10,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from immutables import Map
@@ -68,12 +69,18 @@ def open_painting(
         if not os.path.isfile(path):
             raise FileError(name, "a folder, expected a file" if os.path.isdir(path) else "no such file")
         with open(path, "rb") as file:
-            archive = ZipArchive(file, name, limits)
-            return _Opening(archive, limits, progress, cancelled).run()
+            return painting_of(file, name, progress, cancelled, limits)
     except (OSError, ValueError) as error:
         raise FileError(name, f"cannot be read: {getattr(error, 'strerror', None) or error}") from error
     except MemoryError as error:
         raise TooMuch(name, "not enough memory to open it") from error
+
+
+def painting_of(
+    file: BinaryIO, name: str, progress: Progress = None, cancelled: Stop = None, limits: Limits = LIMITS
+) -> Opened:
+    """Returns the painting in the bytes of an .ora file, as `open_painting`; they are not read any more then."""
+    return _Opening(ZipArchive(file, name, limits), limits, progress, cancelled).run()
 
 
 def open_native(

@@ -20,8 +20,9 @@ from engine.files.strict_json import Fields
 from engine.keeping.disk_raster import room
 from engine.makers import heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, USUAL, kind_of
-from engine.painting.capture import PictureSource, captured, read_straight
+from engine.painting.capture import PictureSource, captured, read_bytes, read_straight
 from engine.painting.commands import DefineTexture
+from engine.painting.layering.painting_member import A_FILE, A_PICTURE, HOLDS
 from engine.painting.textures import Around, Texture
 from engine.painting.times import untimed
 from engine.strokes import example_textures
@@ -52,7 +53,11 @@ def _image(command: DefineTexture, root: Group, around: Around) -> Texture:
     members = Fields(command.arguments, "")
     path, source = members.text("path", cap=4096), _known(command, members, around)
     if source is None:
-        source = _the_same(members, ImageSource.of_raster(command.name, read_straight(path, around.folder, room)))
+        holds = members.text(HOLDS, A_PICTURE)
+        if holds not in (A_PICTURE, A_FILE):
+            raise members.fault(HOLDS, f'"{A_PICTURE}", or "{A_FILE}" for the bytes of a file')
+        read = read_bytes if holds == A_FILE else partial(read_straight, room=room)
+        source = _the_same(members, ImageSource.of_raster(command.name, read(path, around.folder)))
     return Texture("image", command.arguments, source)
 
 

@@ -16,6 +16,7 @@ from engine.canvas.layers import Group
 from engine.files.fault import FileError
 from engine.files.images import read_image, read_png
 from engine.files.layered.reading_layers import has_layers, read_sheet
+from engine.files.layered.whole_file import read_whole
 from engine.files.limits import LIMITS, STREAMED
 from engine.files.strict_json import Fields
 from engine.numeric.address import Rect
@@ -78,6 +79,11 @@ def read_straight(path: str, folder: Path | None, room: Room | None = None) -> R
         return put_plainly(_read(path, folder))
     pixels = read_png(_found(path, folder), path, replace(LIMITS, pixels=STREAMED), room)
     return put_plainly(_read(path, folder) if pixels is None else pixels, room)
+
+
+def read_bytes(path: str, folder: Path | None) -> Raster:
+    """Returns the bytes of a file as pixels (`whole_file`), so that they are kept as a picture is."""
+    return read_whole(_found(path, folder), path)
 
 
 def _found(path: str, folder: Path | None) -> Path:

@@ -26,6 +26,7 @@ from engine.painting.guiding.guides import Guide as Guide
 from engine.painting.guiding.guides import RemoveGuide as RemoveGuide
 from engine.painting.layer_commands import COUNT_LIMIT as COUNT_LIMIT
 from engine.painting.layer_commands import AddLayer as AddLayer
+from engine.painting.layer_commands import AddPainting as AddPainting
 from engine.painting.layer_commands import AddPicture as AddPicture
 from engine.painting.layer_commands import AddPictures as AddPictures
 from engine.painting.layer_commands import AddPlacement as AddPlacement

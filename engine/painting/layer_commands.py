@@ -13,9 +13,12 @@ from engine.canvas.placing.pose import FINEST, SourcePart
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import Fields
 from engine.painting.layering.mask_member import MaskValue, read_mask, write_mask
+from engine.painting.layering.painting_member import AddPainting as AddPainting
+from engine.painting.layering.painting_member import read_named, write_named
 from engine.painting.layering.paste_commands import CopyPaint, CutPaint, PastePaint
+from engine.painting.layering.pictures_member import AddPicture as AddPicture
 from engine.painting.layering.pictures_member import AddPictures as AddPictures
-from engine.painting.layering.pictures_member import PicturePart, read_children, read_part_of, write_children
+from engine.painting.layering.pictures_member import read_children, read_part_of, read_pictured, write_children
 from engine.painting.layering.placing_members import (
     PLACED,
     Members,
@@ -27,7 +30,6 @@ from engine.painting.layering.placing_members import (
     write_part,
     write_placing,
 )
-from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 
 COUNT_LIMIT = 1_000_000_000
 SELECTED = COPY, CUT = "copy", "cut"  # how a copy of what is selected is made
@@ -45,22 +47,6 @@ class AddLayer:
     group: str | Same | None = Same.SAME
     to: int | None = None
     extra: Extra = NO_EXTRA
-
-
-@dataclass(frozen=True, slots=True)
-class AddPicture:
-    """A new layer that begins with the picture of a texture, or a `part` of it, whose corner lies at pixel `at` of
-    `level`, a pixel on a pixel; in the tree as an `AddLayer` has it."""
-
-    name: str
-    texture: str
-    level: int = 0
-    at: tuple[int, int] = (0, 0)
-    role: str = ""
-    group: str | Same | None = Same.SAME
-    to: int | None = None
-    extra: Extra = NO_EXTRA
-    part: PicturePart | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,13 +225,7 @@ def _new_place(members: Fields) -> Members:
 
 def _picture(members: Fields) -> Members:
     role = _role(members, "role") if "role" in members else ""
-    return {**_pictured(members), "role": role, "part": read_part_of(members, None)}
-
-
-def _pictured(members: Fields) -> Members:
-    level = members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
-    x, y = members.integers("at", 2, (0, 0), limit=PLACE_LIMIT)
-    return {"texture": members.text("texture"), "level": level, "at": (x, y)}
+    return {**read_pictured(members), "role": role, "part": read_part_of(members, None)}
 
 
 def _role(members: Fields, name: str) -> str:
@@ -314,12 +294,14 @@ _KINDS: dict[str, Callable[[Fields], tuple[type, Members]]] = {
     "group": lambda members: (AddLayer, {"kind": "group"}),
     "placement": lambda members: (AddPlacement, {"placing": read_placing(members)}),
     "picture": lambda members: (AddPicture, _picture(members)),
-    "pictures": lambda members: (AddPictures, {**_pictured(members), "children": read_children(members)}),
+    "pictures": lambda members: (AddPictures, {**read_pictured(members), "children": read_children(members)}),
+    "painting": lambda members: (AddPainting, {**read_pictured(members), "children": read_named(members)}),
 }
 LayerCommand = (
     AddLayer
     | AddPicture
     | AddPictures
+    | AddPainting
     | AddPlacement
     | BakePlacement
     | MergeLayer
@@ -337,11 +319,15 @@ LayerCommand = (
 )
 _OF_ALL = ("flatten", "clear")  # the verbs whose name may be null: the whole painting
 _COPYING = CopyPaint | CutPaint | PastePaint
-_OF_VERSION_2 = (
-    AddPicture | AddPictures | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer | _COPYING
-)
+_BRINGING = AddPicture | AddPictures | AddPainting
+_OF_VERSION_2 = _BRINGING | AddPlacement | BakePlacement | MergeLayer | FlattenGroup | ClearLayer | _COPYING
 # Of those that are no `AddLayer`.
-_KIND_NAMES: dict[type, str] = {AddPicture: "picture", AddPictures: "pictures", AddPlacement: "placement"}
+_KIND_NAMES: dict[type, str] = {
+    AddPicture: "picture",
+    AddPictures: "pictures",
+    AddPainting: "painting",
+    AddPlacement: "placement",
+}
 RECORDS: tuple[type, ...] = (*_KIND_NAMES, *(form.record for form in LAYER_FORMS.values()))
 _VERBS: dict[type, str] = {
     **dict.fromkeys(_KIND_NAMES, "add"),
@@ -379,7 +365,7 @@ def write_layer(command: LayerCommand) -> Members:
         elif isinstance(value, SourcePart):
             out[f.name] = write_part(value)
         elif f.name == "children":
-            out[f.name] = write_children(value)
+            out[f.name] = write_named(value) if isinstance(command, AddPainting) else write_children(value)
         elif f.name not in ("name", "extra") and value != f.default:
             out[f.name] = None if value == "" else list(value) if isinstance(value, tuple) else value
     if isinstance(command, SetLayer) and command.mask is not None:

@@ -30,6 +30,7 @@ from engine.session.merging import cleared, flattened_group, flattened_whole, me
 from engine.session.moving import elsewhere
 from engine.session.picturing import with_picture, with_pictures
 from engine.session.selecting import selected
+from engine.session.whole_painting import with_painting
 from engine.strokes.example_stroke import kind_of, swapped
 from engine.strokes.filling import filled
 
@@ -90,6 +91,10 @@ def _add_picture(painting: Painting, command: c.AddPicture, around: Around) -> P
 
 def _add_pictures(painting: Painting, command: c.AddPictures, around: Around) -> Painting:
     return with_pictures(painting, command)
+
+
+def _add_painting(painting: Painting, command: c.AddPainting, around: Around) -> Painting:
+    return with_painting(painting, command)
 
 
 def _add_placement(painting: Painting, command: c.AddPlacement, around: Around) -> Painting:
@@ -242,6 +247,7 @@ _CHANGES: dict[type, Callable[[Painting, Any, Around], Painting]] = {
     c.AddLayer: _add,
     c.AddPicture: _add_picture,
     c.AddPictures: _add_pictures,
+    c.AddPainting: _add_painting,
     c.AddPlacement: _add_placement,
     c.BakePlacement: _bake,
     c.MergeLayer: lambda painting, command, around: merged_down(painting, command.name),

@@ -34,6 +34,7 @@ from engine.session.here.lineage import (
 )
 from engine.session.here.lineage import LoggedStep as LoggedStep
 from engine.session.picturing import without_pictures
+from engine.session.whole_painting import without_paint
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -139,7 +140,7 @@ class Steps(Owned):
         elif isinstance(command, c.AddPicture):  # its picture is not here
             painting = _applied(now.painting, c.AddLayer(command.name, group=command.group, to=command.to))
             painting = _applied(painting, c.SetLayer(command.name, role=command.role))
-        elif isinstance(command, c.AddPictures):
+        elif isinstance(command, c.AddPictures | c.AddPainting):
             painting = _grouped(now.painting, command)
         else:
             painting = _applied(now.painting, command)
@@ -198,8 +199,10 @@ class Steps(Owned):
         self._now = replace(self._now, painting=painting, copied=was.copied)
 
 
-def _grouped(painting: Painting, command: c.AddPictures) -> Painting:
+def _grouped(painting: Painting, command: c.AddPictures | c.AddPainting) -> Painting:
     try:
+        if isinstance(command, c.AddPainting):
+            return without_paint(painting, command)
         return without_pictures(painting, command)
     except (Refusal, LayerError):  # the log is of another painting
         return painting

@@ -167,5 +167,6 @@ class Easel(Owned):
             name=self.name,
             bookmarks=tuple(painting.bookmarks.values()),
             guides=tuple(painting.guides.values()),
+            grid=painting.grid,
         )
         self.send(scene)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from engine.numeric.address import Rect
+from engine.numeric.arithmetic import FINE
 from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.held.held_records import Held
@@ -89,6 +90,7 @@ class Scene:
     name: str = ""  # what one without a file is called
     bookmarks: tuple[Bookmark, ...] = ()  # in the order in which they were made
     guides: tuple[Guide, ...] = ()  # and so are these
+    grid: int = FINE  # on which its values lie
 
 
 @dataclass(frozen=True, slots=True)

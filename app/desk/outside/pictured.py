@@ -67,9 +67,9 @@ def free_layer_name(desk: Desk, stem: str) -> str:
     return free_stem(stem, {row.name for row in scene.layers} if scene else set())
 
 
-def free_stem(stem: str, taken: Container[str]) -> str:
+def free_stem(stem: str, taken: Container[str], most: int = NAME_LENGTH) -> str:
     """Returns a file's name, or what of it is short enough, with a number behind it where that is taken."""
-    stem = "".join(letter for letter in stem if letter.isprintable())[:NAME_LENGTH].strip() or "Picture"
+    stem = "".join(letter for letter in stem if letter.isprintable())[:most].strip() or "Picture"
     name, number = stem, 1
     while name in taken or name.lower() in taken:
         number += 1

@@ -13,6 +13,7 @@ from app.panels.controls import widgets as w
 from engine.checks.values import is_number
 from engine.makers import definitions
 from engine.painting.commands import DefineTexture
+from engine.painting.layering.painting_member import A_FILE, HOLDS
 
 _SLIDER_MOST = {"period": 512.0, "angle": 180.0}
 _WORDS = {"period": "Size", "mean": "Brightness", "spread": "Contrast", "quantise": "Steps"}  # for artists
@@ -27,7 +28,9 @@ def names(desk: Desk) -> list[tuple[str, str]]:
 
 def groups(desk: Desk) -> list[tuple[str, list[tuple[str, str]]]]:
     """Returns the same by where they come from, under a title each; a name that several have means the first's."""
-    here = desk.known.scene.textures if desk.known.scene else ()
+    defined = desk.known.scene.definitions if desk.known.scene else ()
+    files = {name for name, _, parameters in defined if parameters.get(HOLDS) == A_FILE}
+    here = [name for name in (desk.known.scene.textures if desk.known.scene else ()) if name not in files]
     sources = (
         ("Of this painting", [(name, "A texture of this painting") for name in here]),
         ("Built in", [(row.name, row.tooltip) for row in desk.known.tables.kinds if not row.pictured]),

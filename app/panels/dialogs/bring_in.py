@@ -66,11 +66,16 @@ class BringIn:
     def _of_layers(self, desk: Desk) -> bool:
         wide, ours = imgui.get_font_size() * 15, self._path.suffix.lower() == PAINTING
         imgui.text_disabled(
-            "Paint comes in as pictures, in the frame's own detail" if ours else "Text and shapes come in as pictures"
+            "What Inkfall painted comes in exactly, other files as pictures"
+            if ours
+            else "Text and shapes come in as pictures"
         )
         imgui.spacing()
         if w.default_button("Group", "Bring its layers in as a group, where it was dropped; then move it", width=wide):
             bringing_layers.as_group(desk, self._path, self._place)
+            return True
+        if ours and w.text_button("Group in its place", "Its layers lie where they do in their own file", width=wide):
+            bringing_layers.as_group(desk, self._path, None)
             return True
         if ours and w.text_button("Open", "Leave this painting, and open the other one", width=wide):
             path = self._path

@@ -9,11 +9,27 @@ from immutables import Map
 
 from engine.checks.field_error import FieldError
 from engine.files.strict_json import REQUIRED, Fields
-from engine.painting.layering.placing_members import Same
-from engine.painting.places import PLACE_LIMIT
+from engine.painting.layering.placing_members import Members, Same
+from engine.painting.places import LEVEL_LIMIT, PLACE_LIMIT
 
 PicturePart = tuple[int, int, int, int]  # x, y, width, height in pixels of the picture
-_SIDE, _MOST, _DEEPEST = 1 << 26, 4000, 64  # pixels; layers and groups in one command; groups in one another
+_SIDE, MOST_NODES, DEEPEST_TREE = 1 << 26, 4000, 64  # pixels; layers and groups in one command; groups in one another
+
+
+@dataclass(frozen=True, slots=True)
+class AddPicture:
+    """A new layer that begins with the picture of a texture, or a `part` of it, whose corner lies at pixel `at` of
+    `level`, a pixel on a pixel; in the tree as an `AddLayer` has it."""
+
+    name: str
+    texture: str
+    level: int = 0
+    at: tuple[int, int] = (0, 0)
+    role: str = ""
+    group: str | Same | None = Same.SAME
+    to: int | None = None
+    extra: Map[str, object] = Map()  # noqa: RUF009  # it never changes
+    part: PicturePart | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +85,13 @@ class AddPictures:
                 yield one
 
 
+def read_pictured(members: Fields) -> Members:
+    """Reads which texture is brought in, and where it lies."""
+    level = members.integer("level", 0, lo=-LEVEL_LIMIT, hi=LEVEL_LIMIT)
+    x, y = members.integers("at", 2, (0, 0), limit=PLACE_LIMIT)
+    return {"texture": members.text("texture"), "level": level, "at": (x, y)}
+
+
 def read_part_of(members: Fields, default: None = REQUIRED) -> PicturePart | None:
     """Reads which part of a picture a layer is."""
     found = members.integers("part", 4, default, limit=_SIDE)
@@ -79,15 +102,15 @@ def read_part_of(members: Fields, default: None = REQUIRED) -> PicturePart | Non
 
 def read_children(members: Fields) -> tuple[Brought, ...]:
     """Reads the layers of the command; `write_children` is the inverse."""
-    room = [_MOST]
+    room = [MOST_NODES]
     return _children(members, room, 0)
 
 
 def _children(members: Fields, room: list[int], depth: int) -> tuple[Brought, ...]:
     told, place = members.take("children", expected="a list of layers"), members.at("children")
-    room[0] -= len(told) if isinstance(told, list | tuple) else _MOST + 1
-    if room[0] < 0 or depth > _DEEPEST:
-        raise members.fault("children", f"a list of layers, at most {_MOST} in all, {_DEEPEST} in one another")
+    room[0] -= len(told) if isinstance(told, list | tuple) else MOST_NODES + 1
+    if room[0] < 0 or depth > DEEPEST_TREE:
+        raise members.fault("children", f"a list of layers, at most {MOST_NODES} in all, {DEEPEST_TREE} in one another")
     return tuple(_child(Fields(one, f"{place}[{i}]"), room, depth) for i, one in enumerate(told))
 
 

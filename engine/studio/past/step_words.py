@@ -44,6 +44,7 @@ _SIGNS: dict[type, str] = {
     c.ClearLayer: "delete",
     c.AddPicture: "picture",
     c.AddPictures: "picture",
+    c.AddPainting: "picture",
     c.AddPlacement: "placement",
     c.BakePlacement: "placement",
     c.SetFrame: "frame",
@@ -73,7 +74,7 @@ def _title(command: c.Command) -> str:
             return f"New {kind} “{name}”"
         case c.AddPlacement(name=name):
             return f"Show again: “{name}”"
-        case c.AddPicture(name=name) | c.AddPictures(name=name):
+        case c.AddPicture(name=name) | c.AddPictures(name=name) | c.AddPainting(name=name):
             return f"Bring in “{name}”"
         case c.BakePlacement(name=name):
             return f"Make paint of “{name}”"

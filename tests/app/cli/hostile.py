@@ -70,6 +70,9 @@ RIGHT: dict[str, dict[str, Any]] = {
             {"name": "E", "children": [{"name": "F", "part": [0, 0, 1, 1]}], "blend": "multiply", "isolated": False},
         ],
     ),
+    "painting": layer(
+        "add", "C", kind="painting", texture="ramp", level=1, at=[2, 3], children=["D", {"name": "E", "children": []}]
+    ),
     "frame": {"do": "frame", "rect": [1, 2, 30, 40]},
     "paper": {"do": "paper", "colour": "#f0e0d0"},
     "guide": {

@@ -19,6 +19,7 @@ from engine.journal.volume import End
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting import places, select_commands
+from engine.painting.layering.painting_member import NamedNode
 from engine.painting.layering.pictures_member import BroughtGroup, BroughtPicture
 from engine.studio import requests as q
 from engine.studio.filing.recovering import recovered
@@ -48,6 +49,7 @@ SAMPLES = {
         (1 << 70, 2),
         extra=MORE,
     ),
+    c.AddPainting: c.AddPainting("lake", "grit", (NamedNode("a"), NamedNode("b", (NamedNode("d"),))), 2, (16, -32)),
     c.AddPlacement: c.AddPlacement("sky again", c.Placing("sky", (5, -6), turn=1, mirror=True)),
     c.BakePlacement: c.BakePlacement("sky again"),
     c.MergeLayer: c.MergeLayer("sky again"),
@@ -76,7 +78,13 @@ SAMPLES = {
     c.Guide: c.Guide("axis", "symmetry", 3, (1 << 80, -4), ((0.5, 1.25), (30.0, -4.0)), 5, True, True, extra=MORE),
     c.RemoveGuide: c.RemoveGuide("axis"),
 }
-UNDOABLE = (c.Swap, c.RenameLayer, c.AddPicture, c.AddPictures)  # which need more than a layer "sky" there
+UNDOABLE = (
+    c.Swap,
+    c.RenameLayer,
+    c.AddPicture,
+    c.AddPictures,
+    c.AddPainting,
+)  # which need more than a layer "sky" there
 
 
 def test_no_command_is_missing():
