@@ -21,6 +21,7 @@ ORDER = (
     ("engine.files",),
     ("engine.keeping",),
     ("engine.painting",),
+    ("engine.terrain",),
     ("engine.strokes",),
     ("engine.makers",),
     ("engine.archive",),

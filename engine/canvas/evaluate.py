@@ -111,10 +111,16 @@ def _square(pyramid: Pyramid, around: Square, cache: TileCache, squares: int) ->
 
 
 def step(
-    pyramid: Pyramid, parent: Planes | None, parent_at: Rect, level: int, rect: Rect, finest: int | None = None
+    pyramid: Pyramid,
+    parent: Planes | None,
+    parent_at: Rect,
+    level: int,
+    rect: Rect,
+    finest: int | None = None,
+    textured: bool = True,
 ) -> Planes | None:
     """Returns one level down: v of the even `rect` from its parents, which lie at `parent_at`; without the ink that
-    adds no texture down to the level `finest`, where that is given."""
+    adds no texture down to the level `finest`, where that is given, and without what ink adds where not `textured`."""
     stored = ((key, effective(pyramid, key, record)) for key, record in pyramid.records(level, rect))
     cut = ((key, _within(key, record, rect)) for key, record in stored)
     records = [(key, record) for key, record in cut if record is not None]
@@ -138,7 +144,8 @@ def step(
         for at, record, planes in laid:
             if at.y0 < band.y1 and band.y0 < at.y1:
                 _add_record(out, rect, band, at, record, planes, pyramid.step)
-        _add_texture_band(out, inks, level, rect, band, pyramid.step)
+        if textured:
+            _add_texture_band(out, inks, level, rect, band, pyramid.step)
         kernels.clamp_alpha(out, first, last)
     return without_empty_inks(Planes(out, inks))
 

@@ -1,0 +1,1 @@
+"""Pictures as land: their heights, at any depth."""
