@@ -38,7 +38,7 @@ from engine.canvas.reading import layer_planes
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect
 from engine.painting.value import Painting
-from engine.terrain.layer_heights import Pixel, Brightness, Zero, layer_brightness, luma, zeros_of
+from engine.terrain.layer_heights import Brightness, Pixel, Zero, layer_brightness, luma, zeros_of
 
 COMPOSITE, ALPHA = "composite", "alpha"
 DEEP = 32  # levels below level 0, and below a pixel that heights are relative to, that float64 has room for
