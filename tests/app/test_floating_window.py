@@ -54,7 +54,7 @@ def test_what_is_selected_floats_until_it_is_set_down_as_one_step(app, tmp_path)
     assert (np.abs(done - moved(painted, 99, 39)).max(axis=2) > 3 * CHEQUER).mean() < 2e-4
     assert names(app, tmp_path / "moved.ora") == ["Layer 1"]
     app.keys("ctrl+z", "ctrl+z")  # that nothing is selected, and the move
-    app.keys("ctrl+shift+a")
+    app.click("deselect")
     assert app.comes_to(painted)
 
 
@@ -90,5 +90,6 @@ def test_what_is_turned_by_parts_lies_above_and_can_be_baked(app, tmp_path):
     app.keys("ctrl+shift+a")
     app.settled()
     assert names(app, tmp_path / "turned.ora") == ["Layer 1", "Layer 1 part (source)", "Layer 1 part"]
-    app.keys("ctrl+z", "ctrl+z", "ctrl+z", "ctrl+shift+a", "b")
+    app.keys("ctrl+z", "ctrl+z", "ctrl+z", "b")
+    app.click("deselect")
     assert app.comes_to(painted)
