@@ -181,11 +181,11 @@ class Desk:
         else:
             self.post(Show(whole.file))
 
-    def save(self) -> None:
-        """Saves where the painting came from; asks where, the first time."""
-        path = self.known.path
-        if path is not None and path.suffix.lower() == ".ora":
-            self.post(Save(path))
+    def save(self, to: Path | None = None, sure: bool = False) -> None:
+        """Saves somewhere, `sure`: whatever is there; else where the painting came from; asks where, the first time."""
+        path = self.known.path if to is None else to
+        if path is not None and (to is not None or path.suffix.lower() == ".ora"):
+            self.post(Save(path, sure, self.guides.kept_in(self.known.scene)))
         else:
             self.asked.show("save as")
 

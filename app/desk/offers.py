@@ -18,7 +18,7 @@ from imgui_bundle import imgui
 from app.desk.desk import Desk, FileWork
 from app.desk.folders import size_text
 from app.faults.log import log_file
-from engine.studio.requests import Export, Save
+from engine.studio.requests import Export
 
 COPIED = 8192  # bytes of the log that are copied, at most
 
@@ -39,10 +39,7 @@ def _open_again(desk: Desk, path: Path | None) -> None:
 
 
 def _save_again(desk: Desk, path: Path | None) -> None:
-    if path is None:
-        desk.save()
-    else:
-        desk.post(Save(path))
+    desk.save(path)
 
 
 def _export_again(desk: Desk, path: Path | None) -> None:

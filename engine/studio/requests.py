@@ -32,6 +32,7 @@ from engine.studio.textures.texture_requests import LabRequest, MatchRequest, Re
 if TYPE_CHECKING:
     from engine.brush.settings import Brush
     from engine.painting.commands import Command, DefineTexture
+    from engine.painting.guiding.guides import Guide
     from engine.painting.places import Bookmark
     from engine.texture.image import ImageSource
 
@@ -73,10 +74,12 @@ class Recover:
 
 @dataclass(frozen=True, slots=True)
 class Save:
-    """The painting as it is now, as .ora; `sure`: whatever is there."""
+    """The painting as it is now, as .ora; `sure`: whatever is there; `symmetry`: that of the hand, which is stored in
+    place of the one that undo and redo went back to."""
 
     path: Path
     sure: bool = False
+    symmetry: Guide | None = None
 
 
 @dataclass(frozen=True, slots=True)

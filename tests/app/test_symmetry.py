@@ -18,7 +18,7 @@ from app.input.events import PenEvent
 from app.tools.guide_gestures import move_guide
 from engine.numeric.address import Rect
 from engine.painting.commands import Guide, Redo, Undo
-from engine.studio.requests import Do
+from engine.studio.requests import Do, Save
 from engine.studio.results import Scene
 
 DEEP = 1 << 900
@@ -165,3 +165,19 @@ def test_steps_taken_back_leave_it_as_it_is_until_a_stroke_makes_it_the_painting
     assert symmetry.way_of(symmetry.guide_of(desk)) == "off"
     desk.learn(scene=replace(desk.known.scene, serial=1))
     assert symmetry.guide_of(desk) == made  # another painting has its own
+
+
+def test_a_save_after_steps_taken_back_stores_the_symmetry_of_the_hand(tmp_path):
+    desk, posted = desk_of()
+    symmetry.choose(desk, "radial")
+    made = posted[-1].command
+    tell(desk, made)
+    desk.save(tmp_path / "a.ora")
+    assert posted[-1] == Save(tmp_path / "a.ora")
+    symmetry.keep(desk)
+    tell(desk)
+    desk.save(tmp_path / "a.ora")
+    assert posted[-1] == Save(tmp_path / "a.ora", symmetry=made)
+    desk.learn(scene=replace(desk.known.scene, serial=1))
+    desk.save(tmp_path / "a.ora", sure=True)
+    assert posted[-1] == Save(tmp_path / "a.ora", sure=True)

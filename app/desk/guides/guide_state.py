@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from app.canvas.view import Place
 from engine.painting.guiding.guides import Guide
+from engine.studio.results import Scene
 
 
 class Held(NamedTuple):
@@ -41,3 +42,8 @@ class GuideState:
     shown: bool = True
     snaps: bool = True
     chosen: str = ""
+
+    def kept_in(self, scene: Scene | None) -> Guide | None:
+        """Returns the symmetry as the hand has it in a painting, where steps taken back may have set another."""
+        own = self.own
+        return own.guide if own is not None and own.kept and scene is not None and own.serial == scene.serial else None

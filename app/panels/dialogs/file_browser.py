@@ -21,7 +21,7 @@ from app.desk.previews import FileRow
 from app.panels.controls import widgets as w
 from app.panels.dialogs import file_list
 from engine.studio.filing.film_requests import MakeFilm
-from engine.studio.requests import Export, Save
+from engine.studio.requests import Export
 
 OPENS = (".ora", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".jsonl")
 _PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
@@ -196,9 +196,7 @@ def opening(desk: Desk) -> SystemDialog | Browser:
 
 def saving(desk: Desk) -> SystemDialog | Browser:
     """Asks where to save the painting."""
-    return _chooser(
-        "Save as", _folder(desk) / f"{desk.known.stem}.ora", SAVES, True, lambda d, path: d.post(Save(path))
-    )
+    return _chooser("Save as", _folder(desk) / f"{desk.known.stem}.ora", SAVES, True, Desk.save)
 
 
 def exporting(desk: Desk) -> SystemDialog | Browser:

@@ -6,7 +6,6 @@ from imgui_bundle import imgui
 
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
-from engine.studio.requests import Save
 from engine.studio.results import Overtaken
 
 
@@ -37,7 +36,7 @@ class OvertakenSave:
         if w.text_button(
             "Overwrite", "Put this painting in its place; the other is kept as an earlier version", width=em * 8
         ):
-            desk.post(Save(path, sure=True))
+            desk.save(path, sure=True)
             return False
         if not elsewhere:
             imgui.same_line()

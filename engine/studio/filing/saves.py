@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
 from engine.checks.owned import Owned
 from engine.keeping.on_disk import OnDisk, Overtaken, Replacement
 from engine.keeping.preferences import Preferences
+from engine.painting.guiding.guides import Guide, guides_after
 from engine.painting.recording import Recording
 from engine.painting.value import Painting
 from engine.studio import requests as q
@@ -66,6 +67,11 @@ def _told(path: Path, one: Replacement) -> str:
     return MISSING.format(path.name) if one.missing else ""
 
 
+def _with_symmetry(painting: Painting, symmetry: Guide | None) -> Painting:
+    """Returns a painting with another symmetry: no pixel depends on it, and what was undone can still be done again."""
+    return painting if symmetry is None else replace(painting, guides=guides_after(painting.guides, symmetry))
+
+
 class Saves(Owned):
     """What is saved, and what waits for it: of each file the newest that was asked for.  It belongs to the engine's
     thread."""
@@ -111,7 +117,7 @@ class Saves(Owned):
         recording = self.making()
         asked = _Asked(
             request,
-            easel.session.painting,
+            _with_symmetry(easel.session.painting, request.symmetry),
             easel.session.state,
             recording,
             easel.serial,

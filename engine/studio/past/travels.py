@@ -9,11 +9,13 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, replace
 
+from engine.canvas import layers
 from engine.checks.owned import Owned
 from engine.painting import commands as c
 from engine.painting.difference import areas
 from engine.painting.value import Painting
 from engine.studio.past import past_records as p
+from engine.studio.past.layer_steps import layer_after
 from engine.studio.past.rebuilding import PLAYED_AT_ONCE, Rebuilding
 from engine.studio.past.symmetry_steps import steps_over_symmetry
 from engine.studio.past.trail import Trail
@@ -61,7 +63,8 @@ class Travels(Owned):
 
     def carry_out(self, command: c.Command, over_symmetry: bool = False, lent: ImageSource | None = None) -> None:
         """Does a command, as the easel does; undo and redo beyond what the history holds are a jump.  `over_symmetry`:
-        they do not count steps that only set the symmetry."""
+        by hand, for which they do not count steps that only set the symmetry, and the layer that a step chose, or left,
+        is chosen again."""
         session = self._easel.session
         if over_symmetry and isinstance(command, c.Undo | c.Redo):
             if self._easel.live is not None:
@@ -74,7 +77,11 @@ class Travels(Owned):
             if to != self._trail.count and self._trail.held(to) is None:
                 self._jump(to)
                 return
+        chosen = layer_after(session, command) if over_symmetry and isinstance(command, c.Undo | c.Redo) else None
         self._easel.carry_out(command, lent)
+        painting = session.painting
+        if chosen is not None and chosen != painting.active and layers.has(painting.root, chosen):
+            self._easel.carry_out(c.SelectLayer(chosen))
 
     def step(self) -> None:
         """Plays a piece of the way."""

@@ -187,6 +187,21 @@ def _areas() -> Iterator[tuple[str, list[Any]]]:
     thinner = {"do": "select", "op": "intersect", "outline": [[5, 5], [90, 11.3], [40.7, 70]], "level": 0, "grow": 1.7}
     for name in ("paint", "erase", "smooth"):
         yield f"selected {name}", [GROUND, oval, thinner, stroke(mode=name, ink=[ink("rock")], radius=31)]
+    line = {"at": [20, 11], "within": [[0, 0], [71, 4.3], [66, 55.7], [3, 50]], "regions": "all", "tolerance": 0.23}
+    yield "within", [GROUND, {"do": "fill", "like": line, "brush": {"ink": [ink("rock", period=7.7)]}}]
+    told = {"points": LINE, "brush": {"radius": 4.3, "hardness": 0.37}, "symmetry": turned}
+    yield "selected by copies", [GROUND, {"do": "select", "stroke": told}, stroke(mode="smooth", radius=31)]
+    tip = texture("image", path="blob.png", period=9)
+    yield "tips in copies", [tip, {**stroke(tip={"texture": "t"}, radius=6.7), "symmetry": turned}]
+    cell = {"do": "layer", "set": "above", "wrap": [0, -3, 5, 68, 44]}
+    beyond = {"do": "select", "ellipse": [0, 61, -30, 90, 70]}
+    torus = [{"do": "layer", "add": "above"}, cell, stroke(radius=19, ink=[ink("rock")]), beyond, stroke(mode="smooth")]
+    yield "wrapped", [*torus, {"do": "fill", "like": {"at": [99, 9], "tolerance": 0.3}, "brush": {"colour": "#308070"}}]
+    ruler = {"do": "guide", "name": "r", "kind": "perspective-3", "points": [[-90, 3], [210, 5.3], [40.7, 300]]}
+    yield "guides", [ruler, GROUND, {**ruler, "points": [[-90, 3], [210, 7], [40, 300]], "snap": 0.3}, {"do": "undo"}]
+    both = [{"name": "a", "part": [3, 4, 20, 30], "at": [-7, 5], "opacity": 0.7}, {"name": "b", "part": [0, 0, 36, 40]}]
+    brought = {"do": "layer", "add": "two", "kind": "pictures", "texture": "t", "level": 1, "at": [9, 8]}
+    yield "pictures", [GROUND, texture("image", path="blob.png"), {**brought, "children": both}]
     above, clip = {"do": "layer", "add": "above"}, {"do": "layer", "set": "above", "clip": True, "opacity": 0.7}
     merged = {"do": "layer", "merge": "above"}
     yield "clipped", [GROUND, above, stroke(ink=[ink("stripes", **WAVES)]), clip]

@@ -3,6 +3,8 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from engine.archive.opening import open_painting
+from engine.canvas.layers import layers
 from engine.painting import commands as c
 from engine.session.replay import replay
 from engine.studio import requests as q
@@ -57,4 +59,44 @@ def test_doing_again_undoes_what_undoing_did_with_the_symmetry_that_came_after()
     for request, told in ((UNDO, c.Undo(1)), (UNDO, c.Undo(3)), (REDO, c.Redo(3)), (REDO, c.Redo(1))):
         studio.do(request)
         assert log[-1] == told
+    studio.close()
+
+
+def test_the_hands_symmetry_is_saved_where_undo_went_back_to_an_older_one(tmp_path):
+    studio = Studio(lambda result: None, lambda request: None)
+    for command in (guide("symmetry", 2), c.SetPaper("#102030"), guide("symmetry", 3)):
+        studio.do(q.Do(command))
+    studio.do(UNDO)
+    assert studio.easel.session.painting.guides["symmetry"].count == 2
+    studio.do(q.Save(tmp_path / "a.ora", symmetry=guide("symmetry", 3)))
+    studio.close()
+    found = open_painting(tmp_path / "a.ora").painting
+    assert found.guides["symmetry"].count == 3
+    assert studio.easel.session.can_redo
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(st.tuples(st.sampled_from(("add", "remove", "select", "paper")), st.integers(0, 3)), max_size=9))
+def test_undo_and_redo_by_hand_choose_the_layer_again_that_was_chosen(steps):
+    studio = Studio(lambda result: None, lambda request: None)
+    session, seen = studio.easel.session, []
+    for verb, number in steps:
+        names = [layer.name for layer in layers(session.painting.root)]
+        name = f"{len(session.log)}" if verb == "add" or not names else names[number % len(names)]
+        if verb == "select" and names:  # what the hand chooses counts from then on
+            studio.do(q.Do(c.SelectLayer(name)))
+            continue
+        before = session.painting.active
+        command = c.SetPaper(f"#00000{len(seen)}") if verb == "paper" or (verb != "add" and not names) else None
+        studio.do(q.Do(command or (c.AddLayer(name) if verb == "add" else c.RemoveLayer(name))))
+        seen.append((before, session.painting.active))
+    for before, after in reversed(seen):
+        stood = session.painting.active
+        studio.do(UNDO)
+        assert session.painting.active == (before if stood == after else stood)
+    for before, after in seen:
+        stood = session.painting.active
+        studio.do(REDO)
+        assert session.painting.active == (after if stood == before else stood)
+    assert replay(session.recording()).painting.active == session.painting.active
     studio.close()
