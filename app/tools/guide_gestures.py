@@ -81,6 +81,8 @@ def _reshape(desk: Desk, first: PenEvent, guide: Guide, number: int | None) -> G
 
 def _dragged(guide: Guide, number: int | None, points: Points, way: tuple[Exact, Exact], even: bool) -> Points:
     start, there = way
+    if number is not None and not (guide.kind == "perspective-1" and number == 1):  # whose handle lies elsewhere
+        there = points[number][0] + there[0] - start[0], points[number][1] + there[1] - start[1]
     if number is None:
         return shifted_by(points, (there[0] - start[0], there[1] - start[1]))
     return DRAGS[guide.kind](points, number, there, even)

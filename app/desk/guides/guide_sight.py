@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 from app.canvas.view import View
 from app.desk.desk import Desk
-from app.desk.guides.snap_curves import CURVES, Line, Oval, Pair, exact, near, oval_of, side
+from app.desk.guides.snap_curves import CURVES, PERSPECTIVES, Line, Oval, Pair, exact, near, oval_of, side
 from engine.painting.guiding.guides import Guide
 
+RIM = 20.0  # points of the screen from its rim to the handles of what lies beyond
 ARM = 160.0  # points of the screen from a vanishing point to the handle that turns its horizon
 _BODIES = ("ruler", "ellipse")  # kinds that are moved by their line
 
@@ -50,14 +51,22 @@ def seen_point(sight: Sight, guide: Guide, number: int) -> Pair:
 
 
 def handles(desk: Desk, guide: Guide) -> list[Pair]:
-    """Returns where the handles of a guide are on the screen, one for each of its points."""
+    """Returns where the handles of a guide are on the screen, one for each of its points; those of vanishing points out
+    of sight at the rim of what no panel covers."""
     sight = sight_of(desk.view)
     found = [seen_point(sight, guide, n) for n in range(len(guide.points))]
     if guide.kind == "perspective-1":
         dx, dy = sight.way(side(guide, 1))
         arm = ARM * desk.scale / math.hypot(dx, dy)
         found[1] = found[0][0] + dx * arm, found[0][1] + dy * arm
-    return found
+    return [_kept_in_sight(desk, at) for at in found] if guide.kind in PERSPECTIVES else found
+
+
+def _kept_in_sight(desk: Desk, at: Pair) -> Pair:
+    """Returns the place nearest to a point of the screen that no panel covers: on a level horizon it stays there."""
+    x0, y0, x1, y1 = desk.free_area()
+    rim = RIM * desk.scale
+    return max(x0 + rim, min(x1 - rim, at[0])), max(y0 + rim, min(y1 - rim, at[1]))
 
 
 def distance_to(desk: Desk, guide: Guide, x: float, y: float) -> float:

@@ -14,6 +14,7 @@ from engine.painting.places import LEVEL_LIMIT
 Points = list[Exact]
 _STEP = math.pi / 12  # of angles that are held to some
 _ROOM = POINT_REACH / 2
+_OUT = 0.9  # parts of the screen from its middle to vanishing points: nearer, boxes look twisted
 CELL = 64  # px: a new grid's
 
 
@@ -161,7 +162,7 @@ def fresh(kind: str, size: Pair) -> list[Pair]:
         "ellipse": ((0.0, 0.0), (0.32 * short, 0.0), (0.0, 0.22 * short)),
         "grid": ((0.0, 0.0), (CELL, 0.0), (0.0, CELL)),
         "perspective-1": ((0.0, 0.0), (0.2 * wide, 0.0)),
-        "perspective-2": ((-0.45 * wide, 0.0), (0.45 * wide, 0.0)),
-        "perspective-3": ((-0.45 * wide, -0.25 * tall), (0.45 * wide, -0.25 * tall), (0.0, 0.45 * tall)),
+        "perspective-2": ((-_OUT * wide, 0.0), (_OUT * wide, 0.0)),
+        "perspective-3": ((-_OUT * wide, -0.3 * tall), (_OUT * wide, -0.3 * tall), (0.0, 1.2 * _OUT * wide)),
     }
     return list(made[kind])
