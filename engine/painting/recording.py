@@ -15,6 +15,7 @@ from typing import Any, BinaryIO, TypeVar
 from immutables import Map
 
 from engine.brush.checks import thawed
+from engine.brush.settings import Brush
 from engine.checks.field_error import FieldError
 from engine.files.atomic import replacing
 from engine.files.fault import FileError
@@ -116,8 +117,15 @@ def version_of(command: Command) -> int:
     region = isinstance(command, DefineTexture) and ("region" in command.arguments or command.maker == "gradient")
     if isinstance(command, LayerCommand):
         return layer_version(command)
-    copied = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto))
-    return 2 if region or copied or isinstance(command, _OF_VERSION_2) else 1
+    newer = isinstance(command, Stroke) and (bool(command.copies) or bool(command.onto) or _lasts(command.brush))
+    newer |= isinstance(command, DefineTexture) and command.arguments.get("renew") is False
+    return 2 if region or newer or isinstance(command, _OF_VERSION_2) else 1
+
+
+def _lasts(brush: Brush) -> bool:
+    """Tells whether any texture of a brush is one whose octaves are not renewed."""
+    parts = (*brush.ink, brush.density, brush.grain, brush.tip)
+    return any(part is not None and part.parameters.get("renew") is False for part in parts)
 
 
 def read(path: str | os.PathLike[str], most: int = COMMANDS_CAP) -> Recording:

@@ -98,7 +98,8 @@ class Matched(Tiled):
 
     def _curve(self, alpha: np.ndarray, level: int) -> np.ndarray:
         """0 up to t, as it is from 2.5 t on; 1 likewise."""
-        t = np.float32(_reach(self.picture, self.period, self.roughness, level - self.native, self.arithmetic))
+        about = self.roughness, level - self.native, self.arithmetic, self.renew
+        t = np.float32(_reach(self.picture, self.period, *about))
         near = np.clip(np.minimum(alpha, np.float32(1.0) - alpha), np.float32(0.0), np.float32(0.5))
         near = np.minimum(near, np.maximum(near - t, np.float32(0.0)) * np.float32(2.5 / 1.5))
         out: np.ndarray = np.where(alpha < np.float32(0.5), near, np.float32(1.0) - near)
@@ -138,7 +139,8 @@ class Series(Matched):
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.period, self.roughness, self.stages, self.weight)
-        return (told_kind(self.kind, self.arithmetic), self.base, *numbers, self.source.name, self.source.sha)
+        told = told_kind(self.kind, self.arithmetic, self.renew)
+        return (told, self.base, *numbers, self.source.name, self.source.sha)
 
     @property
     def coloured(self) -> bool:
@@ -260,10 +262,10 @@ def _form(picture: ImageSource, period: int, roughness: float, arithmetic: int) 
 
 
 @lru_cache(maxsize=1024)
-def _reach(picture: ImageSource, period: int, roughness: float, depth: int, arithmetic: int) -> float:
+def _reach(picture: ImageSource, period: int, roughness: float, depth: int, arithmetic: int, renew: bool) -> float:
     """Tells how far octaves move the alpha of what is opaque or clear, at a depth beyond the native level."""
     form = _form(picture, period, roughness, arithmetic)
-    weights = octave_weights(depth, roughness, form, arithmetic)[:depth]
+    weights = octave_weights(depth, roughness, form, arithmetic, renew)[:depth]
     own = math.sqrt(_energy(octave_of(picture, arithmetic).tile[-1:], arithmetic)) / 2.0
     own *= _stretched(picture, period, roughness, arithmetic)
     far = float(array_functions(arithmetic).total(np.square(weights, dtype=np.float64)))

@@ -54,10 +54,13 @@ class Continuation:
 
 
 @lru_cache(maxsize=4096)
-def octave_weights(depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY) -> np.ndarray:
-    """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,)."""
+def octave_weights(
+    depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY, renew: bool = True
+) -> np.ndarray:
+    """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,).  W = r^j for ever, if not
+    `renew`."""
     settled, own = form.settled, functions(arithmetic)
-    if roughness < _SMOOTH or depth <= settled:
+    if not renew or roughness < _SMOOTH or depth <= settled:
         out = np.zeros(depth + 1)
         for j in range(min(depth, _added(roughness)) + 1):
             out[depth - j] = own.power(roughness, j)
@@ -69,9 +72,11 @@ def octave_weights(depth: int, roughness: float, form: Continuation, arithmetic:
 
 
 @lru_cache(maxsize=4096)
-def octave_changes(depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY) -> np.ndarray:
+def octave_changes(
+    depth: int, roughness: float, form: Continuation, arithmetic: int = LIBRARY, renew: bool = True
+) -> np.ndarray:
     """W(depth, j) - W(depth - 1, j), by age, without the zeros at the end: float32 (number of octaves,)."""
-    if roughness < _SMOOTH:  # so deep that the arrays of weights would be long
+    if not renew or roughness < _SMOOTH:  # so deep that the arrays of weights would be long
         return np.array(
             [functions(arithmetic).power(roughness, depth)] if depth <= _added(roughness) else [], np.float32
         )

@@ -13,16 +13,23 @@ import numpy as np
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
 
-
-def told_kind(kind: str, arithmetic: int) -> str:
-    """Returns how a key names a kind of texture that is worked out in an arithmetic; `kind_of_key` is the inverse."""
-    return kind if arithmetic == LIBRARY else f"{kind}#{arithmetic}"
+_LASTING = "lasting "
 
 
-def kind_of_key(told: str) -> tuple[str, int]:
-    """Returns the kind and the arithmetic that the first part of a key tells."""
-    kind, _, number = told.rpartition("#")
-    return (kind, EVERYWHERE) if kind and number == str(EVERYWHERE) else (told, LIBRARY)
+def told_kind(kind: str, arithmetic: int, renew: bool = True) -> str:
+    """Returns how a key names a kind of texture that is worked out in an arithmetic, and whether its older octaves are
+    renewed; `kind_of_key` is the inverse."""
+    named = kind if renew else _LASTING + kind
+    return named if arithmetic == LIBRARY else f"{named}#{arithmetic}"
+
+
+def kind_of_key(told: str) -> tuple[str, int, bool]:
+    """Returns the kind, the arithmetic, and whether octaves are renewed, as the first part of a key tells."""
+    named, _, number = told.rpartition("#")
+    everywhere = bool(named) and number == str(EVERYWHERE)
+    kind = named if everywhere else told
+    renew = not kind.startswith(_LASTING)
+    return kind if renew else kind[len(_LASTING) :], EVERYWHERE if everywhere else LIBRARY, renew
 
 
 class Instance(Protocol):

@@ -21,6 +21,9 @@ where the peak M goes back from D to 8 by half an octave per level, and g keeps 
 (With M = d the same formula is the first octaves' rule.)  At every depth a view then shows the spectrum f^-(1+H) over
 its last M octaves with the same contrast, and the mean, what is left of the older ones, stays bounded.  Ages whose
 weight is below 2^-17 are left out, so S and the bandpass are finite cascades at any depth.
+
+**What lasts.**  Heights must not change as one comes nearer: slopes of re-based rock double with every level.  Rock
+that is not renewed keeps W = g 2^(-H j) for ever, down to any depth.
 """
 
 from __future__ import annotations
@@ -34,7 +37,7 @@ import numpy as np
 
 from engine.numeric.address import Rect
 from engine.numeric.arithmetic import EVERYWHERE, LIBRARY
-from engine.numeric.detail import blend_rows, cut, expand_row
+from engine.numeric.detail import add_expanded, blend_rows, cut, expand_row, parents
 from engine.numeric.functions import functions
 from engine.numeric.hashing import MASK32, fold_key, place64
 from engine.numeric.kernel import inner, kernel
@@ -43,6 +46,7 @@ from engine.texture.record import told_kind
 FIRST = 10  # the depth down to which octaves keep their amplitudes, at least
 PEAK = 8  # the age of the strongest octave in the end: features of 2^8 pixels
 SPREAD = 0.36  # standard deviation of S from that depth on: one pixel in 200 leaves the nominal -1..1
+_LONGEST = 28  # octaves that are worked out at once
 _FAINTEST = 17  # octaves: below 2^-17, a weight is negligible
 _DOMAIN = 0x726F636B  # "rock": tells these hashes from those of other textures
 
@@ -55,18 +59,20 @@ _MIDDLE = np.float32(0x100000 - 0.5)
 
 @dataclass(frozen=True, slots=True)
 class Rock:
-    """`period`: the largest features, in pixels of the base level; `roughness`: H, 0..1 (0 is the roughest)."""
+    """`period`: the largest features, in pixels of the base level; `roughness`: H, 0..1 (0 is the roughest);
+    `renew`: whether octaves are re-based."""
 
     base: int
     period: float
     roughness: float = 0.5
     seed: int = 0
     arithmetic: int = LIBRARY
+    renew: bool = True
 
     @property
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
-        return (told_kind("rock", self.arithmetic), self.base, self.period, self.roughness, self.seed)
+        return (told_kind("rock", self.arithmetic, self.renew), self.base, self.period, self.roughness, self.seed)
 
     @property
     def root(self) -> int:
@@ -98,19 +104,36 @@ class Rock:
 
     def weights(self, level: int) -> np.ndarray:
         """Returns what S takes of the octaves of ages 0, 1, ...: float32 (ages,)."""
-        return octave_weights(level - self.root, self.settled, self.roughness, self.first, self.arithmetic)
+        depth, about = level - self.root, (self.settled, self.roughness, self.first, self.arithmetic)
+        return octave_weights(depth, *about) if self.renew else lasting_weights(depth, *about)
 
     def changes(self, level: int) -> np.ndarray:
         """Returns what the bandpass takes of them, without the zeros at the end: float32 (ages,)."""
-        return octave_changes(level - self.root, self.settled, self.roughness, self.first, self.arithmetic)
+        depth, about = level - self.root, (self.settled, self.roughness, self.first, self.arithmetic)
+        return octave_changes(depth, *about) if self.renew or depth <= self.settled else octave_alone(depth, *about)
 
     def _cascade(self, level: int, rect: Rect, factors: np.ndarray) -> np.ndarray:
         """sum over m of factors[m] E^m n_(level - m), over `rect`: float32 (1, h, w)."""
+        if factors.size > _LONGEST:
+            return self._far_cascade(level, rect, factors)
         even = rect.evened()
         keys = _keys(self.seed, self.base, level, (even.x0 >> 32, even.y0 >> 32), factors.size)
         out = np.empty((1, even.height, even.width), np.float32)
         _fill_cascade(out[0], even.x0 & _SEEN, even.y0 & _SEEN, keys, factors)
         return cut(out, rect, even)
+
+    def _far_cascade(self, level: int, rect: Rect, factors: np.ndarray) -> np.ndarray:
+        """As `_cascade`, of so many octaves that the older ones are carried down from where they are the newest."""
+        places = [rect.evened()]
+        for _ in range(_LONGEST):
+            places.append(parents(places[-1]).evened())
+        out = self._cascade(level - _LONGEST, places[-1], factors[_LONGEST:])
+        for up in range(_LONGEST - 1, -1, -1):
+            fine = np.zeros((1, places[up].height, places[up].width), np.float32)
+            add_expanded(fine, cut(out, parents(places[up]), places[up + 1]))
+            out = fine
+        out += self._cascade(level, places[0], factors[:_LONGEST])
+        return cut(out, rect, places[0])
 
 
 @lru_cache(maxsize=4096)
@@ -124,8 +147,8 @@ def octave_weights(depth: int, settled: int, roughness: float, first: float, ari
     """W(depth, depth - m) for the ages m = 0, 1, ...: float32 (number of octaves,)."""
     two_to = functions(arithmetic).two_to
     if depth <= settled:
-        gain = _gain(_profile(settled, settled, roughness, first, two_to))
-        return np.array(_profile(depth, depth, roughness, first, two_to), np.float32) * np.float32(gain)
+        first_octaves = np.array(_profile(depth, depth, roughness, first, two_to), np.float32)
+        return first_octaves * _first_gain(settled, roughness, first, two_to)
     profile = _profile(max(float(PEAK), settled - (depth - settled) / 2), depth, roughness, first, two_to)
     return np.array(profile, np.float32) * np.float32(_gain(profile))
 
@@ -140,6 +163,22 @@ def octave_changes(depth: int, settled: int, roughness: float, first: float, ari
     return np.trim_zeros(both, "b")
 
 
+@lru_cache(maxsize=4096)
+def lasting_weights(depth: int, settled: int, roughness: float, first: float, arithmetic: int = LIBRARY) -> np.ndarray:
+    """As `octave_weights`, of octaves that keep their amplitudes for ever: g 2^(-H j)."""
+    two_to = functions(arithmetic).two_to
+    profile = [two_to(roughness * (m - depth)) for m in range(depth + 1)]
+    profile[depth] *= first
+    return np.array(profile, np.float32) * _first_gain(settled, roughness, first, two_to)
+
+
+@lru_cache(maxsize=4096)
+def octave_alone(depth: int, settled: int, roughness: float, first: float, arithmetic: int = LIBRARY) -> np.ndarray:
+    """As `octave_changes`, of octaves that keep their amplitudes: the newest one's weight, float32 (1,)."""
+    two_to = functions(arithmetic).two_to
+    return np.array([two_to(-roughness * depth)], np.float32) * _first_gain(settled, roughness, first, two_to)
+
+
 def _profile(peak: float, depth: int, roughness: float, first: float, two_to: Callable[[float], float]) -> list[float]:
     """Returns the weights of ages 0, 1, ... to `depth` or until they are negligible; 1 at age `peak`."""
     ages = range(min(depth, int(peak + _FAINTEST)) + 1)
@@ -147,6 +186,10 @@ def _profile(peak: float, depth: int, roughness: float, first: float, two_to: Ca
     if len(profile) == depth + 1:
         profile[depth] *= first
     return profile
+
+
+def _first_gain(settled: int, roughness: float, first: float, two_to: Callable[[float], float]) -> np.float32:
+    return np.float32(_gain(_profile(settled, settled, roughness, first, two_to)))
 
 
 def _gain(profile: list[float]) -> float:

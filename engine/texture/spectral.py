@@ -41,6 +41,7 @@ class _Spectral:
     roughness: float
     source: ImageSource
     arithmetic: int
+    renew: bool
 
     @property
     def shown(self) -> ImageSource:
@@ -80,7 +81,7 @@ class _Spectral:
         if level <= self.native:
             out: np.ndarray = self._own(level, rect) + self.centre
             return out
-        factors = octave_weights(level - self.native, self.roughness, self.form, self.arithmetic)
+        factors = octave_weights(level - self.native, self.roughness, self.form, self.arithmetic, self.renew)
         carried: np.ndarray = self._cascade(level - self.native, rect, factors) + self.centre
         return carried
 
@@ -88,7 +89,7 @@ class _Spectral:
         if level <= self.base or rect.empty or not self.shown.there:
             return None
         if level > self.native:
-            changes = octave_changes(level - self.native, self.roughness, self.form, self.arithmetic)
+            changes = octave_changes(level - self.native, self.roughness, self.form, self.arithmetic, self.renew)
             return self._cascade(level - self.native, rect, changes) if changes.size else None
         even = rect.evened()
         out = self._own(level, even)
@@ -127,13 +128,14 @@ class Tiled(_Spectral):
     roughness: float
     source: ImageSource
     arithmetic: int = LIBRARY
+    renew: bool = True
 
     kind: ClassVar[str] = "spectrum"
 
     @property
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
-        told = told_kind(self.kind, self.arithmetic)
+        told = told_kind(self.kind, self.arithmetic, self.renew)
         return (told, self.base, self.period, self.roughness, self.source.name, self.source.sha)
 
     @property
@@ -181,6 +183,7 @@ class Sparse(_Spectral):
     seed: int
     source: ImageSource
     arithmetic: int = LIBRARY
+    renew: bool = True
 
     kind: ClassVar[str] = "sparse"
 
@@ -188,7 +191,7 @@ class Sparse(_Spectral):
     def key(self) -> tuple[object, ...]:
         """Tells this instance from all others, as `Instance.key`."""
         numbers = (self.roughness, self.density, self.mean, self.spread, self.quantise, self.seed)
-        told = told_kind(self.kind, self.arithmetic)
+        told = told_kind(self.kind, self.arithmetic, self.renew)
         return (told, self.base, self.period, *numbers, self.source.name, self.source.sha)
 
     @property

@@ -54,13 +54,17 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A row: the texture's name, its parameters in the order of its key, and what makes it of (base, *parameters)."""
+    """A row: the texture's name, its parameters in the order of its key, and what makes it of (base, *parameters).
+
+    `pictured`: whether it needs a picture, as the last argument of `make`; `endless`: whether each level adds an octave
+    of its own, so that there is a choice whether the older ones are renewed (the parameter `renew`)."""
 
     name: str
     parameters: tuple[Parameter, ...]
     make: Callable[..., Instance]
     tooltip: str
-    pictured: bool = False  # whether it needs a picture, as the last argument of `make`
+    pictured: bool = False
+    endless: bool = False
 
 
 _WAVE = (
@@ -98,29 +102,30 @@ _SPARSE = (
 
 _ROWS = (
     Kind("white", (), White, "Plain paint of the ink's colour"),
-    Kind("rock", _ROCK, Rock, "Noise like rock, finer and finer however far you zoom in"),
+    Kind("rock", _ROCK, Rock, "Noise like rock, finer and finer however far you zoom in", endless=True),
     Kind("stripes", _WAVE, Stripes, "Bands with edges that stay sharp at every depth"),
     Kind("sawtooth", _WAVE, Sawtooth, "Ramps, each ending in an edge that stays sharp"),
     Kind("squares", _WAVE, Squares, "A checkerboard whose edges stay sharp at every depth"),
     Kind("image", _IMAGE, Image, "A picture, tiled; it shows its own detail as you zoom in", pictured=True),
     Kind("canvas", _IMAGE, Image, "A piece of the painting, tiled like a picture", pictured=True),
-    Kind("spectrum", _SAMPLE, Tiled, "A painted spectrum as texture, tiled", pictured=True),
+    Kind("spectrum", _SAMPLE, Tiled, "A painted spectrum as texture, tiled", pictured=True, endless=True),
     Kind(
         "matched",
         _SAMPLE,
         Matched,
         "Noise matched to an example, tiled; zooming in adds more of its kind",
         pictured=True,
+        endless=True,
     ),
-    Kind("series", _SERIES, series, "Textures between two examples, tiled", pictured=True),
-    Kind("sparse", _SPARSE, Sparse, "An endless field of scattered copies of a sample", pictured=True),
+    Kind("series", _SERIES, series, "Textures between two examples, tiled", pictured=True, endless=True),
+    Kind("sparse", _SPARSE, Sparse, "An endless field of scattered copies of a sample", pictured=True, endless=True),
     Kind("example", _IMAGE, Image, "An example that brushes grow; as ink, its picture, tiled", pictured=True),
 )
 # Not for the brush to name: the alpha that a texture brings along where it is translucent.
 _COVERS: dict[str, Kind] = {
     "cover": Kind("cover", _IMAGE, Cover, "", pictured=True),
-    "matched-cover": Kind("matched-cover", _SAMPLE, MatchedCover, "", pictured=True),
-    "series-cover": Kind("series-cover", _SERIES, series_cover, "", pictured=True),
+    "matched-cover": Kind("matched-cover", _SAMPLE, MatchedCover, "", pictured=True, endless=True),
+    "series-cover": Kind("series-cover", _SERIES, series_cover, "", pictured=True, endless=True),
 }
 # Not for the brush to name, either, but for definitions: its parameters are no numbers.
 GRADIENT, GRADIENT_COVER = "gradient", "gradient-cover"
@@ -154,15 +159,27 @@ def instance(
             if row.pictured and p.name == "period" and source is not None and source.width:
                 value = min(max(source.width, int(p.lo)), int(p.hi))
         values.append(p.checked(value))
+    renew = _renewed(row, parameters)
     if not row.pictured:
-        return _worked_out(row.make(level, *values), arithmetic)
+        return _worked_out(row.make(level, *values), arithmetic, renew)
     if source is None:
         raise TextureError("source", "none", f"a picture for the texture {kind!r}")
-    return _worked_out(row.make(level, *values, source), arithmetic)
+    return _worked_out(row.make(level, *values, source), arithmetic, renew)
 
 
-def _worked_out(made: Instance, arithmetic: int) -> Instance:
-    """Returns a texture in an arithmetic; the same one where that makes no difference."""
+def _renewed(row: Kind, parameters: Mapping[str, Any]) -> bool:
+    """Returns the parameter `renew`, of textures that go on for ever."""
+    renew = parameters.get("renew", True) if row.endless else True
+    if not isinstance(renew, bool):
+        raise TextureError("renew", described(renew), "true or false")
+    return renew
+
+
+def _worked_out(made: Instance, arithmetic: int, renew: bool) -> Instance:
+    """Returns a texture in an arithmetic, its octaves renewed or not; the same one where that makes no difference."""
+    if not renew:
+        assert isinstance(made, Rock | Tiled | Sparse)
+        made = replace(made, renew=False)
     if arithmetic == LIBRARY or not isinstance(made, Rock | Stripes | Sawtooth | Squares | Tiled | Sparse):
         return made
     return replace(made, arithmetic=arithmetic)
@@ -182,22 +199,24 @@ def from_key(key: Sequence[Any], images: Mapping[str, ImageSource]) -> Instance:
     if key[0] in (GRADIENT, GRADIENT_COVER):
         _check_level(key[1])
         return _told(gradient_of_key, key)
-    kind, arithmetic = kind_of_key(key[0]) if isinstance(key[0], str) else (key[0], LIBRARY)
+    kind, arithmetic, renew = kind_of_key(key[0]) if isinstance(key[0], str) else (key[0], LIBRARY, True)
     row = (_COVERS.get(kind) if isinstance(kind, str) else None) or _row(kind)
+    if not (renew or row.endless):
+        raise TextureError("texture", described(key[0]), "one of " + ", ".join(KINDS))
     _check_level(key[1])
     count = 2 + len(row.parameters) + (2 if row.pictured else 0)
     if len(key) != count:
         raise TextureError("key", f"{len(key)} parts", f"{count} parts for {row.name!r}")
     values = [p.checked(value) for p, value in zip(row.parameters, key[2:], strict=False)]
     if not row.pictured:
-        return _worked_out(row.make(key[1], *values), arithmetic)
+        return _worked_out(row.make(key[1], *values), arithmetic, renew)
     name, sha = key[-2:]
     for field, text in (("name", name), ("sha", sha)):
         if not isinstance(text, str):
             raise TextureError(field, described(text), "a string")
     known = images.get(sha)
     made = row.make(key[1], *values, ImageSource(name, sha, known.data if known else None))
-    return _worked_out(made, arithmetic)
+    return _worked_out(made, arithmetic, renew)
 
 
 def _told(make: Callable[..., Instance], *about: object) -> Instance:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from typing import Any
 
+from imgui_bundle import imgui
 from immutables import Map
 
 from app import icons
@@ -102,15 +103,25 @@ def texture_kind(desk: Desk, texture: str) -> str:
 
 def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any]:
     """Returns a slider for each parameter and a button for another seed; the parameters as they are now."""
-    found, usual = rows(desk, texture), own(desk, texture)
+    found, usual, kind = rows(desk, texture), own(desk, texture), texture_kind(desk, texture)
     for row in found:
         still = row.name != "weight" or is_number(parameters.get("weight", 0.0))
         if row.name not in ("seed", "stages") and still:
             parameters = _slider(parameters, row, usual.get(row.name, row.default))
+    if any(row.name == kind and row.endless for row in desk.known.tables.kinds):
+        parameters = _lasting(parameters, usual.get("renew", True) is not False)
     seeded = any(row.name == "seed" for row in found)
     if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
         parameters = parameters.set("seed", (int(parameters.get("seed", 0) or 0) * 31 + 17) % 99991)
     return parameters
+
+
+def _lasting(parameters: Map[str, Any], usual: bool) -> Map[str, Any]:
+    renewed = parameters.get("renew", usual) is not False
+    changed, lasting = imgui.checkbox("For heights", not renewed)
+    w.named("For heights")
+    w.tooltip("What is seen from afar stays as it is when you come nearer: for land. Contrast fades deep down")
+    return parameters.set("renew", not lasting) if changed else parameters
 
 
 def own(desk: Desk, texture: str) -> Mapping[str, Any]:

@@ -133,6 +133,7 @@ def _brushes() -> Iterator[tuple[str, list[Any]]]:
             yield f"tip {name}", [stroke(tip={"texture": name, "period": 8.3})]
     for name in CURVES:
         yield f"curve {name}", [stroke(ink=[ink("rock", shaping=name)])]
+    yield "lasting", [GROUND, stroke(ink=[ink("rock", renew=False, period=21.9, roughness=0.613)])]
     for name in EDGES:
         yield f"edge {name}", [stroke(edge={"curve": name, "width": 0.7, "colour": "#102040"})]
     for name in ("erase", "smooth"):

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engine.numeric.address import Rect
-from engine.numeric.detail import parents
+from engine.numeric.detail import add_expanded, parents
 from engine.numeric.hashing import MASK32, MASK64, fold_key, mixed
 from engine.texture.rock import PEAK, SPREAD, Rock, octave_variance
 
@@ -225,3 +225,28 @@ def test_nothing_to_add_at_the_base_and_above():
     assert rock.bandpass(-9, Rect.at(0, 0, 8, 8)) is None
     with pytest.raises(ValueError, match="coarser than the base level 5"):
         rock.appearance(4, Rect.at(0, 0, 8, 8))
+
+
+def test_lasting_rock_is_the_same_down_to_the_settled_depth_and_keeps_its_octaves_beyond():
+    renewed, lasting = Rock(3, 40.0, 0.8, 5), Rock(3, 40.0, 0.8, 5, renew=False)
+    rect = Rect.at(1000, -700, 24, 24)
+    assert renewed.key != lasting.key
+    deep = lasting.root + lasting.settled
+    for level in range(4, deep + 1):
+        assert np.array_equal(lasting.bandpass(level, rect), renewed.bandpass(level, rect))
+    assert np.array_equal(lasting.appearance(deep, rect), renewed.appearance(deep, rect))
+    sizes = [lasting.bandpass(level, rect).std() for level in range(deep - 2, deep + 30)]
+    assert np.allclose(np.diff(np.log2(sizes)), -0.8, atol=0.25)
+    assert lasting.bandpass(deep + 1, rect).std() < renewed.bandpass(deep + 1, rect).std()
+
+
+@pytest.mark.parametrize("level", [20, 29, 47])
+def test_lasting_rock_is_what_it_adds_up_to_at_any_depth(level):
+    rock, rect = Rock(0, 40.0, 0.7, 5, renew=False), Rect.at(700 << level - 10, 300 << level - 10, 20, 16)
+    seen = rock.appearance(level, rect)
+    above = rock.appearance(level - 1, parents(rect))
+    carried = np.zeros_like(seen)
+    add_expanded(carried, above)
+    assert np.allclose(seen, carried + rock.bandpass(level, rect), atol=1e-5)
+    part = Rect(rect.x0 + 3, rect.y0 + 5, rect.x1 - 2, rect.y1 - 1)
+    assert np.array_equal(rock.appearance(level, part), seen[:, *part.slices(rect)])

@@ -1,5 +1,7 @@
 """Spectral textures: functions of place at every level, with their sample's spectrum, that never run out of detail."""
 
+import json
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,14 +12,14 @@ from engine.brush.ink import resolve
 from engine.brush.parts import Component
 from engine.brush.settings import Brush
 from engine.numeric.address import Rect, TileKey
-from engine.numeric.detail import parents
+from engine.numeric.detail import add_expanded, parents
 from engine.numeric.grid import snapped
 from engine.numeric.pyramid import reduce
 from engine.numeric.shapes import drawn
 from engine.numeric.spectra import SPREAD, power, radial_mean, radial_window, texture_of
 from engine.texture.image import ImageSource
 from engine.texture.octaves import Continuation, octave_changes, octave_weights
-from engine.texture.table import instance
+from engine.texture.table import TextureError, from_key, instance
 
 ORIGINS = st.one_of(st.integers(-300, 300), st.integers(-(2**90), 2**90), st.just((1 << 40) - 20))
 
@@ -182,6 +184,29 @@ def test_weights_of_octaves(roughness, strength, scale, octave, depth):
         spread = np.sqrt(whole**2 + strength**2 * (weights[:depth] ** 2).sum())
         first = np.sqrt(1 + strength**2 * sum(roughness ** (2 * j) for j in range(1, form.settled + 1)))
         assert spread < first * 1.01
+
+
+@pytest.mark.parametrize("kind", ["spectrum", "sparse", "matched"])
+def test_textures_that_last_keep_their_octaves_at_any_depth(kind):
+    """Each level adds an octave r times as strong as the one before, and changes nothing that was there."""
+    made, usual = (instance(kind, {"roughness": 0.4, "renew": renew}, 0, 3, NOISE) for renew in (False, True))
+    assert made.key != usual.key
+    assert from_key(json.loads(json.dumps(made.key)), {NOISE.sha: NOISE}) == made
+    deep = made.native + 12
+    levels = range(made.native + 1, deep + 14, 3)
+    sizes = [made.bandpass(level, Rect.at(700 << level, 300 << level, 64, 64)).std() for level in levels]
+    assert np.allclose(np.diff(np.log2(sizes)) / 3, np.log2(0.4), atol=0.1)
+    rect = Rect.at(700 << deep, 300 << deep, 32, 32)
+    carried = np.zeros_like(made.appearance(deep, rect))
+    add_expanded(carried, made.appearance(deep - 1, parents(rect)) - made.centre)
+    assert np.allclose(made.appearance(deep, rect), carried + made.centre + made.bandpass(deep, rect), atol=1e-5)
+
+
+def test_renewing_is_a_matter_of_yes_and_no():
+    with pytest.raises(TextureError, match='renew: found "no", expected true or false'):
+        instance("rock", {"renew": "no"}, 0, 3)
+    with pytest.raises(TextureError, match="lasting stripes"):
+        from_key(["lasting stripes", 0, 32.0, 0.0, 0.0], {})
 
 
 def test_seeds_differ_and_the_sample_lost_is_flat():
