@@ -167,7 +167,7 @@ def instance(
     return _worked_out(row.make(level, *values, source), arithmetic, renew)
 
 
-def _renewed(row: Kind, parameters: Mapping[str, Any]) -> bool:
+def _renewed(row: Kind, parameters: Mapping[str, object]) -> bool:
     """Returns the parameter `renew`, of textures that go on for ever."""
     renew = parameters.get("renew", True) if row.endless else True
     if not isinstance(renew, bool):

@@ -109,19 +109,21 @@ def sliders(desk: Desk, texture: str, parameters: Map[str, Any]) -> Map[str, Any
         if row.name not in ("seed", "stages") and still:
             parameters = _slider(parameters, row, usual.get(row.name, row.default))
     if any(row.name == kind and row.endless for row in desk.known.tables.kinds):
-        parameters = _lasting(parameters, usual.get("renew", True) is not False)
+        renewed = parameters.get("renew", usual.get("renew", True)) is not False
+        changed, renew = _renewed(renewed)
+        parameters = parameters.set("renew", renew) if changed else parameters
     seeded = any(row.name == "seed" for row in found)
     if seeded and w.text_button(f"{icons.DICE} Another grain", "The same texture from another seed", width=-1):
         parameters = parameters.set("seed", (int(parameters.get("seed", 0) or 0) * 31 + 17) % 99991)
     return parameters
 
 
-def _lasting(parameters: Map[str, Any], usual: bool) -> Map[str, Any]:
-    renewed = parameters.get("renew", usual) is not False
+def _renewed(renewed: bool) -> tuple[bool, bool]:
+    """Shows whether octaves are renewed: whether that was changed, and how it is now."""
     changed, lasting = imgui.checkbox("For heights", not renewed)
     w.named("For heights")
     w.tooltip("What is seen from afar stays as it is when you come nearer: for land. Contrast fades deep down")
-    return parameters.set("renew", not lasting) if changed else parameters
+    return changed, not lasting
 
 
 def own(desk: Desk, texture: str) -> Mapping[str, Any]:
