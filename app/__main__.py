@@ -19,6 +19,7 @@ COMMANDS = {
     "recover": "list, open or discard paintings that were not closed",
     "info": "tell what a painting holds",
     "texture": "make a texture from a spectrum, a sample, a photograph or examples",
+    "solid": "show an object of marble, wood, granite, agate or any cube of texture",
     "analyse": "tell what a picture is made of: spectra, colours, regions",
     "bench": "measure against the stated bounds",
     "doctor": "tell what Inkfall finds on this machine",

@@ -19,6 +19,7 @@ ORDER = (
     ("engine.brush",),
     ("engine.canvas",),
     ("engine.files",),
+    ("engine.solids",),
     ("engine.keeping",),
     ("engine.painting",),
     ("engine.terrain",),

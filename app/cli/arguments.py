@@ -12,8 +12,8 @@ from app.cli.outcome import Refused
 
 SIDE = 1 << 20  # pixels each way of what is made
 
-MODULES = {"export": "export_command"}  # of commands whose modules have other names
-_RECTANGLE = re.compile(r"-?\d+(,-?\d+)*")
+MODULES = {"export": "export_command", "solid": "solid_picture"}  # of commands whose modules have other names
+_RECTANGLE = re.compile(r"-?\d+(\.\d+)?(,-?\d+(\.\d+)?)*")
 
 
 class Rectangle(NamedTuple):
@@ -69,7 +69,7 @@ def joined_options(words: list[str]) -> list[str]:
     """`--rect -4,0,0,8,8` as `--rect=-4,0,0,8,8`: argparse would take the value for an option."""
     out: list[str] = []
     for word in words:
-        if out and out[-1] in ("--rect", "--origin", "--at", "--flight") and _RECTANGLE.fullmatch(word):
+        if out and out[-1] in ("--rect", "--origin", "--at", "--flight", "--turn") and _RECTANGLE.fullmatch(word):
             out[-1] += f"={word}"
         else:
             out.append(word)

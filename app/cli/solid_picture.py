@@ -1,0 +1,158 @@
+"""Show an object made of a solid: a procedural material, a cube of texture, or one grown from an example."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+from typing import TYPE_CHECKING
+
+from app.cli import match_command
+from app.cli.arguments import seed, size
+from app.cli.outcome import DONE, Refused
+from app.cli.output import checked_output
+from app.cli.progress import Progress
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from engine.solids.mesh import Mesh
+    from engine.solids.solid_lookup import Lookup
+    from engine.solids.solid_rendering import Arrangement, Body
+
+_PIXELS = 64 << 20
+_GROWN = 64  # voxels a side of what grows from an example
+MOST_SAMPLES = 6
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Declares the command's arguments."""
+    from engine.solids.materials import MATERIALS
+    from engine.solids.mesh_files import READERS
+
+    known = ", ".join(MATERIALS)
+    parser.add_argument("solid", metavar="SOLID", help=f"{known}; a CUBE.npy; or a picture, from which a cube grows")
+    parser.add_argument("out", metavar="OUT.png", help="where the picture goes")
+    parser.add_argument(
+        "--on",
+        metavar="OBJECT",
+        default="sphere",
+        help=f"sphere, cube, torus, vase, teapot, knot, bust, or a mesh: {', '.join(READERS)} (default sphere)",
+    )
+    parser.add_argument("--turn", type=_angles, default=(25.0, 0.0), metavar="A,B", help="degrees round, and forwards")
+    parser.add_argument("--scale", type=_positive, default=0.42, metavar="S", help="of the solid (default 0.42)")
+    parser.add_argument("--size", type=size, default=(1280, 800), metavar="WxH", help="pixels (default 1280x800)")
+    parser.add_argument("--seed", type=seed, default=0, metavar="S", help="another seed, another solid (default 0)")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="a slider of the material; may be repeated"
+    )
+    parser.add_argument(
+        "--samples",
+        type=match_command.whole(1, MOST_SAMPLES),
+        default=3,
+        metavar="N",
+        help="N x N samples of each pixel (default 3)",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Carries the command out; returns the exit status."""
+    checked_output(options.out, (".png",))
+    width, height = options.size
+    if width * height > _PIXELS:
+        raise Refused(f"--size: found {width * height:,} pixels, expected at most {_PIXELS:,}")
+    mesh = _object(options.on)
+    solid = _solid(options)
+    body, scene = _scene(mesh, solid, options)
+    with Progress("drawing", height) as tell:
+        pixels = scene.picture(options.size, options.samples, tell)
+    match_command.write(options.out, pixels)
+    facts = {"written": options.out, "size": [width, height], "triangles": len(body.mesh.faces), "on": options.on}
+    if options.json:
+        print(json.dumps(facts))
+    else:
+        print(f"wrote {options.out}: {width} x {height} pixels, {len(body.mesh.faces):,} triangles")
+    return DONE
+
+
+def _angles(text: str) -> tuple[float, float]:
+    if not re.fullmatch(r"-?[0-9]{1,6}(\.[0-9]{1,6})?,-?[0-9]{1,6}(\.[0-9]{1,6})?", text):
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected A,B: degrees")
+    about, tilt = text.split(",")
+    return float(about), float(tilt)
+
+
+def _positive(text: str) -> float:
+    if not re.fullmatch(r"[0-9]{1,6}(\.[0-9]{1,6})?", text) or not 1e-4 <= float(text) <= 1000.0:
+        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected a number from 0.0001 to 1000")
+    return float(text)
+
+
+def _object(name: str) -> Mesh:
+    from engine.solids.mesh_files import read_mesh
+    from engine.solids.objects import OBJECTS, object_named
+
+    if name in OBJECTS:
+        return object_named(name)
+    if not os.path.exists(name):
+        raise Refused(f"--on: found {name[:80]!a}, expected {', '.join(OBJECTS)}, or a mesh that is there")
+    return read_mesh(name)
+
+
+def _solid(options: argparse.Namespace) -> Lookup:
+    from engine.solids.materials import MATERIALS
+    from engine.solids.solid_lookup import Cubed, Procedural
+
+    name = options.solid
+    if name in MATERIALS:
+        return Procedural(name, options.seed, _values(name, options.set))
+    if options.set:
+        raise Refused(f"--set: found one for {name[:80]!a}, expected a material: {', '.join(MATERIALS)}")
+    if not os.path.exists(name):
+        raise Refused(f"{name}: no such file, and no material: {', '.join(MATERIALS)}")
+    if name.lower().endswith(".npy"):
+        from engine.solids.cube_files import read_cube
+
+        return Cubed(read_cube(name), seed=options.seed)
+    return Cubed(_grown(name, options), seed=options.seed)
+
+
+def _values(name: str, given: list[str]) -> dict[str, float]:
+    """The sliders of a material that were set."""
+    from engine.solids.materials import MATERIALS
+
+    sliders = MATERIALS[name].sliders
+    out = {}
+    for text in given:
+        found = re.fullmatch(r"([a-z]+)=(-?[0-9]{1,6}(?:\.[0-9]{1,6})?)", text)
+        row = sliders.get(found.group(1)) if found else None
+        if found is None or row is None or not row.low <= float(found.group(2)) <= row.high:
+            known = ", ".join(f"{key}={row.low:g}..{row.high:g} ({row.about})" for key, row in sliders.items())
+            raise Refused(f"--set: found {text[:40]!a}, expected {known}")
+        out[found.group(1)] = float(found.group(2))
+    return out
+
+
+def _grown(path: str, options: argparse.Namespace) -> np.ndarray:
+    """The cube that grows from an example: float32 (z, y, x, 3)."""
+    import numpy as np
+
+    from engine.solids.cube_files import opaque
+    from engine.texture import solid
+    from engine.texture.matching import Shape, matched_colours
+
+    example = match_command.read(path, options.out)
+    wanted = solid.patterns(example.planes, _GROWN, Shape("steerable", 4, 4))
+    start = solid.noise(wanted.oriented.colours.count, _GROWN, options.seed)
+    with match_command.threads() as pool:
+        cubes = match_command.finished("growing", solid.matching(wanted, start, solid.ITERATIONS, pool))
+    return opaque(np.moveaxis(matched_colours(wanted.oriented, cubes), 0, -1))
+
+
+def _scene(mesh: Mesh, solid: Lookup, options: argparse.Namespace) -> tuple[Body, Arrangement]:
+    from engine.solids.solid_rendering import Body, framed, turning
+
+    body = Body(mesh, solid, turning(*options.turn), scale=options.scale).standing()
+    return body, framed([body])

@@ -1,0 +1,224 @@
+"""Materials: solids that are functions of the place, with few parameters each.
+
+Heeger & Bergen's section 6 names the ways, after Perlin, Peachey and Lewis: ramps of perturbed sines (marble), rings
+around an axis (wood), band-passed noise (granite), a signal of one dimension along a path through the solid (agate).
+All repeat after one unit along each axis, without a seam, and have detail at every scale.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.numeric import elementary
+from engine.solids.solid_noise import Octaves, noise_at
+
+Values = Mapping[str, float]
+Stops = tuple[tuple[float, str], ...]
+_TURN = 2.0 * 3.141592653589793
+
+
+@dataclass(frozen=True, slots=True)
+class Slider:
+    """A parameter: what it is, its least, usual and greatest value; `whole`: only whole numbers keep the solid free of
+    seams."""
+
+    about: str
+    low: float
+    usual: float
+    high: float
+    whole: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """Where a material is asked for: `points` (N, 3) of x, y, z in units; the `seed`; the `finest` length of interest,
+    in units."""
+
+    points: np.ndarray
+    seed: int
+    finest: float
+
+    def noise(self, cells: int | tuple[int, int, int], which: int, gain: float = 0.5, most: int = 24) -> np.ndarray:
+        """Returns noise (N,) of octaves from `cells` on; `which` tells a material's noises apart."""
+        along = (cells,) * 3 if isinstance(cells, int) else cells
+        return noise_at(self.points, Octaves(along, gain, most), 16 * self.seed + which, self.finest)
+
+    def at(self, points: np.ndarray) -> Seen:
+        """Returns the same at other places."""
+        return Seen(points, self.seed, self.finest)
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """`colours`: of what is seen and the values of all sliders, float64 (N, 3) in 0..1, as a screen shows them;
+    `gloss`: how much it mirrors, 0..1."""
+
+    about: str
+    gloss: float
+    sliders: Mapping[str, Slider]
+    colours: Callable[[Seen, Values], np.ndarray]
+
+    def values(self, given: Values) -> dict[str, float]:
+        """Returns the values of all sliders, those given within their bounds and whole where they must be."""
+        out = {}
+        for name, slider in self.sliders.items():
+            value = min(max(float(given.get(name, slider.usual)), slider.low), slider.high)
+            out[name] = float(round(value)) if slider.whole else value
+        return out
+
+
+def colour_ramp(at: np.ndarray, stops: Stops) -> np.ndarray:
+    """Colours (N, 3) of a ramp through `stops` of place and "#rrggbb"."""
+    places = [place for place, _ in stops]
+    colours = np.array([[int(text[i : i + 2], 16) / 255.0 for i in (1, 3, 5)] for _, text in stops])
+    return np.stack([np.interp(at, places, colours[:, channel]) for channel in range(3)], axis=-1)
+
+
+def _wave(turns: np.ndarray) -> np.ndarray:
+    """The sine of a number of turns."""
+    return elementary.mapped(elementary.sin, _TURN * turns)
+
+
+def _between(low: float, high: float, values: np.ndarray) -> np.ndarray:
+    """0 below `low`, 1 above `high`, smooth between."""
+    t = np.clip((values - low) / (high - low), 0.0, 1.0)
+    out: np.ndarray = t * t * (3.0 - 2.0 * t)
+    return out
+
+
+def _mixed(below: np.ndarray, above: np.ndarray | tuple[float, float, float], share: np.ndarray) -> np.ndarray:
+    out: np.ndarray = below + (np.asarray(above) - below) * share[:, None]
+    return out
+
+
+_MARBLE: Stops = ((0.0, "#f4f1ea"), (0.45, "#e4e2de"), (0.75, "#b9bcc0"), (1.0, "#8e959d"))
+_VERDE: Stops = ((0.0, "#123026"), (0.45, "#24503f"), (0.75, "#3f7660"), (1.0, "#8db9a2"))
+
+
+def _marble(seen: Seen, values: Values) -> np.ndarray:
+    """Veins are where sines of a place that noise has moved pass zero: broad soft ones, then thin dark ones."""
+    x, y, z = seen.points.T
+    veins, moved = 0.5 * values["veins"], values["turbulence"]
+    broad = seen.noise(2, 0, 0.55)
+    fine = seen.noise(3, 1, 0.6)
+    soft = 1.0 - np.abs(_wave(veins * (x + y) + moved * broad))
+    sharp = 1.0 - np.abs(_wave(veins * (x + y - z) + moved * (0.6 * broad + fine)))
+    weak = _between(-0.35, 0.45, seen.noise(3, 2, 0.5, 3))  # veins come and go
+    cloud = 0.32 + 0.34 * broad + 0.55 * elementary.powers(soft, 3.0) * weak
+    line = elementary.powers(sharp, values["sharpness"]) * (0.25 + 0.75 * weak)
+    pale = colour_ramp(cloud, _MARBLE)
+    pale = _mixed(pale, (0.30, 0.31, 0.33), 0.85 * line)
+    gold = elementary.powers(sharp, 2.2 * values["sharpness"]) * _between(0.0, 0.5, fine) * values["gold"]
+    pale = _mixed(pale, (0.63, 0.46, 0.25), 0.9 * gold)
+    dark = _mixed(colour_ramp(cloud, _VERDE), (0.86, 0.93, 0.88), 0.9 * line)
+    return _mixed(pale, dark, np.full(len(x), values["green"]))
+
+
+_WOOD: Stops = ((0.0, "#b97f4c"), (0.45, "#a56a3a"), (0.8, "#7c4424"), (0.94, "#552914"), (1.0, "#a87040"))
+
+
+def _wood(seen: Seen, values: Values) -> np.ndarray:
+    """Rings around an axis along z, which noise bends; each grows darker towards its end.  Fibres run along."""
+    x, y, _ = seen.points.T
+    bent = values["bend"]
+    slow = seen.noise((2, 2, 1), 0, 0.45, 4)
+    other = seen.noise((2, 2, 1), 1, 0.45, 4)
+    across, along = _wave(0.5 * (x + 0.31) + 0.02 * bent * slow), _wave(0.5 * (y + 0.17) + 0.02 * bent * other)
+    far = np.sqrt(across * across + along * along) + 0.012 * bent * seen.noise((5, 5, 1), 2, 0.5, 4)
+    rings = values["rings"] * far
+    year = np.floor(rings)
+    ring = rings - year
+    late = year * 0.61803398875 - np.floor(year * 0.61803398875)  # no two years are alike
+    fibre = seen.noise((48, 48, 3), 3, 0.6, 7)
+    pore = seen.noise((96, 96, 6), 4, 0.5, 6)
+    dark = ring * (ring + (ring * ring - ring) * late)
+    colour = colour_ramp(dark, _WOOD) * (1.0 + values["fibres"] * (0.10 * fibre + 0.10 * slow))[:, None]
+    holes = _between(0.24, 0.6, pore) * (0.3 + 0.7 * dark) * values["fibres"]
+    out: np.ndarray = np.clip(_mixed(colour, (0.26, 0.13, 0.06), 0.65 * holes), 0.0, 1.0)
+    return out
+
+
+def _granite(seen: Seen, values: Values) -> np.ndarray:
+    """Three minerals, each where its own band-passed noise is high, and each with a grain of its own."""
+    grains = int(values["grains"])
+    edge = 0.05
+    first = seen.noise(grains, 0, 0.55, 5)
+    second = seen.noise(grains, 1, 0.55, 5)
+    mica = seen.noise(2 * grains, 2, 0.6, 5)
+    grain = seen.noise(4 * grains, 3, 0.65, 8)
+    cloud = seen.noise(3, 4, 0.5, 3)
+    pink = colour_ramp(0.5 + 0.6 * grain + 0.3 * cloud, ((0.0, "#9a6a58"), (0.5, "#c39783"), (1.0, "#e2c4b2")))
+    quartz = colour_ramp(0.5 + 0.7 * grain, ((0.0, "#7d7a78"), (0.5, "#a9a5a1"), (1.0, "#d6d2cc")))
+    white = colour_ramp(0.5 + 0.5 * grain, ((0.0, "#cfc6ba"), (0.5, "#e6dfd4"), (1.0, "#f6f1ea")))
+    black = colour_ramp(0.5 + 0.7 * grain, ((0.0, "#141316"), (0.6, "#2c2a2c"), (1.0, "#5a5552")))
+    colour = _mixed(quartz, pink, _between(-edge, edge, first - 0.25 + 0.5 * values["pink"]))
+    colour = _mixed(colour, white, _between(-edge, edge, second - 0.16))
+    return _mixed(colour, black, _between(-edge, edge, mica - 0.42 + 0.5 * values["mica"]))
+
+
+_AGATE: Stops = (
+    *((0.0, "#2a1512"), (0.14, "#6a2a18"), (0.28, "#b4552a"), (0.4, "#e2a35c"), (0.5, "#f5e6cf")),
+    *((0.6, "#d9cfc4"), (0.7, "#a98d86"), (0.8, "#7a4a44"), (0.9, "#c47a45"), (1.0, "#f0d2a4")),
+)
+
+
+def _agate(seen: Seen, values: Values) -> np.ndarray:
+    """Bands lie at equal depths of a hollow that noise has shaped; how dark each is tells a signal of one dimension."""
+    hollow = seen.noise(2, 0, 0.42, 4) + 0.05 * seen.noise(9, 1, 0.55, 6)
+    depth = values["bands"] * (0.5 + 0.42 * hollow)
+    still = np.zeros_like(depth)
+    signal = seen.at(np.stack([depth / 64.0, still, still], axis=-1))
+    signal = Seen(signal.points, seen.seed, seen.finest * values["bands"] / 64.0)
+    band = signal.noise((64, 1, 1), 2, 0.75, 6) + 0.6 * signal.noise((12, 1, 1), 3, 0.5, 2)
+    colour = colour_ramp(np.clip(0.5 + 0.62 * band, 0.0, 1.0), _AGATE)
+    line = elementary.powers(1.0 - np.abs(_wave(1.5 * depth)), 9.0)
+    colour = _mixed(colour, (0.97, 0.93, 0.86), 0.35 * line)
+    crystal = _between(0.62, 0.74, hollow)  # the middle is filled with quartz
+    facets = np.abs(seen.noise(22, 5, 0.6, 7))
+    return _mixed(colour, colour_ramp(facets, ((0.0, "#f7f2f4"), (0.25, "#d8cfdb"), (0.7, "#8d7f9e"))), crystal)
+
+
+_VEINS = Slider("veins in a unit", 1.0, 2.0, 12.0, whole=True)
+MATERIALS: dict[str, Material] = {
+    "marble": Material(
+        "ramps of sines that noise has moved",
+        0.7,
+        {
+            "veins": _VEINS,
+            "turbulence": Slider("how far noise moves them", 0.0, 0.75, 3.0),
+            "sharpness": Slider("how thin they are", 2.0, 14.0, 60.0),
+            "gold": Slider("gold in thin veins", 0.0, 0.6, 1.0),
+            "green": Slider("0 white, 1 green stone", 0.0, 0.0, 1.0),
+        },
+        _marble,
+    ),
+    "wood": Material(
+        "rings around an axis, fibres and pores along it",
+        0.25,
+        {
+            "rings": Slider("rings from the axis to the farthest place", 4.0, 26.0, 120.0),
+            "bend": Slider("how far noise bends them", 0.0, 1.0, 4.0),
+            "fibres": Slider("fibres and pores", 0.0, 1.0, 2.0),
+        },
+        _wood,
+    ),
+    "granite": Material(
+        "three minerals, each where band-passed noise is high",
+        0.4,
+        {
+            "grains": Slider("grains in a unit", 4.0, 28.0, 120.0, whole=True),
+            "pink": Slider("how much feldspar", 0.0, 0.5, 1.0),
+            "mica": Slider("how much mica", 0.0, 0.5, 1.0),
+        },
+        _granite,
+    ),
+    "agate": Material(
+        "bands of a one-dimensional signal around hollows",
+        0.85,
+        {"bands": Slider("bands from the rim to the middle of a hollow", 4.0, 22.0, 96.0)},
+        _agate,
+    ),
+}
