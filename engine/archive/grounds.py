@@ -7,11 +7,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from immutables import Map
-
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.layers import Layer
-from engine.canvas.store import Level, PutAway, Pyramid, Record
+from engine.canvas.store import PutAway, Pyramid, Record, level_of
 from engine.checks.field_error import FieldError
 from engine.files.limits import STREAMED, Limits
 from engine.files.png_reader import PngReader
@@ -102,11 +100,10 @@ def with_tiles(ground: Pyramid, levels: dict[int, dict[tuple[int, int], Record]]
     """Returns a ground, or nothing, with what was painted since in its place."""
     stored = ground.levels
     for level, tiles in levels.items():
-        held: Level = stored.get(level, Map())
-        editable = held.mutate()
+        editable = level_of(stored.get(level, {})).mutate()
         for place, record in tiles.items():
             editable.set(place, record if record.depth == ground.depth else replace(record, depth=ground.depth))
-        stored = stored.set(level, editable.finish())
+        stored = stored.set(level, level_of(editable.finish()))
     return replace(ground, levels=stored)
 
 

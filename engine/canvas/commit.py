@@ -18,7 +18,7 @@ from engine.canvas.front import Around, Patch, climbs, cropped, lift, united
 from engine.canvas.painted import paint, tile_bounds
 from engine.canvas.residuals import NewRecords, store
 from engine.canvas.rising.lasting import Lasting
-from engine.canvas.store import Attenuation, Change, Level, Pyramid, Record
+from engine.canvas.store import Attenuation, Change, Pyramid, Record, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.texture.planes import COLOURS, Planes, merged, widened
@@ -26,6 +26,10 @@ from engine.texture.record import Instance
 
 if TYPE_CHECKING:
     from immutables._protocols import MapMutation
+
+    from engine.canvas.rising.paged_level import PageEditor
+
+    _Editor = MapMutation[tuple[int, int], Record] | PageEditor[Record]
 
 Keeps = dict[tuple[int, int], Lasting]
 _AT_ONCE = 224 << 20  # bytes of the planes of an edit's bounds up to which it is worked on as one rectangle
@@ -243,9 +247,9 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
     levels, known = pyramid.levels, pyramid.known
     for k, keys in by_level.items():
         stored = levels.get(k)
-        editable = (Level() if stored is None else stored).mutate()
+        editable = level_of({} if stored is None else stored).mutate()
         _write(editable, keys, records)
-        finished = editable.finish()
+        finished = level_of(editable.finish())
         levels = levels.set(k, finished) if len(finished) else (levels.delete(k) if k in levels else levels)
         blocks = pyramid.blocks(k)
         if blocks is not None:
@@ -261,7 +265,9 @@ def _with_records(pyramid: Pyramid, edit: Edit, rect: Rect, keeps: Keeps | None,
     return folded
 
 
-def _write(editable: MapMutation[tuple[int, int], Record], keys: Iterable[TileKey], records: NewRecords) -> None:
+def _write(
+    editable: MapMutation[tuple[int, int], Record] | PageEditor[Record], keys: Iterable[TileKey], records: NewRecords
+) -> None:
     for key in keys:
         record = records[key]
         if record is not None:

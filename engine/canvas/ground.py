@@ -17,7 +17,7 @@ import numpy as np
 from engine.canvas import kernels
 from engine.canvas.compact import blank_found, compact
 from engine.canvas.rising import counting
-from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, PutAway, Pyramid, Record
+from engine.canvas.store import RECORD_OVERHEAD, Change, Ground, Level, PutAway, Pyramid, Record, level_of
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import FINE_STEP
 from engine.numeric.parted import Raster, Room
@@ -48,7 +48,7 @@ def laid(tile: Tile, rect: Rect, pixels: bytes | PutAway | None = None, room: Ro
     for level in itertools.count(0, -1):
         records = _records(below, above, level)
         if records:
-            levels[level] = immutables.Map(records)
+            levels[level] = level_of(records)
         if isinstance(above, _Dense) and not above.values.any():
             break
         below, above = above, _next(above, room)

@@ -19,7 +19,9 @@ from typing import IO, Protocol
 import immutables
 import numpy as np
 
+from engine.canvas.rising import paged_level
 from engine.canvas.rising.lasting import Lasting
+from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.rising.tile_blocks import Blocks
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.arithmetic import FINE
@@ -156,7 +158,16 @@ class Attenuation:
         return RECORD_OVERHEAD + sum(kept.nbytes for kept in self.keep.values())
 
 
-Level = immutables.Map[tuple[int, int], Record]
+Level = immutables.Map[tuple[int, int], Record] | PagedLevel[Record]
+
+
+def level_of(records: Mapping[tuple[int, int], Record]) -> Level:
+    """Returns a level with some records, by pages where they are many."""
+    if isinstance(records, PagedLevel):
+        return records
+    if len(records) >= paged_level.MANY:
+        return PagedLevel.of(records)
+    return records if isinstance(records, immutables.Map) else immutables.Map(records)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -172,6 +172,14 @@ def put_away(coded: CodedData) -> int:
     return put.size
 
 
+def coded_alone(record: Record) -> tuple[CodedData, bytes]:
+    """Returns a record's data by themselves, and what is packed of them; the record stays as it is."""
+    held = record.held
+    alone = isinstance(held, CodedData) and not isinstance(held, CodedSheets) and held.other is None
+    coded = held if isinstance(held, CodedData) and alone else _coded(record, None)
+    return coded, coded.packed if isinstance(coded.packed, bytes) else coded.packed.read()
+
+
 def decode(record: Record) -> None:
     """Makes a record as it was."""
     held = record.held

@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator
 
+from immutables import Map
+
 from engine.canvas import growth as growths
 from engine.canvas import layers
 from engine.canvas.growth import Growth
@@ -14,7 +16,7 @@ from engine.numeric.address import Rect, TileKey
 from engine.texture.sparse_planes import SparsePlanes
 
 _AROUND = 4  # pixels around a change whose residuals it also rewrites: those under the expanded parents
-_NOTHING = Level()
+_NOTHING: Level = Map()
 _FEW = 256  # places that are looked at one by one
 OnlyHere = tuple[TileKey, Record, Record | None]  # a record of one state, and what another has in its place
 

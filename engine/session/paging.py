@@ -10,8 +10,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from engine.canvas.layers import Group, layers
+from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.store import Pyramid, Record
 from engine.session.coded_records import CodedData, encode, put_away
+from engine.session.paged_records import put_page_away
 from engine.texture.sparse_planes import SparsePlanes
 
 _SMALL = 2 << 10  # bytes of data that are not worth it
@@ -22,8 +24,9 @@ _AT_ONCE = 1 << 20  # bytes that are looked for in one piece of work
 class Paging:
     """Frees bytes of the records of a painting.  It belongs to the session's thread.
 
-    First it codes what was stored long ago, of the levels farthest from the one that is seen; then what was stored of
-    late; then what is coded goes to disk.  `wanted`: bytes that are still to be freed.
+    First records of levels that have many go to disk, by pages, as far as they were stored long ago.  Then it codes
+    what was stored long ago, of the levels farthest from the one that is seen; then what was stored of late; then what
+    is coded goes to disk.  `wanted`: bytes that are still to be freed.
     """
 
     def __init__(self) -> None:
@@ -48,6 +51,11 @@ class Paging:
 def _freed(root: Group, level: int | None) -> Iterator[int]:
     """Makes one record after the other smaller; yields the bytes that were freed."""
     pyramids = [layer.pyramid for layer in layers(root)]
+    for pyramid in pyramids:
+        for k in _farthest_first(pyramid, level):
+            stored = pyramid.levels[k]
+            if isinstance(stored, PagedLevel):
+                yield from (put_page_away(page, pyramid.depth - _OF_LATE) for page in stored.pages.values())
     for late in (False, True):
         for pyramid in pyramids:
             for record in _records(pyramid, level):
@@ -63,6 +71,13 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
 
 def _records(pyramid: Pyramid, level: int | None) -> Iterator[Record]:
     """Yields all records that hold something, those of the levels farthest from one first."""
+    for k in _farthest_first(pyramid, level):
+        stored = pyramid.levels[k]
+        here = stored.here() if isinstance(stored, PagedLevel) else stored.values()
+        yield from (record for record in here if record.there)
+
+
+def _farthest_first(pyramid: Pyramid, level: int | None) -> list[int]:
+    """Returns the levels of a pyramid, those farthest from one first."""
     seen = 0 if level is None else level
-    for k in sorted(pyramid.levels, key=lambda k: -abs(k - seen)):
-        yield from (record for record in pyramid.levels[k].values() if record.there)
+    return sorted(pyramid.levels, key=lambda k: -abs(k - seen))

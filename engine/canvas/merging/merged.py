@@ -26,7 +26,7 @@ from engine.canvas.placing.filled import TilePlace
 from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.through import UNPLACED, Seen
 from engine.canvas.reading import layer_planes
-from engine.canvas.store import Level, Pyramid, Record
+from engine.canvas.store import Pyramid, Record, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.grid import snapped_to
@@ -128,7 +128,7 @@ class _Merging:
         if self._count > _MOST_MERGED:
             raise LayerError(f"layer: found more than {_MOST_MERGED} tiles to merge, expected fewer")
         if found:
-            self._made = replace(self._made, levels=self._made.levels.set(level, Level(found)))
+            self._made = replace(self._made, levels=self._made.levels.set(level, level_of(found)))
         return {place for place in shows if len(_near(shows, place)) > 1}
 
     def _values(self, key: TileKey) -> tuple[Planes, frozenset[int]]:

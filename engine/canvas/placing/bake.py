@@ -20,7 +20,7 @@ from engine.canvas.compact import compact
 from engine.canvas.evaluate import evaluate_sparse
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing.filled import filled_levels
-from engine.canvas.store import Level, Pyramid, Record
+from engine.canvas.store import Level, Pyramid, Record, level_of
 from engine.canvas.tile_cache import TileCache
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.similarity import Similarity
@@ -119,7 +119,7 @@ class _Turned:
             rect = placed_rect(TileKey(at, *place), record.rect)
             tiles.update(self._similarity.shown(rect, at, level).tiles(level))
         made = ((key, self._record(key, at, depth)) for key in tiles)
-        return Level({(key.x, key.y): record for key, record in made if record is not None})
+        return level_of({(key.x, key.y): record for key, record in made if record is not None})
 
     def _record(self, key: TileKey, at: int, depth: int) -> Record | None:
         rect = self._back.shown(key.rect, key.level, at)

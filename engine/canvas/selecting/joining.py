@@ -17,7 +17,7 @@ from engine.canvas.commit import commit
 from engine.canvas.compact import compact
 from engine.canvas.evaluate import evaluate
 from engine.canvas.selecting.selection import Selection
-from engine.canvas.store import Level, Pyramid, Record
+from engine.canvas.store import Level, Pyramid, Record, level_of
 from engine.numeric.address import TILE, TileKey
 from engine.texture.planes import COLOURS, Planes
 
@@ -50,7 +50,7 @@ def _below(stored: Level, level: int, coverage: Coverage, inverse: bool) -> Leve
     """Returns the records of a level that lie below tiles of a coverage; `inverse`: those of 1 - v."""
     by, tiles = level - coverage.level, coverage.tiles
     kept = ((at, record) for at, record in stored.items() if TileKey(coverage.level, at[0] >> by, at[1] >> by) in tiles)
-    return Level({at: _negative(record) if inverse else record for at, record in kept})
+    return level_of({at: _negative(record) if inverse else record for at, record in kept})
 
 
 def _negative(record: Record) -> Record:
@@ -90,7 +90,7 @@ def _bare(stored: Level) -> Level:
         bare = compact(record.rect, data, (), record.depth)
         if bare is not None:
             kept[at] = bare
-    return Level(kept)
+    return level_of(kept)
 
 
 def _read_only(data: np.ndarray) -> np.ndarray:

@@ -10,13 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from stepped import ROCK, contents, records
 
+from engine.canvas import layers
+from engine.canvas.rising import paged_level
 from engine.canvas.tile_cache import TileCache
 from engine.keeping import memory
 from engine.keeping.spill import Spill
 from engine.numeric.address import Rect
 from engine.painting import commands as c
 from engine.painting.value import Painting
-from engine.session import coded_records
+from engine.session import coded_records, paged_records, paging
 from engine.session.coded_records import CodedData
 from engine.session.paging import Paging
 from engine.session.session import Session
@@ -29,6 +31,7 @@ def disk(tmp_path_factory):
     spill = Spill(tmp_path_factory.mktemp("spill"))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(coded_records, "spill", lambda: spill)
+        patch.setattr(paged_records, "spill", lambda: spill)
         yield spill
     spill.close()
 
@@ -46,16 +49,23 @@ ACTS = st.one_of(
 
 
 @settings(deadline=None, max_examples=12)
-@given(st.lists(ACTS, min_size=3, max_size=14))
-def test_whatever_is_paged_meanwhile_the_painting_is_the_same(acts):
-    plain, paged, paging = begun(), begun(), Paging()
+@given(st.lists(ACTS, min_size=3, max_size=14), st.sampled_from([paged_level.MANY, 1]))
+def test_whatever_is_paged_meanwhile_the_painting_is_the_same(acts, many):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(paged_level, "MANY", many)
+        patch.setattr(paging, "_OF_LATE", 1)
+        paged_meanwhile(acts)
+
+
+def paged_meanwhile(acts):
+    plain, paged, pages = begun(), begun(), Paging()
     for act in (stroke(0), stroke(1, ink=ROCK), *acts, 1 << 20):
         if isinstance(act, int):
             if act == 1 << 20:
-                paging = Paging()  # goes through all anew, also what was read since another painting came and went
-            paging.want(paged.painting.root, 0, act)
-            while paging.wanted > 0:
-                paging.step(1 << 16)
+                pages = Paging()  # goes through all anew, also what was read since another painting came and went
+            pages.want(paged.painting.root, 0, act)
+            while pages.wanted > 0:
+                pages.step(1 << 16)
             paged.cache.clear()
             continue
         plain.do(act)
@@ -99,6 +109,30 @@ def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
         room.step()
     assert all(isinstance(record.held, CodedData) or record.data.nbytes < 2048 for record in records(session.painting))
     assert contents(session.painting) == before
+
+
+def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch):
+    monkeypatch.setattr(paged_level, "MANY", 8)
+    monkeypatch.setattr(paging, "_OF_LATE", 1)
+    session, away = begun(), disk.held
+    for n in range(12):
+        session.do(c.parse({"do": "stroke", "points": [[300 * n, 10], [300 * n + 30, 30]], "brush": {"radius": 2}}))
+    (layer,) = layers.layers(session.painting.root)
+    level = layer.pyramid.levels[0]
+    before, states = contents(session.painting), session.history.steps.done
+    pages = Paging()
+    pages.want(session.painting.root, None, 1 << 30)
+    pages.step(1 << 30)
+    assert {record.depth for record in level.here()} == {12}
+    assert disk.held > away
+    assert contents(session.painting) == before
+    assert contents(states[-1].after) == before
+    session.do(c.parse({"do": "stroke", "points": [[10, 10], [40, 60]], "brush": {"mode": "erase", "radius": 9}}))
+    after = contents(session.painting)
+    session.do(c.Undo(1))
+    assert contents(session.painting) == before
+    session.do(c.Redo(1))
+    assert contents(session.painting) == after
 
 
 def test_records_stay_in_memory_where_the_disk_is_full(disk, monkeypatch):

@@ -1,0 +1,244 @@
+"""The records of a level where they are many: by pages of 8 x 8 tiles, each of which may be put away on disk.
+
+All states of the history that have a page share it, so that what is put away of one is put away of all.  A state that
+changes a tile holds the page's older records, wherever they lie, and the changed one beside them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import ItemsView, Iterator, Mapping
+from typing import Generic, NamedTuple, Protocol, TypeVar
+
+import immutables
+
+Place = tuple[int, int]  # column and row of a tile, or of a page
+R = TypeVar("R")
+T_co = TypeVar("T_co", covariant=True)
+
+MANY = 4096  # records from which on a level has pages
+_SIDE = 3  # a page is 8 tiles along, as a power of two
+_INSIDE = (1 << _SIDE) - 1
+_GONE = object()
+
+
+class PutAwayPage(Protocol[T_co]):
+    """Records of one page that are not in memory.  `bits`: where they lie in it (`bit_of`)."""
+
+    @property
+    def bits(self) -> int:
+        """Tells where they lie."""
+        ...
+
+    def records(self) -> Mapping[Place, T_co]:
+        """Returns them; they are read, if they were not of late."""
+        ...
+
+
+class Page(Generic[R]):
+    """Some records of one page: those `away`, and what has been changed since, None where one was taken away.
+
+    A value; other threads may read it while it is put away.
+    """
+
+    __slots__ = ("held",)
+
+    def __init__(self, away: PutAwayPage[R] | None, changed: immutables.Map[Place, R | None]) -> None:
+        self.held = away, changed
+
+    def get(self, place: Place) -> R | None:
+        """Returns the record of a tile; None if it has none."""
+        away, changed = self.held
+        found = changed.get(place, _GONE)
+        if found is not _GONE:
+            return found  # type: ignore[return-value]
+        return away.records().get(place) if away is not None and away.bits & bit_of(place) else None
+
+    def has(self, place: Place) -> bool:
+        """Tells whether a tile has a record."""
+        away, changed = self.held
+        found = changed.get(place, _GONE)
+        if found is not _GONE:
+            return found is not None
+        return away is not None and away.bits & bit_of(place) != 0
+
+    def items(self) -> Iterator[tuple[Place, R]]:
+        """Yields all records with their places."""
+        away, changed = self.held
+        if away is not None:
+            yield from ((place, record) for place, record in away.records().items() if place not in changed)
+        yield from ((place, record) for place, record in changed.items() if record is not None)
+
+    def places(self, page: Place) -> Iterator[Place]:
+        """Yields the places of all records of the page at a place."""
+        away, changed = self.held
+        bits = 0 if away is None else away.bits
+        x, y = page[0] << _SIDE, page[1] << _SIDE
+        while bits:
+            at = (bits & -bits).bit_length() - 1
+            bits &= bits - 1
+            place = x + (at & _INSIDE), y + (at >> _SIDE)
+            if place not in changed:
+                yield place
+        yield from (place for place, record in changed.items() if record is not None)
+
+    def put_away(self, away: PutAwayPage[R], left: immutables.Map[Place, R | None]) -> None:
+        """Holds the same records elsewhere, but for those that are `left`."""
+        self.held = away, left
+
+
+class PagedLevel(Mapping[Place, R]):
+    """The records of a level by their places, as an `immutables.Map` has them.  `pages`: by their places."""
+
+    __slots__ = ("_count", "pages")
+
+    def __init__(self, pages: immutables.Map[Place, Page[R]], count: int) -> None:
+        self.pages, self._count = pages, count
+
+    @classmethod
+    def of(cls, stored: Mapping[Place, R]) -> PagedLevel[R]:
+        """Lays out all records in pages."""
+        found: dict[Place, dict[Place, R | None]] = {}
+        for place, record in stored.items():
+            found.setdefault(page_of(place), {})[place] = record
+        pages = {at: Page(None, immutables.Map(records)) for at, records in found.items()}
+        return cls(immutables.Map(pages), len(stored))
+
+    def get(self, place: Place, default: R | None = None) -> R | None:  # type: ignore[override]
+        """Returns the record of a tile."""
+        page = self.pages.get((place[0] >> _SIDE, place[1] >> _SIDE))
+        found = page.get(place) if page is not None else None
+        return default if found is None else found
+
+    def __getitem__(self, place: Place) -> R:
+        found = self.get(place)
+        if found is None:
+            raise KeyError(place)
+        return found
+
+    def __contains__(self, place: object) -> bool:
+        page = self.pages.get(page_of(place))  # type: ignore[arg-type]
+        return page is not None and page.has(place)  # type: ignore[arg-type]
+
+    def __iter__(self) -> Iterator[Place]:
+        for at, page in self.pages.items():
+            yield from page.places(at)
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, PagedLevel) and self.pages == other.pages:
+            return True
+        return Mapping.__eq__(self, other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def items(self) -> ItemsView[Place, R]:
+        """Gives all records with their places."""
+        return _Items(self)
+
+    def here(self) -> Iterator[R]:
+        """Yields the records that are in memory."""
+        for page in self.pages.values():
+            yield from (record for record in page.held[1].values() if record is not None)
+
+    def delete(self, place: Place) -> PagedLevel[R]:
+        """Returns the level without the record of a tile; KeyError if it has none."""
+        editable = self.mutate()
+        del editable[place]
+        return editable.finish()
+
+    def mutate(self) -> PageEditor[R]:
+        """Returns what makes another state of the level."""
+        return PageEditor(self)
+
+
+class _Items(ItemsView[Place, R]):
+    """Reads page by page."""
+
+    def __init__(self, level: PagedLevel[R]) -> None:
+        super().__init__(level)
+        self._pages = level.pages
+
+    def __iter__(self) -> Iterator[tuple[Place, R]]:
+        for page in self._pages.values():
+            yield from page.items()
+
+
+class PageEditor(Generic[R]):
+    """Makes another state of a level, as an `immutables.MapMutation` does."""
+
+    def __init__(self, level: PagedLevel[R]) -> None:
+        self._level, self._count = level, len(level)
+        self._changed: dict[Place, _Changed[R]] = {}
+
+    def set(self, place: Place, record: R) -> None:
+        """Gives a tile a record."""
+        page = self._page(place)
+        self._count += not page.has(place)
+        page.changed[place] = record
+
+    __setitem__ = set
+
+    def pop(self, place: Place, *default: None) -> None:
+        """Takes the record of a tile away; KeyError if it has none, and no default is given."""
+        page = self._page(place)
+        if not page.has(place):
+            if not default:
+                raise KeyError(place)
+            return
+        self._count -= 1
+        if page.is_away(place):
+            page.changed[place] = None
+        else:
+            del page.changed[place]
+
+    def __delitem__(self, place: Place) -> None:
+        self.pop(place)
+
+    def finish(self) -> PagedLevel[R]:
+        """Returns the other state."""
+        pages = self._level.pages.mutate()
+        for at, changed in self._changed.items():
+            page = Page(changed.away, changed.changed.finish())
+            if next(page.places(at), None) is not None:
+                pages[at] = page
+            else:
+                pages.pop(at, None)
+        return PagedLevel(pages.finish(), self._count)
+
+    def _page(self, place: Place) -> _Changed[R]:
+        """Returns the page of a tile as it is by now."""
+        at = page_of(place)
+        found = self._changed.get(at)
+        if found is None:
+            page = self._level.pages.get(at)
+            away, changed = (None, immutables.Map()) if page is None else page.held
+            found = self._changed[at] = _Changed(away, changed.mutate())
+        return found
+
+
+class _Changed(NamedTuple, Generic[R]):
+    """A page that is being changed."""
+
+    away: PutAwayPage[R] | None
+    changed: immutables.MapMutation[Place, R | None]
+
+    def is_away(self, place: Place) -> bool:
+        """Tells whether a tile has a record that is not in memory."""
+        return self.away is not None and self.away.bits & bit_of(place) != 0
+
+    def has(self, place: Place) -> bool:
+        """Tells whether a tile has a record."""
+        found = self.changed.get(place, _GONE)
+        return self.is_away(place) if found is _GONE else found is not None
+
+
+def page_of(place: Place) -> Place:
+    """Returns the place of the page in which a tile lies."""
+    return place[0] >> _SIDE, place[1] >> _SIDE
+
+
+def bit_of(place: Place) -> int:
+    """Returns the bit of a tile in its page."""
+    return 1 << ((place[1] & _INSIDE) << _SIDE | place[0] & _INSIDE)
