@@ -32,6 +32,8 @@ from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
 RECORD_OVERHEAD = 200  # bytes of a record's own objects, roughly
 _NOWHERE = Rect(0, 0, 0, 0)
+_FINEST = 1 << 14  # finer than any level
+_ANYWHERE = Rect(-(1 << 2 * _FINEST), -(1 << 2 * _FINEST), 1 << 2 * _FINEST, 1 << 2 * _FINEST)
 _FEW = 256  # tiles of a level: so many are gone through one by one
 _serials = itertools.count(1)
 
@@ -116,7 +118,7 @@ class Record:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Change:
-    """One commit, linked to the one before.
+    """One commit, linked to the one before, until that is forgotten.
 
     `level`, `rect`: where pixels changed.  `coarsest`: the coarsest level that has another record now, above which no
     value changed; None where that is not known.
@@ -136,6 +138,10 @@ class Change:
         if level <= self.level:
             return self.rect.zoomed(level - self.level)
         return self.rect.grown(2).zoomed(level - self.level)
+
+    def forget_before(self) -> None:
+        """Forgets the commits before it.  Other threads may go through them meanwhile."""
+        object.__setattr__(self, "before", None)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -308,15 +314,18 @@ class Pyramid:
 
 
 def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:
-    """Yields the commits that one of two states has and the other has not, newest first."""
+    """Yields the commits that one of two states has and the other has not, newest first; where some of them are
+    forgotten, at last one that may have changed anything."""
     while a is not b:
         if b is None or (a is not None and a.depth >= b.depth):
             assert a is not None
-            yield a
-            a = a.before
+            newer, a = a, a.before
         else:
-            yield b
-            b = b.before
+            newer, b = b, b.before
+        yield newer
+        if newer.depth > 1 and newer.before is None:
+            yield Change(_FINEST, _ANYWHERE, None)
+            return
 
 
 def changed_rects(old: Pyramid, new: Pyramid, level: int) -> list[Rect]:

@@ -25,6 +25,7 @@ from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, decode
 from engine.session.differing import apart_records, difference, lost_records
 from engine.session.line import StepLine, Undoable
+from engine.session.old_commits import OldCommits
 
 _AT_HAND = 16  # steps nearest to the present that are not coded while there is room
 _AT_ONCE = 256 << 10  # bytes of data that are coded in one piece of work
@@ -57,6 +58,7 @@ class History(Owned):
         # Those that a replay keeps, because it takes them back, may take as much as any.
         self._limit = math.inf if bytes_cap is None else bytes_cap or memory.history_share()
         self._mixed: deque[tuple[TileKey, Record]] = deque()  # of the present or another state, of which some are coded
+        self._old = OldCommits()
         self._root: Group | None = None  # the present, where it was another before
         self.forgotten, self.tight = 0, False
 
@@ -89,6 +91,7 @@ class History(Owned):
         self._root = after.root
         self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
+        self._old.step(self._done.entries[0].step.before.root)
 
     def undo(self) -> Painting:
         """Returns the painting before the last step; IndexError if there is none."""
