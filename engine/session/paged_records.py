@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.archive.shelf import Filed
-from engine.canvas.rising.paged_level import Page, Place, bit_of
+from engine.canvas.rising.paged_level import Page, TilePlace, bit_of
 from engine.canvas.store import Record
 from engine.keeping.recent import Recent
 from engine.keeping.spill import Spilled, spill
@@ -21,8 +21,8 @@ from engine.texture.record import Instance
 
 _READ = 24 << 20  # bytes of pages kept that were asked for
 _FACTS = 10  # int64 that are told of a record, before what it is made of
-_PART = 8  # of the records of a page that were changed since: fewer are not worth that the page is written anew
-_KINDS = np.dtype(np.int16), np.dtype(np.int32)
+_WORTH_PART = 8  # of the records of a page that were changed since: fewer are not worth that the page is written anew
+_INTEGERS = np.dtype(np.int16), np.dtype(np.int32)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -30,38 +30,38 @@ class RecordsAway:
     """Records of a page that are not in memory: `first`, the place of one of them, from which the others' are told;
     `bits`: where they lie in the page; `inks`: stacks of inks that they have; `piece`: what they are made of."""
 
-    first: Place
+    first: TilePlace
     bits: int
     inks: tuple[tuple[Instance, ...], ...]
     piece: Spilled | bytes
 
-    def records(self) -> Mapping[Place, Record]:
+    def records(self) -> Mapping[TilePlace, Record]:
         """Returns them; they are read, if they were not of late.  OSError if they cannot be."""
-        known = _KEPT.get(self)
+        known = _PAGES_READ.get(self)
         if known is None:
             known = self._read()
-            _KEPT.keep(self, known, sum(record.nbytes for record in known.values()))
+            _PAGES_READ.keep(self, known, sum(record.nbytes for record in known.values()))
         return known
 
-    def _read(self) -> dict[Place, Record]:
+    def _read(self) -> dict[TilePlace, Record]:
         piece = self.piece if isinstance(self.piece, bytes) else self.piece.read()
         count, (x, y) = self.bits.bit_count(), self.first
         facts = np.frombuffer(piece, np.int64, count * _FACTS).reshape(count, _FACTS)
         found, start = {}, facts.nbytes
         for right, down, x0, y0, x1, y1, depth, told, edges, length in facts.tolist():
             rect, inks = Rect(x0, y0, x1, y1), self.inks[told >> 1]
-            coded = CodedData(rect, inks, _KINDS[told & 1], None, edges, piece[start : start + length])
+            coded = CodedData(rect, inks, _INTEGERS[told & 1], None, edges, piece[start : start + length])
             found[x + right, y + down] = Record(rect, coded, inks, depth)
             start += length
         return found
 
 
-_KEPT: Recent[dict[Place, Record]] = Recent(lambda: _READ)
+_PAGES_READ: Recent[dict[TilePlace, Record]] = Recent(lambda: _READ)
 
 
 def forget_read(by: int) -> None:
     """Forgets so many bytes of pages that were asked for of late, as far as there are any."""
-    _KEPT.shrink(by)
+    _PAGES_READ.shrink(by)
 
 
 def put_page_away(page: Page[Record], newest: int) -> int:
@@ -71,7 +71,7 @@ def put_page_away(page: Page[Record], newest: int) -> int:
     gone = [place for place, record in changed.items() if record is None]
     old = {at: record for at, record in changed.items() if record is not None and _is_old(record, newest)}
     before = 0 if away is None else away.bits.bit_count()
-    if not old or len(old) * _PART < before:
+    if not old or len(old) * _WORTH_PART < before:
         return 0
     kept = {} if away is None else {at: record for at, record in away.records().items() if at not in changed}
     left = changed.mutate()
@@ -87,12 +87,12 @@ def _is_old(record: Record, newest: int) -> bool:
     return plain and record.depth <= newest
 
 
-def _away(records: Mapping[Place, Record]) -> RecordsAway:
+def _away(records: Mapping[TilePlace, Record]) -> RecordsAway:
     first, stacks = next(iter(records)), dict[tuple[Instance, ...], int]()
     facts, parts, bits = np.empty((len(records), _FACTS), np.int64), [b""], 0
     for number, (place, record) in enumerate(records.items()):
         coded, packed = coded_alone(record)
-        told = stacks.setdefault(record.inks, len(stacks)) << 1 | _KINDS.index(coded.dtype)
+        told = stacks.setdefault(record.inks, len(stacks)) << 1 | _INTEGERS.index(coded.dtype)
         at = place[0] - first[0], place[1] - first[1]
         facts[number] = *at, *record.rect, record.depth, told, coded.edges, len(packed)
         parts.append(packed)

@@ -11,14 +11,14 @@ from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import immutables
 
-Place = tuple[int, int]  # column and row of a tile, or of a page
+TilePlace = tuple[int, int]  # column and row of a tile, or of a page
 R = TypeVar("R")
 T_co = TypeVar("T_co", covariant=True)
 
 MANY = 4096  # records from which on a level has pages
-_SIDE = 3  # a page is 8 tiles along, as a power of two
-_INSIDE = (1 << _SIDE) - 1
-_GONE = object()
+_PAGE_SIDE = 3  # a page is 8 tiles along, as a power of two
+_IN_PAGE = (1 << _PAGE_SIDE) - 1
+_UNTOLD = object()
 
 
 class PutAwayPage(Protocol[T_co]):
@@ -29,7 +29,7 @@ class PutAwayPage(Protocol[T_co]):
         """Tells where they lie."""
         ...
 
-    def records(self) -> Mapping[Place, T_co]:
+    def records(self) -> Mapping[TilePlace, T_co]:
         """Returns them; they are read, if they were not of late."""
         ...
 
@@ -42,74 +42,74 @@ class Page(Generic[R]):
 
     __slots__ = ("held",)
 
-    def __init__(self, away: PutAwayPage[R] | None, changed: immutables.Map[Place, R | None]) -> None:
+    def __init__(self, away: PutAwayPage[R] | None, changed: immutables.Map[TilePlace, R | None]) -> None:
         self.held = away, changed
 
-    def get(self, place: Place) -> R | None:
+    def get(self, place: TilePlace) -> R | None:
         """Returns the record of a tile; None if it has none."""
         away, changed = self.held
-        found = changed.get(place, _GONE)
-        if found is not _GONE:
+        found = changed.get(place, _UNTOLD)
+        if found is not _UNTOLD:
             return found  # type: ignore[return-value]
         return away.records().get(place) if away is not None and away.bits & bit_of(place) else None
 
-    def has(self, place: Place) -> bool:
+    def has(self, place: TilePlace) -> bool:
         """Tells whether a tile has a record."""
         away, changed = self.held
-        found = changed.get(place, _GONE)
-        if found is not _GONE:
+        found = changed.get(place, _UNTOLD)
+        if found is not _UNTOLD:
             return found is not None
         return away is not None and away.bits & bit_of(place) != 0
 
-    def items(self) -> Iterator[tuple[Place, R]]:
+    def items(self) -> Iterator[tuple[TilePlace, R]]:
         """Yields all records with their places."""
         away, changed = self.held
         if away is not None:
             yield from ((place, record) for place, record in away.records().items() if place not in changed)
         yield from ((place, record) for place, record in changed.items() if record is not None)
 
-    def places(self, page: Place) -> Iterator[Place]:
+    def places(self, page: TilePlace) -> Iterator[TilePlace]:
         """Yields the places of all records of the page at a place."""
         away, changed = self.held
         bits = 0 if away is None else away.bits
-        x, y = page[0] << _SIDE, page[1] << _SIDE
+        x, y = page[0] << _PAGE_SIDE, page[1] << _PAGE_SIDE
         while bits:
             at = (bits & -bits).bit_length() - 1
             bits &= bits - 1
-            place = x + (at & _INSIDE), y + (at >> _SIDE)
+            place = x + (at & _IN_PAGE), y + (at >> _PAGE_SIDE)
             if place not in changed:
                 yield place
         yield from (place for place, record in changed.items() if record is not None)
 
-    def put_away(self, away: PutAwayPage[R], left: immutables.Map[Place, R | None]) -> None:
+    def put_away(self, away: PutAwayPage[R], left: immutables.Map[TilePlace, R | None]) -> None:
         """Holds the same records elsewhere, but for those that are `left`."""
         self.held = away, left
 
 
-class PagedLevel(Mapping[Place, R]):
+class PagedLevel(Mapping[TilePlace, R]):
     """The records of a level by their places, as an `immutables.Map` has them.  `pages`: by their places."""
 
     __slots__ = ("_count", "pages")
 
-    def __init__(self, pages: immutables.Map[Place, Page[R]], count: int) -> None:
+    def __init__(self, pages: immutables.Map[TilePlace, Page[R]], count: int) -> None:
         self.pages, self._count = pages, count
 
     @classmethod
-    def of(cls, stored: Mapping[Place, R]) -> PagedLevel[R]:
+    def of(cls, stored: Mapping[TilePlace, R]) -> PagedLevel[R]:
         """Lays out all records in pages."""
-        found: dict[Place, dict[Place, R | None]] = {}
+        found: dict[TilePlace, dict[TilePlace, R | None]] = {}
         for place, record in stored.items():
             found.setdefault(page_of(place), {})[place] = record
         pages = {at: Page(None, immutables.Map(records)) for at, records in found.items()}
         return cls(immutables.Map(pages), len(stored))
 
-    def get(self, place: Place, default: R | None = None) -> R | None:  # type: ignore[override]
+    def get(self, place: TilePlace, default: R | None = None) -> R | None:  # type: ignore[override]
         """Returns the record of a tile."""
-        page = self.pages.get((place[0] >> _SIDE, place[1] >> _SIDE))
+        page = self.pages.get((place[0] >> _PAGE_SIDE, place[1] >> _PAGE_SIDE))
         found = page.get(place) if page is not None else None
         return default if found is None else found
 
-    def __getitem__(self, place: Place) -> R:
+    def __getitem__(self, place: TilePlace) -> R:
         found = self.get(place)
         if found is None:
             raise KeyError(place)
@@ -119,7 +119,7 @@ class PagedLevel(Mapping[Place, R]):
         page = self.pages.get(page_of(place))  # type: ignore[arg-type]
         return page is not None and page.has(place)  # type: ignore[arg-type]
 
-    def __iter__(self) -> Iterator[Place]:
+    def __iter__(self) -> Iterator[TilePlace]:
         for at, page in self.pages.items():
             yield from page.places(at)
 
@@ -133,7 +133,7 @@ class PagedLevel(Mapping[Place, R]):
 
     __hash__ = None  # type: ignore[assignment]
 
-    def items(self) -> ItemsView[Place, R]:
+    def items(self) -> ItemsView[TilePlace, R]:
         """Gives all records with their places."""
         return _Items(self)
 
@@ -142,7 +142,7 @@ class PagedLevel(Mapping[Place, R]):
         for page in self.pages.values():
             yield from (record for record in page.held[1].values() if record is not None)
 
-    def delete(self, place: Place) -> PagedLevel[R]:
+    def delete(self, place: TilePlace) -> PagedLevel[R]:
         """Returns the level without the record of a tile; KeyError if it has none."""
         editable = self.mutate()
         del editable[place]
@@ -153,14 +153,14 @@ class PagedLevel(Mapping[Place, R]):
         return PageEditor(self)
 
 
-class _Items(ItemsView[Place, R]):
+class _Items(ItemsView[TilePlace, R]):
     """Reads page by page."""
 
     def __init__(self, level: PagedLevel[R]) -> None:
         super().__init__(level)
         self._pages = level.pages
 
-    def __iter__(self) -> Iterator[tuple[Place, R]]:
+    def __iter__(self) -> Iterator[tuple[TilePlace, R]]:
         for page in self._pages.values():
             yield from page.items()
 
@@ -170,9 +170,9 @@ class PageEditor(Generic[R]):
 
     def __init__(self, level: PagedLevel[R]) -> None:
         self._level, self._count = level, len(level)
-        self._changed: dict[Place, _Changed[R]] = {}
+        self._changed: dict[TilePlace, _Changed[R]] = {}
 
-    def set(self, place: Place, record: R) -> None:
+    def set(self, place: TilePlace, record: R) -> None:
         """Gives a tile a record."""
         page = self._page(place)
         self._count += not page.has(place)
@@ -180,7 +180,7 @@ class PageEditor(Generic[R]):
 
     __setitem__ = set
 
-    def pop(self, place: Place, *default: None) -> None:
+    def pop(self, place: TilePlace, *default: None) -> None:
         """Takes the record of a tile away; KeyError if it has none, and no default is given."""
         page = self._page(place)
         if not page.has(place):
@@ -193,7 +193,7 @@ class PageEditor(Generic[R]):
         else:
             del page.changed[place]
 
-    def __delitem__(self, place: Place) -> None:
+    def __delitem__(self, place: TilePlace) -> None:
         self.pop(place)
 
     def finish(self) -> PagedLevel[R]:
@@ -207,7 +207,7 @@ class PageEditor(Generic[R]):
                 pages.pop(at, None)
         return PagedLevel(pages.finish(), self._count)
 
-    def _page(self, place: Place) -> _Changed[R]:
+    def _page(self, place: TilePlace) -> _Changed[R]:
         """Returns the page of a tile as it is by now."""
         at = page_of(place)
         found = self._changed.get(at)
@@ -222,23 +222,23 @@ class _Changed(NamedTuple, Generic[R]):
     """A page that is being changed."""
 
     away: PutAwayPage[R] | None
-    changed: immutables.MapMutation[Place, R | None]
+    changed: immutables.MapMutation[TilePlace, R | None]
 
-    def is_away(self, place: Place) -> bool:
+    def is_away(self, place: TilePlace) -> bool:
         """Tells whether a tile has a record that is not in memory."""
         return self.away is not None and self.away.bits & bit_of(place) != 0
 
-    def has(self, place: Place) -> bool:
+    def has(self, place: TilePlace) -> bool:
         """Tells whether a tile has a record."""
-        found = self.changed.get(place, _GONE)
-        return self.is_away(place) if found is _GONE else found is not None
+        found = self.changed.get(place, _UNTOLD)
+        return self.is_away(place) if found is _UNTOLD else found is not None
 
 
-def page_of(place: Place) -> Place:
+def page_of(place: TilePlace) -> TilePlace:
     """Returns the place of the page in which a tile lies."""
-    return place[0] >> _SIDE, place[1] >> _SIDE
+    return place[0] >> _PAGE_SIDE, place[1] >> _PAGE_SIDE
 
 
-def bit_of(place: Place) -> int:
+def bit_of(place: TilePlace) -> int:
     """Returns the bit of a tile in its page."""
-    return 1 << ((place[1] & _INSIDE) << _SIDE | place[0] & _INSIDE)
+    return 1 << ((place[1] & _IN_PAGE) << _PAGE_SIDE | place[0] & _IN_PAGE)
