@@ -15,7 +15,7 @@ ORDER = (
     ("engine.kernel_cache",),
     ("engine.checks",),
     ("engine.numeric",),
-    ("engine.texture",),
+    ("engine.texture", "engine.light"),
     ("engine.brush",),
     ("engine.canvas",),
     ("engine.files",),

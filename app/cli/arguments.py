@@ -69,7 +69,7 @@ def joined_options(words: list[str]) -> list[str]:
     """`--rect -4,0,0,8,8` as `--rect=-4,0,0,8,8`: argparse would take the value for an option."""
     out: list[str] = []
     for word in words:
-        if out and out[-1] in ("--rect", "--origin", "--at", "--flight", "--turn") and _RECTANGLE.fullmatch(word):
+        if out and out[-1] in ("--rect", "--origin", "--at", "--flight", "--turn", "--light") and _RECTANGLE.fullmatch(word):
             out[-1] += f"={word}"
         else:
             out.append(word)
@@ -86,6 +86,15 @@ def rectangle(text: str) -> Rectangle:
     if found.width < 1 or found.height < 1 or abs(found.level) > 4096:
         raise argparse.ArgumentTypeError(f"found {text[:80]!r}, {expected}, L from -4096 to 4096")
     return found
+
+
+def light(text: str) -> tuple[float, float, float]:
+    """`AZIMUTH,ALTITUDE,DEPTH`: degrees clockwise from the top, degrees above the picture, pixels."""
+    parts = text.split(",")
+    if len(parts) != 3 or not all(re.fullmatch(r"\s*[+-]?[0-9]{1,6}(\.[0-9]{0,9})?\s*", part) for part in parts):
+        raise argparse.ArgumentTypeError(f"found {text[:80]!r}, expected AZIMUTH,ALTITUDE,DEPTH: three numbers")
+    azimuth, altitude, depth = (float(part) for part in parts)
+    return azimuth, altitude, depth
 
 
 def pixel(text: str) -> tuple[int, int, int]:

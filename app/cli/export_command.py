@@ -10,13 +10,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.cli.arguments import rectangle
+from app.cli.arguments import light, rectangle
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output, grown, opened_painting, picture_of, rect_of, salvage_option
 from app.cli.progress import Progress
 
 if TYPE_CHECKING:
     from engine.archive.imports import Opened
+    from engine.light.light import Light
 
 MANY_FILES = (".zarr", ".dzi")
 ENDINGS = (".png", ".tif", ".tiff", ".ora", *MANY_FILES)
@@ -29,6 +30,15 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rect", type=rectangle, metavar="L,X,Y,W,H", help="level, and rectangle in its pixels")
     parser.add_argument("--transparent", action="store_true", help="without the paper")
     parser.add_argument("--layer", metavar="NAME", help="only this layer or group")
+    parser.add_argument(
+        "--light",
+        type=light,
+        metavar="AZIMUTH,ALTITUDE,DEPTH",
+        help="lit by its own relief: where the sun stands, degrees clockwise from the top and above the picture, and "
+        "how far white lies above black, pixels",
+    )
+    parser.add_argument("--gloss", type=float, metavar="G", help="of the light, 0 to 1 (0.15)")
+    parser.add_argument("--height", metavar="LAYER|composite|alpha", help="what the relief is taken from (composite)")
     parser.add_argument("--depth", type=int, choices=(8, 16), default=8, help="bits of each channel")
     parser.add_argument(
         "--pyramid", action="store_true", help="a .tif with its coarser levels: BigTIFF, tiles, SubIFDs"
@@ -50,12 +60,16 @@ def run(options: argparse.Namespace) -> int:
     found = opened_painting(options.painting, salvage=options.salvage)
     from engine.canvas.layers import find
     from engine.canvas.node_checks import LayerError
+    from engine.light.light import BY_ALPHA, BY_PICTURE
 
-    if options.layer is not None:
+    for option in ("layer", "height"):
+        name = getattr(options, option)
+        if name is None or (option == "height" and name in (BY_PICTURE, BY_ALPHA)):
+            continue
         try:
-            find(found.painting.root, options.layer)
+            find(found.painting.root, name)
         except LayerError as error:
-            raise Refused(f"--layer: {error}") from None
+            raise Refused(f"--{option}: {error}") from None
     found = replace(found, painting=grown(options.painting, found))
     if ending == ".ora":
         _painting(options, found)
@@ -75,12 +89,30 @@ def _check(options: argparse.Namespace, ending: str) -> None:
         from engine.archive.ladder.ladder_files import folder_format
 
         folder_format(options.out)
+    _light(options, ending)
     if options.dask is not None:
         if ending not in MANY_FILES:
             raise Refused(f"--dask: found it for {ending}, expected it for {' or '.join(MANY_FILES)}")
         from engine.archive.ladder.cluster import require
 
         require(options.out)
+
+
+def _light(options: argparse.Namespace, ending: str) -> Light | None:
+    """Returns the light that is asked for."""
+    from engine.light.light import Light
+
+    told = {name: getattr(options, name) for name in ("gloss", "height") if getattr(options, name) is not None}
+    if options.light is None:
+        if told:
+            raise Refused(f"--{next(iter(told))}: found it without --light, expected both")
+        return None
+    if ending == ".ora":
+        raise Refused("--light: found it for an .ora, which holds no light, expected it for a picture")
+    try:
+        return Light(*options.light, **told)
+    except ValueError as error:
+        raise Refused(f"--light: {error}") from None
 
 
 def _picture(options: argparse.Namespace, found: Opened, ending: str) -> None:
@@ -90,7 +122,7 @@ def _picture(options: argparse.Namespace, found: Opened, ending: str) -> None:
     write = write_folder if ending in MANY_FILES else write_tiff_ladder if options.pyramid else export
     most = SIDE if ending in MANY_FILES else None
     picture = picture_of(found.painting, options.rect, options.layer, options.depth, most)
-    picture = replace(picture, transparent=options.transparent)
+    picture = replace(picture, transparent=options.transparent, light=_light(options, ending))
     with Progress("writing", 100) as tell:
         if options.dask is None:
             write(options.out, picture, tell.part)

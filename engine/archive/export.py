@@ -15,9 +15,11 @@ from engine.files.atomic import replacing
 from engine.files.fault import WriteError
 from engine.files.png_writer import PngWriter
 from engine.files.tiff_writer import write_tiff
+from engine.light.light import BY_ALPHA, BY_PICTURE, Light
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
 from engine.painting.grown import settled_alone, settled_root
+from engine.painting.lighting import Lighting
 from engine.painting.rendering import Progress, folded_layers, rows_of
 from engine.painting.value import Painting
 
@@ -27,7 +29,7 @@ PICTURE_SIDE = 1 << 20  # pixels: a strip of this width takes 256 MB
 @dataclass(frozen=True, slots=True)
 class Picture:
     """What to export: `rect` of `level` (None: the frame, seen at that level), of all layers or the one named;
-    `transparent`: without the paper."""
+    `transparent`: without the paper; `light`: that it is lit by."""
 
     painting: Painting
     level: int = 0
@@ -35,6 +37,7 @@ class Picture:
     layer: str | None = None
     depth: int = 8
     transparent: bool = False
+    light: Light | None = None
 
     @property
     def area(self) -> Rect:
@@ -49,6 +52,14 @@ def shown_root(picture: Picture) -> Group:
     root = replace(root, paper=None) if picture.transparent else root
     shown = settled_root(pictured(root)) if picture.layer is None else settled_alone(root, picture.layer)
     return folded_layers(shown)
+
+
+def lighting_of(picture: Picture) -> Lighting | None:
+    """Returns the light on a picture, with the heights that it names; LayerError if there is no layer of that name."""
+    light = picture.light
+    if light is None or light.height in (BY_PICTURE, BY_ALPHA):
+        return None if light is None else Lighting(light)
+    return Lighting(light, folded_layers(replace(settled_alone(picture.painting.root, light.height), paper=None)))
 
 
 Write = Callable[[BinaryIO, tuple[int, int], int, Iterator[np.ndarray]], None]
@@ -85,12 +96,12 @@ def export(
         raise WriteError(
             path, f"found a picture of {area.width} x {area.height}, expected 1 to {PICTURE_SIDE} each way"
         )
-    root = shown_root(picture)
+    root, lighting = shown_root(picture), lighting_of(picture)
     to_pixels = to_rgba8 if picture.depth == 8 else to_rgba16
 
     def rows() -> Iterator[np.ndarray]:
         done = 0
-        for strip in rows_of(root, picture.level, area, to_pixels, cancelled):
+        for strip in rows_of(root, picture.level, area, to_pixels, cancelled, lighting):
             yield strip
             done += len(strip)
             if progress is not None:

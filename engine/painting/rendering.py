@@ -22,6 +22,7 @@ from engine.files.fault import Cancelled
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8
 from engine.painting.cascade import Cascade
+from engine.painting.lighting import Lighting, needed, pictured
 
 _STRIP = 1 << 22  # pixels of a strip, about
 ROWS = 64
@@ -69,11 +70,16 @@ def strips(root: Group, level: int, rect: Rect, cancelled: Stop = None) -> Itera
 
 
 def rows_of(
-    root: Group, level: int, rect: Rect, convert: Callable[[np.ndarray], np.ndarray], cancelled: Stop = None
+    root: Group,
+    level: int,
+    rect: Rect,
+    convert: Callable[[np.ndarray], np.ndarray],
+    cancelled: Stop = None,
+    lighting: Lighting | None = None,
 ) -> Iterator[np.ndarray]:
-    """As `strips`, but pixels as `convert` makes them of planes: (n, w, channels), a new array every time.  On all
-    cores; each strip is evaluated while the one before is worked with."""
-    pieces = _Pieces(root, level, rect, cancelled)
+    """As `strips`, but pixels as `convert` makes them of planes: (n, w, channels), a new array every time; lit, if
+    there is a light.  On all cores; each strip is evaluated while the one before is worked with."""
+    pieces = _Pieces(root, level, rect, cancelled, lighting)
 
     def made(piece: Rect) -> tuple[Rect, np.ndarray]:
         return piece, convert(pieces.composited(piece))
@@ -108,9 +114,10 @@ class _Pieces:
     """The pieces in which a rectangle of a level is composited: with all that belongs to one, they fit into a
     processor's caches.  Safe for several threads."""
 
-    def __init__(self, root: Group, level: int, rect: Rect, cancelled: Stop) -> None:
+    def __init__(self, root: Group, level: int, rect: Rect, cancelled: Stop, lighting: Lighting | None = None) -> None:
         count = sum(1 for _ in layers.layers(root))
         self._planned, self._level, self._cancelled = Planned.of(root), level, cancelled
+        self._lighting, rect = lighting, needed(rect, lighting)
         self._columns = max(128, _COLUMNS * HELD // max(HELD, count))
         self._evaluated = _Evaluated(level, rect, min(_HELD, _HELD_OF_ALL // max(1, count)))
         self._elsewhere = keeping()
@@ -124,8 +131,9 @@ class _Pieces:
     def composited(self, piece: Rect) -> np.ndarray:
         """Returns the picture of a piece: float32 (4, h, w).  Cancelled, if the one who asked says so."""
         check_cancelled(self._cancelled)
-        read = piece_reader(self._level, piece, self._evaluated.planes, self._elsewhere)
-        return composite(self._planned, self._level, piece, read)
+        around = needed(piece, self._lighting)
+        read = piece_reader(self._level, around, self._evaluated.planes, self._elsewhere)
+        return pictured(self._planned, self._level, piece, read, self._lighting)
 
 
 def sheets(

@@ -14,10 +14,11 @@ import numpy as np
 
 from engine.archive.ladder.rungs import Block, Ladder
 from engine.canvas import layers
-from engine.canvas.composite import Read, composite
+from engine.canvas.composite import Read
 from engine.canvas.layers import Group
 from engine.numeric.address import Rect
 from engine.numeric.colour import to_rgba8, to_rgba16
+from engine.painting.lighting import Lighting, needed, pictured
 from engine.painting.rendering import HELD, Stop, check_cancelled, keeping, piece_reader
 
 AHEAD = 3  # blocks of each thread that are begun before the first of them is asked for
@@ -29,10 +30,11 @@ _Made = TypeVar("_Made")
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Source:
-    """Where pixels come from: layers with nothing pending, and the ladder that is made of them."""
+    """Where pixels come from: layers with nothing pending, the ladder that is made of them, and the light on them."""
 
     root: Group
     ladder: Ladder
+    lighting: Lighting | None = None
     elsewhere: Read = field(default_factory=keeping)  # what placements show
 
     def prepare(self) -> None:
@@ -50,8 +52,8 @@ class Source:
         out = np.empty((rect.height, rect.width, 4), kind)
         for piece in _pieces(area, sum(1 for _ in layers.layers(self.root))):
             check_cancelled(cancelled)
-            read = piece_reader(place.level, piece, placed=self.elsewhere)
-            out[piece.slices(area)] = convert(composite(self.root, place.level, piece, read))
+            read = piece_reader(place.level, needed(piece, self.lighting), placed=self.elsewhere)
+            out[piece.slices(area)] = convert(pictured(self.root, place.level, piece, read, self.lighting))
         return out
 
 

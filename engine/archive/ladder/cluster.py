@@ -19,7 +19,7 @@ from multiprocessing import resource_tracker
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
-from engine.archive.export import Picture, shown_root
+from engine.archive.export import Picture, lighting_of, shown_root
 from engine.archive.ladder.blocks import Source
 from engine.archive.ladder.in_place import put_in_place
 from engine.archive.ladder.ladder_files import EXTRA, Telling, folder_format, ladder_of
@@ -67,12 +67,15 @@ def write_on_cluster(
     form = folder_format(path)
     require(path)
     ladder = ladder_of(path, picture, form)
-    Source(shown_root(picture), ladder).prepare()  # so that workers of this machine find their kernels compiled
+    Source(
+        shown_root(picture), ladder, lighting_of(picture)
+    ).prepare()  # so that workers of this machine find their kernels compiled
     name = PurePath(path).name
     with connected(path, scheduler) as client, put_in_place(path, form.parts(name), form.replaceable) as folder:
         form.begin(folder / name, ladder)
         ending = PurePath(path).suffix.lower()
-        order = Order(secrets.token_hex(8), ladder, picture.layer, str(folder / name), ending, version())
+        number, target = secrets.token_hex(8), str(folder / name)
+        order = Order(number, ladder, picture.layer, target, ending, version(), picture.light, picture.transparent)
         spread = _Spread(client, order, painting, os.fspath(path))
         tell = Telling(ladder, progress)
         try:

@@ -11,7 +11,7 @@ from pathlib import Path, PurePath
 
 import numpy as np
 
-from engine.archive.export import PICTURE_SIDE, Picture, shown_root
+from engine.archive.export import PICTURE_SIDE, Picture, lighting_of, shown_root
 from engine.archive.ladder import deepzoom, zarr_folder
 from engine.archive.ladder.blocks import Source, in_order
 from engine.archive.ladder.in_place import put_in_place
@@ -114,7 +114,7 @@ def write_folder(
     """
     form = folder_format(path)
     ladder = ladder_of(path, picture, form)
-    source = Source(shown_root(picture), ladder)
+    source = Source(shown_root(picture), ladder, lighting_of(picture))
     name = PurePath(path).name
     with put_in_place(path, form.parts(name), form.replaceable) as folder:
         target = folder / name
@@ -134,7 +134,7 @@ def write_tiff_ladder(
 ) -> None:
     """Writes the picture as a BigTIFF of tiles with its coarser levels beside it; otherwise as `write_folder`."""
     ladder = _ladder(path, picture, TIFF_TILE, TIFF_TILE, PICTURE_SIDE)
-    source = Source(shown_root(picture), ladder)
+    source = Source(shown_root(picture), ladder, lighting_of(picture))
     tell = Telling(ladder, progress)
 
     def work(block: Block, stopped: Stop) -> list[bytes]:

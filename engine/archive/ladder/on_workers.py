@@ -17,13 +17,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from engine.archive.export import Picture, shown_root
+from engine.archive.export import Picture, lighting_of, shown_root
 from engine.archive.ladder.blocks import Source
 from engine.archive.ladder.ladder_files import FOLDERS
 from engine.archive.ladder.rungs import Block, Ladder
 from engine.archive.opening import open_painting
 from engine.files.fault import Cancelled, WriteError
 from engine.kernel_cache import stamp
+from engine.light.light import Light
 
 _HELD = 2  # paintings that a worker keeps open
 _ENDING = 60.0  # seconds in which a block that is given up ends, at the latest
@@ -34,7 +35,7 @@ _NAP = 0.02
 class Order:
     """What is to be written: a ladder of one layer, or of all, in the place `target`, of a format by its `ending`.
 
-    `number`: none other has it; `version`: of the program that gave the order.
+    `number`: none other has it; `version`: of the program that gave the order; `light`, `transparent`: of the picture.
     """
 
     number: str
@@ -43,6 +44,8 @@ class Order:
     target: str
     ending: str
     version: str
+    light: Light | None = None
+    transparent: bool = False
 
 
 def version() -> str:
@@ -127,4 +130,5 @@ def _opened(order: Order, painting: bytes) -> Source:
         path = Path(folder) / "painting.ora"
         path.write_bytes(painting)
         found = open_painting(path).painting
-    return Source(shown_root(Picture(found, layer=order.layer)), order.ladder)
+    picture = Picture(found, layer=order.layer, transparent=order.transparent, light=order.light)
+    return Source(shown_root(picture), order.ladder, lighting_of(picture))

@@ -1,0 +1,1 @@
+"""A painting in the light: lit by its own relief."""
