@@ -59,6 +59,10 @@ def _panels(desk: Desk) -> None:
     desk.panels = not desk.panels
 
 
+def _light(desk: Desk) -> None:
+    desk.light.on = not desk.light.on
+
+
 def _strip(name: str) -> Callable[[Desk], None]:
     def toggle(desk: Desk) -> None:
         desk.strip = "" if desk.strip == name else name
@@ -97,6 +101,15 @@ VIEW_ACTIONS: dict[str, A] = {
     "upright": A("Upright", "View", ("5",), "Turn the view upright", _upright),
     "mirror": A("Mirror", "View", ("M",), "Mirror the view", _mirror, always, lambda d: d.view.mirrored),
     "panels": A("Panels", "View", ("Tab",), "Show or hide the panels", _panels, always, lambda d: d.panels),
+    "light": A(
+        "Light",
+        "View",
+        ("Shift+L",),
+        "See the painting lit by its own relief; nothing is painted",
+        _light,
+        always,
+        lambda desk: desk.light.on,
+    ),
     "lab": A("Texture lab", "View", ("L",), "Paint a texture by its spectrum", _strip("lab"), ready, _open("lab")),
     "analysis": A(
         "Analysis", "View", ("A",), "What the painting is made of", _strip("analysis"), ready, _open("analysis")

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import moderngl
 import numpy as np
 
-from app.canvas.screen import Insets, free_part, shader_source
+from app.canvas.screen import Insets, free_part
+from app.canvas.shader_files import shader_source
 from app.canvas.view import View, dyadic_place
 from engine.numeric.similarity import Dyadic, Similarity
 from engine.studio.selecting.ants_records import Ants

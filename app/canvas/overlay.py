@@ -18,7 +18,7 @@ import numpy as np
 from imgui_bundle import imgui
 from imgui_bundle.imgui import backends
 
-from app.canvas.screen import shader_source
+from app.canvas.shader_files import shader_source
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom, screen pixels
 Command = tuple[tuple[float, float, float, float], tuple[int, int, int], int]  # clip, triangles, texture

@@ -9,13 +9,15 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
 
+from app.canvas.lamp import Lamp
+from app.canvas.shader_files import shader_source
 from app.canvas.view import View
+from engine.light.light import Light
 from engine.numeric.address import Rect
 from engine.studio.requests import SCREEN_TILE
 from engine.studio.results import Patch
@@ -62,6 +64,7 @@ class ScreenPlan:
     insets: Insets
     uploads: int  # of tiles, so far
     colour: str | None = None  # of the paper, "#rrggbb"; None: squares
+    light: Light | None = None  # that the picture is seen in
     paper: list[Row] = field(default_factory=list)
     whole: list[Row] = field(default_factory=list)
     fading: list[Row] = field(default_factory=list)
@@ -88,11 +91,6 @@ def near_first(view: View, tiles: list[ScreenTile], x: float, y: float) -> list[
         return math.hypot(cx - x, cy - y)
 
     return sorted(tiles, key=far)
-
-
-def shader_source(name: str) -> str:
-    """Returns a file of the `shaders` folder, which lies beside the packages, in a checkout as in an installation."""
-    return (Path(__file__).resolve().parents[2] / "shaders" / name).read_text("utf-8")
 
 
 class _Pass:
@@ -129,6 +127,7 @@ class Screen:
         self._paper = _Pass(ctx, "paper.frag", "paper.vert")
         self._whole = _Pass(ctx, "tile.frag")
         self._fading = _Pass(ctx, "fade.frag")
+        self._lamp = Lamp(ctx)
         self._array: Any = None
         self._held: OrderedDict[ScreenTile, _Held] = OrderedDict()
         self._free: list[int] = []
@@ -191,10 +190,22 @@ class Screen:
         """Draws the canvas."""
         view = plan.view
         self._set_uniforms(view, plan.frame, plan.colour)
-        self.ctx.viewport = (0, 0, view.width, view.height)
-        self.ctx.scissor = free_part(view, plan.insets)
+        size, free = (view.width, view.height), free_part(view, plan.insets)
+        self.ctx.viewport, self.ctx.scissor = (0, 0, *size), free
         self.ctx.disable(moderngl.BLEND)
         self._paper.draw(plan.paper)
+        if plan.light is None:
+            self._draw_tiles(plan)
+        elif self._array is not None:
+            target = self._lamp.begin(size)
+            if plan.colour is not None:
+                self._paper.draw(plan.paper)
+            self._draw_tiles(plan)
+            self._lamp.show(plan.light, target, free)
+        self.ctx.scissor = None
+
+    def _draw_tiles(self, plan: ScreenPlan) -> None:
+        view = plan.view
         if self._array is not None:
             exact = not view.fraction and not view.angle
             self._array.filter = (moderngl.NEAREST, moderngl.NEAREST) if exact else (moderngl.LINEAR, moderngl.LINEAR)
@@ -203,7 +214,6 @@ class Screen:
             self.ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             self._whole.draw(plan.whole)
             self._fading.draw(plan.fading)
-        self.ctx.scissor = None
 
     def _set_uniforms(self, view: View, frame: Rect | None, colour: str | None) -> None:
         a, b, c, d = view.matrix()
@@ -232,13 +242,14 @@ class Screen:
         now: float,
         insets: Insets = (0.0, 0.0, 0.0, 0.0),
         paper: str | None = None,
+        light: Light | None = None,
     ) -> ScreenPlan:
         """Returns what to draw, decided before anything is drawn.
 
         `insets`: how far panels that hide what is under them reach in from the left, top, right and bottom; `paper`:
-        its colour, None where there is none.
+        its colour, None where there is none; `light`: that the picture is seen in.
         """
-        plan = ScreenPlan(view, frame, insets, self._uploads, paper)
+        plan = ScreenPlan(view, frame, insets, self._uploads, paper, light)
         exact = not view.fraction and not view.angle
         for tile in cells(view, view.shown_level):
             held = self._touch(tile)

@@ -69,7 +69,11 @@ def joined_options(words: list[str]) -> list[str]:
     """`--rect -4,0,0,8,8` as `--rect=-4,0,0,8,8`: argparse would take the value for an option."""
     out: list[str] = []
     for word in words:
-        if out and out[-1] in ("--rect", "--origin", "--at", "--flight", "--turn", "--light") and _RECTANGLE.fullmatch(word):
+        if (
+            out
+            and out[-1] in ("--rect", "--origin", "--at", "--flight", "--turn", "--light")
+            and _RECTANGLE.fullmatch(word)
+        ):
             out[-1] += f"={word}"
         else:
             out.append(word)

@@ -22,6 +22,7 @@ from app.desk.guides.guide_state import GuideState
 from app.desk.hand import Hand
 from app.desk.known import Known
 from app.desk.lab_state import LabState
+from app.desk.lit.light_state import LightState
 from app.desk.masks.mask_state import MaskState
 from app.desk.match_state import MatchState
 from app.desk.moving.move_state import MoveState
@@ -113,6 +114,7 @@ class Desk:
     behind: Callable[[], bool] = lambda: False  # whether requests are still to be carried out
     asked: Asked = field(default_factory=Asked)
     strip: str = ""  # what is open below the canvas: a row of app.panels.strip.STRIPS
+    light: LightState = field(default_factory=LightState)
     lab: LabState = field(default_factory=LabState)
     match: MatchState = field(default_factory=MatchState)
     examples: ExampleState = field(default_factory=ExampleState)

@@ -16,6 +16,7 @@ from app.panels.dialogs.dialogs import Dialogs
 from app.panels.guides.guide_bar import GuideBar
 from app.panels.layers import mask_bar
 from app.panels.layers.layers_panel import LayersPanel
+from app.panels.light import light_panel
 from app.panels.moving.move_bar import MoveBar
 from app.panels.options import options_bar
 from app.panels.panel import Painting
@@ -133,7 +134,7 @@ class Layout:
 
     def _bar(self, desk: Desk, corner: tuple[float, float]) -> None:
         """Draws bars over the canvas, so that nothing gives way to them: the numbers of what is moved or of a guide, or
-        what the tool in hand can be set to, and below which mask is painted on."""
+        what the tool in hand can be set to, and below which mask is painted on; and the light, if it is on."""
         options = (options_bar.options_of(desk), self.move_bar.options(desk), self.guide_bar.options(desk))
         bars = [("options bar", bar) for bar in options if bar is not None][:1]
         if mask_bar.wanted(desk):
@@ -149,6 +150,12 @@ class Layout:
                     bar.draw(desk)
             imgui.end()
             top += high + margin
+        box = light_panel.light_box(desk)
+        if box is not None:
+            if self._begin("light", box, _SCROLLS_NOT):
+                with self._guard.spare_drawing("drawing the light"):
+                    light_panel.draw_light(desk)
+            imgui.end()
         imgui.pop_style_var()
 
     def _make_room(self, desk: Desk, insets: tuple[float, float, float, float]) -> None:

@@ -5,6 +5,8 @@ import pytest
 
 from app.canvas.screen import DARK, FADE, LIGHT, SCREEN_TILE, Screen, ScreenTile, cells, near_first
 from app.canvas.view import Place, View
+from engine.light.light import Light
+from engine.light.lit_relief import lit, luminance
 from engine.numeric.address import Rect
 from engine.studio.results import Patch
 
@@ -171,3 +173,53 @@ def test_tiles_are_asked_for_from_the_pointer_outwards():
     ordered = near_first(at, cells(at, 0), 600, 440)
     assert ordered[0] == ScreenTile(0, 1, 0)
     assert set(ordered) == set(cells(at, 0))
+
+
+def painted_tiles(screen, at, seed=4):
+    """Uploads smooth paint over four tiles; returns what lies there, float32 (4, 512, 512)."""
+    rng = np.random.default_rng(seed)
+    coarse = rng.random((3, 9, 9))
+    y, x = np.mgrid[0:512, 0:512] / 64
+    waves = np.stack([one[y.astype(int), x.astype(int)] for one in coarse])
+    ramp = 0.4 + 0.3 * np.sin(x * 5 + y * 3) * waves
+    pixels = np.concatenate([np.rint(255 * ramp), np.full((1, 512, 512), 255)]).astype(np.uint8).transpose(1, 2, 0)
+    for row in (0, 1):
+        for column in (0, 1):
+            part = np.ascontiguousarray(pixels[256 * row :, 256 * column :][:256, :256])
+            screen.upload(Patch((0, column - 1, row - 1), Rect(0, 0, 256, 256), part, 1), at, 0.0)
+    return (pixels.transpose(2, 0, 1) / np.float32(255)).astype(np.float32)
+
+
+@pytest.mark.parametrize("light", [Light(300, 40, 8, 0.3), Light(120, 70, -20, 0)])
+def test_the_light_is_that_of_the_law_across_the_seams_of_tiles(screen, light):
+    at = view()
+    planes = painted_tiles(screen, at)
+    picture, _ = shown(screen, at, light=light)
+    expected = 255 * lit(planes, luminance(planes), light)[:3].transpose(1, 2, 0)
+    rows, columns = slice(240 - 239, 240 + 239), slice(320 - 255, 320 + 255)  # all but the rims of screen and paint
+    assert abs(picture[rows, columns] - expected[255 - 239 : 255 + 239]).max() <= 1
+
+
+def test_what_is_flat_and_what_is_no_paint_stay_as_they_are_in_the_light(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), (120, 30, 30, 255)), at, 0.0)
+    plain, _ = shown(screen, at)
+    picture, _ = shown(screen, at, light=Light(315, 30, 30, 1))
+    same = (picture == plain).all(axis=2)
+    assert same[242:, 322:574].all()
+    assert same[:238].all()
+    assert same[:, :318].all()
+    assert not same[300:400, 319:321].all()
+    again, _ = shown(screen, at)
+    assert np.array_equal(again, plain)
+
+
+def test_with_a_colour_of_paper_paint_stands_off_from_it(screen):
+    at = view()
+    screen.upload(patch((0, 0, 0), (60, 60, 60, 255)), at, 0.0)
+    light = Light(270, 45, 10, 0)
+    picture, _ = shown(screen, at, paper="#3c3c3c", light=light)
+    assert (picture == 60).all()
+    picture, _ = shown(screen, at, paper="#ffffff", light=light)
+    assert (picture[300, 321] == 60).all()
+    assert picture[300, 320, 0] < 60

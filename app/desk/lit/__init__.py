@@ -1,0 +1,1 @@
+"""The light on the canvas, as it is set on the desk."""
