@@ -19,6 +19,8 @@ from engine.texture.sparse_planes import SparsePlanes
 _SMALL = 2 << 10  # bytes of data that are not worth it
 _OF_LATE = 32  # commits: what these stored is most likely read next
 _AT_ONCE = 1 << 20  # bytes that are looked for in one piece of work
+_LOOKS = 1 << 13  # records that are looked at in one
+_GROWN = 32 << 20  # bytes that the process grows by before all are looked through again
 
 
 class Paging:
@@ -27,25 +29,37 @@ class Paging:
     First records of levels that have many go to disk, by pages, as far as they were stored long ago.  Then it codes
     what was stored long ago, of the levels farthest from the one that is seen; then what was stored of late; then what
     is coded goes to disk.  `wanted`: bytes that are still to be freed.
+
+    All records of one state of the painting are looked through before those of another are, and then not until the
+    process has grown: where nearly all is small already, each look finds little.
     """
 
     def __init__(self) -> None:
         self.wanted = 0
-        self._root: Group | None = None  # whose records are looked through
-        self._found: Iterator[int] = iter(())
+        self._root: Group | None = None  # whose records are looked through, or were
+        self._found: Iterator[int] | None = None  # what those free that are not yet; None where all were
+        self._left = 0  # bytes that were wanted still when all were, or fewer since
 
     def want(self, root: Group, level: int | None, size: int) -> None:
         """Tells what is to be freed of the layers `root`; `level`: that is seen, None for none."""
-        self.wanted = size
-        if root is not self._root:
+        self.wanted, self._left = size, min(self._left, size)
+        grown = size > self._left + (_GROWN if self._left else 0)
+        if self._found is None and root is not self._root and grown:
             self._root, self._found = root, _freed(root, level)
 
     def step(self, size: int = _AT_ONCE) -> None:
-        """Frees as many bytes, or all that are wanted, or all that there are."""
+        """Frees as many bytes, or all that are wanted, or all that there are; or looks at so many records."""
         least = max(self.wanted - size, 0)
-        while self.wanted > least:
-            freed = next(self._found, None)
-            self.wanted = self.wanted - freed if freed is not None else 0
+        for _ in range(_LOOKS):
+            if self.wanted <= least:
+                return
+            freed = None if self._found is None else next(self._found, None)
+            if freed is None:
+                if self._found is not None:
+                    self._found, self._left = None, self.wanted
+                self.wanted = 0
+                return
+            self.wanted = max(self.wanted - freed, 0)
 
 
 def _freed(root: Group, level: int | None) -> Iterator[int]:
@@ -61,12 +75,11 @@ def _freed(root: Group, level: int | None) -> Iterator[int]:
             for record in _records(pyramid, level):
                 old = record.depth <= pyramid.depth - _OF_LATE
                 plain = isinstance(record.held, np.ndarray | SparsePlanes)
-                if (late or old) and plain and record.held.nbytes >= _SMALL:
-                    yield encode(record, None)
+                worth = (late or old) and plain and record.held.nbytes >= _SMALL
+                yield encode(record, None) if worth else 0
     for pyramid in pyramids:
         for record in _records(pyramid, level):
-            if isinstance(record.held, CodedData):
-                yield put_away(record.held)
+            yield put_away(record.held) if isinstance(record.held, CodedData) else 0
 
 
 def _records(pyramid: Pyramid, level: int | None) -> Iterator[Record]:

@@ -19,7 +19,8 @@ _PASSING = 256 << 20  # bytes that come and go at once, as a save takes them, fo
 _PASSING_PART = 4  # and of the budget such a part
 _GROWN = 64 << 20  # bytes that the process grows by before what is free of them is given back at rest
 _PAGED_AT_ONCE = 8 << 20  # bytes of records made smaller at once: as many as a command seldom stores
-_AGAIN = 2.0  # seconds after which it is, at the latest: giving back takes a hundredth of that
+_AGAIN = 2.0  # seconds after which it is, at the latest
+_REST = 50  # of the time that a look took, such a multiple of it
 
 
 def _most() -> int:
@@ -39,6 +40,7 @@ class Room(Owned):
         self._paging = Paging()
         self._left = 0  # bytes resident when it was looked after last
         self._looked = -_AGAIN  # when that was
+        self._pause = _AGAIN  # seconds from then to the next look
         self._evicted = 0  # bytes that the cache had evicted when pages were given back at rest
         self._settled = 0  # bytes resident then, or fewer since
         self._grown = False  # whether it is time for that again
@@ -66,17 +68,17 @@ class Room(Owned):
             cache.shrink(max(cache.held - over, memory.cache_share() // 4, SMALLEST_CACHE))
             memory.give_back()
             over = memory.resident() - most
-        if over > 0:
-            self._paging.want(root, cache.level, over)
-            self._paging.step(_PAGED_AT_ONCE)
+        self._paging.want(root, cache.level, max(over, 0))
+        self._paging.step(_PAGED_AT_ONCE)
         self._left = memory.resident()
+        self._pause = max(_AGAIN, (time.monotonic() - self._looked) * _REST)
 
     def _due(self, held: int, most: int) -> bool:
         """Tells whether it is time to look after the memory of a process that holds so many bytes: it holds too much,
         and more than it was left with, or that is some time ago.  Of what came and went since, as a save does, the
         system had nothing back."""
         now = time.monotonic()
-        if held <= most or (held <= self._left + _APART and now - self._looked < _AGAIN):
+        if held <= most or (held <= self._left + _APART and now - self._looked < self._pause):
             return False
         self._looked = now
         return True

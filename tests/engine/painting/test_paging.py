@@ -135,6 +135,42 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch)
     assert contents(session.painting) == after
 
 
+def test_what_was_looked_through_is_not_again_before_the_process_has_grown(monkeypatch):
+    session, pages, looks = begun(), Paging(), []
+    freed = paging._freed
+    monkeypatch.setattr(paging, "_freed", lambda root, level: looks.append(root) or freed(root, level))
+
+    def wants(size):
+        pages.want(session.painting.root, None, size)
+        while pages.wanted > 0:
+            pages.step()
+        return len(looks)
+
+    session.do(stroke(0))
+    assert wants(1 << 30) == 1
+    session.do(stroke(1))
+    assert wants(1 << 30) == 1
+    assert any(isinstance(record.held, np.ndarray) for record in records(session.painting))
+    assert wants((1 << 30) + paging._GROWN + 1) == 2
+    assert not any(isinstance(record.held, np.ndarray) and record.nbytes > 4096 for record in records(session.painting))
+    session.do(stroke(2))
+    wants(0)  # there was room meanwhile
+    assert wants(1 << 20) == 3
+
+
+def test_one_piece_of_work_looks_at_so_many_records(monkeypatch):
+    session, pages = begun(), Paging()
+    for n in range(3):
+        session.do(stroke(n))
+    monkeypatch.setattr(paging, "_LOOKS", 1)
+    pages.want(session.painting.root, None, 1 << 30)
+    steps = 0
+    while pages.wanted > 0:
+        pages.step()
+        steps += 1
+    assert steps > 2 * len(list(records(session.painting)))
+
+
 def test_records_stay_in_memory_where_the_disk_is_full(disk, monkeypatch):
     session, paging = begun(), Paging()
     for n in range(6):
