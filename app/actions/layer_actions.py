@@ -12,7 +12,7 @@ from app.desk.moving.floating import lift, set_part_down, takes_part
 from app.desk.moving.move_state import TOOL
 from app.desk.moving.poses import shifted
 from engine.canvas.placing.pose import UNMOVED
-from engine.checks.roles import REFERENCE
+from engine.checks.roles import AS_HEIGHT, REFERENCE
 from engine.painting import commands as c
 from engine.studio.requests import Do
 
@@ -85,6 +85,15 @@ def _toggle_reference(desk: Desk) -> None:
     desk.post(Do(c.SetLayer(active(desk), role="" if _is_reference(desk) else REFERENCE)))
 
 
+def _is_height(desk: Desk) -> bool:
+    row = desk.known.active
+    return row is not None and row.height
+
+
+def _toggle_height(desk: Desk) -> None:
+    desk.post(Do(c.SetLayer(active(desk), role="" if _is_height(desk) else AS_HEIGHT)))
+
+
 def _remove(desk: Desk) -> None:
     desk.post(Do(c.RemoveLayer(active(desk))))
 
@@ -122,6 +131,15 @@ LAYER_ACTIONS: dict[str, A] = {
         _toggle_reference,
         _can_be_reference,
         _is_reference,
+    ),
+    "height": A(
+        "Height",
+        "Layer",
+        (),
+        "Its brightness is how high the land lies; no export shows it",
+        _toggle_height,
+        _can_be_reference,
+        _is_height,
     ),
     "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
     "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),

@@ -33,6 +33,7 @@ from engine.numeric.arithmetic import EVERYWHERE, FINE, LIBRARY
 from engine.painting.commands import PLACE_LIMIT, SEED_LIMIT
 from engine.painting.guiding.guides import NO_GUIDES, Guides, read_guides, write_guide
 from engine.painting.layering.placing_members import Placing, read_part, read_placing, write_part, write_placing
+from engine.painting.layering.role_members import role_kept, written_role
 from engine.painting.places import NO_BOOKMARKS, Bookmark, Bookmarks, bookmarks_after, read_bookmark, write_bookmark
 from engine.painting.recording import SIDE_LIMIT, read_grid, read_paper
 from engine.painting.textures import Texture
@@ -180,7 +181,7 @@ def manifest_json(
 
 def format_of(painting: Painting) -> int:
     """Returns the oldest format that knows all that the file of a painting tells."""
-    roles = any(not isinstance(node, Group) and node.role for node in layers.walk(painting.root))
+    roles = any(written_role(node) for node in layers.walk(painting.root))
     chosen = painting.selection is not None or painting.selections
     clipped = any(node.clip for node in layers.walk(painting.root))
     wrapped = any(layer.wrap is not None for layer in layers.layers(painting.root))
@@ -213,8 +214,7 @@ def _node_json(
         "locked": node.locked,
         **({"clip": True} if node.clip else {}),
     }
-    if not isinstance(node, Group) and node.role:
-        common["role"] = node.role
+    common |= written_role(node)
     if isinstance(node, Layer):
         stored = [_pack_json(pack) for pack in packs.get(node.id, [])]
         ground = {"ground": grounds.to_json(laid[node.id])} if node.id in laid else {}
@@ -328,8 +328,7 @@ def _node(value: Any, where: str, held: _Held, depth: int) -> Node:
         "locked": members.flag("locked"),
         "clip": members.flag("clip", False),
     }
-    if kind != "group" and "role" in members:
-        common["role"] = members.text("role")
+    common |= role_kept(members, kind)
     if kind == "layer":
         held.packs[common["id"]] = _packs(members)
         ground = members.take("ground", None)

@@ -27,7 +27,7 @@ from engine.canvas.placing.placement import Placement
 from engine.canvas.placing.pose import SourcePart
 from engine.canvas.selecting.selection import Selection
 from engine.canvas.store import Pyramid
-from engine.checks.roles import REFERENCE
+from engine.checks.roles import ASIDE
 
 if TYPE_CHECKING:
     from engine.canvas.growth import Growth
@@ -43,8 +43,8 @@ class Layer:
     `blend`: a row of `BLENDS`.  `clip`: shown only where the nearest one below that is not clipped has paint.
     `locked`: cannot be painted on.  `alpha_locked`: paint keeps its transparency.
     `pyramid`: the paint; `growth`: what was painted with examples, over it.  `role`: "" for a part of the picture, or
-    one of the ROLES.  `wrap`: the cell of which the layer shows repeats without end, and on which strokes are laid as
-    on a torus; None: it is shown as it is.
+    one of the ROLES; `scale`, `sea`: of the heights that it is, None for the usual ones.  `wrap`: the cell of which
+    the layer shows repeats without end, and on which strokes are laid as on a torus; None: it is shown as it is.
     """
 
     id: int
@@ -60,6 +60,8 @@ class Layer:
     clip: bool = False
     wrap: SourcePart | None = None
     mask: Selection | None = None
+    scale: float | None = None
+    sea: float | None = None
 
     def __post_init__(self) -> None:
         check_common(self)
@@ -101,7 +103,7 @@ Node = Layer | Group | Placement
 Trail = tuple[int, ...]  # positions from the root down to a node
 EMPTY = Group(0, "root")
 _SETTABLE = {
-    Layer: ("opacity", "visible", "blend", "locked", "clip", "mask", "alpha_locked", "role", "wrap"),
+    Layer: ("opacity", "visible", "blend", "locked", "clip", "mask", "alpha_locked", "role", "wrap", "scale", "sea"),
     Group: ("opacity", "visible", "blend", "locked", "clip", "mask", "isolated"),
     Placement: ("opacity", "visible", "blend", "locked", "clip", "of", "pose", "part", "repeat", "role"),
 }
@@ -331,9 +333,9 @@ def _repainted(root: Group, name: str, **paint: Any) -> Group:
 
 
 def pictured(root: Group) -> Group:
-    """Returns the tree as the picture has it: references hidden; the tree itself if it shows none."""
+    """Returns the tree as the picture has it: references and heights hidden; the tree itself if it shows none."""
     shown = (node for node in walk(root) if not isinstance(node, Group) and node.visible)
-    for name in [node.name for node in shown if not isinstance(node, Group) and node.role == REFERENCE]:
+    for name in [node.name for node in shown if not isinstance(node, Group) and node.role in ASIDE]:
         root = set_fields(root, name, visible=False)
     return root
 

@@ -30,6 +30,7 @@ from engine.painting.layering.placing_members import (
     write_part,
     write_placing,
 )
+from engine.painting.layering.role_members import read_role, read_scale, read_sea
 
 COUNT_LIMIT = 1_000_000_000
 SELECTED = COPY, CUT = "copy", "cut"  # how a copy of what is selected is made
@@ -162,6 +163,8 @@ class SetLayer:
     clip: bool | None = None
     mask: MaskValue | None = None
     role: str | None = None
+    scale: float | None = None
+    sea: float | None = None
     wrap: SourcePart | Same | None = Same.SAME
     placing: Placing | None = None
     extra: Extra = NO_EXTRA
@@ -224,12 +227,8 @@ def _new_place(members: Fields) -> Members:
 
 
 def _picture(members: Fields) -> Members:
-    role = _role(members, "role") if "role" in members else ""
+    role = read_role(members, "role") if "role" in members else ""
     return {**read_pictured(members), "role": role, "part": read_part_of(members, None)}
-
-
-def _role(members: Fields, name: str) -> str:
-    return "" if members.take(name) in (None, "") else str(members.text(name))
 
 
 def _opacity(members: Fields, name: str) -> float:
@@ -246,7 +245,9 @@ _SETTABLE: tuple[tuple[str, Reader], ...] = (
     ("isolated", Fields.flag),
     ("clip", Fields.flag),
     ("mask", read_mask),
-    ("role", _role),
+    ("role", read_role),
+    ("scale", read_scale),
+    ("sea", read_sea),
     ("wrap", read_part),
 )
 
@@ -375,7 +376,7 @@ def write_layer(command: LayerCommand) -> Members:
 
 def version(command: LayerCommand) -> int:
     """Returns the oldest version of the format that knows all members of a command."""
-    newer = isinstance(command, SetLayer) and bool({"role", "clip", "wrap"} & command.changes.keys())
+    newer = isinstance(command, SetLayer) and bool({"role", "scale", "sea", "clip", "wrap"} & command.changes.keys())
     newer |= isinstance(command, SetLayer) and command.mask is not None
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.placing is not None
     newer |= isinstance(command, SetLayer | DuplicateLayer) and command.selected is not None

@@ -15,7 +15,7 @@ from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import baking, loops
 from engine.canvas.placing.placement import Placement
 from engine.checks.field_error import FieldError
-from engine.checks.roles import COPIED
+from engine.checks.roles import AS_HEIGHT, COPIED
 from engine.makers.makers import define
 from engine.painting import commands as c
 from engine.painting.grown import settled_root
@@ -214,7 +214,18 @@ def _set(painting: Painting, command: c.SetLayer, around: Around) -> Painting:
             painting = _all_or_part_moved(painting, node, command.placing, command.selected)
     if not changes:
         return _shown(painting)
-    return _shown(replace(painting, root=layers.set_fields(painting.root, command.name, **changes)))
+    root = layers.set_fields(painting.root, command.name, **changes)
+    if changes.get("role") == AS_HEIGHT:
+        root = _only_heights(root, command.name)
+    return _shown(replace(painting, root=root))
+
+
+def _only_heights(root: Group, name: str) -> Group:
+    """Returns the tree in which no other node has the role of heights."""
+    for node in list(layers.walk(root)):
+        if not isinstance(node, Group) and node.role == AS_HEIGHT and node.name != name:
+            root = layers.set_fields(root, node.name, role="")
+    return root
 
 
 def _all_or_part_moved(painting: Painting, node: Node, placing: c.Placing, selected: str | None) -> Painting:

@@ -12,7 +12,7 @@ from engine.canvas.merging.merged import merged_paint
 from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import loops
 from engine.canvas.store import Pyramid
-from engine.checks.roles import REFERENCE
+from engine.checks.roles import ASIDE
 from engine.painting.grown import settled_root
 from engine.painting.value import Painting
 
@@ -32,9 +32,9 @@ def merged_down(painting: Painting, name: str) -> Painting:
     lower = siblings[position - 1]
     for node in (lower, upper):
         _check(root, node, lower if node is lower else None)
-    if _is_reference(lower) != _is_reference(upper):
-        name = lower.name if _is_reference(lower) else upper.name
-        raise LayerError(f"layer {name!r}: found it a reference, expected part of the picture, as the other is")
+    if _aside(lower) != _aside(upper):
+        name, found = (lower.name, _aside(lower)) if _aside(lower) else (upper.name, _aside(upper))
+        raise LayerError(f"layer {name!r}: found it a {found}, expected part of the picture, as the other is")
     onto = upper.clip and not lower.clip  # what is clipped to the lower one: that stays as it is otherwise
     same = onto or lower.blend == upper.blend
     blend = lower.blend if same and not isinstance(lower, Group) else PLAIN_BLEND
@@ -43,6 +43,8 @@ def merged_down(painting: Painting, name: str) -> Painting:
     paint = merged_paint(settled_root(root), (below, above), painting.grid)
     role = lower.role if not isinstance(lower, Group) else ""
     made = replace(_made(lower, paint, blend), opacity=lower.opacity if onto else 1.0, role=role)
+    if isinstance(lower, Layer):
+        made = replace(made, scale=lower.scale, sea=lower.sea)
     root = layers.substitute(layers.remove(root, name), lower.name, made)
     return _with_active(painting, root, {upper.name, lower.name, *_inner(upper), *_inner(lower)}, made.name)
 
@@ -112,8 +114,9 @@ def _made(node: Node, paint: Pyramid, blend: str) -> Layer:
     return Layer(node.id, node.name, blend=blend, alpha_locked=alpha_locked, pyramid=paint, clip=node.clip)
 
 
-def _is_reference(node: Node) -> bool:
-    return not isinstance(node, Group) and node.role == REFERENCE
+def _aside(node: Node) -> str:
+    """Returns the role of what is no part of the picture."""
+    return node.role if not isinstance(node, Group) and node.role in ASIDE else ""
 
 
 def _children(root: Group, name: str | None) -> tuple[Node, ...]:

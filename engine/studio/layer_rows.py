@@ -22,8 +22,8 @@ class Shows:
 class LayerRow:
     """A layer, group or placement as the panel lists it, top-most first; `depth` counts the groups around it; `shows`:
     what a placement shows, None where it is none; `finest`: the finest level at which a layer stores anything;
-    `reference`: it is no part of the picture; `clip`: shown only where the one below has paint;
-    `wrap`: the cell of which it shows repeats;
+    `reference`: it is no part of the picture; `height`: nor is it, being heights, of a `scale` and `sea`;
+    `clip`: shown only where the one below has paint; `wrap`: the cell of which it shows repeats;
     `masked`: it has a mask of its own, within which it is shown unless that is put aside, `mask_off`."""
 
     name: str
@@ -43,3 +43,6 @@ class LayerRow:
     wrap: SourcePart | None = None
     masked: bool = False
     mask_off: bool = False
+    height: bool = False
+    scale: float | None = None
+    sea: float | None = None

@@ -8,7 +8,7 @@ from engine.canvas import layers
 from engine.canvas.layers import Group, Layer
 from engine.canvas.placing.placement import Placement
 from engine.canvas.selecting.mask_sheet import mask_of
-from engine.checks.roles import COPIED, REFERENCE
+from engine.checks.roles import AS_HEIGHT, COPIED, REFERENCE
 from engine.studio import results
 
 
@@ -44,6 +44,9 @@ def _rows(group: Group, names: Mapping[int, str], depth: int, parent: str | None
                 node.wrap if isinstance(node, Layer) else None,
                 mask is not None,
                 mask is not None and mask.off,
+                not isinstance(node, Group) and node.role == AS_HEIGHT,
+                node.scale if isinstance(node, Layer) else None,
+                node.sea if isinstance(node, Layer) else None,
             )
         )
         if isinstance(node, Group):

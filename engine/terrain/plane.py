@@ -6,10 +6,11 @@ With luma = .2126 R + .7152 G + .0722 B of the values as they are stored, not cl
 
     height = scale (luma + (1 - alpha) ground - sea).
 
-`scale`: pixels of level 0 from black to white; by default a sixth of the frame's width.  `sea`: the brightness that
-lies at height 0.  `ground`: the brightness of what is not painted on; by default the median of the frame's rim, chosen
-when the land is made.  `source`: a layer's or group's name, "composite" (all that is in the picture) or "alpha" (how
-opaque that is); by default the layer of the role "height" if there is one, else "composite".
+`scale`: pixels of level 0 from black to white; by default the layer's own, else a sixth of the frame's width.  `sea`:
+the brightness that lies at height 0; by default the layer's own, else 0.  `ground`: the brightness of what is not
+painted on; by default the median of the frame's rim, chosen when the land is made.  `source`: a layer's or group's
+name, "composite" (all that is in the picture) or "alpha" (how opaque that is); by default the layer of the role
+"height" if there is one, else "composite".
 
 **Deep down** float64 ends, too.  Down to level 32 heights are told from the sea.  Beyond, they are told relative to one
 pixel, `about`: by default the one 32 levels up that the first tile of the window lies in, so that a tile's heights are
@@ -36,6 +37,7 @@ from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.merging.paper import Paper
 from engine.canvas.reading import layer_planes
 from engine.canvas.tile_cache import TileCache
+from engine.checks.roles import AS_HEIGHT
 from engine.numeric.address import TILE, Rect
 from engine.painting.value import Painting
 from engine.terrain.layer_heights import Brightness, Pixel, Zero, layer_brightness, luma, zeros_of
@@ -163,10 +165,25 @@ def land(
 
     `cache`: tiles of the canvas that are kept, which is faster where more than one window is looked at.
     """
-    source = COMPOSITE if source is None else source
-    scale = painting.frame.width / _PART if scale is None else scale
-    made = Land(painting, source, scale, 0.0 if sea is None else sea, 0.0 if ground is None else ground, cache)
+    node = heights_of(painting) if source is None else None
+    if source not in (None, COMPOSITE, ALPHA):
+        node = layers.find(painting.root, source)
+    told = node if isinstance(node, Layer) else None
+    source = source or (COMPOSITE if node is None else node.name)
+    scale = _first(scale, None if told is None else told.scale, painting.frame.width / _PART)
+    sea = _first(sea, None if told is None else told.sea, 0.0)
+    made = Land(painting, source, scale, sea, 0.0 if ground is None else ground, cache)
     return made if source == ALPHA or ground is not None else replace(made, ground=made.rim())
+
+
+def heights_of(painting: Painting) -> Node | None:
+    """Returns the layer or placement of the role "height", if there is one."""
+    found = (node for node in layers.walk(painting.root) if not isinstance(node, Group) and node.role == AS_HEIGHT)
+    return next(found, None)
+
+
+def _first(*given: float | None) -> float:
+    return next(number for number in given if number is not None)
 
 
 def height(painting: Painting, source: str | None, level: int, rect: Rect, about: Pixel | None = None) -> np.ndarray:

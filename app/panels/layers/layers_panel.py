@@ -172,6 +172,7 @@ class LayersPanel:
             (row.clip, icons.CLIP),
             (row.wrap is not None, icons.WRAP),
             (row.reference, icons.REFERENCE),
+            (row.height, icons.MOUNTAIN),
             (row.locked, icons.LOCK),
             (row.alpha_locked, icons.ALPHA_LOCK),
         )
@@ -197,6 +198,7 @@ class LayersPanel:
         whole = f"{row.name}\n" if shown != row.name else ""
         about += "Masked  " if row.masked else ""
         about += "Reference: not exported  " if row.reference else ""
+        about += "Height of the land: not exported  " if row.height else ""
         w.tooltip(f"{whole}{about}{blend}\nDrag to reorder, double-click to rename", beside=True)
 
     def _name_field(self, desk: Desk, row: LayerRow) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from engine.checks.roles import AS_HEIGHT, REFERENCE
 from engine.painting import commands as c
 from engine.painting.fill_command import place_of
 from engine.painting.layering.mask_member import (
@@ -149,6 +150,9 @@ def _placing(name: str, placing: c.Placing) -> str:
     return f"{'Turn' if turned else 'Scale' if scaled else 'Mirror' if mirrored else 'Move'} “{name}”"
 
 
+_ROLES = {REFERENCE: "a reference", AS_HEIGHT: "the height of the land"}
+
+
 def _setting(command: c.SetLayer) -> str:
     """Returns what of a layer was set, of several things the first."""
     name, changes = command.name, command.changes
@@ -157,7 +161,7 @@ def _setting(command: c.SetLayer) -> str:
     if command.placing is not None:
         return _placing(name, command.placing)
     if "role" in changes:
-        return f"“{name}” is a reference" if changes["role"] else f"“{name}” is no reference"
+        return f"“{name}” is {_ROLES.get(changes['role'], 'part of the picture')}"
     if "clip" in changes:
         return f"Clip “{name}”" if changes["clip"] else f"Unclip “{name}”"
     if "visible" in changes:
