@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from engine.archive.implied import ordered
 from engine.canvas.ground import laid, unchanged
 from engine.canvas.layers import Layer
+from engine.canvas.rising.paged_level import PagedLevel
 from engine.canvas.store import PutAway, Pyramid, Record, level_of
 from engine.checks.field_error import FieldError
 from engine.files.limits import STREAMED, Limits
@@ -62,9 +64,14 @@ def whole(layer: Layer, frame: Rect) -> bool:
     return ground.rect.intersect(frame) == ground.rect
 
 
-def painted_since(pyramid: Pyramid) -> list[tuple[TileKey, Record]]:
-    """Returns the records that a layer's ground does not account for: all of them where there is none."""
-    return [(key, record) for key, record in pyramid.all_records() if not unchanged(pyramid, key, record)]
+def painted_since(pyramid: Pyramid) -> Iterator[tuple[TileKey, Record]]:
+    """Yields the records that a layer's ground does not account for, all of them where there is none, in the order of
+    files.  Of those on disk few are in memory at a time."""
+    for level in sorted(pyramid.levels):
+        stored = pyramid.levels[level]
+        for part in stored.rows() if isinstance(stored, PagedLevel) else [stored.items()]:
+            tiles = ((TileKey(level, *place), record) for place, record in part)
+            yield from ordered([tile for tile in tiles if not unchanged(pyramid, *tile)])
 
 
 def entry(pyramid: Pyramid, member: str) -> GroundEntry | None:

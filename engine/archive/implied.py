@@ -93,7 +93,7 @@ def without(values: Cascade, tiles: Sequence[Tile]) -> list[Coded]:
     return out
 
 
-def needed(tiles: Sequence[Tile] | Sequence[Coded]) -> dict[int, Rect]:
+def needed(tiles: Iterable[Tile] | Sequence[Coded]) -> dict[int, Rect]:
     """By level, the even rectangle around all tiles of it."""
     found: dict[int, Rect] = {}
     for key, record, *_ in tiles:

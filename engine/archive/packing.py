@@ -14,7 +14,7 @@ from __future__ import annotations
 import re
 import struct
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
@@ -60,22 +60,24 @@ _ADDRESS = re.compile("-?[0-9a-f]+")
 # ---- writing ----
 
 
-def grouped(tiles: Sequence[Tile]) -> Iterator[Sequence[Tile]]:
+def grouped(tiles: Iterable[Tile]) -> Iterator[Sequence[Tile]]:
     """Yields the tiles in runs of a pack's size."""
     return _runs(tiles, BYTES, TILES)
 
 
-def _runs(tiles: Sequence[T], most: int, count: int) -> Iterator[Sequence[T]]:
+def _runs(tiles: Iterable[T], most: int, count: int) -> Iterator[Sequence[T]]:
     """Runs of at most `count` tiles whose data take no more than `most` bytes, if they are several."""
-    start, size = 0, 0
-    for stop, (_, record, *_) in enumerate(tiles):
-        own = record.plain_size
-        if stop > start and (stop - start >= count or size + own > most):
-            yield tiles[start:stop]
-            start, size = stop, 0
+    run: list[T] = []
+    size = 0
+    for tile in tiles:
+        own = tile[1].plain_size
+        if run and (len(run) >= count or size + own > most):
+            yield run
+            run, size = [], 0
+        run.append(tile)
         size += own
-    if tiles:
-        yield tiles[start:]
+    if run:
+        yield run
 
 
 def _blocks(tiles: Sequence[Coded]) -> Iterator[Sequence[Coded]]:

@@ -22,7 +22,7 @@ import numpy as np
 
 from engine.archive import grounds, pictures, plot_files
 from engine.archive.grounds import GroundEntry
-from engine.archive.implied import needed, ordered
+from engine.archive.implied import needed
 from engine.archive.jobs import Job, pack_jobs
 from engine.archive.manifest import MANIFEST, MANIFEST_AGAIN, RECORDING, Pack, PictureEntry, format_of, manifest_json
 from engine.archive.others.paper_picture import paper_names, paper_pictures, with_paper
@@ -308,9 +308,10 @@ class SavePlan:
             yield Job(name, (lambda: png) if isinstance(png, bytes) else png.opened)
 
     def _tile_jobs(self, layer: Layer) -> Iterator[Job]:
-        tiles = ordered(grounds.painted_since(layer.pyramid))
+        tiles = grounds.painted_since(layer.pyramid)
         self._packs[layer.id] = []
-        values = Cascade(layer.pyramid, needed(tiles), min(SMALL, memory.budget() // (_HELD_PART * PIXEL)))
+        around = needed(grounds.painted_since(layer.pyramid))
+        values = Cascade(layer.pyramid, around, min(SMALL, memory.budget() // (_HELD_PART * PIXEL)))
         yield from pack_jobs(f"inkfall/layers/{layer.id}", tiles, self._packs[layer.id], values)
 
     def _growth_jobs(self, layer: Layer) -> Iterator[Job]:

@@ -137,6 +137,14 @@ class PagedLevel(Mapping[TilePlace, R]):
         """Gives all records with their places."""
         return _Items(self)
 
+    def rows(self) -> Iterator[list[tuple[TilePlace, R]]]:
+        """Yields all records with their places, those of a row of pages together, from the top."""
+        rows: dict[int, list[Page[R]]] = {}
+        for at, page in self.pages.items():
+            rows.setdefault(at[1], []).append(page)
+        for y in sorted(rows):
+            yield [item for page in rows[y] for item in page.items()]
+
     def here(self) -> Iterator[R]:
         """Yields the records that are in memory."""
         for page in self.pages.values():

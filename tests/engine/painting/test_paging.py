@@ -10,6 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from stepped import ROCK, contents, records
 
+from engine.archive.opening import open_painting
+from engine.archive.saving import Snapshot, save
 from engine.canvas import layers
 from engine.canvas.rising import paged_level
 from engine.canvas.tile_cache import TileCache
@@ -111,7 +113,7 @@ def test_a_process_that_takes_too_much_pages_what_is_painted(monkeypatch):
     assert contents(session.painting) == before
 
 
-def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch):
+def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch, tmp_path):
     monkeypatch.setattr(paged_level, "MANY", 8)
     monkeypatch.setattr(paging, "_OF_LATE", 1)
     session, away = begun(), disk.held
@@ -120,6 +122,7 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch)
     (layer,) = layers.layers(session.painting.root)
     level = layer.pyramid.levels[0]
     before, states = contents(session.painting), session.history.steps.done
+    save(tmp_path / "here.ora", Snapshot(session.painting))
     pages = Paging()
     pages.want(session.painting.root, None, 1 << 30)
     pages.step(1 << 30)
@@ -127,6 +130,9 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch)
     assert disk.held > away
     assert contents(session.painting) == before
     assert contents(states[-1].after) == before
+    save(tmp_path / "away.ora", Snapshot(session.painting))
+    assert (tmp_path / "away.ora").read_bytes() == (tmp_path / "here.ora").read_bytes()
+    assert contents(open_painting(tmp_path / "away.ora").painting, depth=False) == contents(session.painting, False)
     session.do(c.parse({"do": "stroke", "points": [[10, 10], [40, 60]], "brush": {"mode": "erase", "radius": 9}}))
     after = contents(session.painting)
     session.do(c.Undo(1))
