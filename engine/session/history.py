@@ -91,7 +91,8 @@ class History(Owned):
         self._root = after.root
         self._done.push(Undoable(before, after, *difference(before.root, after.root)))
         self._forget()
-        self._old.step(self._done.entries[0].step.before.root)
+        entries = self._done.entries  # none in a replay that keeps no step
+        self._old.step((entries[0].step.before if entries else after).root)
 
     def undo(self) -> Painting:
         """Returns the painting before the last step; IndexError if there is none."""

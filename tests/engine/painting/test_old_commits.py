@@ -70,6 +70,15 @@ def test_steps_that_are_held_are_told_apart_by_their_own_commits(monkeypatch):
         assert change is pyramid_of(step.after).last
 
 
+def test_a_history_that_keeps_no_step_forgets_what_led_to_the_present(monkeypatch):
+    monkeypatch.setattr(old_commits, "EACH", 2)
+    session = Session(Painting(Rect.at(0, 0, 96, 96), 7), TileCache(1 << 22), history=History(0, keep=0))
+    for n in range(9):
+        session.do(stroke(n))
+    assert session.history.steps.done == ()
+    assert 1 <= len(list(linked(pyramid_of(session.painting).last))) <= 5
+
+
 def test_commits_beyond_those_forgotten_may_have_changed_anything():
     chain = [None]
     for depth in range(1, 7):
