@@ -28,7 +28,7 @@ MOST_SAMPLES = 6
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declares the command's arguments."""
-    from engine.solids.materials import MATERIALS
+    from engine.solids.material_sliders import MATERIALS
     from engine.solids.mesh_files import READERS
 
     known = ", ".join(MATERIALS)
@@ -102,7 +102,7 @@ def _object(name: str) -> Mesh:
 
 
 def _solid(options: argparse.Namespace) -> Lookup:
-    from engine.solids.materials import MATERIALS
+    from engine.solids.material_sliders import MATERIALS
     from engine.solids.solid_lookup import Cubed, Procedural
 
     name = options.solid
@@ -121,7 +121,7 @@ def _solid(options: argparse.Namespace) -> Lookup:
 
 def _values(name: str, given: list[str]) -> dict[str, float]:
     """The sliders of a material that were set."""
-    from engine.solids.materials import MATERIALS
+    from engine.solids.material_sliders import MATERIALS
 
     sliders = MATERIALS[name].sliders
     out = {}

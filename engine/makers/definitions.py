@@ -20,7 +20,12 @@ from engine.painting import commands
 from engine.painting.commands import DefineTexture, parse
 
 FIELDS = {"tile": "spectrum", "sparse": "sparse"}  # how a sample is spread out, and the kind of texture that does it
-USUAL = {"spectrum": "tile", "sparse": "sparse", "impulse": "sparse"}  # what makers do where nothing is said
+USUAL = {
+    "spectrum": "tile",
+    "sparse": "sparse",
+    "impulse": "sparse",
+    "solid": "tile",
+}  # what makers do where nothing is said
 MATCHED = ("match", "mix")  # makers that match noise to examples
 COUNT_CAP = 16  # of one brush
 _REFERRING = ("texture", "density", "grain", "tip", "example")  # members of a brush that may hold a texture's name
@@ -86,7 +91,7 @@ def defined_by(command: DefineTexture, kind: str, parameters: Mapping[str, Any])
 _NAMING = frozenset(
     (
         *("path", "rect", "layer", "pattern", "start", "size", "shapes", "strokes", "part", "forward", "field"),
-        *("bundled", "mask", "mask_strokes", "region", "params"),
+        *("bundled", "mask", "mask_strokes", "region", "params", "material"),
     )
 )
 _MISSING = object()
@@ -100,6 +105,7 @@ def portable(name: str, kind: str, parameters: Mapping[str, Any]) -> DefineTextu
     maker = kind
     if kind in FIELDS.values():
         maker = "impulse" if "window" in parameters else "spectrum" if "field" in parameters else kind
+        maker = "solid" if "material" in parameters else maker
     elif kind in ("matched", "series"):
         maker = "mix" if "pattern" in parameters else "match"
     given = {key: value for key, value in parameters.items() if key not in ("sha", "mask_sha", "examples")}

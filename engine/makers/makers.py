@@ -18,7 +18,7 @@ from engine.checks.field_error import FieldError
 from engine.files.fault import FileError
 from engine.files.strict_json import Fields
 from engine.keeping.disk_raster import room
-from engine.makers import heeger_bergen, lewis
+from engine.makers import carved, heeger_bergen, lewis
 from engine.makers.definitions import FIELDS, USUAL, kind_of
 from engine.painting.capture import PictureSource, captured, read_bytes, read_straight
 from engine.painting.commands import DefineTexture
@@ -125,6 +125,7 @@ MAKERS: dict[str, _Maker] = {
     "spectrum": partial(_sampled, lewis.of_spectrum),
     "sparse": partial(_sampled, lewis.of_picture),
     "impulse": partial(_sampled, lewis.of_photograph),
+    "solid": partial(_sampled, carved.of_solid),
     "match": _matched,
     "mix": _matched,
     "example": _example,

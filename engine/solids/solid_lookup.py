@@ -9,7 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from engine.numeric.kernel import kernel
-from engine.solids.materials import MATERIALS, Seen
+from engine.solids.material_sliders import MATERIALS
+from engine.solids.materials import COLOURS, Seen
 from engine.solids.solid_noise import Octaves, noise_at
 
 _PIECE = 1 << 16  # places at once
@@ -44,12 +45,11 @@ class Procedural:
 
     def colours(self, points: np.ndarray, finest: float) -> np.ndarray:
         """Returns the material's colours, of all octaves that are seen."""
-        row = MATERIALS[self.material]
-        values = row.values(self.values)
+        values = MATERIALS[self.material].values(self.values)
         out = np.empty((len(points), 3))
         for start in range(0, len(points), _PIECE):
             piece = slice(start, start + _PIECE)
-            out[piece] = row.colours(Seen(points[piece], self.seed, finest), values)
+            out[piece] = COLOURS[self.material](Seen(points[piece], self.seed, finest), values)
         return out
 
 

@@ -92,6 +92,7 @@ MADE: dict[str, dict[str, Any]] = {
     "impulse": texture("impulse", path="grey.png", window=16, average=5),
     "impulse-usual": texture("impulse", path="colour.png"),
     "impulse-random": texture("impulse", path="colour.png", phase="random", field="tile"),
+    "solid": texture("solid", material="agate", normal=[1, -1, 2], depth=0.4, unit=24, seed=3, values={"bands": 9}),
     "gradient": texture("gradient", ramp=RAMP, **{"from": [3, 9], "to": [71, 50]}),
     "gradient-radial": texture("gradient", kind="radial", ramp=RAMP, **{"from": [41, 33], "to": [77, 50]}),
     "gradient-angular": texture("gradient", kind="angular", level=1, ramp=RAMP, **{"from": [80, 61], "to": [77, 20]}),

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.solids.materials import MATERIALS, Seen
+from engine.solids.material_sliders import MATERIALS
+from engine.solids.materials import COLOURS, Seen
 from engine.solids.solid_lookup import Cubed, Procedural
 from engine.solids.solid_noise import Octaves, noise_at
 
@@ -25,20 +26,20 @@ def test_a_material_repeats_after_a_unit_without_a_seam(name):
         near[:, axis] += 1e-9
         far[:, axis] += 1.0 - 1e-9
         finest = 1e-2
-        here = row.colours(Seen(near, 3, finest), given)
-        assert np.abs(row.colours(Seen(far, 3, finest), given) - here).max() < 1e-3
+        here = COLOURS[name](Seen(near, 3, finest), given)
+        assert np.abs(COLOURS[name](Seen(far, 3, finest), given) - here).max() < 1e-3
         # A step in the middle of the solid is as small: what is tested above is no accident.
-        assert np.abs(row.colours(Seen(edge + 0.5, 3, finest), given) - here).max() > 0.05
+        assert np.abs(COLOURS[name](Seen(edge + 0.5, 3, finest), given) - here).max() > 0.05
 
 
 @pytest.mark.parametrize("name", MATERIALS)
 def test_every_slider_changes_the_solid_and_keeps_colours(name):
     row = MATERIALS[name]
-    usual = row.colours(Seen(PLACES, 1, 1e-3), row.values({}))
+    usual = COLOURS[name](Seen(PLACES, 1, 1e-3), row.values({}))
     assert usual.std(axis=0).max() > 0.03
     for slider, bounds in row.sliders.items():
         for value in (bounds.low, bounds.high):
-            colours = row.colours(Seen(PLACES, 1, 1e-3), row.values({slider: value}))
+            colours = COLOURS[name](Seen(PLACES, 1, 1e-3), row.values({slider: value}))
             assert colours.min() >= -1e-9
             assert colours.max() <= 1.0 + 1e-9
             assert value == bounds.usual or np.abs(colours - usual).max() > 0.02
@@ -56,7 +57,7 @@ def test_the_bits_are_those_that_they_were():
     """What is cut from a solid becomes paint: every machine has the same."""
     digest = hashlib.sha256(noise_at(PLACES, Octaves((3, 5, 2)), 7, 1e-3).tobytes())
     for name, row in MATERIALS.items():
-        digest.update(name.encode() + row.colours(Seen(PLACES, 2, 1e-3), row.values({})).tobytes())
+        digest.update(name.encode() + COLOURS[name](Seen(PLACES, 2, 1e-3), row.values({})).tobytes())
     assert digest.hexdigest() == "cd7a64a009ec8bddb7b1fcfea12d083c751314d6a096cea3cc5578e0f1bdccc0"
 
 

@@ -1,0 +1,73 @@
+"""Flat slices through a material, which tile without a seam.
+
+A material repeats after one unit along each axis; so does each plane through whole-numbered directions, along any two
+of these.  A slice is cut at right angles to `normal`, a direction of small whole numbers, along two others that stand
+on it and on one another, each as long as it takes to repeat.
+"""
+
+from __future__ import annotations
+
+from math import gcd
+from typing import NamedTuple
+
+import numpy as np
+
+from engine.solids.material_sliders import MATERIALS, Values
+from engine.solids.materials import COLOURS, Seen
+
+STEEPEST = 2  # of a normal's numbers at most
+LONGEST = 1024  # pixels along a side
+_AXIS = tuple[int, int, int]
+
+
+class Slice(NamedTuple):
+    """Which material, its seed and values; the plane's `normal`; how far along it, `depth`, in units; pixels of a
+    unit."""
+
+    material: str
+    seed: int
+    values: Values
+    normal: tuple[int, int, int]
+    depth: float
+    unit: int
+
+
+def sides(normal: tuple[int, int, int]) -> tuple[_AXIS, _AXIS]:
+    """Returns the whole-numbered directions of a slice's rows and columns."""
+    a, b, c = normal
+    across = _least((-b, a, 0)) if a or b else (1, 0, 0)
+    x, y, z = across
+    return across, _least((b * z - c * y, c * x - a * z, a * y - b * x))
+
+
+def _least(direction: tuple[int, int, int]) -> _AXIS:
+    """The same way, in the smallest whole numbers."""
+    common = gcd(*direction)
+    x, y, z = direction
+    return x // common, y // common, z // common
+
+
+def pixels_of(cut: Slice) -> tuple[int, int]:
+    """Returns the width and height of a slice: whole pixels, so near to a unit's as they fit."""
+    across, down = (sum(value * value for value in side) ** 0.5 for side in sides(cut.normal))
+    fits = min(1.0, LONGEST / (cut.unit * max(across, down)))
+    return max(4, round(cut.unit * across * fits)), max(4, round(cut.unit * down * fits))
+
+
+def sliced(cut: Slice) -> np.ndarray:
+    """Returns the slice's colours, float32 (3, height, width): each pixel the mean of four places in it."""
+    width, height = pixels_of(cut)
+    across, down = (np.array(side, np.float64) for side in sides(cut.normal))
+    size = float(sum(value * value for value in cut.normal))
+    middle = np.array(cut.normal, np.float64) * (cut.depth / size)
+    values = MATERIALS[cut.material].values(cut.values)
+    finest = 0.5 / cut.unit
+    total = np.zeros((height * width, 3))
+    for dy in (0.25, 0.75):
+        for dx in (0.25, 0.75):
+            x = ((np.arange(width) + dx) / width)[None, :, None]
+            y = ((np.arange(height) + dy) / height)[:, None, None]
+            points = (middle + x * across + y * down).reshape(-1, 3)
+            total += COLOURS[cut.material](Seen(points, cut.seed, finest), values)
+    out: np.ndarray = (total * 0.25).T.reshape(3, height, width).astype(np.float32)
+    return out
