@@ -16,7 +16,7 @@ from engine.solids.material_sliders import MATERIALS, Values
 from engine.solids.materials import COLOURS, Seen
 
 STEEPEST = 2  # of a normal's numbers at most
-LONGEST = 1024  # pixels along a side
+SLICE_SIDE = 1024  # pixels along a side
 _AXIS = tuple[int, int, int]
 
 
@@ -47,16 +47,16 @@ def _least(direction: tuple[int, int, int]) -> _AXIS:
     return x // common, y // common, z // common
 
 
-def pixels_of(cut: Slice) -> tuple[int, int]:
+def slice_size(cut: Slice) -> tuple[int, int]:
     """Returns the width and height of a slice: whole pixels, so near to a unit's as they fit."""
     across, down = (sum(value * value for value in side) ** 0.5 for side in sides(cut.normal))
-    fits = min(1.0, LONGEST / (cut.unit * max(across, down)))
+    fits = min(1.0, SLICE_SIDE / (cut.unit * max(across, down)))
     return max(4, round(cut.unit * across * fits)), max(4, round(cut.unit * down * fits))
 
 
 def sliced(cut: Slice) -> np.ndarray:
     """Returns the slice's colours, float32 (3, height, width): each pixel the mean of four places in it."""
-    width, height = pixels_of(cut)
+    width, height = slice_size(cut)
     across, down = (np.array(side, np.float64) for side in sides(cut.normal))
     size = float(sum(value * value for value in cut.normal))
     middle = np.array(cut.normal, np.float64) * (cut.depth / size)

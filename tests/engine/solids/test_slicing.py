@@ -14,7 +14,7 @@ from engine.painting.commands import DefineTexture
 from engine.painting.textures import Around
 from engine.solids.material_sliders import MATERIALS
 from engine.solids.materials import COLOURS, Seen
-from engine.solids.slicing import LONGEST, Slice, pixels_of, sides, sliced
+from engine.solids.slicing import SLICE_SIDE, Slice, sides, slice_size, sliced
 
 NORMALS = [normal for normal in product(range(-2, 3), repeat=3) if any(normal)]
 
@@ -23,8 +23,8 @@ def test_rows_and_columns_stand_on_the_normal_and_on_one_another():
     for normal in NORMALS:
         across, down = sides(normal)
         assert np.dot(across, normal) == np.dot(down, normal) == np.dot(across, down) == 0
-        width, height = pixels_of(Slice("wood", 0, {}, normal, 0.0, 512))
-        assert 4 <= min(width, height) <= max(width, height) <= LONGEST
+        width, height = slice_size(Slice("wood", 0, {}, normal, 0.0, 512))
+        assert 4 <= min(width, height) <= max(width, height) <= SLICE_SIDE
         assert width / height == pytest.approx(np.linalg.norm(across) / np.linalg.norm(down), rel=0.02)
 
 
