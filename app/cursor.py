@@ -61,7 +61,7 @@ def draw_frame(desk: Desk) -> None:
     painter = imgui.get_background_draw_list()
     far = 4.0 * (view.width + view.height)
     a, b, c, d = (ImVec2(max(-far, min(far, x)), max(-far, min(far, y))) for x, y in corners)
-    if desk.known.paper is not None:
+    if desk.known.paper is not None and not desk.known.wrapping:
         _draw_desk(a, b, c, d, far)
     for width, colour in ((1.8 * desk.scale, theme.packed((0.0,) * 3, 0.25)), (1.0, theme.packed((1.0,) * 3, 0.35))):
         painter.add_quad(a, b, c, d, colour, width)

@@ -33,7 +33,8 @@ class Drawing:
         """Draws what imgui shows over the canvas, if anything is to be seen that is not on the screen, or if that was
         `exposed`; True while something fades.  `fresh`: the textures that show something else now."""
         data = imgui.get_draw_data()
-        plan = self._screen.plan(desk.view, desk.known.frame, now, desk.insets, desk.known.paper, desk.light.shown)
+        frame = None if desk.known.wrapping else desk.known.frame
+        plan = self._screen.plan(desk.view, frame, now, desk.insets, desk.known.paper, desk.light.shown)
         told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
         rim = None if desk.selecting.masking else desk.selecting.ants
         by = rim_similarity(desk)

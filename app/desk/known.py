@@ -83,6 +83,11 @@ class Known:
         return None if scene is None else next((row for row in scene.layers if row.name == scene.active), None)
 
     @property
+    def wrapping(self) -> bool:
+        """Tells whether a layer in sight is repeated without end: then so is what lies under it."""
+        return self.scene is not None and any(row.wrap is not None and row.visible for row in self.scene.layers)
+
+    @property
     def hiding(self) -> tuple[str, ...]:
         """Returns what hides the layer that is painted on, from the inside out: itself, and groups around it."""
         found, row = [], self.active

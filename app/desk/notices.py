@@ -13,6 +13,7 @@ OF_A_PAINTING = (
     "grown",
     "elsewhere",
     "fill",
+    "fault",
 )  # what notices are about that end with the painting
 
 

@@ -76,7 +76,9 @@ def _left(desk: Desk, right: float) -> None:
         imgui.text_disabled("Loading the paint engine…")
     elif desk.selecting.masking and TOOLS[desk.hand.tool].outline:
         imgui.text_disabled(
-            "Take from what is selected" if desk.hand.erasing else "Paint what is selected, erase what is not"
+            "Take from what is selected"
+            if desk.hand.erasing
+            else "Paint what is selected, erase what is not; colours do not count"
         )
     else:
         imgui.text_disabled("Erase with the chosen brush" if desk.hand.erasing else TOOLS[desk.hand.tool].hint)

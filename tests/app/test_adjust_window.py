@@ -12,6 +12,12 @@ def test_an_adjustment_is_seen_before_it_is_done_and_taken_back_at_once(program)
     app.stroke(*((500 + 8 * i, 500) for i in range(50)))
     painted = app.canvas_unlike(empty)
     app.keys("ctrl+m")
+    app.box("Adjust", "Adjust")
+    app.keys("Return")  # nothing is set yet
+    app.click("adjustment")
+    app.box("Invert")
+    app.keys("Return")  # it is for the list
+    app.until_gone("Invert")
     app.click("adjustment")
     app.click("Invert")
     app.box("Adjust", "Adjust")

@@ -87,7 +87,7 @@ def test_another_painting_ends_what_was_about_the_one_before(screen):
     refused = faults.told(FileError("b.ora", "none"), "", "open")
     assert len(screen.hear(lost, refused, fault)) == 3
     told = screen.hear(results.Scene(Rect(0, 0, 8, 8), (), None, False, False, False, None, serial=1), lost)
-    assert [text.partition(":")[0] for text in told] == ["A fault", "a.ora"]
+    assert [text.partition(":")[0] for text in told] == ["a.ora"]
 
 
 def test_a_full_disk_is_told_as_one_whatever_the_error_is_made_of(tmp_path):

@@ -9,6 +9,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from app.desk.presets import Preset
+from engine.brush.ops import OPS
 from engine.brush.settings import Brush, textures_of
 from engine.studio.past.past_records import AskHere, Here, Jump, LookBack, PastScene, PastStep, StopJump
 from engine.studio.requests import Request
@@ -112,7 +113,15 @@ def brush_name(brush: Brush, presets: Sequence[Preset]) -> str:
     if brush.row.takes_away:  # a brush that is used to erase
         named = next((preset.name for preset in presets if look_of(preset.brush)[1:] == look[1:]), None)
         return brush.row.label if named is None else f"{brush.row.label}: {named}"
-    return ", ".join((brush.row.label, *textures_of(brush)))
+    return ", ".join((_does(brush), *textures_of(brush)))
+
+
+def _does(brush: Brush) -> str:
+    """Returns in a word what a brush does to paint."""
+    if not brush.row.uses_op:
+        return brush.row.label
+    name = brush.op if isinstance(brush.op, str) else brush.op.get("name")
+    return "Formula" if name is None else OPS[name].label
 
 
 def step_name(step: PastStep, presets: Sequence[Preset]) -> str:

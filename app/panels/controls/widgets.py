@@ -106,7 +106,22 @@ def default_button(label: str, hint: str, *, enabled: bool = True, width: float 
     """Returns the button of a dialog that the Return key presses, too; not one that was held down as the dialog came
     up."""
     pressed = accent_button(label, hint, enabled=enabled, width=width)
-    return pressed or (enabled and any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN))
+    return pressed or (enabled and _return_pressed() and not _Lists.shown())
+
+
+def _return_pressed() -> bool:
+    return any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN)
+
+
+class _Lists:
+    """In which frame a list that drops down was open last: the Return key is for that alone, and closes it."""
+
+    frame = -1
+
+    @classmethod
+    def shown(cls) -> bool:
+        """Tells whether one is open in this frame."""
+        return cls.frame == imgui.get_frame_count()
 
 
 def return_down() -> bool:
@@ -302,6 +317,9 @@ def choice(
         named(text)
         if i < len(hints):
             tooltip(hints[i])
+    _Lists.frame = imgui.get_frame_count()
+    if _return_pressed():
+        imgui.close_current_popup()
     imgui.end_combo()
     return picked
 

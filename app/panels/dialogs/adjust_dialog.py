@@ -55,11 +55,17 @@ class AdjustDialog:
         row, best = desk.known.active, desk.adjusting.best
         known = row is not None and best is not None and best.layer == row.name
         imgui.spacing()
-        if w.default_button("Adjust", "Do it, as one step", enabled=known, width=em * 7):
+        if w.default_button("Adjust", "Do it, as one step", enabled=known and not self._idle, width=em * 7):
             desk.adjusting.done(desk.post)
             return False
         imgui.same_line()
         return not w.text_button("Cancel", "Leave the layer as it is", width=em * 7)
+
+    @property
+    def _idle(self) -> bool:
+        """Tells whether it is set so that it changes nothing."""
+        begins = _ADJUSTMENTS.get(self._chosen, {})
+        return len(begins) > 0 and self._given[self._chosen] == Map(begins)
 
     def _brush(self, desk: Desk) -> Brush:
         colour = to_hex(desk.hand.colour)

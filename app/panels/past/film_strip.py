@@ -94,7 +94,7 @@ class FilmStrip:
         seen = past.looking is not None and run.steps[0].number <= past.looking <= last.number
         look = Look(now, seen, run.steps[0].number > past.scene.done, count)
         label = f"run {run.steps[0].number}"
-        what = "steps" if last.brush is None else "fills" if last.title.startswith("Fill") else "strokes"
+        what = "steps" if last.brush is None else "fills" if last.sign == "fill" else "strokes"
         hint = f"{name}, {count} {what}.  {_GO}" if count > 1 else f"{name}.  {_GO}"
         press = step_card.draw(label, self._picture(desk, last), lines, look, hint)
         if press:

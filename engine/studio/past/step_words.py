@@ -28,7 +28,7 @@ def told(step: LoggedStep, serial: int) -> PastStep:
         title = f"{command.brush.row.label} on the mask" if command.onto else command.brush.row.label
         return PastStep(step.index, step.number, title, picture, command.brush, command.level, when)
     if isinstance(command, c.Fill):
-        title = "Fill the mask" if command.onto else "Fill"
+        title = "Adjust" if command.whole else "Fill the mask" if command.onto else "Fill"
         return PastStep(step.index, step.number, title, picture, command.brush, place_of(command)[0], when, sign="fill")
     title = _title(command)
     return PastStep(step.index, step.number, title, picture, time=when, kind=_kind(command, title), sign=_sign(command))

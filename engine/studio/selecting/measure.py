@@ -16,8 +16,8 @@ _FEATHER = 2.0 / (2.0 * np.pi) ** 0.5  # px of feather, by the steepest step of 
 
 
 def measured(selection: Selection) -> Measure | None:
-    """Returns the size of a selection at its own level, or at level 0 where that is finer; None where nothing of it is
-    selected at least half, or it lies on too many tiles."""
+    """Returns the size of a selection at its own level, or at level 0 where that is finer, and how soft its rim is
+    at its own, below which any is; None where nothing is selected at least half, or it lies on too many tiles."""
     finest = selection.pyramid.finest
     if finest is None:
         return None
@@ -27,7 +27,8 @@ def measured(selection: Selection) -> Measure | None:
     except FieldError:
         return None
     bounds = chosen_bounds(coverage)
-    return None if bounds.empty else Measure(level, bounds, softness(coverage))
+    own = coverage if level == finest else alpha_at(selection.pyramid, finest, "select")
+    return None if bounds.empty else Measure(level, bounds, softness(own) << (level - finest))
 
 
 def chosen_bounds(coverage: Coverage) -> Rect:

@@ -101,5 +101,21 @@ def test_its_size_and_its_feather_are_told_as_they_were_asked_for(op, feather):
     assert measured(session.painting.selection) == found
 
 
+@pytest.mark.parametrize("op", ["rect", "outline", "stroke"])
+def test_a_hard_rim_is_told_to_be_hard_at_whatever_level_it_was_drawn(op):
+    """Made on a coarse level, seen on the frame's: by more pixels there, still without a feather."""
+    line = [[0, 0], [60, 4], [52, 40], [2, 34]]
+    told = {
+        "rect": {"rect": [-2, 0, 0, 60, 40]},
+        "outline": {"level": -2, "outline": line},
+        "stroke": {"stroke": {"level": -2, "points": line, "brush": {"radius": 9, "hardness": 1}}},
+    }[op]
+    session = Session()
+    session.do(c.parse({"do": "select", **told}))
+    assert (measured(session.painting.selection).level, measured(session.painting.selection).feather) == (0, 0)
+    session.do(c.parse({"do": "select", "level": -2, "feather": 6}))
+    assert abs(measured(session.painting.selection).feather - 24) <= 6
+
+
 def test_all_has_no_size():
     assert measured(EVERYTHING) is None
