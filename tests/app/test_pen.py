@@ -1,8 +1,10 @@
 """A pen with pressure, from the X server's driver to paint on the screen."""
 
 import ctypes as ct
+import json
 import time
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 
 import inputtest
@@ -136,3 +138,79 @@ def test_a_pen_that_is_unplugged_while_it_is_pressed_ends_its_stroke(pen):
             time.sleep(0.02)
     assert [event.kind for event in events if event.kind != "move"] == ["down", events[-1].kind]
     assert (events[-1].x, events[-1].y) == pytest.approx((460, 320), abs=0.05)
+
+
+LINES = (
+    {"inkfall": 1, "frame": [0, 0, 320, 240], "seed": 1},
+    {"do": "layer", "add": "Layer 1"},
+    {"do": "guide", "name": "Ruler", "kind": "ruler", "points": [[20, 200], [300, 200]]},
+)
+
+
+class Hand:
+    """A pen over the frame of a program, which lies in the middle of what its panels leave, a pixel on one of the
+    screen."""
+
+    def __init__(self, app, pen):
+        self.app, self.pen = app, pen
+        self.left, self.top = 621 - 160, 398 - 120
+
+    def look(self):
+        """What the frame shows when all is done, int (240, 320, 3), the pen being away."""
+        moved(self.pen, 640, 790, 0.0)
+        self.app.until_rest((640, 790))
+        return self.app.screen()[self.top : self.top + 240, self.left : self.left + 320].astype(int)
+
+    def along(self, *places, steps=8):
+        """Presses, moves with a growing pressure, and lifts; what it changed in the frame, bool (240, 320)."""
+        before, count = self.look(), steps * (len(places) - 1)
+        path = np.concatenate([np.linspace(a, b, steps, endpoint=False) for a, b in pairwise(places)])
+        moved(self.pen, self.left + places[0][0], self.top + places[0][1], 0.0)
+        self.pen.press(True)
+        for n, (x, y) in enumerate((*path, places[-1])):
+            moved(self.pen, self.left + x, self.top + y, 0.4 + 0.6 * n / max(count, 1))
+        self.pen.press(False)
+        self.pen.sync()
+        self.app.until_rest((self.left + places[-1][0], self.top + places[-1][1]))
+        return np.abs(self.look() - before).max(axis=2) > 30
+
+
+def test_with_the_pen_one_selects_masks_fills_draws_shapes_by_rulers_and_around_a_tile(program, pen, tmp_path):
+    display, held = pen
+    (tmp_path / "tile.jsonl").write_text("\n".join(map(json.dumps, LINES)) + "\n")
+    app = program(str(tmp_path / "tile.jsonl"), on=display)
+    held.near(True)
+    app.settled(60.0)
+    app.keys("1", "b", *["bracketright"] * 6)
+    hand = Hand(app, held)
+    ruled = hand.along((40, 195), (120, 206), (200, 193), (260, 203))
+    rows, columns = np.nonzero(ruled)
+    assert columns.max() - columns.min() > 180
+    assert np.abs(rows - 200).max() < 8  # straight, however it was drawn
+    app.keys("y")
+    both = hand.along((30, 30), (90, 60))
+    assert both[:, :150].sum() > 300
+    assert abs(both[:, :160].sum() - both[:, 160:].sum()) < 0.2 * both.sum()
+    app.keys("q")
+    clear = hand.along((60, 100), (100, 120))  # of the tint
+    assert abs(clear[:, :160].sum() - clear[:, 160:].sum()) < 0.2 * clear.sum() > 0
+    app.keys("y", "q", "o")
+    app.box("deselect")
+    hand.along((120, 90), (200, 90), (200, 150), (120, 150), (120, 92))  # in place of that
+    app.keys("b")
+    within = hand.along((90, 120), (230, 120))
+    rows, columns = np.nonzero(within[:, 100:220])
+    assert 70 < columns.max() - columns.min() < 90
+    app.keys("g")
+    filled = hand.along((160, 140), (160, 140))
+    assert filled[93:108, 124:196].all()
+    assert not filled[:85].any()
+    app.keys("ctrl+z", "shift+g")
+    graded = hand.along((120, 100), (200, 140))
+    assert graded[130:148, 124:150].all()
+    app.keys("ctrl+z", "ctrl+shift+a")
+    app.until_gone("deselect")
+    app.keys("ctrl+alt+w", "b")
+    around = hand.along((280, 40), (370, 50))
+    assert around[30:60, 290:].sum() > 200
+    assert around[30:60, :40].sum() > 200

@@ -12,6 +12,7 @@ from app import icons, theme, trace
 
 Col = imgui.Col_
 _RETURN = imgui.Key.enter, imgui.Key.keypad_enter
+_LISTED = 1  # in a window's storage: in which frame a list that drops down was open last
 
 
 def tooltip(text: str, *, beside: bool = False) -> None:
@@ -104,24 +105,10 @@ def accent_button(label: str, hint: str, *, enabled: bool = True, width: float =
 
 def default_button(label: str, hint: str, *, enabled: bool = True, width: float = 0.0) -> bool:
     """Returns the button of a dialog that the Return key presses, too; not one that was held down as the dialog came
-    up."""
+    up, nor while a list is open, which it closes."""
     pressed = accent_button(label, hint, enabled=enabled, width=width)
-    return pressed or (enabled and _return_pressed() and not _Lists.shown())
-
-
-def _return_pressed() -> bool:
-    return any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN)
-
-
-class _Lists:
-    """In which frame a list that drops down was open last: the Return key is for that alone, and closes it."""
-
-    frame = -1
-
-    @classmethod
-    def shown(cls) -> bool:
-        """Tells whether one is open in this frame."""
-        return cls.frame == imgui.get_frame_count()
+    listed = imgui.get_state_storage().get_int(_LISTED, -1) == imgui.get_frame_count()
+    return pressed or (enabled and not listed and any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN))
 
 
 def return_down() -> bool:
@@ -302,8 +289,7 @@ def choice(
 ) -> str | None:
     """Returns a drop-down of (value, shown text), each perhaps with a hint of its own; the value chosen now, or
     None."""
-    shown = dict(options).get(current, current)
-    picked = None
+    shown, picked = dict(options).get(current, current), None
     if width:
         imgui.set_next_item_width(width)
     opened = imgui.begin_combo(f"##{label}", shown, imgui.ComboFlags_.height_large)
@@ -315,12 +301,11 @@ def choice(
         if imgui.selectable(text, value == current)[0]:
             picked = value
         named(text)
-        if i < len(hints):
-            tooltip(hints[i])
-    _Lists.frame = imgui.get_frame_count()
-    if _return_pressed():
+        tooltip(hints[i] if i < len(hints) else "")
+    if any(imgui.is_key_pressed(key, repeat=False) for key in _RETURN):
         imgui.close_current_popup()
     imgui.end_combo()
+    imgui.get_state_storage().set_int(_LISTED, imgui.get_frame_count())
     return picked
 
 
