@@ -65,81 +65,6 @@ def test_pressure_arrives_as_paint(program, pen):
     assert heavy > 1.5 * light, "the same paint whatever the pressure"
 
 
-@contextmanager
-def heard(display):
-    """The pens that a window on a display hears."""
-    import glfw
-    from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use one libglfw
-
-    from app.input.xinput2 import XInput2Pointer
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("DISPLAY", display)
-        assert glfw.init()
-        window = glfw.create_window(1280, 800, "pen", None, None)
-    source = XInput2Pointer(glfw.get_x11_window(window), glfw.post_empty_event, display)
-    try:
-        yield source
-    finally:
-        source.close()
-        glfw.destroy_window(window)
-        glfw.terminate()
-
-
-def test_every_report_arrives_in_order_with_its_fractions(pen):
-    """A thousand reports, faster than frames are drawn: none is lost, none is rounded."""
-    display, held = pen
-    with heard(display) as source:
-        assert source.tablets() == ["Test Pen"]
-        for i in range(1000):
-            held.move((100 + i * 0.37) * UNITS_X, 300 * UNITS_Y, i)
-        held.sync()
-        time.sleep(0.3)
-        events = source.events()
-    assert len(events) == 1000
-    assert all(event.pen for event in events)
-    assert np.allclose([e.pressure for e in events], np.arange(1000) / 1000)
-    assert np.allclose([e.x for e in events], 100 + np.arange(1000) * 0.37, atol=0.03)
-
-
-def plugged(display, pen, on):
-    """The pen's tablet is plugged in, or out: the server then adds or takes away its device."""
-    lib = Libraries()
-    server = lib.x.XOpenDisplay(display.encode())
-    lib.x.XInternAtom.restype, lib.x.XInternAtom.argtypes = ct.c_ulong, [ct.c_void_p, ct.c_char_p, ct.c_int]
-    i, u = ct.c_int, ct.c_ulong
-    lib.xi.XIChangeProperty.argtypes = [ct.c_void_p, i, u, u, i, i, ct.c_char_p, i]
-    switch = lib.x.XInternAtom(server, b"Device Enabled", 0)
-    lib.xi.XIChangeProperty(server, pen, switch, WHOLE_NUMBER, 8, 0, bytes([on]), 1)
-    lib.x.XCloseDisplay(server)
-
-
-def test_a_pen_that_is_unplugged_while_it_is_pressed_ends_its_stroke(pen):
-    display, held = pen
-    with heard(display) as source:
-        number = next(ident for ident, device in source._devices.items() if device.pen)
-        held.near(True)
-        moved(held, 400, 300, 0.5)
-        held.press(True)
-        moved(held, 460, 320, 0.6)
-        held.sync()
-        plugged(display, number, False)
-        end, events = time.monotonic() + 10, source.events()
-        while not any(event.kind in ENDS for event in events):
-            assert time.monotonic() < end, f"nothing tells that it is gone: {events}"
-            time.sleep(0.02)
-            events += source.events()
-        while source.tablets():
-            assert time.monotonic() < end, "it is still there"
-            time.sleep(0.02)
-        plugged(display, number, True)
-        while not source.tablets():
-            assert time.monotonic() < end, "it does not come back"
-            time.sleep(0.02)
-    assert [event.kind for event in events if event.kind != "move"] == ["down", events[-1].kind]
-    assert (events[-1].x, events[-1].y) == pytest.approx((460, 320), abs=0.05)
-
-
 LINES = (
     {"inkfall": 1, "frame": [0, 0, 320, 240], "seed": 1},
     {"do": "layer", "add": "Layer 1"},
@@ -214,3 +139,78 @@ def test_with_the_pen_one_selects_masks_fills_draws_shapes_by_rulers_and_around_
     around = hand.along((280, 40), (370, 50))
     assert around[30:60, 290:].sum() > 200
     assert around[30:60, :40].sum() > 200
+
+
+@contextmanager
+def heard(display):
+    """The pens that a window on a display hears."""
+    import glfw
+    from imgui_bundle import imgui  # noqa: F401  # before glfw, so that both use one libglfw
+
+    from app.input.xinput2 import XInput2Pointer
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("DISPLAY", display)
+        assert glfw.init()
+        window = glfw.create_window(1280, 800, "pen", None, None)
+    source = XInput2Pointer(glfw.get_x11_window(window), glfw.post_empty_event, display)
+    try:
+        yield source
+    finally:
+        source.close()
+        glfw.destroy_window(window)
+        glfw.terminate()
+
+
+def test_every_report_arrives_in_order_with_its_fractions(pen):
+    """A thousand reports, faster than frames are drawn: none is lost, none is rounded."""
+    display, held = pen
+    with heard(display) as source:
+        assert source.tablets() == ["Test Pen"]
+        for i in range(1000):
+            held.move((100 + i * 0.37) * UNITS_X, 300 * UNITS_Y, i)
+        held.sync()
+        time.sleep(0.3)
+        events = source.events()
+    assert len(events) == 1000
+    assert all(event.pen for event in events)
+    assert np.allclose([e.pressure for e in events], np.arange(1000) / 1000)
+    assert np.allclose([e.x for e in events], 100 + np.arange(1000) * 0.37, atol=0.03)
+
+
+def plugged(display, pen, on):
+    """The pen's tablet is plugged in, or out: the server then adds or takes away its device."""
+    lib = Libraries()
+    server = lib.x.XOpenDisplay(display.encode())
+    lib.x.XInternAtom.restype, lib.x.XInternAtom.argtypes = ct.c_ulong, [ct.c_void_p, ct.c_char_p, ct.c_int]
+    i, u = ct.c_int, ct.c_ulong
+    lib.xi.XIChangeProperty.argtypes = [ct.c_void_p, i, u, u, i, i, ct.c_char_p, i]
+    switch = lib.x.XInternAtom(server, b"Device Enabled", 0)
+    lib.xi.XIChangeProperty(server, pen, switch, WHOLE_NUMBER, 8, 0, bytes([on]), 1)
+    lib.x.XCloseDisplay(server)
+
+
+def test_a_pen_that_is_unplugged_while_it_is_pressed_ends_its_stroke(pen):
+    display, held = pen
+    with heard(display) as source:
+        number = next(ident for ident, device in source._devices.items() if device.pen)
+        held.near(True)
+        moved(held, 400, 300, 0.5)
+        held.press(True)
+        moved(held, 460, 320, 0.6)
+        held.sync()
+        plugged(display, number, False)
+        end, events = time.monotonic() + 10, source.events()
+        while not any(event.kind in ENDS for event in events):
+            assert time.monotonic() < end, f"nothing tells that it is gone: {events}"
+            time.sleep(0.02)
+            events += source.events()
+        while source.tablets():
+            assert time.monotonic() < end, "it is still there"
+            time.sleep(0.02)
+        plugged(display, number, True)
+        while not source.tablets():
+            assert time.monotonic() < end, "it does not come back"
+            time.sleep(0.02)
+    assert [event.kind for event in events if event.kind != "move"] == ["down", events[-1].kind]
+    assert (events[-1].x, events[-1].y) == pytest.approx((460, 320), abs=0.05)
