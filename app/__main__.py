@@ -15,6 +15,7 @@ COMMANDS = {
     "demo": "play the bundled demo recording, in the window or into pictures",
     "play": "replay a recording without a window",
     "export": "write a painting, or a rectangle of it at any level, as a picture",
+    "terrain": "show a painting as land; write its heights as maps and meshes",
     "film": "make a film of how a painting was made, or of a flight through it",
     "recover": "list, open or discard paintings that were not closed",
     "info": "tell what a painting holds",

@@ -12,7 +12,15 @@ from app.cli.outcome import Refused
 
 SIDE = 1 << 20  # pixels each way of what is made
 
-MODULES = {"export": "export_command", "solid": "solid_picture"}  # of commands whose modules have other names
+MODULES = {  # of commands whose modules have other names
+    "export": "export_command",
+    "solid": "solid_picture",
+    "terrain": "landscape.terrain_command",
+}
+    "export": "export_command",
+    "solid": "solid_picture",
+    "terrain": "landscape.terrain_command",
+}  # of commands whose modules have other names
 _RECTANGLE = re.compile(r"-?\d+(\.\d+)?(,-?\d+(\.\d+)?)*")
 
 

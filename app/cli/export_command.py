@@ -1,5 +1,5 @@
-"""Write a painting, or a rectangle of it at any level; OUT's ending decides: .png, .tif or .ora; .zarr (version 3, with
-OME metadata) or .dzi (DeepZoom, with a page that shows it), which hold its coarser levels, too."""
+"""Write a painting, or a rectangle of it at any level; OUT's ending decides: .png, .tif, .exr (floats, linear light) or
+.ora; .zarr (version 3, with OME metadata) or .dzi (DeepZoom, with a page that shows it), which hold coarser levels."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from engine.light.light import Light
 
 MANY_FILES = (".zarr", ".dzi")
-ENDINGS = (".png", ".tif", ".tiff", ".ora", *MANY_FILES)
+ENDINGS = (".png", ".tif", ".tiff", ".exr", ".ora", *MANY_FILES)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -83,6 +83,8 @@ def _check(options: argparse.Namespace, ending: str) -> None:
     """Refuses options that do not go together, before anything is opened."""
     if ending == ".ora" and options.depth != 8:
         raise Refused("--depth: found 16 for an .ora, expected it for a picture")
+    if ending == ".exr" and options.depth != 8:
+        raise Refused("--depth: found 16 for an .exr, whose channels have 32")
     if options.pyramid and ending not in (".tif", ".tiff"):
         raise Refused(f"--pyramid: found it for {ending}, expected it for .tif (.zarr and .dzi are pyramids)")
     if ending in MANY_FILES:

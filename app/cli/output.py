@@ -69,8 +69,7 @@ def checked_output(path: str | None, endings: Sequence[str], folders: Sequence[s
         return None
     ending = Path(path).suffix.lower()
     if ending not in endings:
-        later = " (.exr: not in this version)" if ending == ".exr" else ""
-        raise Refused(f"{path}: found the ending {ending or 'none'}{later}, expected {' or '.join(endings)}")
+        raise Refused(f"{path}: found the ending {ending or 'none'}, expected {' or '.join(endings)}")
     folder = os.path.dirname(path) or "."
     if not os.path.isdir(folder):
         raise Failed(f"{path}: there is no folder {folder}")

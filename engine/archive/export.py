@@ -1,4 +1,4 @@
-"""Any rectangle of a painting at any level as a PNG or TIFF of 8 or 16 bits, in bounded memory (features A8, A12)."""
+"""Any rectangle of a painting at any level as PNG or TIFF of 8 or 16 bits or EXR of floats, in bounded memory."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from engine.canvas.layers import Group, pictured
 from engine.files.atomic import replacing
 from engine.files.fault import WriteError
 from engine.files.png_writer import PngWriter
+from engine.files.spatial.exr_writer import write_exr
 from engine.files.tiff_writer import write_tiff
 from engine.light.light import BY_ALPHA, BY_PICTURE, Light
 from engine.numeric.address import Rect
@@ -72,7 +73,20 @@ def _png(file: BinaryIO, size: tuple[int, int], depth: int, rows: Iterator[np.nd
     writer.close()
 
 
-FORMATS: dict[str, Write] = {".png": _png, ".tif": write_tiff, ".tiff": write_tiff}
+def _exr(file: BinaryIO, size: tuple[int, int], depth: int, rows: Iterator[np.ndarray]) -> None:
+    write_exr(file, size, "RGBA", rows)
+
+
+def _light(planes: np.ndarray) -> np.ndarray:
+    """Returns pixels (h, w, 4) float32 as EXR has them: linear light, premultiplied."""
+    alpha = planes[3]
+    straight = planes[:3] / np.where(alpha > 0.0, alpha, np.float32(1.0))
+    light = np.where(straight <= 0.04045, straight / 12.92, ((straight + 0.055) / 1.055) ** 2.4)
+    return np.stack([*(light * alpha), alpha], axis=2).astype(np.float32)
+
+
+FLOATS = ".exr"
+FORMATS: dict[str, Write] = {".png": _png, ".tif": write_tiff, ".tiff": write_tiff, FLOATS: _exr}
 
 
 def export(
@@ -86,7 +100,8 @@ def export(
     `progress` gets the part done, 0..1.  WriteError on failure, LayerError for an unknown layer, Cancelled if
     `cancelled()` becomes true.
     """
-    write = FORMATS.get(PurePath(path).suffix.lower())
+    ending = PurePath(path).suffix.lower()
+    write = FORMATS.get(ending)
     if write is None:
         raise WriteError(path, f"found the ending {PurePath(path).suffix!r}, expected one of {', '.join(FORMATS)}")
     if picture.depth not in (8, 16):
@@ -97,7 +112,7 @@ def export(
             path, f"found a picture of {area.width} x {area.height}, expected 1 to {PICTURE_SIDE} each way"
         )
     root, lighting = shown_root(picture), lighting_of(picture)
-    to_pixels = to_rgba8 if picture.depth == 8 else to_rgba16
+    to_pixels = _light if ending == FLOATS else to_rgba8 if picture.depth == 8 else to_rgba16
 
     def rows() -> Iterator[np.ndarray]:
         done = 0

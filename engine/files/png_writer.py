@@ -73,11 +73,19 @@ class PngWriter:
 
     Channels: 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA (alpha not premultiplied); depth 8 or 16.  8-bit files carry an
     sRGB chunk, 16-bit ones the sRGB profile.  `file` needs only `write`.  Call `close` after the last row.
-    `small`: takes up to four times as long if that makes a smaller file.
+    `small`: takes up to four times as long if that makes a smaller file; `colours`: False for numbers that are none,
+    which no profile may change.
     """
 
     def __init__(
-        self, file: BinaryIO, width: int, height: int, channels: int = 4, depth: int = 8, small: bool = False
+        self,
+        file: BinaryIO,
+        width: int,
+        height: int,
+        channels: int = 4,
+        depth: int = 8,
+        small: bool = False,
+        colours: bool = True,
     ) -> None:
         if not (0 < width < 1 << 31 and 0 < height < 1 << 31):
             raise ValueError(f"PNG size {width} x {height}; expected 1 to 2^31 - 1 each way")
@@ -91,6 +99,8 @@ class PngWriter:
         self._deflate = None if small else isal_zlib.compressobj(LEVEL)
         file.write(SIGNATURE)
         self._chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, COLOUR_TYPES[channels], 0, 0, 0))
+        if not colours:
+            return
         if depth == 8:
             self._chunk(b"sRGB", b"\0")
         else:

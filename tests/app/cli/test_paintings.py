@@ -117,7 +117,7 @@ WRONG_PAINTINGS = {
     "no file": ["info", "{dir}/none.ora"],
     "a folder": ["info", "{dir}"],
     "a recording": ["info", "{script}"],
-    "exr": ["export", "{saved}", "{dir}/o.exr"],
+    "exr of 16 bits": ["export", "{saved}", "{dir}/o.exr", "--depth", "16"],
     "no ending": ["export", "{saved}", "{dir}/o"],
     "no such layer": ["export", "{saved}", "{dir}/o.png", "--layer", "x"],
     "depth": ["export", "{saved}", "{dir}/o.png", "--depth", "12"],

@@ -1,0 +1,1 @@
+"""`inkfall terrain`: pictures, maps and meshes."""

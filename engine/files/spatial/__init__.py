@@ -1,0 +1,1 @@
+"""Files for programs that work in space: height maps, meshes."""

@@ -1,0 +1,132 @@
+"""`inkfall terrain`: height maps, meshes, and the line that says what is wrong; EXR of a painting's colours."""
+
+import json
+
+import numpy as np
+import OpenEXR
+import pytest
+import tifffile
+import trimesh
+from command_line import pixels, refused
+
+from app.__main__ import main
+from engine.archive.opening import open_painting
+from engine.numeric.address import Rect
+from engine.terrain.plane import land
+
+PLACE = "2,60,60,65,33"
+RECT = Rect.at(60, 60, 65, 33)
+
+
+@pytest.fixture(scope="module")
+def heights(saved):
+    """Heights of that place, in pixels of its level."""
+    return 4.0 * land(open_painting(saved).painting, "Sky", 40).height(2, RECT)
+
+
+def terrain(saved, out, *words, height=("--height", "Sky", "--scale", "40")):
+    return main(["terrain", str(saved), str(out), "--rect", PLACE, *height, *map(str, words)])
+
+
+@pytest.mark.parametrize("target", ["godot", "unreal", "unity", "blender", "gis"])
+def test_height_maps_for_programs(saved, heights, tmp_path, capsys, target):
+    metres = (2.5 * heights.astype(np.float32)).astype(np.float32)
+    words = "--for", target, "--metres-per-pixel", 2.5
+    for name in ("a.exr", "a.tif", "a.png"):
+        out = tmp_path / name
+        assert terrain(saved, out, *words) == 0
+        facts = json.loads(out.with_suffix(".json").read_text())
+        assert (facts["for"], facts["file"], facts["size"]) == (target, name, [65, 33])
+        assert facts["code_0"] == facts["height_min"] == pytest.approx(metres.min())
+        assert facts["code_65535"] == pytest.approx(metres.max())
+        assert facts["metres_per_pixel"] == 2.5
+    with OpenEXR.File(str(tmp_path / "a.exr")) as file:
+        assert np.array_equal(file.channels()["Y"].pixels, metres)
+    assert np.array_equal(tifffile.imread(tmp_path / "a.tif"), metres)
+    codes = facts["code_0"] + pixels(out) / 65535 * (facts["code_65535"] - facts["code_0"])
+    assert np.abs(codes - metres).max() < 1e-5 * np.ptp(metres)
+    told = capsys.readouterr().err
+    assert (f"{target} takes sides of" in told) == (target in ("unreal", "unity"))
+
+
+def test_meshes_keep_their_error(saved, heights, tmp_path, capsys):
+    assert terrain(saved, tmp_path / "a.stl", "--error", 0.3, "--base", 7, "--metres-per-pixel", 2) == 0
+    triangles = int(capsys.readouterr().out.split()[0])
+    body = trimesh.load(tmp_path / "a.stl")
+    assert len(body.faces) == triangles
+    assert body.is_watertight
+    assert body.volume > 0
+    assert body.bounds[0, 2] == pytest.approx(2 * (heights.min() - 7), rel=0.01)
+    assert np.ptp(body.bounds[:, :2], axis=0).tolist() == [130, 66]
+    assert terrain(saved, tmp_path / "a.glb", "--triangles", 500) == 0
+    told = capsys.readouterr().out
+    mesh = trimesh.load(tmp_path / "a.glb", force="mesh", process=False)
+    assert 300 < len(mesh.faces) <= 500
+    assert told.startswith(f"{len(mesh.faces)} triangles")
+    assert mesh.face_normals[:, 1].min() > 0
+    x, z = (mesh.vertices[:, i].astype(int) for i in (0, 2))
+    inside = (x < 65) & (z < 33)
+    assert np.allclose(mesh.vertices[inside, 1], heights[z[inside], x[inside]], atol=1e-4)
+
+
+def test_a_mesh_with_a_base_is_closed_as_glb(saved, tmp_path):
+    assert terrain(saved, tmp_path / "a.glb", "--base", 4) == 0
+    mesh = trimesh.load(tmp_path / "a.glb", force="mesh", process=False)
+    mesh.merge_vertices(merge_norm=True, merge_tex=True)
+    assert mesh.is_watertight
+    assert mesh.volume > 0
+
+
+def test_colours_as_floats(saved, tmp_path):
+    assert main(["export", str(saved), str(tmp_path / "a.exr")]) == 0
+    assert main(["export", str(saved), str(tmp_path / "a.png"), "--depth", "16"]) == 0
+    with OpenEXR.File(str(tmp_path / "a.exr"), separate_channels=True) as file:
+        seen = np.stack([file.channels()[name].pixels for name in "RGBA"], 2)
+    assert seen.dtype == np.float32
+    assert seen.shape == (48, 64, 4)
+    shown = pixels(tmp_path / "a.png")
+    if shown.dtype == np.uint8:  # Pillow reads 16-bit RGBA as 8
+        shown = shown.astype(float) * 257
+    alpha = shown[:, :, 3] / 65535
+    assert np.abs(seen[:, :, 3] - alpha).max() < 0.005
+    straight = shown[:, :, :3] / 65535
+    light = np.where(straight <= 0.04045, straight / 12.92, ((straight + 0.055) / 1.055) ** 2.4)
+    assert np.abs(seen[:, :, :3] - light * alpha[:, :, None]).max() < 0.02
+    assert seen[:, :, :3].max() > 0.1
+
+
+WRONG = {
+    "another ending": (["a.obj"], "expected .png or"),
+    "no such layer": (["a.stl", "--height", "None"], "--height: layer: found 'None'"),
+    "error of a map": (["a.exr", "--for", "gis", "--error", "1"], "--error: found it for .exr"),
+    "a map of nobody": (["a.tif"], "--for"),
+    "both": (["a.glb", "--error", "1", "--triangles", "9"], "expected one of them"),
+    "for a mesh": (["a.glb", "--for", "gis"], "--for: found it for .glb"),
+    "too few": (["a.stl", "--triangles", "3"], "--triangles: found 3 triangles, expected at least"),
+    "too large": (["a.stl", "--rect", "0,0,0,9000,9"], "at most 8193"),
+    "too deep": (["a.stl", "--rect", "4000,0,0,9,9"], "found level 4000, expected at most 1000"),
+    "a scale beyond": (["a.stl", "--scale", "1e99"], "expected a number"),
+    "a negative size": (["a.stl", "--metres-per-pixel", "-1"], "above 0"),
+    "onto itself": (["{saved}"], "expected .png or"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_is_told(saved, tmp_path, capsys, name):
+    (out, *words), told = WRONG[name]
+    assert told in refused(capsys, "terrain", saved, tmp_path / out.format(saved=saved), *words)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_nothing_half_written_is_left(saved, tmp_path, capsys):
+    (tmp_path / "a.json").mkdir()
+    out = tmp_path / "a.exr"
+    assert "a.json" in refused(capsys, "terrain", saved, out, "--rect", PLACE, "--for", "gis", status=1)
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("place", ["0,100000,100000,5,4", f"40,{30 << 40},{25 << 40},9,9"])
+def test_places_where_nothing_is_painted_or_that_are_deep(saved, tmp_path, place):
+    for name, *words in (("a.stl",), ("a.glb",), ("a.png", "--for", "unity")):
+        assert main(["terrain", str(saved), str(tmp_path / name), "--rect", place, *words]) == 0
+        assert (tmp_path / name).stat().st_size > 60
