@@ -17,10 +17,6 @@ MODULES = {  # of commands whose modules have other names
     "solid": "solid_picture",
     "terrain": "landscape.terrain_command",
 }
-    "export": "export_command",
-    "solid": "solid_picture",
-    "terrain": "landscape.terrain_command",
-}  # of commands whose modules have other names
 _RECTANGLE = re.compile(r"-?\d+(\.\d+)?(,-?\d+(\.\d+)?)*")
 
 
