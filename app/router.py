@@ -95,7 +95,8 @@ class Router:
             self._field_until = time.monotonic() + FOCUSING
             imgui.get_io().add_mouse_button_event(_IMGUI_BUTTON[event.button], True)
             return
-        imgui.set_window_focus(None)
+        if not self.layout.dialogs.open:
+            imgui.set_window_focus(None)
         self.desk.glide.land()
         self._button = event.button
         self.gesture, self._last = self._chosen(event), event
@@ -108,6 +109,8 @@ class Router:
         ctrl = bool({glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL} & held)
         if glfw.KEY_SPACE in held or event.button == MIDDLE:
             begin: Callable[[Desk, PenEvent], Gesture] = zoom if ctrl else turn if self.desk.pointer.shift else pan
+        elif self.layout.dialogs.open:  # one that lies aside: the view moves under it, and nothing else
+            begin = zoom if ctrl else pan
         elif event.button == RIGHT or ctrl:
             begin = pick
         elif self.desk.match.marking is not None and self.desk.strip == "match":

@@ -48,7 +48,8 @@ class Layout:
 
     def covers(self, x: float, y: float) -> bool:
         """Tells whether a press at (x, y) belongs to the panels: those of the last frame, or any menu or dialog."""
-        return self._popup or any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self._covered)
+        below = self._popup and not self.dialogs.leaves(x, y)
+        return below or any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self._covered)
 
     @property
     def popup(self) -> bool:

@@ -92,6 +92,25 @@ def _levels(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
     return t, np.where(inside == spread, s * steep, np.float32(0))
 
 
+def _curves(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
+    """Each channel along its own curve, then along that of all."""
+    given = edit.op.parameters
+    t, s = np.empty_like(c), np.empty_like(c)
+    for channel, name in enumerate(("red", "green", "blue")):
+        own, slope = _along(tints.tone_table(given[name]), c[channel])
+        t[channel], s[channel] = _along(tints.tone_table(given["all"]), own)
+        s[channel] *= slope
+    return t, s
+
+
+def _along(table: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the values of a table at tones, and how steeply it rises there."""
+    places = np.clip(c, np.float32(0), np.float32(1)) * np.float32(tones.STEPS)
+    i = np.minimum(places.astype(np.int32), tones.STEPS - 1)
+    low, high = table[i], table[i + 1]
+    return low + (high - low) * (places - i.astype(np.float32)), (high - low) * np.float32(tones.STEPS)
+
+
 def _gradient(edit: Operating, at: Operand, c: np.ndarray) -> Targets:
     """Returns a ramp's colours, by the pixel's brightness or along the brush's texture."""
     t, s = np.empty_like(c), np.empty_like(c)
@@ -161,6 +180,7 @@ KERNELS: dict[str, _Kernel] = {name: partial(_channel, loop) for name, loop in t
     "hue": _hue,
     "recolour": _recoloured,
     "levels": _levels,
+    "curves": _curves,
     "gradient": _gradient,
     "smooth": _smooth,
     "sharpen": _sharpen,

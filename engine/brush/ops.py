@@ -26,13 +26,15 @@ SHIFT_CAP = 64.0
 OFFSET_CAP = 2**31
 OpValue = str | Map[str, Any]
 
+STRAIGHT = ((0.0, 0.0), (1.0, 1.0))  # a curve that changes nothing
+_DEEPER = ((0.0, 0.0), (0.25, 0.2), (0.75, 0.8), (1.0, 1.0))
 _WASH = ((0.0, "#1b1033"), (0.5, "#c8553d"), (1.0, "#ffe9b0"))
 
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One parameter of an op.  `kind`: number (of lo..hi), choice (of `choices`), ramp, layer or offset; a default of
-    None means that it has to be given.  `whole`: a number that is rounded before it is used."""
+    """One parameter of an op.  `kind`: number (of lo..hi), choice (of `choices`), ramp, curve, layer or offset; a
+    default of None means that it has to be given.  `whole`: a number that is rounded before it is used."""
 
     name: str
     label: str
@@ -55,6 +57,8 @@ class Parameter:
             return checks.one_of(value, place, self.choices)
         if self.kind == "layer":
             return checks.text(value, place, "a layer's name")
+        if self.kind == "curve":
+            return checks.knots(value, place, 1.0)
         return _ramp(value, place) if self.kind == "ramp" else _offset(value, place)
 
 
@@ -84,6 +88,12 @@ def _amount(default: float, tooltip: str, lo: float = 0.0, hi: float = 1.0) -> P
 
 def _reach(tooltip: str) -> Parameter:
     return Parameter("reach", "Reach", 4.0, tooltip, "number", 1.0, _REACH_CAP, (1.0, _REACH_CAP), "px", True)
+
+
+def _curve(name: str, what: str = "", default: checks.Knots = STRAIGHT) -> Parameter:
+    return Parameter(
+        name, name.capitalize(), default, f"What becomes of {what or name}: dark left, light right", "curve"
+    )
 
 
 _BY = ("luminance", "texture")
@@ -136,6 +146,10 @@ OPS: dict[str, Op] = {
             Parameter("white", "White", 0.95, "The tone that becomes white"),
             Parameter("gamma", "Middle", 0.9, "Below 1 brightens the middle tones, above 1 darkens them", lo=0.1,
                       hi=10.0, slider=(0.2, 5.0), logarithmic=True))),
+        Op("curves", "Curves", "Tones", "Each tone becomes another, along a curve of all channels or of one",
+           f"{_SLOPE}, at most twice as strong.", "curves",
+           (_curve("all", "every channel, after its own curve", _DEEPER), _curve("red"), _curve("green"),
+            _curve("blue"))),
         Op("invert", "Invert", "Tones", "Turns light into dark, each colour into its opposite",
            "Finer detail is turned round: its light becomes its dark.", "invert"),
         Op("posterise", "Posterise", "Tones", "Leaves a few levels of each channel, with hard steps between",

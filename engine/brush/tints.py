@@ -10,6 +10,7 @@ import numpy as np
 from engine.brush import checks, tones
 from engine.brush.ops import Chosen
 from engine.numeric.arithmetic import LIBRARY
+from engine.numeric.curves import smooth_curve
 from engine.numeric.functions import functions
 
 _MOST = 9
@@ -20,6 +21,16 @@ def numbers(op: Chosen) -> np.ndarray:
     out = np.zeros(_MOST, np.float32)
     for i, part in enumerate(part for part in (op.row.parameters if op.row else ()) if part.kind == "number"):
         out[i] = np.rint(op.parameters[part.name]) if part.whole else op.parameters[part.name]
+    return out
+
+
+@lru_cache(64)
+def tone_table(knots: tuple[tuple[float, float], ...]) -> np.ndarray:
+    """Returns the tones that a curve through knots makes of 0, 1/1024, ..., 1: float32 (1025,), not to be written
+    to."""
+    values = smooth_curve(knots, np.arange(tones.STEPS + 1) / tones.STEPS)
+    out: np.ndarray = np.clip(values, 0.0, 1.0).astype(np.float32)
+    out.flags.writeable = False
     return out
 
 

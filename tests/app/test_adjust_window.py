@@ -1,5 +1,6 @@
 """Colours of a layer adjusted in the real window: seen while they are set, done as one step."""
 
+import numpy as np
 import pytest
 
 pytestmark = [pytest.mark.window, pytest.mark.timeout(180)]
@@ -33,3 +34,32 @@ def test_an_adjustment_is_seen_before_it_is_done_and_taken_back_at_once(program)
     app.canvas_unlike(painted)
     app.keys("ctrl+z")
     assert app.comes_to(painted)
+
+
+def test_formulas_and_curves_are_seen_and_the_view_moves_below_the_dialog(with_stroke):
+    app = with_stroke
+    painted = app.canvas()
+    app.keys("ctrl+m")
+    app.click("adjustment")
+    app.click("Formula")
+    app.click("formula", "Adjust")
+    app.keys("ctrl+a")
+    app.type("1 - pic")
+    app.keys("Tab")
+    bright = app.canvas_unlike(painted)
+    app.drag((900, 600), (860, 620))
+    app.do("mouseup", 1)
+    moved = app.canvas_unlike(bright)
+    assert np.array_equal(moved[300:660, 40:600], bright[280:640, 80:640])
+    app.do("mousemove", 800, 500)
+    app.wheel(1)
+    app.canvas_unlike(moved)
+    app.click("adjustment")
+    app.click("Curves")
+    app.click("curve All")
+    left, top, right, bottom = app.box("whole curve")
+    app.click(((left + right) // 2, top + (bottom - top) // 5))
+    app.keys("Escape")
+    app.until_gone("whole curve")
+    app.click("Adjust", "Adjust")
+    app.until_gone("adjustment")

@@ -13,7 +13,9 @@ from immutables import Map
 from app import icons, theme
 from app.desk import ramps
 from app.desk.desk import Desk
+from app.desk.knots import STRAIGHT, Knots
 from app.panels.controls import widgets as w
+from app.panels.controls.curve_editor import Curve, CurveEditor
 from app.panels.controls.ramp_editor import RampEditor
 from engine.numeric.formula import FORMULA_CAP, FUNCTIONS, NAMES, FormulaError, parse
 
@@ -39,7 +41,7 @@ class Operations:
     """Remembers the formula as it is typed, which may not be one yet."""
 
     def __init__(self) -> None:
-        self._ramp = RampEditor()
+        self._ramp, self._curves = RampEditor(), CurveEditor(smooth=True)
         self._text = ""
         self._known = ""  # the brush's formula when `_text` was last the same
         self._typed = 0.0  # when it was last changed
@@ -59,7 +61,9 @@ class Operations:
                 desk.hand.change(op=started)
             return
         if own:
-            self._formula(desk, str(op["formula"]))  # type: ignore[index]
+            was = str(op["formula"])  # type: ignore[index]
+            if (now := self.formula(was)) != was:
+                desk.hand.change(op=Map({"formula": now}))
             return
         row = next((row for row in desk.known.tables.ops if row.name == name), None)
         given: Map[str, Any] = Map() if isinstance(op, str) else op
@@ -123,14 +127,17 @@ class Operations:
                 parts[i] = round(new)
         return tuple(parts)
 
+    def _curve(self, desk: Desk, row: Parameter, value: Knots) -> Curve:
+        changed, new = self._curves.row(row.label, None if value == STRAIGHT else value, (), row.tooltip)
+        return (STRAIGHT if new is None else new) if changed else value
+
     def _stops(self, desk: Desk, row: Parameter, value: Any) -> Any:
         stops = ramps.read(value)
         new = self._ramp.draw(stops, row.tooltip)
         return value if new == stops else new
 
-    def _formula(self, desk: Desk, formula: str) -> None:
-        """Draws the field, what is wrong with it, and some formulas to begin with; the brush keeps the last good
-        one."""
+    def formula(self, formula: str) -> str:
+        """Draws the field, what is wrong with it, and some formulas to begin with; returns the last good one."""
         if formula != self._known:
             self._text = self._known = formula
             self._fault = None
@@ -156,9 +163,9 @@ class Operations:
             self._fault, self._typed = fault(self._text), now
         if self._fault is None and self._text != self._known and (left or now - self._typed > _REST):
             self._known = self._text
-            desk.hand.change(op=Map({"formula": self._text}))
         if self._fault is not None:
             _mistake(self._text, self._fault)
+        return self._known
 
 
 CONTROLS: dict[str, Callable[[Operations, Desk, Any, Any], Any]] = {
@@ -167,6 +174,7 @@ CONTROLS: dict[str, Callable[[Operations, Desk, Any, Any], Any]] = {
     "layer": Operations._layer,
     "offset": Operations._offset,
     "ramp": Operations._stops,
+    "curve": Operations._curve,
 }
 _VOCABULARY = (
     "f of pic + d tex f: what is added to each channel, from\n"

@@ -10,12 +10,14 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
 from app.desk import knots
 from app.desk.knots import Knots
 from app.panels.controls import widgets as w
+from engine.numeric.curves import smooth_curve
 from engine.studio.results import CurveRow
 
 Curve = str | Knots | None
@@ -26,13 +28,17 @@ LINES = 4  # of the grid each way
 _REACH = 0.045  # how near to a knot the pointer takes hold of it
 FINE = 0.004  # what a curve drawn by hand may lose when it becomes knots
 _GONE = -1
+_PIECES = 96  # straight ones that a smooth curve is drawn by
 
 
 class CurveEditor:
-    """Remembers what the pointer holds; one editor serves any number of curves, one of them open."""
+    """Remembers what the pointer holds; one editor serves any number of curves, one of them open.
 
-    def __init__(self) -> None:
-        self.by_hand = True
+    `smooth`: knots are joined by a smooth curve, and held first; else by straight lines, and drawn first."""
+
+    def __init__(self, smooth: bool = False) -> None:
+        self._smooth = smooth
+        self.by_hand = not smooth
         self._held: int | None = None
         self._pen: tuple[float, float] | None = None
 
@@ -46,6 +52,7 @@ class CurveEditor:
         if imgui.invisible_button(f"curve {label}", ImVec2(width, height)):
             imgui.open_popup(f"edit {label}")
         hovered = imgui.is_item_hovered()
+        w.named(f"curve {label}")
         w.tooltip(hint)
         painter, pad = imgui.get_window_draw_list(), imgui.get_style().frame_padding
         end = ImVec2(corner.x + width, corner.y + height)
@@ -55,7 +62,7 @@ class CurveEditor:
             ImVec2(corner.x + pad.x, corner.y + pad.y), theme.packed((0.75,) * 3), label.partition("##")[0]
         )
         picture = ImVec2(end.x - height * 1.5 - 2, corner.y + 3), ImVec2(end.x - 4, end.y - 3)
-        plot(*picture, shape_of(curve, rows), 1.5)
+        plot(*picture, self._line(shape_of(curve, rows)), 1.5)
         text = title_of(curve, rows)
         at = ImVec2(picture[0].x - pad.x - imgui.calc_text_size(text).x, corner.y + pad.y)
         painter.add_text(at, theme.packed(theme.TEXT if curve is not None else theme.QUIET), text)
@@ -68,14 +75,15 @@ class CurveEditor:
         before, side = curve, imgui.get_font_size() * _SIDE
         imgui.text_disabled(label.partition("##")[0])
         button, gap = imgui.get_frame_height(), imgui.get_style().item_spacing.x
-        named = w.choice(
-            "named", curve if isinstance(curve, str) else title_of(curve, rows).capitalize(),
-            [(row.name, row.label) for row in rows], "Curves to start from", side - 3 * (button + gap),
-            [row.tooltip for row in rows],
-        )  # fmt: skip
-        if named:
-            curve = None if named == rows[0].name else named
-        imgui.same_line()
+        if rows:
+            named = w.choice(
+                "named", curve if isinstance(curve, str) else title_of(curve, rows).capitalize(),
+                [(row.name, row.label) for row in rows], "Curves to start from", side - 3 * (button + gap),
+                [row.tooltip for row in rows],
+            )  # fmt: skip
+            if named:
+                curve = None if named == rows[0].name else named
+            imgui.same_line()
         if w.icon_button("hand", icons.PENCIL, "Draw the curve by hand", on=self.by_hand):
             self.by_hand = True
         imgui.same_line()
@@ -94,6 +102,7 @@ class CurveEditor:
         end = ImVec2(corner.x + side, corner.y + side)
         buttons = imgui.ButtonFlags_.mouse_button_left | imgui.ButtonFlags_.mouse_button_right
         imgui.invisible_button("canvas", ImVec2(side, side), buttons)
+        w.named("whole curve")
         mouse = imgui.get_io().mouse_pos
         at = (min(max((mouse.x - corner.x) / side, 0.0), 1.0), min(max((end.y - mouse.y) / side, 0.0), 1.0))
         shape = shape_of(curve, rows)
@@ -101,10 +110,17 @@ class CurveEditor:
         if edited is not None:
             curve = None if edited == shape_of(None, rows) else edited
             shape = edited
-        plot(corner, end, shape, 2.0, grid=True)
+        plot(corner, end, self._line(shape), 2.0, grid=True)
         if not self.by_hand:
             self._dots(corner, side, _knots(curve, shape), at)
         return curve
+
+    def _line(self, shape: Knots) -> Knots:
+        """Returns what is drawn of a curve."""
+        if not self._smooth or len(shape) < 3:
+            return shape
+        places = np.linspace(0.0, 1.0, _PIECES + 1)
+        return tuple(zip(places.tolist(), np.clip(smooth_curve(shape, places), 0.0, 1.0).tolist(), strict=True))
 
     def _drawn(self, shape: Knots, at: tuple[float, float]) -> Knots | None:
         """Returns the curve with the pen's newest piece in it; None when the pen does nothing."""

@@ -47,11 +47,19 @@ class Dialogs:
 
     def __init__(self) -> None:
         self._open: Dialog | None = None
+        self._box = 0.0, 0.0, 0.0, 0.0
 
     @property
     def open(self) -> bool:
         """Tells whether one is on the screen."""
         return self._open is not None
+
+    def leaves(self, x: float, y: float) -> bool:
+        """Tells whether a place is the canvas's still: beside a dialog in a corner, so that one sees the picture."""
+        if not getattr(self._open, "aside", False) or len(imgui.get_current_context().open_popup_stack) > 1:
+            return False
+        x0, y0, x1, y1 = self._box
+        return not (x0 <= x < x1 and y0 <= y < y1)
 
     def draw(self, desk: Desk) -> None:
         """Draws it into the present window."""
@@ -66,6 +74,8 @@ class Dialogs:
         flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
         if imgui.begin_popup_modal(f"{dialog.title}###dialog", None, flags)[0]:
             # Escape closes a list or a colour that the dialog has opened first.
+            corner, size = imgui.get_window_pos(), imgui.get_window_size()
+            self._box = corner.x, corner.y, corner.x + size.x, corner.y + size.y
             given_up, stays = imgui.is_key_pressed(imgui.Key.escape) and not _closed_inner(), dialog.draw(desk)
             if given_up:
                 desk.asked.give_up()

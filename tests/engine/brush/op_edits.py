@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine.brush import edits
+from engine.brush import edits, ops
 from engine.brush.checks import rgb
 from engine.brush.covered import Scene
 from engine.brush.mask import StrokeMask
@@ -10,6 +10,7 @@ from engine.brush.mixture import mixture
 from engine.brush.settings import from_json
 from engine.brush.tints import turning
 from engine.numeric.address import TILE, Rect, TileKey
+from engine.numeric.curves import smooth_curve
 from engine.numeric.grid import snapped
 from engine.texture.planes import Planes
 
@@ -92,6 +93,7 @@ TARGETS = {
     "saturate": lambda c: grey(c) + 1.5 * (c - grey(c)),
     "hue": lambda c: np.einsum("ij,jhw->ihw", turning(60), c),
     "tone": lambda c: 0.5 + 1.2 * (c - 0.5) + 0.1,
+    "curves": lambda c: smooth_curve(ops.OPS["curves"].parameters[0].default, c),
     "levels": lambda c: np.clip((c - 0.05) / 0.9, 0, 1) ** 0.9,
     "recolour": lambda c: 0.9 * np.clip(_recoloured(c), 0, 1) + 0.1,
     "gradient": wash,
