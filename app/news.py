@@ -11,6 +11,7 @@ from app.desk.files import Done
 from app.desk.known import Known, known_after
 from app.desk.moving import independence
 from app.desk.outside import clipboard
+from app.desk.outside.noting_opened import follow_opened
 from app.desk.recovery import recovery_work
 from app.faults.fault_guard import FaultGuard
 from app.trace import trace
@@ -49,6 +50,7 @@ def _scene(desk: Desk, scene: results.Scene, _now: float) -> None:
     desk.notices.shown(scene.serial)
     desk.masks.follow(desk.post, desk.known.active)
     recovery_work.offer(desk, scene)
+    follow_opened(desk)
 
 
 def _done(desk: Desk, done: Done, _now: float) -> None:

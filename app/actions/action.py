@@ -14,7 +14,8 @@ Check = Callable[[Desk], bool]
 
 
 class Action(NamedTuple):
-    """One thing the artist can do.  `keys`: such as `Ctrl+Shift+Z`, the first is shown in menus."""
+    """One thing the artist can do.  `menu`: the one it is in, "Layer/Mask" for one within another; `keys`: such as
+    `Ctrl+Shift+Z`, the first is shown in menus."""
 
     title: str
     menu: str

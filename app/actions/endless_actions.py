@@ -74,7 +74,7 @@ def _endless(desk: Desk) -> None:
 
 ENDLESS_ACTIONS: dict[str, A] = {
     "in_itself": A(
-        "Picture in itself", "Layer", (), "Show the whole picture within itself, half as large each time",
+        "Picture in itself", "Layer/Placement", (), "Show the whole picture within itself, half as large each time",
         _place_in_itself, _has_scene,
     ),
     "endless": A(

@@ -112,6 +112,7 @@ def _moves(by: int) -> Callable[[Desk], None]:
     return do
 
 
+_NUDGE = "Move the layer by a pixel of what you see"
 LAYER_ACTIONS: dict[str, A] = {
     "add_layer": A("New layer", "Layer", ("Ctrl+Shift+N",), "Add a layer above", _add("layer", "Layer"), ready),
     "add_group": A("New group", "Layer", ("Ctrl+G",), "Add a group above", _add("group", "Group"), ready),
@@ -121,7 +122,8 @@ LAYER_ACTIONS: dict[str, A] = {
         _can_cut_out,
     ),
     "show_again": A(
-        "Show again", "Layer", (), "Show the layer once more: what is painted on it shows there", _show_again, chosen
+        "Show again", "Layer/Placement", (), "Show the layer once more: what is painted on it shows there", _show_again,
+        chosen,
     ),
     "reference": A(
         "Reference",
@@ -141,15 +143,15 @@ LAYER_ACTIONS: dict[str, A] = {
         _can_be_reference,
         _is_height,
     ),
-    "raise": A("Move up", "Layer", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
-    "lower": A("Move down", "Layer", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),
+    "raise": A("Move up", "Layer/Move", ("Ctrl+PageUp",), "Move the layer up", _moves(1), chosen),
+    "lower": A("Move down", "Layer/Move", ("Ctrl+PageDown",), "Move the layer down", _moves(-1), chosen),
     "remove": A("Delete", "Layer", ("Shift+Delete",), "Delete the layer", _remove, chosen),
-    "left": A("Nudge left", "Layer", ("Left",), "Move the layer by a pixel of what you see", _nudges(-1, 0), chosen),
-    "right": A("Nudge right", "Layer", ("Right",), "Move the layer by a pixel of what you see", _nudges(1, 0), chosen),
-    "up": A("Nudge up", "Layer", ("Up",), "Move the layer by a pixel of what you see", _nudges(0, -1), chosen),
-    "down": A("Nudge down", "Layer", ("Down",), "Move the layer by a pixel of what you see", _nudges(0, 1), chosen),
+    "left": A("Nudge left", "Layer/Move", ("Left",), _NUDGE, _nudges(-1, 0), chosen),
+    "right": A("Nudge right", "Layer/Move", ("Right",), _NUDGE, _nudges(1, 0), chosen),
+    "up": A("Nudge up", "Layer/Move", ("Up",), _NUDGE, _nudges(0, -1), chosen),
+    "down": A("Nudge down", "Layer/Move", ("Down",), _NUDGE, _nudges(0, 1), chosen),
     "set_down": A(
-        "Set down", "Layer", ("Enter",), "Lay what you moved of the layer where it is now; Escape takes it back",
+        "Set down", "Layer/Move", ("Enter",), "Lay what you moved of the layer where it is now; Escape takes it back",
         set_part_down, _floats,
     ),
     "show_layer": A("Show layer", "Layer", (), "Show the layer, and the groups around it", _show, _hidden),

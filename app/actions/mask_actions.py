@@ -99,7 +99,7 @@ def _toggle_alone(desk: Desk) -> None:
 MASK_ACTIONS: dict[str, A] = {
     "mask": A(
         "Mask from selection",
-        "Layer",
+        "Layer/Mask",
         (),
         "Show only what is selected of the layer; no paint is lost",
         _mask,
@@ -107,7 +107,7 @@ MASK_ACTIONS: dict[str, A] = {
     ),
     "mask_full": A(
         "Add mask",
-        "Layer",
+        "Layer/Mask",
         (),
         "Show what is selected alone, or all: paint black on it to hide",
         _add(MASK_FULL),
@@ -115,7 +115,7 @@ MASK_ACTIONS: dict[str, A] = {
     ),
     "mask_empty": A(
         "Add mask, hiding all",
-        "Layer",
+        "Layer/Mask",
         (),
         "A mask that hides all: paint white on it to show",
         _add(MASK_EMPTY),
@@ -123,7 +123,7 @@ MASK_ACTIONS: dict[str, A] = {
     ),
     "mask_paint": A(
         "Paint on mask",
-        "Layer",
+        "Layer/Mask",
         ("Ctrl+Alt+M",),
         "Brush and fills go to the mask: white shows, black hides",
         toggle_painting,
@@ -132,7 +132,7 @@ MASK_ACTIONS: dict[str, A] = {
     ),
     "mask_alone": A(
         "Show mask alone",
-        "Layer",
+        "Layer/Mask",
         (),
         "See the mask in place of the picture",
         _toggle_alone,
@@ -140,11 +140,11 @@ MASK_ACTIONS: dict[str, A] = {
         lambda desk: painting_mask(desk) and desk.masks.alone,
     ),
     "mask_invert": A(
-        "Invert mask", "Layer", (), "Show what it hides, hide what it shows", _does(MASK_INVERT), is_masked
+        "Invert mask", "Layer/Mask", (), "Show what it hides, hide what it shows", _does(MASK_INVERT), is_masked
     ),
     "mask_off": A(
         "Mask off",
-        "Layer",
+        "Layer/Mask",
         (),
         "Show the layer as if it had no mask",
         toggle_off,
@@ -153,11 +153,11 @@ MASK_ACTIONS: dict[str, A] = {
     ),
     "mask_apply": A(
         "Apply mask",
-        "Layer",
+        "Layer/Mask",
         (),
         "Take off the paint that it hides, then the mask",
         _does(MASK_APPLY),
         _can_apply,
     ),
-    "unmask": A("Remove mask", "Layer", (), "Show all of the layer again", _unmask, is_masked),
+    "unmask": A("Remove mask", "Layer/Mask", (), "Show all of the layer again", _unmask, is_masked),
 }

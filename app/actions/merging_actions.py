@@ -130,11 +130,13 @@ def _clear_outside(desk: Desk) -> None:
 
 MERGING_ACTIONS: dict[str, A] = {
     "merge_down": A(
-        "Merge down", "Layer", ("Ctrl+Alt+E",), "Make one layer of this and the one below", _merge_down, _on_another
+        "Merge down", "Layer/Merge", ("Ctrl+Alt+E",), "Make one layer of this and the one below", _merge_down,
+        _on_another,
     ),
-    "merge_group": A("Merge group", "Layer", (), "Make one layer of the group", _merge_group, _grouped),
+    "merge_group": A("Merge group", "Layer/Merge", (), "Make one layer of the group", _merge_group, _grouped),
     "merge_visible": A(
-        "Merge visible", "Layer", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible, _several
+        "Merge visible", "Layer/Merge", (), "Make one layer of all that is seen; hidden layers stay", _merge_visible,
+        _several,
     ),
     "clear": A("Clear", "Layer", ("Delete",), "Take off all paint, or what is selected of it", _clear, _can_clear),
     "adjust": A(

@@ -61,17 +61,18 @@ def _mirrors(across: bool) -> Callable[[Desk], None]:
 
 
 PLACEMENT_ACTIONS: dict[str, A] = {
-    "source": A("Go to source", "Layer", (), "Choose what it shows, to paint on that", _go_to_source, _leads),
+    "source": A("Go to source", "Layer/Placement", (), "Choose what it shows, to paint on that", _go_to_source, _leads),
     "independent": A(
-        "Make independent", "Layer", (), "Make paint of its own of what it shows: turned by parts, ink becomes pixels",
+        "Make independent", "Layer/Placement", (),
+        "Make paint of its own of what it shows: turned by parts, ink becomes pixels",
         _make_independent, _shows_any,
     ),
     "mirror_layer": A(
-        "Mirror left to right", "Layer", (), "Swap left and right of the layer, about its middle", _mirrors(False),
+        "Mirror left to right", "Layer/Move", (), "Swap left and right of the layer, about its middle", _mirrors(False),
         _movable,
     ),
     "mirror_layer_down": A(
-        "Mirror top to bottom", "Layer", (), "Swap top and bottom of the layer, about its middle", _mirrors(True),
+        "Mirror top to bottom", "Layer/Move", (), "Swap top and bottom of the layer, about its middle", _mirrors(True),
         _movable,
     ),
 }  # fmt: skip

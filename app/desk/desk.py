@@ -27,6 +27,7 @@ from app.desk.masks.mask_state import MaskState
 from app.desk.match_state import MatchState
 from app.desk.moving.move_state import MoveState
 from app.desk.notices import Notice, Notices
+from app.desk.outside.opened_files import OpenedFiles
 from app.desk.past.past_state import PastState
 from app.desk.places.place_state import PlaceState
 from app.desk.previews import FileRow
@@ -128,6 +129,7 @@ class Desk:
     masks: MaskState = field(default_factory=MaskState)
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)
+    opened: OpenedFiles = field(default_factory=OpenedFiles)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

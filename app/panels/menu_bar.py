@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 from app.actions.action import Action
 from app.actions.actions import ACTIONS, MENUS, perform
 from app.desk.desk import Desk
+from app.panels import recent_menu
 from app.panels.controls import widgets as w
 
 
@@ -18,14 +19,30 @@ def draw(desk: Desk) -> float:
         if not imgui.begin_menu(menu):
             w.named(f"{menu} menu")
             continue
-        for action in ACTIONS.values():
-            if action.menu == menu:
-                _item(desk, action)
+        _rows(desk, menu)
         imgui.end_menu()
     _title(desk)
     height = imgui.get_window_height()
     imgui.end_main_menu_bar()
     return height
+
+
+def _rows(desk: Desk, menu: str) -> None:
+    """Draws the rows of a menu, those of each within it at the place of its first."""
+    drawn: set[str] = set()
+    for action in ACTIONS.values():
+        if action.menu == menu:
+            _item(desk, action)
+            if action is ACTIONS["open"]:
+                recent_menu.draw(desk)
+        elif action.menu.startswith(f"{menu}/") and action.menu not in drawn:
+            drawn.add(action.menu)
+            title = action.menu.partition("/")[2]
+            opened = imgui.begin_menu(title)
+            w.named(f"{title} menu")
+            if opened:
+                _rows(desk, action.menu)
+                imgui.end_menu()
 
 
 def _item(desk: Desk, action: Action) -> None:

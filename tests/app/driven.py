@@ -43,6 +43,7 @@ class Program:
             "XDG_CONFIG_HOME": str(folder / "config"),
             "XDG_DATA_HOME": str(folder / "data"),
             "XDG_STATE_HOME": str(folder / "state"),
+            "XDG_PICTURES_DIR": str(folder),
             "INKFALL_TRACE": trace,
             "INKFALL_TRACEBACK": "1",
         }

@@ -239,7 +239,12 @@ class Keys:
             ("Ctrl + Space + drag", "Zoom"),
             ("Ctrl + click, right button", "Pick a colour"),
         ]
-        rows += [(", ".join(a.keys), a.title) for menu in MENUS for a in ACTIONS.values() if a.menu == menu and a.keys]
+        rows += [
+            (", ".join(a.keys), a.title)
+            for menu in MENUS
+            for a in ACTIONS.values()
+            if a.menu.partition("/")[0] == menu and a.keys
+        ]
         half = -(-len(rows) // 2)
         em = imgui.get_font_size()
         if imgui.begin_table("keys", 4, 0, ImVec2(em * 42, 0)):

@@ -181,12 +181,16 @@ class Browser:
 
 
 def _chooser(title: str, start: Path, endings: tuple[str, ...], saving: bool, then: Then) -> SystemDialog | Browser:
+    def chosen(desk: Desk, path: Path) -> None:
+        desk.opened.folder = path.parent
+        then(desk, path)
+
     make = SystemDialog if has_system_dialogs() else Browser
-    return make(title, start, endings, saving, then)
+    return make(title, start, endings, saving, chosen)
 
 
 def _folder(desk: Desk) -> Path:
-    return desk.known.path.parent if desk.known.path else Path.cwd()
+    return desk.opened.begin(desk.known.path)
 
 
 def opening(desk: Desk) -> SystemDialog | Browser:
