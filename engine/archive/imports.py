@@ -20,18 +20,20 @@ from engine.canvas.commit import commit
 from engine.canvas.layers import Group, Layer, Node
 from engine.canvas.node_checks import MAX_NAME, LayerError
 from engine.canvas.store import Pyramid
-from engine.files.fault import FileError, TooMuch, shown
+from engine.files.fault import FileError, TooMuch, reason_of, shown
 from engine.files.images import read_image
 from engine.files.layered.ora_layers import STACK as STACK
 from engine.files.layered.ora_layers import known_blend
-from engine.files.limits import LIMITS, Limits, memory_cap
+from engine.files.limits import LIMITS, Limits, memory_cap, streamed
 from engine.files.png_reader import PngReader
 from engine.files.png_writer import SIGNATURE
 from engine.files.stack_xml import ImageEntry, LayerEntry, StackEntry, parse_stack
 from engine.files.zip_reader import ZipArchive
+from engine.keeping.disk_raster import room
 from engine.numeric.address import TILE, Rect, TileKey
 from engine.numeric.arithmetic import NEWEST
 from engine.numeric.colour import from_rgba8, from_rgba16
+from engine.numeric.parted import Raster
 from engine.painting.recording import Recording
 from engine.painting.rendering import Progress, Stop, check_cancelled
 from engine.painting.value import Painting
@@ -91,20 +93,37 @@ class Pasted:
         return Stamp(keep, add)
 
 
-def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None) -> Pyramid:
+def pasted(bands: Iterator[np.ndarray], x: int, y: int, cancelled: Stop = None, height: int = 0) -> Pyramid:
     """Returns a pyramid of the rows that `bands` give, uint8 or uint16 RGBA (n, w, 4), from (x, y) of level 0 on.
 
-    They are laid down at once and remembered as the layer's ground, if they are not too many.
+    They are laid down at once and remembered as the layer's ground, if they are not too many; or, where it is known how
+    many there will be (`height`), put away on disk, from which the ground is read as it is looked at.
     """
     held: list[np.ndarray] = []
     count = 0
     for band in bands:
         check_cancelled(cancelled)
+        if height * band.shape[1] > grounds.LAID:
+            return grounds.lay_ground(_put_away(chain([band], bands), height, cancelled), x, y)
         held.append(band)
         count += band.shape[0] * band.shape[1]
         if count > grounds.LAID:
             return committed(chain(held, bands), (x, y), cancelled)
     return grounds.lay_ground(held[0] if len(held) == 1 else np.concatenate(held), x, y) if held else Pyramid()
+
+
+def _put_away(bands: Iterator[np.ndarray], height: int, cancelled: Stop) -> Raster:
+    """Returns the same rows where there is room for them.  FileError if that is not on disk."""
+    first = next(bands)
+    try:
+        pixels, top = room((height, *first.shape[1:]), first.dtype), 0
+        for band in chain([first], bands):
+            check_cancelled(cancelled)
+            pixels[top : top + len(band)] = band
+            top += len(band)
+    except OSError as error:
+        raise FileError("picture", f"cannot be put away on disk: {reason_of(error)}") from error
+    return pixels
 
 
 def committed(
@@ -149,7 +168,7 @@ def open_image(
         check_cancelled(cancelled)
         size = (pixels.shape[1], pixels.shape[0])
         strips = (pixels[top : top + _LAID_ROWS] for top in range(0, size[1], _LAID_ROWS))
-        pyramid, notes = pasted(_counted(strips, size[1], progress), 0, 0, cancelled), meta.notes
+        pyramid, notes = pasted(_counted(strips, size[1], progress), 0, 0, cancelled, size[1]), meta.notes
     else:
         pyramid, size, notes = streamed
     layer = Layer(1, clean_name(PurePath(path).stem, "Picture"), pyramid=pyramid)
@@ -169,10 +188,10 @@ def _png_rows(
             if file.read(len(SIGNATURE)) != SIGNATURE:
                 return None
             file.seek(0)
-            reader = PngReader(file, os.fspath(path), limits)
+            reader = PngReader(file, os.fspath(path), streamed(limits))
             header = reader.header
             bands = _counted(reader.strips(), header.height, progress)
-            return pasted(bands, 0, 0, cancelled), (header.width, header.height), header.notes
+            return pasted(bands, 0, 0, cancelled, header.height), (header.width, header.height), header.notes
     except OSError:
         return None
 
@@ -293,7 +312,7 @@ class _Import:
         reader = self._reader(entry)
         for note in reader.header.notes:
             self._notes.append(f"layer {shown(entry.name, 30)}: {note}")
-        pyramid = pasted(reader.strips(), entry.x, entry.y, self._cancelled)
+        pyramid = pasted(reader.strips(), entry.x, entry.y, self._cancelled, reader.header.height)
         self._bytes += pyramid.nbytes
         if self._bytes > memory_cap():
             raise TooMuch(self._archive.name, f"its layers take over {self._bytes >> 20} MB, all that this machine has")

@@ -7,7 +7,7 @@ The figures leave room for every real file known to us and keep the worst case w
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,12 @@ class Limits:
 
 LIMITS = Limits()
 STREAMED = 1 << 30  # pixels of one image whose rows are put away on disk as they are read
+
+
+def streamed(limits: Limits) -> Limits:
+    """Returns the limits of an image whose rows are put away on disk as they are read: wider, unless narrower ones than
+    usual were asked for."""
+    return replace(limits, pixels=STREAMED) if limits.pixels == LIMITS.pixels else limits
 
 
 def memory_cap() -> int:

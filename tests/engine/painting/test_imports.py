@@ -74,6 +74,30 @@ def test_pasted_in_bands_is_pasted_at_once(monkeypatch):
     assert np.abs(evaluate(parts, -3, coarse).data - evaluate(whole, -3, coarse).data).max() < 0.001
 
 
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16])
+def test_rows_whose_number_is_known_are_put_away_and_laid_as_at_once(monkeypatch, kind):
+    pixels = image(300, 64, dtype=kind)
+    whole = pasted(iter([pixels]), 5, -70)
+    monkeypatch.setattr("engine.archive.grounds.LAID", 64 * 20)
+    monkeypatch.setattr("engine.keeping.memory.budget", lambda: 1 << 12)
+    parts = pasted(iter(np.array_split(pixels, 30)), 5, -70, height=300)
+    assert parts.ground is not None
+    for level in (0, -1, -3):
+        rect = Rect.at(5, -70, 64, 300).zoomed(level).grown(1)
+        assert np.array_equal(evaluate(parts, level, rect).data, evaluate(whole, level, rect).data)
+    with parts.ground.pixels.opened() as file:
+        assert file.read() == whole.ground.pixels
+
+
+def test_no_room_on_disk_for_a_picture_is_told_in_a_line(tmp_path, monkeypatch):
+    (tmp_path / "a.png").write_bytes(png(image(40, 64)))
+    monkeypatch.setattr("engine.archive.grounds.LAID", 64)
+    monkeypatch.setattr("engine.keeping.memory.budget", lambda: 1 << 10)
+    monkeypatch.setattr("engine.keeping.disk_raster.spill_folder", lambda: tmp_path / "missing")
+    with pytest.raises(FileError, match="cannot be put away on disk: No such file"):
+        open_image(tmp_path / "a.png")
+
+
 def test_16_bits_are_kept(tmp_path):
     pixels = image(20, 30, dtype=np.uint16)
     pixels[:, :, 3] = 65535
