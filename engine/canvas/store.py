@@ -21,7 +21,7 @@ import numpy as np
 
 from engine.canvas.rising import paged_level
 from engine.canvas.rising.lasting import Lasting
-from engine.canvas.rising.paged_level import PagedLevel
+from engine.canvas.rising.paged_level import PagedLevel, bit_of
 from engine.canvas.rising.tile_blocks import Blocks
 from engine.numeric.address import Rect, TileKey
 from engine.numeric.arithmetic import FINE
@@ -294,8 +294,24 @@ class Pyramid:
     def all_records(self) -> Iterator[tuple[TileKey, Record]]:
         """Gives all records with their places, the coarsest level first, row by column of tiles."""
         for level in sorted(self.levels):
-            for place, record in sorted(self.levels[level].items()):
-                yield TileKey(level, *place), record
+            stored = self.levels[level]
+            for part in stored.columns() if isinstance(stored, PagedLevel) else [stored.items()]:
+                for place, record in sorted(part):
+                    yield TileKey(level, *place), record
+
+    def stacks(self, level: int) -> Iterator[tuple[Instance, ...]]:
+        """Yields the inks of the records of a level; those on disk are read only where some were painted over."""
+        stored = self.levels[level]
+        if not isinstance(stored, PagedLevel):
+            yield from (record.inks for record in stored.values())
+            return
+        for page in stored.pages.values():
+            away, changed = page.held
+            if away is None or any(away.bits & bit_of(place) for place in changed):
+                yield from (record.inks for _, record in page.items())
+                continue
+            yield from away.inks
+            yield from (record.inks for record in changed.values() if record is not None)
 
     def bounds(self, level: int) -> Rect:
         """Returns the smallest rectangle of `level` that holds every stored residual; empty if there is none."""

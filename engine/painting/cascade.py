@@ -95,8 +95,8 @@ def _inks_down_to(pyramid: Pyramid, shown: int | None) -> dict[int, int]:
     """Counts, for each level that has records, the inks of that level and of coarser ones; of those that are seen at
     the level `shown`, if it is given."""
     at: dict[int, set[Instance]] = {}
-    for key, record in pyramid.all_records():
-        at.setdefault(key.level, set()).update(record.inks)
+    for level in pyramid.levels:
+        at[level] = set().union(*pyramid.stacks(level))
     found: set[Instance] = set()
     counts = {}
     for level in sorted(at):

@@ -6,10 +6,12 @@ changes a tile holds the page's older records, wherever they lie, and the change
 
 from __future__ import annotations
 
-from collections.abc import ItemsView, Iterator, Mapping
+from collections.abc import ItemsView, Iterable, Iterator, Mapping
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import immutables
+
+from engine.texture.record import Instance
 
 TilePlace = tuple[int, int]  # column and row of a tile, or of a page
 R = TypeVar("R")
@@ -27,6 +29,11 @@ class PutAwayPage(Protocol[T_co]):
     @property
     def bits(self) -> int:
         """Tells where they lie."""
+        ...
+
+    @property
+    def inks(self) -> Iterable[tuple[Instance, ...]]:
+        """Gives the stacks of inks that they have."""
         ...
 
     def records(self) -> Mapping[TilePlace, T_co]:
@@ -139,11 +146,18 @@ class PagedLevel(Mapping[TilePlace, R]):
 
     def rows(self) -> Iterator[list[tuple[TilePlace, R]]]:
         """Yields all records with their places, those of a row of pages together, from the top."""
-        rows: dict[int, list[Page[R]]] = {}
+        return self._in_lines(1)
+
+    def columns(self) -> Iterator[list[tuple[TilePlace, R]]]:
+        """Yields all records with their places, those of a column of pages together, from the left."""
+        return self._in_lines(0)
+
+    def _in_lines(self, axis: int) -> Iterator[list[tuple[TilePlace, R]]]:
+        lines: dict[int, list[Page[R]]] = {}
         for at, page in self.pages.items():
-            rows.setdefault(at[1], []).append(page)
-        for y in sorted(rows):
-            yield [item for page in rows[y] for item in page.items()]
+            lines.setdefault(at[axis], []).append(page)
+        for number in sorted(lines):
+            yield [item for page in lines[number] for item in page.items()]
 
     def here(self) -> Iterator[R]:
         """Yields the records that are in memory."""

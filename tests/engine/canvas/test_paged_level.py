@@ -1,5 +1,6 @@
 """Levels by pages hold what a map holds, wherever their pages lie."""
 
+import itertools
 from dataclasses import dataclass
 
 import pytest
@@ -22,6 +23,10 @@ class Elsewhere:
     @property
     def bits(self):
         return sum(map(bit_of, self.kept))
+
+    @property
+    def inks(self):
+        return ()
 
     def records(self):
         return self.kept
@@ -55,6 +60,10 @@ def test_a_level_by_pages_holds_what_a_map_holds(given_records, rounds):
         assert dict(paged.items()) == dict(plain.items())
         assert set(paged) == set(plain)
         assert len(paged) == len(plain)
+        assert [item for part in paged.columns() for item in sorted(part)] == sorted(plain.items())
+        pages = [[place[1] >> 3 for place, _ in part] for part in paged.rows()]
+        assert sorted(itertools.chain(*paged.rows())) == sorted(plain.items())
+        assert [row[0] for row in pages] == sorted({number for row in pages for number in row})
         assert sorted(paged.values()) == sorted(plain.values())
         assert all(place in paged and paged[place] == paged.get(place) == plain[place] for place in plain)
         assert paged == PagedLevel.of(plain)

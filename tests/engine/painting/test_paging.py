@@ -119,6 +119,7 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch,
     session, away = begun(), disk.held
     for n in range(12):
         session.do(c.parse({"do": "stroke", "points": [[300 * n, 10], [300 * n + 30, 30]], "brush": {"radius": 2}}))
+        session.do(stroke(n, radius=2.0, ink=ROCK if n == 1 else ()))
     (layer,) = layers.layers(session.painting.root)
     level = layer.pyramid.levels[0]
     before, states = contents(session.painting), session.history.steps.done
@@ -126,10 +127,14 @@ def test_records_of_levels_that_have_many_go_to_disk_by_pages(disk, monkeypatch,
     pages = Paging()
     pages.want(session.painting.root, None, 1 << 30)
     pages.step(1 << 30)
-    assert {record.depth for record in level.here()} == {12}
+    assert {record.depth for record in level.here()} == {24}
     assert disk.held > away
     assert contents(session.painting) == before
     assert contents(states[-1].after) == before
+    pyramid = layer.pyramid
+    found = {k: {ink for stack in pyramid.stacks(k) for ink in stack} for k in pyramid.levels}
+    assert found == {k: {ink for record in pyramid.levels[k].values() for ink in record.inks} for k in pyramid.levels}
+    assert any(found.values())
     save(tmp_path / "away.ora", Snapshot(session.painting))
     assert (tmp_path / "away.ora").read_bytes() == (tmp_path / "here.ora").read_bytes()
     assert contents(open_painting(tmp_path / "away.ora").painting, depth=False) == contents(session.painting, False)
