@@ -40,6 +40,7 @@ from app.panels.guides.assistant_marks import draw_assistants
 from app.panels.layout import Layout
 from app.panels.moving import box_marks, frame_marks
 from app.router import Router
+from app.solid_view import SolidView
 from app.trace import trace_rest
 from app.wanted_tiles import Tiles
 from engine.studio import results
@@ -86,6 +87,7 @@ class Window:
         backends.opengl3_init("#version 330")
         self.screen = Screen(self.ctx)
         self.tiles, self.gallery = Tiles(self.screen), Gallery(self.ctx, self.desk.pictures)
+        self._solid = SolidView(self.ctx, self.gallery)
         self._drawing, self._decoration = Drawing(handle, self.screen, Overlay(self.ctx)), Decoration(handle)
         self.news = News(self.desk, self._guard, self._hearers, self.layout.hearers)
         self._files: Files | None = None
@@ -166,6 +168,8 @@ class Window:
             self.pace.news(now)
         with spare("drawing the picture"):
             self._decoration.show(desk, self.router.panning_key)
+            if desk.strip == "solid":
+                self._solid.show(desk.solid)
             exposed, self._callbacks.exposed = self._callbacks.exposed, False
             moving = self._drawing.draw(desk, now, self.gallery.fresh(), exposed) or moving
         self.pace.end(self._drawing.drawn, moving, desk.known.growing is not None)

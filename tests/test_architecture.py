@@ -39,6 +39,7 @@ ORDER = (
         "app.cursor",
         "app.guide_marks",
         "app.mask_veil",
+        "app.solid_view",
         "app.wanted_tiles",
         "app.news",
         "app.pace",

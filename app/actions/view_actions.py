@@ -117,6 +117,9 @@ VIEW_ACTIONS: dict[str, A] = {
     "match": A(
         "Match a texture", "View", ("T",), "Make a texture like an example", _strip("match"), ready, _open("match")
     ),
+    "solid": A(
+        "Solid", "View", ("Shift+T",), "Stone and wood on an object", _strip("solid"), ready, _open("solid")
+    ),
     "examples": A(
         "Examples", "View", ("P",), "Paint with textures that have a rim", _strip("examples"), ready, _open("examples")
     ),

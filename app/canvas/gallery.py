@@ -39,6 +39,10 @@ class Gallery:
         shown.swizzle = "111R"
         shown.write(np.ascontiguousarray(alpha), viewport=viewport, alignment=1)
 
+    def drawn(self, name: str, size: tuple[int, int]) -> moderngl.Texture:
+        """Returns what the card draws a picture of `size` (width, height) to."""
+        return self._of(name, *size)
+
     def fresh(self) -> set[int]:
         """Returns the textures that have changed since the last call."""
         fresh, self._fresh = self._fresh, set()

@@ -33,6 +33,7 @@ from app.desk.places.place_state import PlaceState
 from app.desk.previews import FileRow
 from app.desk.recovery.recovery_state import RecoveryState
 from app.desk.selecting.select_state import SelectState
+from app.desk.solids.solid_state import SolidState
 from app.faults.log import fault_words
 from engine.brush.settings import Brush
 from engine.studio.filing.opening_requests import CancelOpening, Show
@@ -130,6 +131,7 @@ class Desk:
     moving: MoveState = field(default_factory=MoveState)
     selecting: SelectState = field(default_factory=SelectState)
     opened: OpenedFiles = field(default_factory=OpenedFiles)
+    solid: SolidState = field(default_factory=SolidState)
     sampled: dict[str, Any] = field(default_factory=dict)  # textures whose pictures were asked for: what they meant
     pictures: dict[str, Any] = field(default_factory=dict)  # swatches by name: imgui texture references
     thumbnails: Callable[[tuple[Entry, ...], int], None] = _no_thumbnails  # asks for those of examples, pixels square

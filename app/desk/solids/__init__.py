@@ -1,0 +1,1 @@
+"""Solids: what is set, and how they are carved."""

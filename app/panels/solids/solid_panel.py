@@ -1,0 +1,114 @@
+"""The panel of solids: a material on an object that is turned by hand, and a slice through it as ink."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+from immutables import Map
+
+from app import icons, theme
+from app.desk.desk import Desk
+from app.desk.hand import go_on_with_brush
+from app.desk.lab_state import with_texture
+from app.desk.outside import pictured
+from app.desk.solids.solid_state import OBJECTS
+from app.desk.solids.solid_work import Carve
+from app.panels.controls import widgets as w
+from app.panels.panel import Panel
+from engine.painting.commands import DefineTexture
+from engine.solids.material_sliders import MATERIALS
+from engine.studio.requests import Do
+
+_DEGREES = 0.45  # for each pixel of a drag
+_SCALES = 0.1, 2.0
+_UNIT = 256  # pixels of the slice that is ink
+
+
+class SolidPanel(Panel):
+    """Draws the strip."""
+
+    def wants(self, desk: Desk, now: float) -> None:
+        """Has carved what is set and not yet shown."""
+        state = desk.solid
+        side = state.lacks
+        if side and not state.busy:
+            state.busy = True
+            desk.work(Carve(state.made, state.name, side, state.carved))
+
+    def draw(self, desk: Desk) -> None:
+        """Draws it into the present window."""
+        room = imgui.get_content_region_avail()
+        self._object(desk, (0.62 * room.x, room.y))
+        imgui.same_line()
+        imgui.begin_child("settings", ImVec2(0, 0))
+        imgui.begin_child("sliders", ImVec2(0, -imgui.get_frame_height_with_spacing()))
+        self._settings(desk)
+        imgui.end_child()
+        self._use(desk)
+        imgui.end_child()
+        self._welcome(desk)
+
+    def _object(self, desk: Desk, size: tuple[float, float]) -> None:
+        """Draws the object; a drag turns it, the wheel changes the solid's scale."""
+        state = desk.solid
+        state.room = max(1, int(size[0])), max(1, int(size[1]))
+        corner = imgui.get_cursor_screen_pos()
+        imgui.invisible_button("object", ImVec2(*size))
+        w.named("object")
+        w.tooltip("Drag to turn it; the wheel scales the solid")
+        if imgui.is_item_active():
+            moved = imgui.get_io().mouse_delta
+            state.drag(_DEGREES * moved.x / desk.scale, _DEGREES * moved.y / desk.scale)
+        wheel = imgui.get_io().mouse_wheel if imgui.is_item_hovered() else 0.0
+        if wheel:
+            state.scale = min(max(state.scale * 1.12**wheel, _SCALES[0]), _SCALES[1])
+        painter, end = imgui.get_window_draw_list(), ImVec2(corner.x + size[0], corner.y + size[1])
+        painter.add_rect_filled(corner, end, theme.packed(theme.FIELD), imgui.get_style().frame_rounding)
+        shown = desk.pictures.get("solid")
+        if shown is not None and state.carved is not None:
+            painter.add_image(shown, corner, ImVec2(corner.x + state.room[0], corner.y + state.room[1]))
+        if state.lacks:
+            text = f"{icons.WAIT} carving…"
+            at = ImVec2(corner.x + 10 * desk.scale, end.y - 26 * desk.scale)
+            painter.add_text(at, theme.packed(theme.QUIET), text)
+
+    def _settings(self, desk: Desk) -> None:
+        state = desk.solid
+        hints = {name: row.about for name, row in MATERIALS.items()}
+        options = [(name, name.capitalize(), hints[name].capitalize()) for name in MATERIALS]
+        state.material = w.segments("material", state.material, options) or state.material
+        side = imgui.get_frame_height()
+        wide = imgui.get_content_region_avail().x - side - 2 * desk.scale
+        objects = [(name, name.capitalize()) for name in OBJECTS]
+        state.name = w.choice("object shown", state.name, objects, "The object that is made of it", wide) or state.name
+        imgui.same_line(0, 2 * desk.scale)
+        if w.icon_button("throw", icons.DICE, "The same from another block", size=side):
+            state.seed = (state.seed * 31 + 17) % 99991
+        for name, slider in MATERIALS[state.material].sliders.items():
+            value = state.values.get(state.material, {}).get(name, slider.usual)
+            form = "%.0f" if slider.whole or slider.high >= 20.0 else "%.2f"
+            label, hint = name.capitalize(), slider.about[0].upper() + slider.about[1:]
+            changed, value = w.slider(label, value, (slider.low, slider.high), hint, form=form)
+            if changed:
+                state.set(name, float(round(value)) if slider.whole else round(value, 3))
+        hint = "How much of the block the object takes: smaller shows it larger"
+        _, state.scale = w.slider("Scale", state.scale, _SCALES, hint, curved=True)
+        _, state.depth = w.slider("Slice", state.depth, (0.0, 1.0), "How deep the block is cut for ink")
+
+    def _use(self, desk: Desk) -> None:
+        state = desk.solid
+        text = f"{icons.WAIT} cutting…" if state.awaited else f"{icons.BRUSH} Use as ink"
+        hint = "Cuts the block across the way you look at it: the slice becomes the brush's ink, and tiles"
+        if w.accent_button(text, hint, enabled=not state.awaited, width=imgui.get_content_region_avail().x):
+            material, seed, values = state.made
+            state.awaited = pictured.free_texture_name(desk, material)
+            given = {"material": material, "seed": seed, "normal": state.normal(), "unit": _UNIT}
+            given |= {"depth": round(state.depth, 3)} | ({"values": Map(values)} if values else {})
+            desk.post(Do(DefineTexture(state.awaited, "solid", Map(given))))
+
+    def _welcome(self, desk: Desk) -> None:
+        """A slice that was asked for is a texture of the painting now: the brush gets it."""
+        name = desk.solid.awaited
+        if name and desk.known.scene is not None and name in desk.known.scene.textures:
+            desk.solid.awaited = ""
+            desk.hand.take(with_texture(desk.hand.brush, "ink", name))
+            go_on_with_brush(desk.hand)

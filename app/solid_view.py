@@ -1,0 +1,97 @@
+"""An object made of a solid, as the card draws it: one texture of three dimensions, one light, one picture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from app.canvas.gallery import Gallery
+from app.canvas.shader_files import shader_source
+from app.desk.solids.solid_state import Carved, SolidState, turned_by
+
+_SAMPLES = 4
+_BACK = 0.115, 0.12, 0.125
+_REACH = 0.17  # of the picture's half height for a unit: an object fills it at 6.4 units
+
+
+class SolidView:
+    """All calls from the thread that owns the context."""
+
+    def __init__(self, ctx: moderngl.Context, gallery: Gallery) -> None:
+        self._ctx, self._gallery = ctx, gallery
+        self._sources = shader_source("solid.vert"), shader_source("solid.frag")
+        self._program: Any = None
+        self._solid: moderngl.Texture3D | None = None
+        self._object: moderngl.VertexArray | None = None
+        self._held: list[moderngl.Buffer] = []
+        self._frames: tuple[moderngl.Framebuffer, moderngl.Framebuffer] | None = None
+        self._carved: Carved | None = None
+        self._drawn: tuple[object, ...] = ()
+
+    def show(self, state: SolidState) -> None:
+        """Draws the object again, if it is seen and has changed."""
+        width, height = state.room
+        if state.carved is None or min(width, height) < 8:
+            return
+        told = (state.carved, state.room, state.turn, state.scale)
+        if told == self._drawn:
+            return
+        self._drawn = told
+        if state.carved is not self._carved:
+            self._take(state.carved)
+        self._draw(state)
+
+    def _take(self, carved: Carved) -> None:
+        """Loads the solid and the object."""
+        before, self._carved = self._carved, carved
+        if self._program is None:
+            self._program = self._ctx.program(*self._sources)
+        if before is None or before.cube is not carved.cube:
+            if self._solid is not None:
+                self._solid.release()
+            sides = carved.cube.shape[2], carved.cube.shape[1], carved.cube.shape[0]
+            self._solid = self._ctx.texture3d(sides, 3, carved.cube.tobytes(), alignment=1)
+            self._solid.repeat_x = self._solid.repeat_y = self._solid.repeat_z = True
+            self._solid.filter = moderngl.LINEAR, moderngl.LINEAR
+        if before is None or before.corners is not carved.corners:
+            for old in (self._object, *self._held):
+                if old is not None:
+                    old.release()
+            self._held = [self._ctx.buffer(carved.corners.tobytes()), self._ctx.buffer(carved.faces.tobytes())]
+            layout = [(self._held[0], "3f 3f", "point", "normal")]
+            self._object = self._ctx.vertex_array(self._program, layout, self._held[1])
+
+    def _draw(self, state: SolidState) -> None:
+        assert state.carved is not None
+        assert self._object is not None
+        assert self._solid is not None
+        width, height = state.room
+        target, picture = self._frames_of(width, height)
+        target.use()
+        self._ctx.enable_only(moderngl.DEPTH_TEST)
+        target.clear(*_BACK, 1.0)
+        self._solid.use(0)
+        program = self._program
+        program["scale"].value, program["gloss"].value = state.scale, state.carved.gloss
+        lens = 1.0 / _REACH * min(1.0, width / height)
+        program["lens"].value = lens * height / width, -lens  # the picture's first row is the uppermost
+        program["turned"].write(np.ascontiguousarray(turned_by(*state.turn).T, np.float32).tobytes())
+        self._object.render(moderngl.TRIANGLES)
+        self._ctx.copy_framebuffer(picture, target)
+        self._ctx.enable_only(moderngl.NOTHING)
+        self._ctx.screen.use()
+
+    def _frames_of(self, width: int, height: int) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
+        """What is drawn to, of several samples, and the picture that imgui shows."""
+        shown = self._gallery.drawn("solid", (width, height))
+        if self._frames is None or self._frames[1].size != (width, height):
+            for old in self._frames or ():
+                old.release()
+            samples = min(_SAMPLES, self._ctx.max_samples)
+            size = width, height
+            colours = self._ctx.renderbuffer(size, 3, samples=samples)
+            target = self._ctx.framebuffer([colours], self._ctx.depth_renderbuffer(size, samples=samples))
+            self._frames = target, self._ctx.framebuffer([shown])
+        return self._frames

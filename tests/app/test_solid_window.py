@@ -1,0 +1,23 @@
+"""The panel of solids in the real window: an object is turned by a drag, and a slice through it is ink."""
+
+import pytest
+from screens import changed
+
+pytestmark = [pytest.mark.window, pytest.mark.timeout(240)]
+
+
+def test_a_solid_is_turned_and_its_slice_is_ink(program):
+    app = program()
+    app.settled()
+    app.keys("shift+t")
+    place = app.part("object")
+    seen = app.until(lambda screen: screen[place].std() > 25)
+    app.drag(app.at("object", 0.45, 0.5), app.at("object", 0.55, 0.6))
+    turned = app.until(lambda screen: changed(screen[place], seen[place]) > 3000)
+    app.click("Wood")
+    app.until(lambda screen: changed(screen[place], turned[place]) > 3000)
+    mixer = slice(app.box("Ink mixer")[3], app.box("Add texture")[1]), slice(*app.box("Add texture")[::2])
+    before = app.parked()
+    app.click("Use as ink")
+    app.until(lambda screen: changed(screen[mixer], before[mixer]) > 300)
+    app.keys("shift+t")
