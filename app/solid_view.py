@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import moderngl
-import numpy as np
 
 from app.canvas.gallery import Gallery
 from app.canvas.shader_files import shader_source
@@ -22,7 +19,7 @@ class SolidView:
     def __init__(self, ctx: moderngl.Context, gallery: Gallery) -> None:
         self._ctx, self._gallery = ctx, gallery
         self._sources = shader_source("solid.vert"), shader_source("solid.frag")
-        self._program: Any = None
+        self._program: moderngl.Program | None = None
         self._solid: moderngl.Texture3D | None = None
         self._object: moderngl.VertexArray | None = None
         self._held: list[moderngl.Buffer] = []
@@ -65,6 +62,7 @@ class SolidView:
 
     def _draw(self, state: SolidState) -> None:
         assert state.carved is not None
+        assert self._program is not None
         assert self._object is not None
         assert self._solid is not None
         width, height = state.room
@@ -74,10 +72,10 @@ class SolidView:
         target.clear(*_BACK, 1.0)
         self._solid.use(0)
         program = self._program
-        program["scale"].value, program["gloss"].value = state.scale, state.carved.gloss
+        program["scale"], program["gloss"] = state.scale, state.carved.gloss
         lens = 1.0 / _REACH * min(1.0, width / height)
-        program["lens"].value = lens * height / width, -lens  # the picture's first row is the uppermost
-        program["turned"].write(np.ascontiguousarray(turned_by(*state.turn).T, np.float32).tobytes())
+        program["lens"] = lens * height / width, -lens  # the picture's first row is the uppermost
+        program["turned"] = tuple(turned_by(*state.turn).T.reshape(-1).tolist())
         self._object.render(moderngl.TRIANGLES)
         self._ctx.copy_framebuffer(picture, target)
         self._ctx.enable_only(moderngl.NOTHING)
