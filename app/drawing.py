@@ -13,6 +13,7 @@ from imgui_bundle import imgui
 from app.canvas.ant_line import AntLine, AntPlan
 from app.canvas.overlay import Overlay
 from app.canvas.screen import Screen, ScreenPlan
+from app.canvas.sheet_pass import SheetPass, SheetPlan
 from app.desk.desk import Desk
 from app.desk.moving.floating import rim_similarity
 
@@ -27,25 +28,37 @@ class Drawing:
         self._plan: ScreenPlan | None = None  # of the canvas, as it was last drawn
         self._line = AntLine(screen.ctx)
         self._ants: AntPlan | None = None
+        self._sheets = SheetPass(screen.ctx)
+        self._carried: SheetPlan | None = None
         self.drawn = False
 
     def draw(self, desk: Desk, now: float, fresh: Set[int], exposed: bool) -> bool:
         """Draws what imgui shows over the canvas, if anything is to be seen that is not on the screen, or if that was
         `exposed`; True while something fades.  `fresh`: the textures that show something else now."""
         data = imgui.get_draw_data()
-        frame = None if desk.known.wrapping else desk.known.frame
-        plan = self._screen.plan(desk.view, frame, now, desk.insets, desk.known.paper, desk.light.shown)
+        sheets = desk.moving.sheets.plan()
+        self._sheets.keep(desk.moving.sheets.held)
+        plan = self._seen(desk, now, sheets)
         told = self._overlay.look(data, (desk.view.width, desk.view.height), fresh)
         rim = None if desk.selecting.masking else desk.selecting.ants
         by = rim_similarity(desk)
         ants = self._line.plan(rim, now, by)
-        self.drawn = told or plan != self._plan or ants != self._ants or exposed
+        self.drawn = told or plan != self._plan or (sheets, ants) != (self._carried, self._ants) or exposed
         if self.drawn:
-            self._plan, self._ants = plan, ants
+            self._plan, self._carried, self._ants = plan, sheets, ants
             self._overlay.redraw(data)
             self._screen.draw(plan)
+            if sheets is not None:
+                self._sheets.draw(sheets, desk.view, desk.insets)
             if ants is not None and rim is not None:
                 self._line.draw(ants, rim, desk.view, desk.insets, desk.scale)
             self._overlay.draw(data)
             glfw.swap_buffers(self._window)
         return plan.moving
+
+    def _seen(self, desk: Desk, now: float, sheets: SheetPlan | None) -> ScreenPlan:
+        """Returns what to draw of the tiles: nothing under the sheets of what is dragged."""
+        frame = None if desk.known.wrapping else desk.known.frame
+        if sheets is not None:
+            return self._screen.bare(desk.view, frame, desk.insets, desk.known.paper)
+        return self._screen.plan(desk.view, frame, now, desk.insets, desk.known.paper, desk.light.shown)

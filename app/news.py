@@ -19,6 +19,7 @@ from engine.studio import results
 from engine.studio.adjusting.trial_records import Tried
 from engine.studio.copy_records import Copied
 from engine.studio.moving.move_requests import BakeTold, Extent
+from engine.studio.moving.sheet_records import CarriedSheets, Shown
 from engine.studio.results import Result
 
 Hearers = Callable[[type], Sequence[Hear]]  # those who hear results of a type
@@ -75,6 +76,8 @@ HEARS: dict[type, Hear] = {
     Tried: lambda desk, tried, now: setattr(desk.adjusting, "best", tried),
     Extent: lambda desk, extent, now: desk.moving.told(extent),
     BakeTold: independence.ask,
+    CarriedSheets: lambda desk, sheets, now: desk.moving.sheets.come(sheets),
+    Shown: lambda desk, shown, now: desk.moving.sheets.shown(shown),
     results.Whole: lambda desk, whole, now: desk.show(whole),
 }
 

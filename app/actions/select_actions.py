@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 from app.actions.action import Action as A
 from app.actions.action import active, asks, chosen, ready
+from app.actions.mask_actions import is_masked
 from app.desk.desk import Desk
 from app.desk.filling.pouring import fill_selection
 from engine.painting import commands as c
-from engine.painting.select_commands import Named, Whole
+from engine.painting.select_commands import MaskOf, Named, Whole
 from engine.studio.requests import Do
 
 
@@ -48,6 +49,10 @@ def _from_layer(desk: Desk) -> None:
     desk.selecting.choose(desk.post, c.Select(Named(active(desk)), level=desk.view.shown_level))
 
 
+def _from_mask(desk: Desk) -> None:
+    desk.selecting.choose(desk.post, c.Select(MaskOf(active(desk)), level=desk.view.shown_level))
+
+
 def _quick_mask(desk: Desk) -> None:
     desk.selecting.masking = not desk.selecting.masking
 
@@ -69,6 +74,9 @@ SELECT_ACTIONS: dict[str, A] = {
     "select_none": A("None", "Select", ("Ctrl+Shift+A",), "Select nothing, to paint anywhere", _whole("none"), _some),
     "select_invert": A("Invert", "Select", ("Ctrl+I",), "Select what is not selected", _whole("invert"), _some),
     "select_layer": A("From the layer", "Select", (), "Select what the layer covers", _from_layer, _on_layer),
+    "select_mask": A(
+        "From the mask", "Select", (), "Select what the layer's mask shows", _from_mask, is_masked
+    ),
     "fill_selection": A(
         "Fill", "Select", ("Shift+F5", "Alt+Backspace"), "Fill the selection with the brush", fill_selection, _some
     ),

@@ -272,6 +272,13 @@ class Screen:
                 self._descendants(plan, view, tile, 2)
         return plan
 
+    def bare(self, view: View, frame: Rect | None, insets: Insets, paper: str | None) -> ScreenPlan:
+        """Returns a plan of the paper alone."""
+        exact = not view.fraction and not view.angle
+        corners = [_corner(view, tile, exact) for tile in cells(view, view.shown_level)]
+        rows: list[Row] = [(*at, 1.0, -1, -1, 0.0, 0.0, 1.0) for at in corners]
+        return ScreenPlan(view, frame, insets, 0, paper, paper=rows)
+
     def _touch(self, tile: ScreenTile) -> _Held | None:
         held = self._held.get(tile)
         if held is not None:

@@ -12,9 +12,10 @@ from app.desk.moving.box import INSIDE, SCALES, TURN, opposite, spot
 from app.desk.moving.move_state import Label, Trial
 from app.desk.moving.poses import Spin, exact, factor, respun, scale_text, shifted, spin_of, turn_text
 from app.desk.moving.setting_down import set_copy_down, set_down
+from app.desk.moving.sheet_state import Carried
 from app.input.events import ENDS, PenEvent
 from app.tools.gesture import Gesture
-from engine.canvas.placing.pose import Pose, SourcePart
+from engine.canvas.placing.pose import UNMOVED, Pose, SourcePart
 from engine.numeric.similarity import Dyadic
 from engine.painting.layer_commands import COPY
 from engine.painting.layering.placing_members import Placing
@@ -47,6 +48,7 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
     copying = desk.pointer.alt and desk.moving.grip == INSIDE
     way, start = _way(desk, row, first), desk.moving.pose(desk.known, row)
     event, pose, done = first, start, False
+    desk.moving.sheets.begin()
     try:
         while event.kind not in ENDS:
             pose = _tried(desk, row, (pose, copying), way(event))
@@ -58,7 +60,9 @@ def move(desk: Desk, first: PenEvent) -> Gesture:
             (set_copy_down if copying else set_down)(desk, row, pose)
         else:
             desk.moving.trial = None
+            _carries(desk, row, start, False)
             desk.post(Try(row.name, None))
+        desk.moving.sheets.end(desk.post)
 
 
 def _move_part(desk: Desk, row: LayerRow, first: PenEvent) -> Gesture:
@@ -101,8 +105,17 @@ def _tried(desk: Desk, row: LayerRow, before: tuple[Pose, bool], found: tuple[Po
     desk.moving.label = Label(f"copy  {text}" if copying else text, exact(pose, desk.view.shown_level))
     if pose != was:
         desk.moving.trial = Trial(desk.known.scene, row.name, pose)
-        desk.post(Try(row.name, Placing.at_pose(pose), copying))
+        if not _carries(desk, row, pose, copying):
+            desk.post(Try(row.name, Placing.at_pose(pose), copying))
     return pose
+
+
+def _carries(desk: Desk, row: LayerRow, pose: Pose, copying: bool) -> bool:
+    """Shows what is dragged elsewhere by the window alone; False where only the engine can."""
+    held = held_box.part(desk, row)
+    if held is None:
+        return False
+    return desk.moving.sheets.carry(desk.known, row, desk.view, Carried(pose, spot(held, UNMOVED, 0, 0), copying))
 
 
 def _way(desk: Desk, row: LayerRow, first: PenEvent) -> Way:

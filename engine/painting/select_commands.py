@@ -74,13 +74,20 @@ class Named:
 
 
 @dataclass(frozen=True, slots=True)
+class MaskOf:
+    """What the mask of a layer or group shows."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class Whole:
     """`what` is "all", "none", or "invert": all that was not selected."""
 
     what: str
 
 
-Source = Box | Line | Named | Whole | Like
+Source = Box | Line | Named | MaskOf | Whole | Like
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +170,7 @@ SOURCES: dict[str, SourceForm] = {
     "saved": SourceForm(
         Named, lambda members, name: Named(members.text(name), True), lambda named: {"saved": named.name}
     ),
+    "mask": SourceForm(MaskOf, lambda members, name: MaskOf(members.text(name)), lambda mask: {"mask": mask.name}),
     "like": SourceForm(Like, read_like, lambda like: {"like": write_like(like)}),
     "all": SourceForm(Whole, _read_whole, lambda whole: {whole.what: True}),
     "none": SourceForm(Whole, _read_whole, lambda whole: {whole.what: True}),

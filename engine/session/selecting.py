@@ -14,12 +14,13 @@ from engine.canvas.flatten import flattened
 from engine.canvas.layers import Layer
 from engine.canvas.selecting import outlines
 from engine.canvas.selecting.joining import alpha_of, joined_with, joined_with_another, with_more
+from engine.canvas.selecting.mask_sheet import mask_of
 from engine.canvas.selecting.occupied import alpha_at
 from engine.canvas.selecting.rims import rim_moved
 from engine.canvas.selecting.selection import EVERYTHING, Selection
 from engine.canvas.store import Pyramid
 from engine.painting.fill_command import Like
-from engine.painting.select_commands import Box, Line, Named, Select, Source, Whole
+from engine.painting.select_commands import Box, Line, MaskOf, Named, Select, Source, Whole
 from engine.painting.value import Painting, Refusal
 from engine.strokes.likeness import alike
 
@@ -44,7 +45,7 @@ def _found(painting: Painting, command: Select) -> Selection | None:
         return _something(_changed(painting, whole, command))
     if source is None:
         return _something(_changed(painting, _present(old), command))
-    if isinstance(source, Named):
+    if isinstance(source, Named | MaskOf):
         other = _changed(painting, _named(painting, source), command)
         if old is None or command.op == "replace":
             return _something(joined_with_another(old, other, Coverage(0, {}, outlines.EMPTY_RECT), command.op))
@@ -78,7 +79,12 @@ def _changed(painting: Painting, selection: Selection, command: Select) -> Selec
     return Selection(with_more(Pyramid(grid=painting.grid), there), selection.inverse)
 
 
-def _named(painting: Painting, source: Named) -> Selection:
+def _named(painting: Painting, source: Named | MaskOf) -> Selection:
+    if isinstance(source, MaskOf):
+        mask = mask_of(layers.find(painting.root, source.name))
+        if mask is None:
+            raise Refusal(f"select: found no mask of {source.name!r}, expected a layer or group that has one")
+        return Selection(mask.pyramid.branched(), mask.inverse)
     if source.saved:
         found = painting.selections.get(source.name)
         if found is None:

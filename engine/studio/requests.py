@@ -23,6 +23,7 @@ from engine.studio.filing.opening_requests import OpeningRequest
 from engine.studio.journalled.tend_request import Tend
 from engine.studio.masked.mask_requests import ShowMask
 from engine.studio.moving.move_requests import MoveRequest
+from engine.studio.moving.sheet_records import SheetRequest
 from engine.studio.past.past_records import PastRequest
 from engine.studio.results import Note, Result
 from engine.studio.selecting.ants_records import AskAnts, PreviewSelection
@@ -262,6 +263,7 @@ Request = (
     | Tend
     | CopyPicture
     | MoveRequest
+    | SheetRequest
     | ShowMask
     | TryFill
 )

@@ -20,6 +20,7 @@ from engine.studio.held.held_records import Held
 from engine.studio.layer_rows import LayerRow as LayerRow
 from engine.studio.layer_rows import Shows as Shows
 from engine.studio.moving.move_requests import BakeTold, Extent
+from engine.studio.moving.sheet_records import SheetResult
 from engine.studio.past.past_records import PastResult
 from engine.studio.selecting.ants_records import Ants
 from engine.studio.selecting.tint_records import Tint
@@ -305,6 +306,7 @@ Result = (
     | PastResult
     | Extent
     | BakeTold
+    | SheetResult
     | Tried
     | Ants
     | Tint

@@ -33,6 +33,7 @@ from engine.studio.journalled.tend_request import Tend
 from engine.studio.masked.mask_pictures import MaskPictures
 from engine.studio.moving.frame_fitting import FrameFitter
 from engine.studio.moving.moves import Moves
+from engine.studio.moving.sheeting import Sheeting
 from engine.studio.past.here import HereFinder
 from engine.studio.past.past_list import PastList
 from engine.studio.past.trail import Trail
@@ -115,8 +116,7 @@ class Studio(Owned):
             *_each(Moves(easel), FrameFitter(easel)),
             Work(lambda: len(viewer.sight.open), viewer.send_tile, viewer.handlers),
             Work(lambda: past.untold, past.tell),
-            _of(travels),
-            _of(HereFinder(trail)),
+            *_each(Sheeting(easel), travels, HereFinder(trail)),
             Work(lambda: self.grower.pending, self._grow),
             *_each(Matcher(easel), Copyist(easel), Examiner(easel), Atlas(easel)),
             _of(past),

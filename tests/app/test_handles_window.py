@@ -1,5 +1,6 @@
 """What is moved, scaled and turned by the handles of its box, in the real window."""
 
+import json
 import math
 
 import numpy as np
@@ -60,7 +61,9 @@ def test_the_handle_above_turns_as_one_step_and_back_to_nothing_lost(app, tmp_pa
     middle = (a[0] + c[0]) // 2, (a[1] + c[1]) // 2
     up = app.at("turn handle")
     app.drag(up, (middle[0] + 60, middle[1] - 50))
+    dragged = app.settled()[60:740, 270:970].astype(int)  # by the card
     app.do("mouseup", 1)
+    assert np.abs(app.settled()[60:740, 270:970] - dragged).mean() < 0.5
     turned = handles(app)
     assert math.dist(turned[1], b) > 20
     app.keys("b")
@@ -163,3 +166,25 @@ def test_numbers_are_typed_and_what_is_turned_back_or_mirrored_twice_is_as_it_wa
     app.canvas_unlike(painted)
     app.keys("ctrl+z")
     assert app.comes_to(painted)
+
+
+def test_what_making_it_independent_loses_is_told_before(program, tmp_path):
+    broad = {"do": "stroke", "points": [[20, 20], [800, 300], [100, 700]], "brush": {"radius": 60}}
+    fine = {"do": "stroke", "level": 19, "origin": [400 << 19, 300 << 19], "points": [[5, 5], [90, 70]], "brush": {}}
+    copy = {"do": "layer", "add": "Copy", "kind": "placement", "of": "Tree", "at": [10, 0], "c": [0.9, 0.3]}
+    rows = {"inkfall": 2}, {"do": "layer", "add": "Tree"}, broad, fine, copy
+    (tmp_path / "deep.jsonl").write_text("\n".join(map(json.dumps, rows)))
+    app = program(str(tmp_path / "deep.jsonl"))
+    app.click("Copy")
+    seen = app.canvas()
+    app.click("independent", "right")
+    app.box("Make independent", "Make independent")
+    app.click("Cancel", "Make independent")
+    app.until_gone("Cancel")
+    app.box("source")  # it shows another layer still
+    app.click("independent", "right")
+    app.click("Make independent", "Make independent")
+    app.until_gone("source")  # of a row: it shows nothing else any more
+    assert np.abs(app.canvas() - seen).max() <= 4
+    made = nodes(app, tmp_path)["Copy"]
+    assert 0 < made.pyramid.finest < 19

@@ -24,6 +24,11 @@ def test_a_mask_is_painted_by_the_brush_and_seen_alone(program):
     assert (np.ptp(middle.astype(int), axis=-1) == 0).mean() > 0.9
     app.click("Painting")
     assert app.comes_to(hidden)
+    app.do("mousemove", *app.at("mask of Layer 1"), "click", 3)
+    app.click("From the mask")
+    app.box("deselect")
+    app.keys("ctrl+z")
+    app.until_gone("deselect")
     app.click("Done")
     app.until_gone("mask bar")
     app.keys("ctrl+z")

@@ -23,6 +23,7 @@ WORDS = {
     "Select more: ellipse": {"do": "select", "ellipse": [0, 1, 1, 9, 9], "op": "add"},
     "Select less: like colour": {"do": "select", "like": {"at": [1, 1]}, "op": "subtract"},
     "Select: outline": {"do": "select", "outline": [[0, 0], [9, 1], [3, 9]], "level": 0},
+    "Select: mask of “A”": {"do": "select", "mask": "A"},
     "Invert selection": {"do": "select", "invert": True},
     "Fill: Paint": FILL,
     "Fill: Erase": {**FILL, "brush": {"mode": "erase"}},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from app.desk.desk import Desk
 from app.desk.moving import floating
 from app.desk.moving.box import Box, box_of
@@ -40,8 +42,17 @@ def hover(desk: Desk) -> None:
 
 def wants(desk: Desk) -> None:
     """Posts what the tool lacks, or an action that waits."""
+    want_sheets(desk)
     floating.watch(desk)
     if desk.hand.tool == TOOL or desk.moving.waits is not None:
         row = desk.known.active
         selected = row is not None and floating.takes_part(desk, row)
         desk.moving.wants(desk.post, desk.known, desk.view.shown_level, selected)
+
+
+def want_sheets(desk: Desk) -> None:
+    """Posts a question for the sheets of which a picture is made while something is dragged, if they may be wanted."""
+    row, alone = desk.known.active, desk.masks.alone and desk.masks.on(desk.known.active)
+    held = row is not None and desk.hand.tool == TOOL and not row.locked and not floating.takes_part(desk, row)
+    wanted = row if held and not (alone or desk.light.shown) and desk.past.looking is None else None
+    desk.moving.sheets.wants(desk.post, desk.known, wanted, desk.view, time.monotonic())

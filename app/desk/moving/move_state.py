@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from app.desk.known import Known
+from app.desk.moving.sheet_state import SheetState
 from engine.canvas.placing.pose import UNMOVED, Pose
 from engine.studio.moving.move_requests import AskExtent, Extent
 from engine.studio.requests import Request
@@ -45,7 +46,7 @@ class MoveState:
     """`extent`: how far it reaches; `trial`: where it is seen while it is dragged; `floating`: a part of a layer,
     lifted and not set down yet; `label`: what is told of a drag; `grip`: what of its box the pointer is over, or holds;
     `laid_above`: the layer that a part was taken out of, until it is seen above; `waits`: what is done as soon as it is
-    known how far it reaches."""
+    known how far it reaches; `sheets`: of which the window makes the picture while it is dragged."""
 
     extent: Extent | None = None
     trial: Trial | None = None
@@ -54,6 +55,7 @@ class MoveState:
     grip: str = ""
     laid_above: str = ""
     waits: Callable[[], None] | None = None
+    sheets: SheetState = field(default_factory=SheetState)
     _told: Scene | None = None  # the one that `extent` is of
     _asked: tuple[str, int, bool, Scene | None] | None = None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app import icons, theme
+from app.actions import actions
 from app.desk.desk import Desk
 from app.panels.controls import widgets as w
 from engine.painting import commands as c
@@ -13,7 +14,10 @@ from engine.studio.masked.mask_requests import picture_name
 from engine.studio.requests import Do
 from engine.studio.results import LayerRow
 
-_HINT = "Click: paint on the mask, white shows, black hides\nAlt: see it alone   Shift: mask off or on"
+_HINT = (
+    "Click: paint on the mask, white shows, black hides\nAlt: see it alone   Shift: mask off or on\nRight click: more"
+)
+_MORE = "select_mask", "mask_invert", "mask_off", "mask_apply", "unmask"  # actions
 
 
 def draw(desk: Desk, row: LayerRow) -> None:
@@ -40,6 +44,27 @@ def draw(desk: Desk, row: LayerRow) -> None:
         painter.add_line(ImVec2(to.x, at.y), ImVec2(at.x, to.y), theme.packed(theme.WARN), 2 * desk.scale)
     if pressed:
         _pressed(desk, row)
+    _more(desk, row)
+
+
+def _more(desk: Desk, row: LayerRow) -> None:
+    """Draws the menu of a mask, whose layer is the active one from then on: the actions are of that."""
+    if not imgui.begin_popup_context_item("of the mask"):
+        return
+    if imgui.is_window_appearing():
+        _activate(desk, row)
+    for name in _MORE:
+        action = actions.ACTIONS[name]
+        if imgui.menu_item(action.title, "", action.checked is not None and action.checked(desk), action.when(desk))[0]:
+            actions.perform(desk, action)
+        w.named(action.title)
+        w.tooltip(actions.tip(name), beside=True)
+    imgui.end_popup()
+
+
+def _activate(desk: Desk, row: LayerRow) -> None:
+    if desk.known.scene is not None and desk.known.scene.active != row.name:
+        desk.post(Do(c.SelectLayer(row.name)))
 
 
 def _pressed(desk: Desk, row: LayerRow) -> None:
@@ -47,6 +72,5 @@ def _pressed(desk: Desk, row: LayerRow) -> None:
     if keys.key_shift:
         desk.post(Do(c.SetLayer(row.name, mask=MaskOp(MASK_ON if row.mask_off else MASK_OFF))))
         return
-    if desk.known.scene is not None and desk.known.scene.active != row.name:
-        desk.post(Do(c.SelectLayer(row.name)))
+    _activate(desk, row)
     desk.masks.begin(desk.post, row.name, alone=keys.key_alt and not (desk.masks.on(row) and desk.masks.alone))

@@ -20,7 +20,7 @@ from engine.numeric.address import Rect
 from engine.numeric.similarity import Similarity
 from engine.painting import commands as c
 from engine.painting.fill_command import Like
-from engine.painting.select_commands import Named, Select, Whole
+from engine.painting.select_commands import MaskOf, Named, Select, Whole
 from engine.painting.textures import Texture
 from engine.painting.value import Painting, Refusal
 from engine.session.lifting.moved_part import selection_at
@@ -130,7 +130,7 @@ class Choices:
         source, kept = one.command.source, one.saved
         if isinstance(source, Named) and source.saved:
             kept = kept.set(source.name, self.value(kept.get(source.name)) or UNKNOWN)
-        needs_paint = isinstance(source, Like) or (isinstance(source, Named) and not source.saved)
+        needs_paint = isinstance(source, Like | MaskOf) or (isinstance(source, Named) and not source.saved)
         if needs_paint or old is UNKNOWN or kept.get(getattr(source, "name", "")) is UNKNOWN:
             return UNKNOWN
         textures = Map(self._textures(one.textures))

@@ -14,7 +14,7 @@ from engine.painting.layering.mask_member import (
     MASK_ON,
     MaskOp,
 )
-from engine.painting.select_commands import Box, Line, Named, Whole
+from engine.painting.select_commands import Box, Line, MaskOf, Named, Whole
 from engine.painting.times import time_of
 from engine.session.steps import LoggedStep
 from engine.studio.past.past_records import PastStep
@@ -131,6 +131,8 @@ def _selecting(command: c.Select) -> str:
             return f"Keep selection “{command.keep}”" if first is None else f"{first} selection"
         case Named(name=name):
             return f"{_JOINING[command.op]}: “{name}”"
+        case MaskOf(name=name):
+            return f"{_JOINING[command.op]}: mask of “{name}”"
         case Box(round=round_one):
             what = "ellipse" if round_one else "rectangle"
         case Line(brush=brush):

@@ -133,6 +133,26 @@ def test_files_keep_it_and_show_it_to_other_programs(tmp_path, grouped):
     assert np.abs(picture(theirs.root) - picture(painting.root)).max() < 1.5 / 255
 
 
+@pytest.mark.parametrize("inverse", [False, True])
+def test_what_it_shows_is_selected_at_every_level_and_joins_what_was(inverse):
+    session = masked(*([{"do": "layer", "set": "sky", "mask": {"op": "invert"}}] if inverse else []))
+    mask = session.painting.root.children[0].mask
+    session.do(c.parse({"do": "select", "mask": "sky"}))
+    for level in (-2, 0, 3):
+        rect = FRAME.zoomed(level)
+        np.testing.assert_array_equal(session.painting.selection.part(level, rect), mask.part(level, rect))
+    session.do(c.parse({"do": "layer", "set": "sky", "mask": {"op": "off"}}))
+    session.do(c.parse({"do": "select", "mask": "sky"}))
+    assert not session.painting.selection.off
+    session.do(c.parse({"do": "select", "rect": [0, 0, 0, 20, 50]}))
+    session.do(c.parse({"do": "select", "mask": "sky", "op": "intersect"}))
+    both = session.painting.selection.part(0, FRAME)
+    np.testing.assert_allclose(both[:, :20], mask.part(0, FRAME)[:, :20], atol=1e-4)
+    assert not both[:, 21:].any()
+    again = replay(session.recording()).painting
+    np.testing.assert_array_equal(again.selection.part(0, FRAME), both)
+
+
 def test_it_is_the_value_of_a_selection_and_can_be_taken_away():
     session = masked()
     shown_before = picture(session.painting.root)

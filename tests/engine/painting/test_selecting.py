@@ -291,6 +291,8 @@ def test_files_and_recordings_without_selections_say_nothing_of_them(tmp_path):
         ({"stroke": {"brush": {}}}, "stroke.points"),
         ({"stroke": {"points": [[0, 0]], "seed": 4}}, "brush, and copies or symmetry"),
         ({"layer": "none of these"}, "expected one of"),
+        ({"mask": "Paint"}, "a layer or group that has one"),
+        ({"mask": "none of these"}, "expected one of"),
         ({"saved": "none of these"}, "none was kept"),
         ({"op": "xor", "all": True}, '"intersect"'),
         ({"rect": [0, 0, 0, 9, 9], "grow": -5}, "nothing would be selected"),
