@@ -21,6 +21,9 @@ from engine.texture.record import Instance
 # A picture has no pixels of its own beyond its size: enlarged, it becomes smooth, and what a curve bends in it falls
 # by half with every level.  So many levels later it is below the grid.
 FADED = 24
+# What lasts never ends, but the difference of two numbers of float32 does.  So many levels below its base a texture that
+# lasts varies little from pixel to pixel, and what it adds goes through the curve as through a straight line.
+_NARROW = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +64,28 @@ class Shaped:
         picture = unshaped(self)
         if isinstance(picture, Image) and level - self.base > picture.refinements + FADED:
             return None
+        lasts = getattr(picture, "renew", True) is False and getattr(picture, "cover", None) is None
+        if lasts and level - self.base > _NARROW:
+            return self._narrowly(level, rect)
         even = rect.evened()
         fine = self.appearance(level, even)[:3]
         if not subtract_expanded(fine, self.appearance(level - 1, parents(even))[:3]):
             return None
         inner = cut(fine, rect, even)
         return inner if rect == even or inner.any() else None
+
+    def _narrowly(self, level: int, rect: Rect) -> np.ndarray | None:
+        """As `bandpass`, where it is what the level adds to the texture itself, times the curve's slope there."""
+        added = self.inner.bandpass(level, rect)
+        if added is None:
+            return None
+        seen = self.inner.appearance(level, rect)
+        curve = shaping.table(self.curve)
+        place = np.clip((seen + np.float32(1.0)) * np.float32(shaping.STEPS / 2), 0, shaping.STEPS - 1)
+        slopes = np.diff(curve) * np.float32(shaping.STEPS)
+        slope = np.where(np.abs(seen) < 1.0, slopes[place.astype(np.int32)], np.float32(0.0))
+        out: np.ndarray = added * slope
+        return out
 
     def _shaped(self, seen: np.ndarray) -> np.ndarray:
         curve = shaping.table(self.curve)

@@ -14,6 +14,7 @@ from engine.numeric.detail import parents, subtract_expanded
 from engine.numeric.grid import snapped
 from engine.numeric.shaping import shape, table
 from engine.texture.image import ImageSource
+from engine.texture.rock import Rock
 from engine.texture.shaped import FADED, Shaped, shaped, unshaped
 from engine.texture.table import SHAPED_CAP, TextureError, from_key, instance
 
@@ -173,3 +174,19 @@ def test_a_translucent_picture_hides_what_it_hid_before():
     seen = instance("image", {}, 0, 0, SOURCE).appearance(0, key.rect)
     expected = np.array([1.0, 0, 0])[:, None, None] * (1 - seen[3]) + (seen[3] - seen[:3])
     np.testing.assert_allclose(ink.field(key), expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("curve", ["rectify", ((0.0, 0.1), (0.5, 1.0), (1.0, 0.1))])
+def test_what_lasts_goes_on_where_differences_of_float32_end(curve):
+    """Through a curve as through a straight line; nearby, that is what two appearances differ by."""
+    made = Shaped(Rock(0, 40.0, 0.8, 5, renew=False), curve)
+    level = 11
+    rect = Rect.at(700 << level, 300 << level, 32, 32)
+    fine = made.appearance(level, rect)
+    subtract_expanded(fine, made.appearance(level - 1, parents(rect)))
+    found = made.bandpass(level, rect)
+    assert np.abs(found - fine).max() < 0.05 * np.abs(fine).max() + 2e-6
+    part = Rect(rect.x0 + 5, rect.y0 + 3, rect.x1 - 4, rect.y1 - 7)
+    assert np.array_equal(made.bandpass(level, part), found[:, *part.slices(rect)])
+    sizes = [made.bandpass(k, Rect.at(700 << k, 300 << k, 32, 32)).std() for k in (20, 30)]
+    assert np.log2(sizes[0] / sizes[1]) / 10 == pytest.approx(0.8, abs=0.1)
