@@ -21,7 +21,7 @@ from engine.texture.record import Instance
 # A picture has no pixels of its own beyond its size: enlarged, it becomes smooth, and what a curve bends in it falls
 # by half with every level.  So many levels later it is below the grid.
 FADED = 24
-# What lasts never ends, but the difference of two numbers of float32 does.  So many levels below its base a texture that
+# What lasts never ends, but differences of two numbers of float32 do.  So many levels below its base a texture that
 # lasts varies little from pixel to pixel, and what it adds goes through the curve as through a straight line.
 _NARROW = 10
 
