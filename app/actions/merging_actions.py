@@ -40,7 +40,7 @@ def rows_inside(rows: Sequence[LayerRow], name: str) -> list[LayerRow]:
 def ends_at(rows: Sequence[LayerRow], plainly: Sequence[LayerRow]) -> int | None:
     """Returns the finest level of merged rows, where their ink cannot stay ink; None where it can.  `plainly`: those
     whose own way of mixing does not count."""
-    rows = [row for row in rows if row.visible and not row.reference]
+    rows = [row for row in rows if row.visible and not (row.reference or row.height)]
     mixed = any(row.shows is not None or row.clip or row.masked or (row not in plainly and _mixes(row)) for row in rows)
     return max((row.finest for row in rows if row.finest is not None), default=0) if mixed else None
 

@@ -1,7 +1,13 @@
 """Dragging layers: the command that a drop means, and that it does what the artist sees."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import pytest
 
+from app.actions.actions import ACTIONS, perform
+from app.canvas.view import Place, View
+from app.desk.desk import Desk
 from app.panels.layers.layers_panel import blend_titles, dropped
 from engine.canvas import layers
 from engine.painting import commands as c
@@ -67,3 +73,16 @@ def test_blend_modes_have_their_titles_before_the_engine_is_there():
     later = blend_titles(ready())
     assert blend_titles(Ready()) == later[:1] == [("src-over", "Normal")]
     assert len(later) > 10
+
+
+def test_a_layer_becomes_the_height_of_the_land_and_part_of_the_picture_again():
+    made = painting("Hills")
+    desk = Desk(View(Place(0, 0, 0), 0, 0.0, 1280, 800), (posted := []).append)
+    for expected in (True, False):
+        row = next(row for row in rows(made.root) if row.name == "Hills")
+        assert row.height is not expected
+        scene = SimpleNamespace(layers=rows(made.root), active="Hills")
+        desk.known = replace(desk.known, ready=True, scene=scene)
+        perform(desk, ACTIONS["height"])
+        made = apply(made, posted[-1].command)
+    assert [node.role for node in layers.walk(made.root) if node.name == "Hills"] == [""]

@@ -21,6 +21,7 @@ def row(name, **fields):
         ({"group": True, "opacity": 0.5}, 3),
         ({"clip": True, "visible": False}, None),
         ({"clip": True, "reference": True}, None),
+        ({"clip": True, "height": True}, None),
     ],
 )
 def test_ink_ends_where_layers_mix_in_another_way_than_over_one_another(upper, level):
