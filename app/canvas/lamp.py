@@ -18,7 +18,10 @@ class Lamp:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
-        self._program: moderngl.Program | None = None  # both are made when they are first asked for
+        # The files are read at the start, before the window waits for none; the rest is made when it is asked for.
+        self._vertex = shader_source("light.vert")
+        self._fragment = shader_source("light.frag").replace("DIFFUSE", repr(DIFFUSE))
+        self._program: moderngl.Program | None = None
         self._aside: moderngl.Framebuffer | None = None
         self._picture: moderngl.Texture
 
@@ -26,8 +29,7 @@ class Lamp:
         """From now on drawing goes aside, to a clear screen of a size; returns where it went until now."""
         target = self._ctx.fbo
         if self._program is None:
-            source = shader_source("light.frag").replace("DIFFUSE", repr(DIFFUSE))
-            self._program = self._ctx.program(shader_source("light.vert"), source)
+            self._program = self._ctx.program(self._vertex, self._fragment)
             self._triangle = self._ctx.vertex_array(self._program, [])
         aside = self._aside
         if aside is None or aside.size != size:
