@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import count, starmap
+from typing import TypeGuard
 
 from engine.archive.others import carried_painting
 from engine.archive.others.carried_painting import brought_nodes
@@ -15,6 +16,7 @@ from engine.canvas.node_checks import LayerError
 from engine.canvas.placing import loops
 from engine.canvas.placing.placement import Placement
 from engine.canvas.store import Pyramid
+from engine.checks.roles import AS_HEIGHT
 from engine.painting.commands import AddPainting
 from engine.painting.layering.painting_member import A_FILE, HOLDS, NamedNode
 from engine.painting.layering.placing_members import Placing
@@ -62,10 +64,13 @@ def _renamed(painting: Painting, command: AddPainting, root: Group, same: bool) 
     arithmetic, in which alone what grew of examples may grow on."""
     told = NamedNode(command.name, command.children)
     pairs = list(_pairs(root, told))
+    high = any(_is_height(node) for node in layers.walk(painting.root))
     ids = dict(zip((node.id for node, _ in pairs), count(layers.next_id(painting.root)), strict=False))
 
     def copy(node: Node, told: NamedNode) -> Node:
         number = ids[node.id]
+        if high and _is_height(node):  # there is one already, and one at most
+            node = replace(node, role="", visible=False)
         if isinstance(node, Placement):
             of = root.id if node.of is None else node.of
             if of not in ids:
@@ -80,6 +85,10 @@ def _renamed(painting: Painting, command: AddPainting, root: Group, same: bool) 
     group = copy(root, told)
     assert isinstance(group, Group)
     return replace(group, paper=None)
+
+
+def _is_height(node: Node) -> TypeGuard[Layer | Placement]:
+    return not isinstance(node, Group) and node.role == AS_HEIGHT
 
 
 def _pairs(node: Node, told: NamedNode) -> Iterator[tuple[Node, NamedNode]]:

@@ -161,6 +161,17 @@ def test_what_is_told_of_it_without_its_paint_has_its_layers(lake):
     assert told == {node.name: node.id for node in layers.walk(session.painting.root)}
 
 
+@pytest.mark.parametrize("high", [False, True])
+def test_heights_come_in_as_such_unless_there_are_some(tmp_path, high):
+    land = [{"do": "layer", "add": "Land"}, {"do": "layer", "set": "Land", "role": "height"}]
+    session = played(land)
+    save(tmp_path / "land.ora", Snapshot(session.painting, session.recording()))
+    found = bring(played(land if high else []), tmp_path / "land.ora", named(session.painting, Land="Hills"))
+    hills = layers.find(found.root, "Hills")
+    assert (hills.role, hills.visible) == (("", False) if high else ("height", True))
+    assert [node.role for node in layers.layers(found.root)].count("height") == 1
+
+
 @pytest.mark.parametrize(
     ("names", "line"),
     [
