@@ -36,9 +36,14 @@ def test_an_adjustment_is_seen_before_it_is_done_and_taken_back_at_once(program)
     assert app.comes_to(painted)
 
 
+def middle(screen):
+    """The middle of what is white below the dialog, row and column; None where nothing is."""
+    found = np.argwhere(screen[300:740, 270:970].min(axis=-1) > 250)
+    return found.mean(axis=0) if len(found) else None
+
+
 def test_formulas_and_curves_are_seen_and_the_view_moves_below_the_dialog(with_stroke):
     app = with_stroke
-    painted = app.canvas()
     app.keys("ctrl+m")
     app.click("adjustment")
     app.click("Formula")
@@ -46,15 +51,14 @@ def test_formulas_and_curves_are_seen_and_the_view_moves_below_the_dialog(with_s
     app.keys("ctrl+a")
     app.type("1 - pic")
     app.click(app.at("Cancel", 1.3, window="Adjust"))  # leaves the field
-    bright = app.canvas_unlike(painted)
+    white = middle(app.until(lambda screen: middle(screen) is not None))
     app.drag((900, 600), (860, 620))
     app.do("mouseup", 1)
-    moved = app.canvas_unlike(bright)
-    middles = [np.argwhere(one[240:].min(axis=-1) > 250).mean(axis=0) for one in (bright, moved)]  # below the dialog
-    np.testing.assert_allclose(middles[1] - middles[0], (20, -40), atol=1)
+    moved = white + np.array((20, -40))
+    app.until(lambda screen: middle(screen) is not None and np.abs(middle(screen) - moved).max() < 2)
     app.do("mousemove", 800, 500)
     app.wheel(1)
-    app.canvas_unlike(moved)
+    app.until(lambda screen: middle(screen) is None or np.abs(middle(screen) - moved).max() > 5)
     app.click("adjustment")
     app.click("Curves")
     app.click("curve All")
