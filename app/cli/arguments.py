@@ -75,7 +75,7 @@ def joined_options(words: list[str]) -> list[str]:
     for word in words:
         if (
             out
-            and out[-1] in ("--rect", "--origin", "--at", "--flight", "--turn", "--light")
+            and out[-1] in ("--rect", "--origin", "--at", "--flight", "--camera", "--sun", "--turn", "--light")
             and _RECTANGLE.fullmatch(word)
         ):
             out[-1] += f"={word}"

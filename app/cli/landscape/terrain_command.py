@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import argparse
-import math
 import os
 import sys
 from typing import TYPE_CHECKING
 
 from app.cli.arguments import rectangle
+from app.cli.landscape.land_view import declare_picture, number, positive, refuse_picture, wet, write_land_view
 from app.cli.outcome import DONE, Refused
 from app.cli.output import checked_output, grown, opened_painting, rect_of
 from app.cli.progress import Progress
@@ -23,27 +23,7 @@ if TYPE_CHECKING:
 MAPS, MESHES, PNG = (".exr", ".tif", ".tiff"), (".glb", ".stl"), ".png"
 TARGETS = ("godot", "unreal", "unity", "blender", "gis")
 ERROR = 0.5  # pixels that a mesh errs by if nothing is said
-HEIGHT = "Height"  # the layer that heights are of, if there is one and nothing is said
-_LARGEST = 1e12
-
-
-def number(text: str) -> float:
-    """Reads a number that there is."""
-    try:
-        found = float(text)
-    except ValueError:
-        found = math.nan
-    if not abs(found) <= _LARGEST:
-        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected a number from -1e12 to 1e12")
-    return found
-
-
-def positive(text: str) -> float:
-    """Reads a number above 0."""
-    found = number(text)
-    if not found >= 1 / _LARGEST:
-        raise argparse.ArgumentTypeError(f"found {text[:40]!a}, expected a number above 0")
-    return found
+HEIGHT = "Height"  # the layer that heights are of, if nothing is said and none has that role
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -58,6 +38,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--for", dest="target", choices=TARGETS, help="a height map for this program")
     metres = "metres of a pixel of the rectangle's level (default 1)"
     parser.add_argument("--metres-per-pixel", type=positive, default=1.0, metavar="M", help=metres)
+    declare_picture(parser)
     error = f"pixels by which a mesh may be off (default {ERROR})"
     parser.add_argument("--error", type=positive, metavar="E", help=error)
     triangles = "as fine a mesh as so many let it be, walls and base included"
@@ -73,7 +54,9 @@ def run(options: argparse.Namespace) -> int:
     found = opened_painting(options.painting)
     painting = grown(options.painting, found)
     land = _land(options, painting)
-    if ending in MESHES:
+    if ending == PNG and options.target is None:
+        write_land_view(options, land, _place(options, painting))
+    elif ending in MESHES:
         _mesh(options, land, ending)
     else:
         _map(options, land)
@@ -93,7 +76,9 @@ def _check(options: argparse.Namespace, ending: str) -> None:
         raise Refused("--triangles: found it with --error, expected one of them")
     if options.target is not None and mesh:
         raise Refused(f"--for: found it for {ending}, expected it for .exr, .tif or .png")
-    if options.target is None and not mesh:
+    if options.target is not None or ending != PNG:
+        refuse_picture(options, ending)
+    if options.target is None and ending in MAPS:
         raise Refused(f"{options.out}: found no --for, expected one of {', '.join(TARGETS)}")
 
 
@@ -101,9 +86,11 @@ def _land(options: argparse.Namespace, painting: Painting) -> Land:
     from engine.canvas.layers import has
     from engine.canvas.node_checks import LayerError
     from engine.canvas.tile_cache import TileCache
-    from engine.terrain.plane import land
+    from engine.terrain.plane import heights_of, land
 
-    source = HEIGHT if options.height is None and has(painting.root, HEIGHT) else options.height
+    source = options.height
+    if source is None and heights_of(painting) is None and has(painting.root, HEIGHT):
+        source = HEIGHT
     try:
         return land(painting, source, options.scale, options.sea, cache=TileCache(64 << 20))
     except LayerError as error:
@@ -149,4 +136,4 @@ def _mesh(options: argparse.Namespace, land: Land, ending: str) -> None:
         raise Refused(f"--triangles: {error}") from None
     print(f"{made.triangles} triangles, at most {made.error:.3g} pixels off")
     thick = max(1.0, 0.05 * max(rect.width, rect.height)) if options.base is None else options.base
-    write_mesh(options.out, made, cover_of(land, options.sea is not None), thick, options.metres_per_pixel)
+    write_mesh(options.out, made, cover_of(land, wet(options, land)), thick, options.metres_per_pixel)

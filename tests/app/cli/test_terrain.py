@@ -95,7 +95,24 @@ def test_colours_as_floats(saved, tmp_path):
     assert seen[:, :, :3].max() > 0.1
 
 
+def test_pictures(saved, tmp_path):
+    out = tmp_path / "a.png"
+    words = "--size", "48x30", "--samples", 2, "--sea", 0.1
+    assert terrain(saved, out, *words, "--fit") == 0
+    whole = pixels(out)
+    assert whole.shape == (30, 48, 3)
+    assert np.ptp(whole) > 60
+    assert terrain(saved, out, *words, "--camera", f"40,{30 << 40},{25 << 40},20,-30,-15", "--sun", "200,40") == 0
+    assert not np.array_equal(pixels(out), whole)
+
+
 WRONG = {
+    "below the ground": (["a.png", "--camera", "0,1,1,-5"], "--camera: found a height of -5, expected one above"),
+    "a camera too deep": (["a.png", "--camera", "4000,1,1,5"], "--camera: found level 4000, expected at most 1000"),
+    "no camera": (["a.png", "--camera", "here"], "or the name of a bookmark"),
+    "no sun": (["a.png", "--sun", "20,-4"], "altitude above 0"),
+    "a camera of a map": (["a.png", "--for", "gis", "--fit"], "--fit: found it for .png"),
+    "no samples": (["a.png", "--samples", "0"], "--samples: found 0"),
     "another ending": (["a.obj"], "expected .png or"),
     "no such layer": (["a.stl", "--height", "None"], "--height: layer: found 'None'"),
     "error of a map": (["a.exr", "--for", "gis", "--error", "1"], "--error: found it for .exr"),

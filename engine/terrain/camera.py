@@ -1,0 +1,181 @@
+"""Where one stands in land, and which windows of it are seen from there."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from engine.numeric.address import Rect
+from engine.terrain.caster import maxima, mipmap_of
+from engine.terrain.drape import Cover
+from engine.terrain.height_window import FINEST_TOLD, in_pixels
+from engine.terrain.layer_heights import Pixel
+from engine.terrain.plane import DEEP, Land
+
+CELLS = 1024  # of a window's side
+_APART = 2  # levels between windows
+_AHEAD = 0.3  # of a window's side: how far before the eye its middle lies at most
+_RIM = 0.14  # of its side, in which a window becomes the next coarser one
+_ROOM = 4  # times the frame that the coarsest window shows
+
+
+@dataclass(frozen=True)
+class Camera:
+    """An eye `height` pixels of `level` above the ground, or the water, at (x, y) of it; it looks `azimuth` degrees
+    clockwise from the top of the canvas, `tilt` degrees up; `fov`: degrees from left to right."""
+
+    level: int
+    x: Fraction
+    y: Fraction
+    height: float
+    azimuth: float = 0.0
+    tilt: float = -10.0
+    fov: float = 60.0
+
+    def axes(self) -> np.ndarray:
+        """Returns right, up and forward (3, 3); x to the right of the canvas, y down it, z up from it."""
+        a, t = math.radians(self.azimuth), math.radians(self.tilt)
+        right = np.array([math.cos(a), math.sin(a), 0.0])
+        forward = np.array([math.sin(a) * math.cos(t), -math.cos(a) * math.cos(t), math.sin(t)])
+        return np.stack([right, np.cross(forward, right), forward])
+
+    def finest(self, size: tuple[int, int]) -> int:
+        """Returns the level whose pixels are no larger than those of a picture of that size, at the nearest ground."""
+        half = math.tan(math.radians(self.fov) / 2)
+        below = math.radians(min(90.0, max(4.0, self.fov / 2 * size[1] / size[0] - self.tilt)))
+        pixel = self.height / math.sin(below) * 2 * half / size[0]
+        return min(FINEST_TOLD, self.level - math.floor(math.log2(pixel)))
+
+
+def camera_before(level: int, rect: Rect, land: Land, size: tuple[int, int]) -> Camera:
+    """Returns a camera before a rectangle, which sees all of it."""
+    fov, tilt, azimuth = 50.0, -24.0, 18.0
+    across = math.hypot(rect.width, rect.height) * max(1.0, 1.25 * size[1] / size[0])
+    away = 0.62 * across / math.tan(math.radians(fov) / 2)
+    flat = away * math.cos(math.radians(tilt))
+    turn = math.radians(azimuth)
+    x = Fraction(rect.x0 + rect.x1, 2) - Fraction(flat * math.sin(turn))
+    y = Fraction(rect.y0 + rect.y1, 2) + Fraction(flat * math.cos(turn))
+    return Camera(level, x, y, away * math.sin(math.radians(-tilt)), azimuth, tilt, fov)
+
+
+@dataclass(frozen=True)
+class Windows:
+    """Nested windows of land around a camera, as `engine.terrain.caster` has them; `colours` uint8; `levels` of each;
+    `eye`: how high the camera is, `sea`: how high the water lies, both above the camera's foot, in pixels of the
+    finest level."""
+
+    heights: np.ndarray
+    tops: np.ndarray
+    mips: np.ndarray
+    places: np.ndarray
+    colours: np.ndarray
+    levels: tuple[int, ...]
+    eye: float
+    sea: float
+
+
+def windows_of(land: Land, camera: Camera, cover: Cover, finest: int, wet: bool = False, cells: int = CELLS) -> Windows:
+    """Returns the windows that a camera sees whose finest is of a level; `wet`: all below height 0 is water."""
+    foot = _pixel_of(camera, finest)
+    about = foot.above(finest - DEEP) if finest > DEEP else None
+    ground = float(land.height(finest, foot.rect, about)[0, 0])
+    wet = wet and about is None
+    base = max(ground, 0.0) if wet else ground
+    levels = _levels(land, camera, finest, cells)
+    heights: list[np.ndarray] = []
+    colours: list[np.ndarray] = []
+    places: list[tuple[float, float, float]] = []
+    for level in levels:
+        rect = _rect_of(camera, level, cells)
+        told = land.height(level, rect, about)
+        if wet:
+            told = np.maximum(told, 0.0)
+        h = in_pixels(told - base, level).astype(np.float32)
+        paint = cover.colours(level, rect, h, base).astype(np.float32)
+        place = _place_of(camera, rect, level, finest)
+        if heights:
+            h, paint = _nested((h, paint, place), (heights[-1], colours[-1], places[-1]), cover.root is None)
+        heights.append(h)
+        colours.append(paint)
+        places.append(place)
+    coded = [np.rint(np.sqrt(np.clip(paint, 0.0, 1.0)) * 255.0).astype(np.uint8) for paint in colours]
+    eye = math.ldexp(camera.height, finest - camera.level)
+    sea = math.ldexp(-base, finest) if wet else -math.inf
+    tops = np.stack([maxima(h) for h in heights])
+    return Windows(
+        np.stack(heights), tops, np.stack(mipmap_of(cells)), np.array(places), np.stack(coded), levels, eye, sea
+    )
+
+
+def _pixel_of(camera: Camera, level: int) -> Pixel:
+    by = Fraction(2) ** (level - camera.level)
+    return Pixel(level, math.floor(camera.x * by), math.floor(camera.y * by))
+
+
+def _levels(land: Land, camera: Camera, finest: int, cells: int) -> tuple[int, ...]:
+    """Returns the levels of the windows, coarsest first."""
+    frame = land.painting.frame
+    levels = [finest]
+    while levels[-1] > finest - DEEP:
+        by = Fraction(2) ** (levels[-1] - camera.level)
+        side = Fraction(2) ** levels[-1] * max(frame.width, frame.height) * _ROOM
+        if side + 8 * Fraction(camera.height) * by <= cells:
+            break
+        levels.append(levels[-1] - _APART)
+    return tuple(reversed(levels))
+
+
+def _rect_of(camera: Camera, level: int, cells: int) -> Rect:
+    """Returns the samples of a window: its middle lies before the eye, no farther than what the camera looks at."""
+    by = Fraction(2) ** (level - camera.level)
+    away = _AHEAD * cells
+    if camera.tilt < -1.0:
+        away = min(away, float(camera.height * by) / math.tan(math.radians(-camera.tilt)))
+    turn = math.radians(camera.azimuth)
+    x = math.floor(camera.x * by + Fraction(away * math.sin(turn))) - cells // 2
+    y = math.floor(camera.y * by - Fraction(away * math.cos(turn))) - cells // 2
+    return Rect.at(x, y, cells + 1, cells + 1)
+
+
+def _place_of(camera: Camera, rect: Rect, level: int, finest: int) -> tuple[float, float, float]:
+    """Returns where the first sample lies, the centre of its pixel, and a pixel's side."""
+    side, by = Fraction(2) ** (finest - level), Fraction(2) ** (finest - camera.level)
+    half = Fraction(1, 2)
+    return float((rect.x0 + half) * side - camera.x * by), float((rect.y0 + half) * side - camera.y * by), float(side)
+
+
+Sheet = tuple[np.ndarray, np.ndarray, tuple[float, float, float]]
+
+
+def _nested(fine: Sheet, coarse: Sheet, natural: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Returns heights and colours of a window that becomes the coarser one at its rim.  What would grow there by itself
+    grows there by the coarser one, more than half: the same slope is steeper the nearer one looks."""
+    n = len(fine[0]) - 1
+    here = np.arange(n + 1)
+    off = np.minimum(here, n - here) / (_RIM * n)
+    off = np.clip(np.minimum(off[:, None], off[None]), 0.0, 1.0)
+    part = (off * off * (3.0 - 2.0 * off)).astype(np.float32)
+    ratio = fine[2][2] / coarse[2][2]
+    columns, rows = ((fine[2][a] - coarse[2][a]) / coarse[2][2] + here * ratio for a in range(2))
+    above = _resampled(coarse[0], rows, columns) / np.float32(ratio)
+    under = _resampled(coarse[1], rows, columns)
+    own = part * (0.4 if natural else 1.0)
+    return above + part * (fine[0] - above), under + own[:, :, None] * (fine[1] - under)
+
+
+def _resampled(values: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Returns values between samples, linearly; those beyond the rim are at it."""
+    for axis, where in enumerate((rows, columns)):
+        last = values.shape[axis] - 1
+        where = np.clip(where, 0.0, last)
+        first = np.minimum(where.astype(np.int64), last - 1)
+        shape = [1] * values.ndim
+        shape[axis] = len(where)
+        part = (where - first).astype(np.float32).reshape(shape)
+        low, high = np.take(values, first, axis), np.take(values, first + 1, axis)
+        values = low + part * (high - low)
+    return values

@@ -1,0 +1,229 @@
+"""The light of a picture of land: sun with a soft shadow, sky, haze, still water that mirrors.  The look is in the
+numbers here and in `drape`; distances are in pixels of the finest window."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from engine.numeric.kernel import inlined, inner, kernel
+from engine.terrain.caster import between, nearest_land
+
+# Of the numbers that a picture is made with.
+SUN_X, SUN_Y, SUN_Z, CONE, HAZE, SEA, TOP_HEIGHT, FARTHEST, FROM_SAMPLE, TO_SAMPLE = range(10)
+_SUN_RADIUS = 0.018  # radians: larger than the sun's, as haze makes it
+_DARKEST = 0.42  # of the sky's light that reaches the deepest hollow
+_TURN = 6.283185307179586
+
+
+@inner
+def _sky(d: np.ndarray, sun: np.ndarray, out: np.ndarray) -> None:
+    up = max(d[2], 0.0)
+    k = math.exp(-4.5 * up)
+    near = max(0.0, d[0] * sun[0] + d[1] * sun[1] + d[2] * sun[2])
+    glow = 0.16 * near**6 + 0.5 * near**64
+    out[0] = 0.17 + 0.55 * k + glow
+    out[1] = 0.31 + 0.42 * k + 0.74 * glow
+    out[2] = 0.62 + 0.18 * k + 0.42 * glow
+
+
+@inlined
+def _clamped(x: float, n: int) -> float:
+    return min(max(x, 0.0), n - 0.001)
+
+
+@inlined
+def _at(h: np.ndarray, x: float, y: float, n: int) -> float:
+    return between(h, _clamped(x, n), _clamped(y, n))
+
+
+@inner
+def _ground(
+    h: np.ndarray, colours: np.ndarray, x: float, y: float, wide: float, light: np.ndarray, vis: float, out: np.ndarray
+) -> None:
+    """Colour of lit ground at (x, y) of a window; `wide`: cells of it that a pixel of the picture covers."""
+    n = len(h) - 1
+    r = max(0.6, 0.6 * wide)
+    gx = (_at(h, x + r, y, n) - _at(h, x - r, y, n)) / (2.0 * r)
+    gy = (_at(h, x, y + r, n) - _at(h, x, y - r, n)) / (2.0 * r)
+    nz = 1.0 / math.sqrt(1.0 + gx * gx + gy * gy)
+    here = _at(h, x, y, n)
+    open_sky = 1.0
+    for ring in range(2):
+        q = max(3.0, 2.0 * wide) * (1.0 if ring == 0 else 4.0)
+        around = _at(h, x + q, y, n) + _at(h, x - q, y, n) + _at(h, x, y + q, n) + _at(h, x, y - q, n)
+        open_sky -= 0.55 * max(0.0, 0.25 * around - here) / q
+    open_sky = max(_DARKEST, open_sky)
+    lit = max(0.0, nz * (light[2] - gx * light[0] - gy * light[1])) * vis
+    up = 0.5 + 0.5 * nz
+    i, j = int(_clamped(x, n)), int(_clamped(y, n))
+    u, v = _clamped(x, n) - i, _clamped(y, n) - j
+    for c in range(3):
+        top = colours[j, i, c] * (1.0 - u) + colours[j, i + 1, c] * u
+        low = colours[j + 1, i, c] * (1.0 - u) + colours[j + 1, i + 1, c] * u
+        root = (top + v * (low - top)) * (1.0 / 255.0)
+        warm = 3.3 if c == 0 else (2.65 if c == 1 else 1.85)
+        sky = 0.34 if c == 0 else (0.46 if c == 1 else 0.70)
+        bounce = 0.22 if c == 0 else (0.18 if c == 1 else 0.13)
+        out[c] = root * root * (warm * lit + open_sky * (sky * up + bounce * (1.0 - up)))
+
+
+@inlined
+def _hazy(out: np.ndarray, t: float, d: np.ndarray, light: np.ndarray, haze: float) -> None:
+    part = 1.0 - math.exp(-t / haze)
+    near = max(0.0, d[0] * light[0] + d[1] * light[1] + d[2] * light[2]) ** 5
+    out[0] += part * (0.60 + 0.26 * near - out[0])
+    out[1] += part * (0.69 + 0.14 * near - out[1])
+    out[2] += part * (0.82 - out[2])
+
+
+@inlined
+def _random(px: int, py: int, k: int) -> int:
+    """A number of 0..2^20 - 1 by pixel and sample."""
+    v = (px * 73856093) ^ (py * 19349663) ^ (k * 83492791)
+    v = ((v ^ (v >> 13)) * 1274126177) & 0x7FFFFFFF
+    v = ((v ^ (v >> 15)) * 668265263) & 0x7FFFFFFF
+    return (v ^ (v >> 11)) & 0xFFFFF
+
+
+@inner
+def _sunlit(
+    heights: np.ndarray,
+    tops: np.ndarray,
+    mips: np.ndarray,
+    places: np.ndarray,
+    p: np.ndarray,
+    numbers: np.ndarray,
+    start: float,
+    dice: int,
+) -> float:
+    """Whether a place sees a point of the sun: 1 or 0."""
+    light = numbers[:3]
+    angle, radius = _TURN * (dice & 1023) / 1024.0, _SUN_RADIUS * math.sqrt(((dice >> 10) & 1023) / 1023.0)
+    across, along = radius * math.cos(angle), radius * math.sin(angle)
+    flat = max(1e-6, math.sqrt(light[0] * light[0] + light[1] * light[1]))
+    to = np.empty(3)
+    to[0] = light[0] + (across * light[1] - along * light[2] * light[0]) / flat
+    to[1] = light[1] - (across * light[0] + along * light[2] * light[1]) / flat
+    to[2] = light[2] + along * flat
+    if to[2] <= 0.0:
+        return 0.0
+    far = min(numbers[FARTHEST], max(0.0, (numbers[TOP_HEIGHT] - p[2]) / to[2]))
+    hidden, _ = nearest_land(heights, tops, mips, places, p, to, start, far, 0.25 * numbers[CONE])
+    return 0.0 if hidden >= 0.0 else 1.0
+
+
+@inner
+def _water(
+    heights: np.ndarray,
+    tops: np.ndarray,
+    mips: np.ndarray,
+    places: np.ndarray,
+    colours: np.ndarray,
+    p: np.ndarray,
+    d: np.ndarray,
+    numbers: np.ndarray,
+    t: float,
+    s: float,
+    vis: float,
+    out: np.ndarray,
+    other: np.ndarray,
+) -> None:
+    """What still water at a place shows: what it mirrors, itself, and the sun."""
+    light, cone = numbers[:3], numbers[CONE]
+    to = np.empty(3)
+    to[0], to[1], to[2] = d[0], d[1], max(1e-4, -d[2])
+    far = min(numbers[FARTHEST], max(0.0, (numbers[TOP_HEIGHT] - p[2]) / to[2]))
+    t2, w = nearest_land(heights, tops, mips, places, p, to, 0.05 * s, far, cone)
+    if w < 0:
+        _sky(to, light, other)
+    else:
+        s2 = places[w, 2]
+        x, y = (p[0] + t2 * to[0] - places[w, 0]) / s2, (p[1] + t2 * to[1] - places[w, 1]) / s2
+        _ground(heights[w], colours[w], x, y, cone * (t + t2) / s2, light, 1.0, other)
+        _hazy(other, t2, to, light, numbers[HAZE])
+    mirrors = min(1.0, 0.08 + 1.1 * (1.0 - to[2]) ** 5 + 0.25 * (1.0 - to[2]))
+    glint = 2.0 * vis * max(0.0, to[0] * light[0] + to[1] * light[1] + to[2] * light[2]) ** 400
+    depth = (1.0 - mirrors) * (0.55 + 0.45 * vis)
+    out[0] = mirrors * other[0] + 0.022 * depth + glint
+    out[1] = mirrors * other[1] + 0.066 * depth + 0.85 * glint
+    out[2] = mirrors * other[2] + 0.082 * depth + 0.6 * glint
+
+
+@inner
+def _seen(
+    heights: np.ndarray,
+    tops: np.ndarray,
+    mips: np.ndarray,
+    places: np.ndarray,
+    colours: np.ndarray,
+    o: np.ndarray,
+    d: np.ndarray,
+    numbers: np.ndarray,
+    dice: int,
+    out: np.ndarray,
+    other: np.ndarray,
+) -> None:
+    """The light that a ray brings."""
+    light, cone, haze, sea = numbers[:3], numbers[CONE], numbers[HAZE], numbers[SEA]
+    start, far = 0.0, numbers[FARTHEST]
+    if o[2] > numbers[TOP_HEIGHT] and d[2] < 0.0:
+        start = (numbers[TOP_HEIGHT] - o[2]) / d[2]
+    if d[2] > 0.0:
+        far = min(far, max(0.0, (numbers[TOP_HEIGHT] - o[2]) / d[2]))
+    t, w = nearest_land(heights, tops, mips, places, o, d, start, far, cone * (0.8 + 0.4 * ((dice >> 3) & 255) / 255.0))
+    if w < 0:
+        _sky(d, light, out)
+        return
+    s = places[w, 2]
+    wide = cone * t / s
+    p = np.empty(3)
+    for c in range(3):
+        p[c] = o[c] + t * d[c]
+    water = p[2] <= sea + 1e-3 * s
+    p[2] += 0.02 * s * max(1.0, wide)
+    vis = _sunlit(heights, tops, mips, places, p, numbers, 0.05 * s * max(1.0, wide), dice)
+    if water:
+        _water(heights, tops, mips, places, colours, p, d, numbers, t, s, vis, out, other)
+    else:
+        _ground(heights[w], colours[w], (p[0] - places[w, 0]) / s, (p[1] - places[w, 1]) / s, wide, light, vis, out)
+    _hazy(out, t, d, light, haze)
+
+
+@kernel
+def picture_rows(
+    heights: np.ndarray,
+    tops: np.ndarray,
+    mips: np.ndarray,
+    places: np.ndarray,
+    colours: np.ndarray,
+    eye: np.ndarray,
+    numbers: np.ndarray,
+    top: int,
+    height: int,
+    out: np.ndarray,
+) -> None:
+    """Rows `top` and following of a picture `height` rows high: adds linear light to `out` (rows, width, 3) float32.
+
+    `eye` (4, 3): where it is; per pixel of half the width: right, up; forward.  `numbers`: as the names above say;
+    samples FROM_SAMPLE to TO_SAMPLE - 1 are added.  `colours` uint8 (windows, n + 1, n + 1, 3): roots of linear ones.
+    """
+    rows, width = out.shape[:2]
+    d, light, other = np.empty(3), np.empty(3), np.empty(3)
+    for row in range(rows):
+        for px in range(width):
+            for k in range(int(numbers[FROM_SAMPLE]), int(numbers[TO_SAMPLE])):
+                x = px + (0.5 + 0.7548776662466927 * k) % 1.0 - 0.5 * width
+                y = 0.5 * height - (top + row) - (0.5 + 0.5698402909980532 * k) % 1.0
+                size = 0.0
+                for c in range(3):
+                    d[c] = eye[3, c] + x * eye[1, c] + y * eye[2, c]
+                    size += d[c] * d[c]
+                size = math.sqrt(size)
+                for c in range(3):
+                    d[c] /= size
+                dice = _random(px, top + row, k)
+                _seen(heights, tops, mips, places, colours, eye[0], d, numbers, dice, light, other)
+                for c in range(3):
+                    out[row, px, c] += light[c]
