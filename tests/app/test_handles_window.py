@@ -133,10 +133,12 @@ def test_painting_on_what_is_turned_offers_what_can_be_done(app):
     app.drag((x, y), (x + 60, y + 20))
     app.do("mouseup", 1)
     app.keys("b")
+    app.box("source")  # of its row: the card shows it turned before the engine has done it
     turned = app.canvas()
     app.stroke((600, 500), (700, 520))
     app.box("Go to source", "status")
     app.click("Make independent", "status")
+    app.until_gone("source")
     app.settled()
     app.stroke((600, 500), (700, 520))
     app.canvas_unlike(turned)
