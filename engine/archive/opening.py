@@ -106,6 +106,7 @@ class _Opening:
         self._cancelled = cancelled
         self._total = 1
         self._done = 0
+        self._decoded = 0  # bytes of tiles that are not decoded later
 
     def run(self) -> Opened:
         try:
@@ -144,9 +145,7 @@ class _Opening:
         packs += [p for selection in manifest.selections for p in selection.packs]
         packs += [p for entry in manifest.pictures.values() for p in entry.packs]
         self._total = sum(p.plain for p in packs) + 1
-        most = self._total + manifest.grown_bytes()
-        if most > memory_cap():
-            raise TooMuch(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
+        self._check_room(_most_at_once(manifest))
         sources = {sha: self._picture(entry, members) for sha, entry in manifest.pictures.items()}
         root, other = self._layers(manifest, members, sources)
         root, marks = self._grown(root, manifest, partial(self._masks, members), sources)
@@ -166,6 +165,10 @@ class _Opening:
             notes = (*notes, REGROWN.format(was=manifest.synthesis, now=SYNTHESIS))
             marks = ()  # it is told already
         return Opened(painting, notes, True, recording, Map(sources), marks)
+
+    def _check_room(self, most: int) -> None:
+        if most > memory_cap():
+            raise TooMuch(self._archive.name, f"its paint takes {most >> 20} MB, more than this machine has")
 
     def _layers(self, manifest: Manifest, members: Members, sources: Mapping[str, ImageSource]) -> tuple[Group, int]:
         """Returns the layers with what was painted, and how many tiles have another colour than when they were saved.
@@ -260,6 +263,8 @@ class _Opening:
         pack, future = waiting.popleft()
         tiles = future.result()
         self._done += pack.plain
+        self._decoded += sum(record.nbytes for _, record, _ in tiles if isinstance(record.held, np.ndarray))
+        self._check_room(self._decoded)
         if self._progress is not None:
             self._progress(self._done / self._total)
         return tiles
@@ -273,6 +278,16 @@ class _Opening:
             return None, (f"its recording of {size >> 20} MB is left out",)
         stream = io.BufferedReader(self._archive.open(RECORDING), PIECE)
         return read_from(stream, f"{self._archive.name}: member {RECORDING}", Path(self._archive.name).parent), ()
+
+
+def _most_at_once(manifest: Manifest) -> int:
+    """Returns the bytes that a painting takes as soon as it is open: what is decoded then, and of the layers, whose
+    tiles are decoded later, the bytes of the file and the largest pack.  Older formats are counted as they are read."""
+    later = [p for group in manifest.packs.values() for p in group]
+    now: list[Pack] = [p for selection in manifest.selections for p in selection.packs]
+    now += [p for picture in manifest.pictures.values() for p in picture.packs]
+    stored = sum(manifest.members.get(p.member, (0, ""))[0] for p in later)
+    return sum(p.plain for p in now) + stored + max((p.plain for p in later), default=0) + manifest.grown_bytes()
 
 
 def _coloured(shelf: Shelf, pyramid: Pyramid, tiles: Sequence[Coded], run: Callable[..., Iterable[int]]) -> int:

@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from engine.archive import opening
 from engine.archive.earlier import packs_of_format_1
 from engine.archive.opening import open_painting
 from engine.archive.saving import Snapshot, save
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
+from engine.files.fault import TooMuch
 from engine.numeric.address import Rect
 from engine.strokes.example_textures import key_of
 
@@ -34,6 +36,15 @@ def seen(painting, level):
 @pytest.fixture(scope="module")
 def opened():
     return open_painting(OLD / "format1.ora")
+
+
+def test_what_a_file_of_the_first_format_decodes_at_once_is_counted_as_it_is_read(monkeypatch):
+    (pyramid,) = (layer.pyramid for layer in layers(open_painting(OLD / "format1.ora").painting.root))
+    size = sum(record.plain_size for _, record in pyramid.all_records())
+    monkeypatch.setattr(opening, "_most_at_once", lambda manifest: 0)
+    monkeypatch.setattr(opening, "memory_cap", lambda: size - 1)
+    with pytest.raises(TooMuch):
+        open_painting(OLD / "format1.ora")
 
 
 def test_a_file_of_the_first_format_opens(opened):

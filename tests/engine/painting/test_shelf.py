@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.archive import packing, tilecode
+from engine.archive import opening, packing, tilecode
 from engine.archive.opening import open_painting
 from engine.archive.packing import pack, unpack
 from engine.archive.saving import Snapshot, save
@@ -15,9 +15,11 @@ from engine.archive.shelf import Block, Filed, Recent
 from engine.canvas.evaluate import evaluate
 from engine.canvas.layers import layers
 from engine.canvas.store import Record
+from engine.files.fault import TooMuch
 from engine.numeric.address import Rect, TileKey
 from engine.painting.commands import parse
 from engine.session.apply import Painting, apply
+from engine.session.session import Session
 
 AREA = Rect(0, 0, 300, 200)
 PLAIN = {"radius": 40, "hardness": 0.4, "colour": "#c06030"}
@@ -56,6 +58,28 @@ def decoded(monkeypatch):
 
     monkeypatch.setitem(packing._FORMATS, packing._MAGIC, replace(form, decoded=counting))
     return counts
+
+
+def test_what_is_more_than_the_machine_has_once_decoded_opens(tmp_path, monkeypatch):
+    """Three layers, of which there is room for one and for the file."""
+    session = Session(painted(PLAIN))
+    for name in ("b", "c"):
+        session.do(parse({"do": "layer", "add": name}))
+        session.do(parse({"do": "stroke", "points": [[40, 40], [250, 90]], "brush": PLAIN}))
+    save(tmp_path / "a.ora", Snapshot(session.painting, None))
+    sizes = [
+        sum(record.plain_size for _, record in layer.pyramid.all_records()) for layer in layers(session.painting.root)
+    ]
+    monkeypatch.setattr(opening, "memory_cap", lambda: max(sizes) + (tmp_path / "a.ora").stat().st_size)
+    found = open_painting(tmp_path / "a.ora").painting
+    for one, other in zip(layers(session.painting.root), layers(found.root), strict=True):
+        saved, read = ([(key, record.data) for key, record in each.pyramid.all_records()] for each in (one, other))
+        assert all(
+            key == other_key and np.array_equal(a, b) for (key, a), (other_key, b) in zip(saved, read, strict=True)
+        )
+    monkeypatch.setattr(opening, "memory_cap", lambda: max(sizes) - 1)
+    with pytest.raises(TooMuch):
+        open_painting(tmp_path / "a.ora")
 
 
 @pytest.mark.parametrize("brushes", [[PLAIN], [PLAIN, ROCK]], ids=["plain", "rock"])
