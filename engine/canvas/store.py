@@ -325,8 +325,9 @@ class Pyramid:
 
     @property
     def nbytes(self) -> int:
-        """Counts the bytes of memory that all records take."""
-        return sum(record.nbytes for _, record in self.all_records())
+        """Counts the bytes of memory that all records take; those of pages on disk take hardly any."""
+        levels = (s.here() if isinstance(s, PagedLevel) else s.values() for s in self.levels.values())
+        return sum(record.nbytes for records in levels for record in records)
 
 
 def changes_between(a: Change | None, b: Change | None) -> Iterator[Change]:

@@ -18,6 +18,7 @@ from engine.keeping.state_folder import state_folder
 
 _FOLDER = "spill"
 _LEAST = 512  # bytes that a piece takes of the file
+PLACE_OVERHEAD = 350  # bytes of memory in which it is told where a piece lies, roughly
 
 
 class Spilled:

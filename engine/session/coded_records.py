@@ -13,7 +13,7 @@ from isal import isal_zlib
 
 from engine.canvas.store import Record
 from engine.keeping.recent import Recent
-from engine.keeping.spill import Spilled, spill
+from engine.keeping.spill import PLACE_OVERHEAD, Spilled, spill
 from engine.numeric.address import Rect
 from engine.texture.planes import COLOURS, plane_map
 from engine.texture.record import Instance
@@ -21,7 +21,7 @@ from engine.texture.sparse_planes import OfSheets, SparsePlanes
 
 WAY = 8  # records of a tile that are coded one by the next, then one by itself: so that no way to one is long
 _MADE = 32 << 20  # bytes of data kept that were asked for
-_OVERHEAD = 300  # bytes of a coded record's own objects, roughly
+_OVERHEAD = 150  # bytes of a coded record's own objects, roughly
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -43,7 +43,7 @@ class CodedData:
     @property
     def nbytes(self) -> int:
         """Counts the bytes of memory that it takes."""
-        return _OVERHEAD + (len(self.packed) if isinstance(self.packed, bytes) else 0)
+        return _OVERHEAD + (len(self.packed) if isinstance(self.packed, bytes) else PLACE_OVERHEAD)
 
     @property
     def itemsize(self) -> int:
@@ -163,13 +163,13 @@ def encode(record: Record, other: Record | None) -> int:
 
 def put_away(coded: CodedData) -> int:
     """Puts what is packed away on disk.  Returns the bytes of memory that it takes less: 0 where it lies there already,
-    or has no room."""
+    is so small that its place there is told in as many, or has no room."""
     packed = coded.packed
-    put = spill().put(packed) if isinstance(packed, bytes) and packed else None
+    put = spill().put(packed) if isinstance(packed, bytes) and len(packed) > PLACE_OVERHEAD else None
     if put is None:
         return 0
     object.__setattr__(coded, "packed", put)
-    return put.size
+    return put.size - PLACE_OVERHEAD
 
 
 def coded_alone(record: Record) -> tuple[CodedData, bytes]:

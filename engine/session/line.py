@@ -14,7 +14,7 @@ from engine.painting.value import Painting
 from engine.session.coded_records import CodedData, Ways, decode, leads_to, put_away
 from engine.session.differing import apart_records, difference
 
-STEP_OVERHEAD = 2000  # bytes of a step's own objects, roughly
+STEP_OVERHEAD = 6000  # bytes of a step's own objects, roughly: most are nodes of the maps of some ten levels
 
 
 @dataclass(frozen=True, eq=False, slots=True)

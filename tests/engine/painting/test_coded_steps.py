@@ -20,6 +20,7 @@ from engine.session import history as histories
 from engine.session.coded_records import WAY, CodedData, CodedSheets, Ways, decode, encode, joined_bytes, split_bytes
 from engine.session.differing import difference
 from engine.session.history import History
+from engine.session.line import STEP_OVERHEAD
 from engine.session.replay import replay
 from engine.session.session import Session
 from engine.studio import requests as q
@@ -69,7 +70,7 @@ def check_what_is_held(session):
     for line, far in ((history._done, "before"), (history._undone, "after")):
         for entry in list(line.entries)[: line._coded]:
             lost, gained = difference(entry.step.before.root, entry.step.after.root)
-            assert entry.held - 2000 == (lost if far == "before" else gained)
+            assert entry.held - STEP_OVERHEAD == (lost if far == "before" else gained)
         assert line.held == sum(entry.held for entry in line.entries)
 
 

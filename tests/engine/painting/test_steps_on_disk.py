@@ -23,7 +23,7 @@ from engine.studio.studio import Studio
 
 stroke = partial(stepped.stroke, radius=2.0)
 
-LIMIT = 160_000  # bytes of steps in memory: each holds some thousand beside what is coded
+LIMIT = 230_000  # bytes of steps in memory: each holds some thousand beside what is coded
 
 
 class Narrow(Spill):
